@@ -1,0 +1,84 @@
+"""Errors that users see: each says what is wrong, where, and what to do."""
+
+from __future__ import annotations
+
+
+class TirePipelineError(Exception):
+    """Base of all errors that this project raises on purpose.
+
+    Parameters
+    ----------
+    what : str
+        What is wrong, in one sentence.
+    where : str, optional
+        ``file:line``, node or dataset.
+    todo : str, optional
+        What the user can do about it.
+    """
+
+    def __init__(self, what: str, *, where: str | None = None, todo: str | None = None) -> None:
+        self.what = what
+        self.where = where
+        self.todo = todo
+        super().__init__(what, where, todo)
+
+    def __str__(self) -> str:
+        text = f"{self.where}: {self.what}" if self.where else self.what
+        return f"{text} -> {self.todo}" if self.todo else text
+
+
+class TirError(TirePipelineError, ValueError):
+    """Anything wrong with a tire model or its property file.
+
+    Parameters
+    ----------
+    what, where, todo : str
+        As in :class:`TirePipelineError`.
+    path : str, optional
+        The file.
+    line : int, optional
+        The line, counted from 1.
+    key : str, optional
+        The coefficient or key concerned.
+    """
+
+    def __init__(
+        self,
+        what: str,
+        *,
+        path: str | None = None,
+        line: int | None = None,
+        key: str | None = None,
+        where: str | None = None,
+        todo: str | None = None,
+    ) -> None:
+        self.path = path
+        self.line = line
+        self.key = key
+        if where is None and path is not None:
+            where = f"{path}:{line}" if line is not None else str(path)
+        super().__init__(what, where=where, todo=todo)
+
+
+class TirSyntaxError(TirError):
+    """The file is not a tire property file, or a line of it cannot be read."""
+
+
+class TirValueError(TirError):
+    """A coefficient or an operating point has a value that makes no sense."""
+
+
+class TirVersionError(TirError):
+    """The file's Magic Formula version is not one of those that are known."""
+
+
+class TirShapeError(TirError):
+    """Arrays of operating points do not broadcast against each other."""
+
+
+class DomainError(TirePipelineError, ValueError):
+    """A domain function was asked for something impossible (empty fleet, unknown category...)."""
+
+
+class RecordingError(TirePipelineError, ValueError):
+    """A recording cannot be read, or does not hold what is needed."""

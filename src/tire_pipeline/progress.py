@@ -1,0 +1,85 @@
+"""One progress bar for everything that lasts over two seconds."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterable, Iterator
+from typing import TypeVar
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+
+T = TypeVar("T")
+_SHOW_AFTER_SECONDS = 2.0
+_LINE_EVERY_SECONDS = 10.0
+
+
+def track(items: Iterable[T], what: str, total: int | None = None) -> Iterator[T]:
+    """Yield the items and show progress, with a rate and the time left, once two seconds have passed.
+
+    On a terminal it is a bar on standard error; elsewhere (a log, CI) one line every ten seconds.
+
+    Parameters
+    ----------
+    items : iterable
+    what : str
+        What is being done, for the label.
+    total : int, optional
+        How many there are, if ``items`` has no length.
+
+    Examples
+    --------
+    >>> list(track([1, 2, 3], "counting"))
+    [1, 2, 3]
+    """
+    if total is None and hasattr(items, "__len__"):
+        total = len(items)  # type: ignore[arg-type]
+    console = Console(file=sys.stderr)
+    shown = _bar(items, what, total, console) if console.is_terminal else _lines(items, what, total)
+    yield from shown
+
+
+def _bar(items: Iterable[T], what: str, total: int | None, console: Console) -> Iterator[T]:
+    start = time.monotonic()
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("{task.fields[rate]}"),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    )
+    progress = Progress(*columns, console=console, transient=True)
+    task = progress.add_task(what, total=total, rate="")
+    started = False
+    try:
+        for done, item in enumerate(items, 1):
+            yield item
+            elapsed = time.monotonic() - start
+            if not started and elapsed > _SHOW_AFTER_SECONDS:
+                progress.start()
+                started = True
+            progress.update(task, completed=done, rate=f"{done / max(elapsed, 1e-9):.3g}/s")
+    finally:
+        if started:
+            progress.stop()
+
+
+def _lines(items: Iterable[T], what: str, total: int | None) -> Iterator[T]:
+    start = last = time.monotonic()
+    for done, item in enumerate(items, 1):
+        yield item
+        now = time.monotonic()
+        if now - last > _LINE_EVERY_SECONDS:
+            last = now
+            rate = done / (now - start)
+            left = f", {(total - done) / rate:.0f} s left" if total else ""
+            print(f"{what}: {done}/{total or '?'} ({rate:.3g}/s{left})", file=sys.stderr, flush=True)
