@@ -1,0 +1,34 @@
+"""``kedro run`` with errors that fit in one line, and without a warning for ``--pipeline``."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+import click
+from kedro.framework.cli.project import run as kedro_run
+
+from tire_pipeline.run_errors import one_line
+
+
+@click.group(name="tire_pipeline")
+def cli() -> None:
+    """Command line of the project."""
+
+
+def _run(**options: Any) -> Any:
+    if options.get("pipeline") and not options.get("pipelines"):
+        options["pipelines"], options["pipeline"] = [options["pipeline"]], None
+    try:
+        return kedro_run.callback(**options)  # type: ignore[misc]
+    except Exception as error:
+        line = one_line(error)
+        if line is None:
+            raise
+        click.secho(f"error: {line}", fg="red", err=True)
+        sys.exit(1)
+
+
+cli.add_command(
+    click.Command("run", params=kedro_run.params, callback=_run, help="Run one pipeline, or all eight.")
+)

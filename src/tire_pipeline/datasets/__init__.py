@@ -1,0 +1,15 @@
+"""Kedro datasets: tire property files, folders of them, model states, pages."""
+
+from tire_pipeline.datasets.html_page import HtmlPageDataset
+from tire_pipeline.datasets.state import StateDataset
+from tire_pipeline.datasets.text_folder import TextFolderDataset
+from tire_pipeline.datasets.tir_file import TirDataset
+from tire_pipeline.datasets.tir_folder import TirFolderDataset
+
+__all__ = [
+    "HtmlPageDataset",
+    "StateDataset",
+    "TextFolderDataset",
+    "TirDataset",
+    "TirFolderDataset",
+]

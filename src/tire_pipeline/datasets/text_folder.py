@@ -1,0 +1,77 @@
+"""A folder of text files that is written whole or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from kedro.io.core import AbstractDataset
+
+from tire_pipeline.datasets._atomic import replaced_folder
+from tire_pipeline.errors import DomainError
+from tire_pipeline.progress import track
+
+MARKER = ".made_by_tire_pipeline"
+
+
+class TextFolderDataset(AbstractDataset[Mapping[str, str | bytes], dict[str, bytes]]):
+    """Saves ``{relative path: text}`` as files; loads them back as bytes.
+
+    The folder is replaced whole. A folder that holds anything this project did not make is never touched.
+
+    Parameters
+    ----------
+    path : str
+        The folder.
+    suffix : str
+        Only files with this ending are loaded.
+    metadata : dict, optional
+        For kedro-viz.
+    """
+
+    def __init__(self, *, path: str, suffix: str = "", metadata: dict[str, Any] | None = None) -> None:
+        self._path = path
+        self._suffix = suffix
+        self.metadata = metadata
+
+    def load(self) -> dict[str, bytes]:
+        """Read every file; an absent folder is an empty dictionary."""
+        folder = Path(self._path)
+        files = sorted(p for p in folder.rglob(f"*{self._suffix}") if p.is_file())
+        return {str(p.relative_to(folder).as_posix()): p.read_bytes() for p in files if p.name != MARKER}
+
+    def save(self, data: Mapping[str, str | bytes]) -> None:
+        """Write all files, or none."""
+        folder = Path(self._path)
+        if _belongs_to_user(folder):
+            raise DomainError(
+                "this folder holds files that were not made by this project",
+                where=str(folder),
+                todo="move them elsewhere (or set another folder); they are never overwritten",
+            )
+        with replaced_folder(folder) as temporary:
+            for name, text in track(data.items(), f"writing {folder.name}", total=len(data)):
+                target = temporary / _inside(name)
+                target.parent.mkdir(parents=True, exist_ok=True)
+                target.write_bytes(text if isinstance(text, bytes) else text.encode("utf-8"))
+            (temporary / MARKER).write_text("Replaced as a whole on the next run.\n")
+
+    def _exists(self) -> bool:
+        return Path(self._path).exists()
+
+    def _describe(self) -> dict[str, Any]:
+        return {"path": self._path, "suffix": self._suffix}
+
+
+def _belongs_to_user(folder: Path) -> bool:
+    if not folder.exists() or (folder / MARKER).exists():
+        return False
+    return any(p.is_file() and p.name not in (".gitkeep", "README.md") for p in folder.rglob("*"))
+
+
+def _inside(name: str) -> PurePosixPath:
+    path = PurePosixPath(name)
+    if path.is_absolute() or ".." in path.parts:
+        raise DomainError(f"{name!r} would be written outside of its folder")
+    return path

@@ -1,0 +1,65 @@
+"""Turns what can go wrong in a run into one line that says what to do."""
+
+from __future__ import annotations
+
+import errno
+import re
+
+from kedro.io import DatasetError
+from kedro.validation import ParameterValidationError
+
+from tire_pipeline.errors import TirePipelineError
+
+_ADVICE = {
+    errno.ENOSPC: "the disk is full: make room, then run again",
+    errno.EDQUOT: "the disk quota is used up: make room, then run again",
+    errno.EACCES: "no permission: allow reading and writing there, then run again",
+    errno.EPERM: "no permission: allow reading and writing there, then run again",
+    errno.EROFS: "the folder is read-only: choose another, or mount it writable",
+}
+
+
+def chain(error: BaseException) -> list[BaseException]:
+    """The error and all that caused it, outermost first."""
+    found: list[BaseException] = []
+    current: BaseException | None = error
+    while current is not None and current not in found:
+        found.append(current)
+        current = current.__cause__ or current.__context__
+    return found
+
+
+def one_line(error: BaseException) -> str | None:
+    """One line for the user, or None where only the whole traceback helps.
+
+    Parameters
+    ----------
+    error : BaseException
+        What ended the run.
+
+    Returns
+    -------
+    str or None
+        Names the node where it is known, what is wrong, and what to do.
+    """
+    errors = chain(error)
+    notes = [note for each in errors for note in getattr(each, "__notes__", [])]
+    prefix = f"{notes[0]}: " if notes else ""
+    text: str | None = None
+    for each in errors:
+        if isinstance(each, TirePipelineError):
+            text = str(each)
+            break
+        if isinstance(each, OSError) and each.errno in _ADVICE:
+            where = f"{each.filename}: " if each.filename else ""
+            text = f"{where}{_ADVICE[each.errno]}"
+            break
+        if isinstance(each, ParameterValidationError):
+            text = f"{each} -> mend it in conf/base/parameters or --params"
+            break
+    if text is None:
+        outermost = next((each for each in errors if isinstance(each, DatasetError)), None)
+        if outermost is None:
+            return None
+        text = str(outermost)
+    return re.sub(r"\s*\n\s*", " | ", f"{prefix}{text}".strip())

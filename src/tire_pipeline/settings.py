@@ -1,0 +1,17 @@
+"""Kedro settings: which hooks run, and where configuration lies."""
+
+from tire_pipeline.hooks import FolderHooks, RunLedgerHooks, SignpostHooks
+
+HOOKS = (FolderHooks(), RunLedgerHooks(), SignpostHooks())
+
+# kedro-telemetry comes along with kedro-viz; it stays silent.
+DISABLE_HOOKS_FOR_PLUGINS = ("kedro-telemetry",)
+
+CONFIG_LOADER_ARGS = {
+    "base_env": "base",
+    "default_run_env": "local",
+    "config_patterns": {
+        "catalog": ["catalog*", "catalog*/**", "**/catalog*"],
+        "parameters": ["parameters*", "parameters*/**", "**/parameters*"],
+    },
+}
