@@ -1,0 +1,130 @@
+"""Self-contained pages from a title and a list of parts; all text is escaped."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import jinja2
+import pandas as pd
+from markupsafe import Markup
+from matplotlib.figure import Figure as MplFigure
+
+from tire_pipeline.reporting.figures import inline_svg
+
+
+@dataclass(frozen=True)
+class Text:
+    """Paragraphs under an optional heading.
+
+    Attributes
+    ----------
+    paragraphs : sequence of str
+    heading : str
+    emphasis : bool
+        Show as the page's main message.
+    """
+
+    paragraphs: Sequence[str]
+    heading: str = ""
+    emphasis: bool = False
+    kind: str = field(default="text", init=False)
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table with a caption.
+
+    Attributes
+    ----------
+    frame : pandas.DataFrame
+        Shown without its index.
+    caption : str
+    heading : str
+    digits : int
+        Significant digits of numbers.
+    most_rows : int
+        Further rows are counted, not shown.
+    """
+
+    frame: pd.DataFrame
+    caption: str = ""
+    heading: str = ""
+    digits: int = 3
+    most_rows: int = 200
+    kind: str = field(default="table", init=False)
+
+    @property
+    def rows(self) -> list[list[tuple[str, bool]]]:
+        """Cells as (text, is a number)."""
+        shown = self.frame.head(self.most_rows)
+        return [[_cell(value, self.digits) for value in row] for row in shown.itertuples(index=False)]
+
+    @property
+    def left_out(self) -> int:
+        """How many rows are not shown."""
+        return max(0, len(self.frame) - self.most_rows)
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure with a caption, drawn as inline SVG.
+
+    Attributes
+    ----------
+    figure : matplotlib.figure.Figure
+    caption : str
+    heading : str
+    """
+
+    figure: MplFigure
+    caption: str = ""
+    heading: str = ""
+    kind: str = field(default="figure", init=False)
+
+    @property
+    def svg(self) -> Markup:
+        """The drawing."""
+        return inline_svg(self.figure)
+
+
+def render_page(title: str, parts: Sequence[Text | Table | Figure], *, footer: str = "") -> str:
+    """One HTML page without any outside reference.
+
+    Parameters
+    ----------
+    title : str
+    parts : sequence of Text, Table and Figure
+    footer : str
+        For example which run made the page.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> "&lt;b&gt;" in render_page("<b>", [Text(["plain"])])
+    True
+    """
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("tire_pipeline.reporting"),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    return environment.get_template("page.html").render(title=title, parts=parts, footer=footer)
+
+
+def _cell(value: object, digits: int) -> tuple[str, bool]:
+    if isinstance(value, bool):
+        return ("yes" if value else "no", False)
+    if isinstance(value, float):
+        if value != value:
+            return ("–", True)
+        whole = abs(value) >= 10**digits
+        return (f"{value:,.0f}" if whole else f"{value:.{digits}g}", True)
+    if isinstance(value, int):
+        return (f"{value:,}", True)
+    return (str(value), False)
