@@ -1,0 +1,88 @@
+"""Folders are written whole, and what belongs to the user is never touched."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from tire_pipeline.datasets import HtmlPageDataset, TextFolderDataset, TirFolderDataset
+from tire_pipeline.errors import DomainError
+
+
+def test_text_folder_round_trip_and_replacement(tmp_path):
+    dataset = TextFolderDataset(path=str(tmp_path / "out"), suffix=".tir")
+    dataset.save({"A/one.tir": "1", "B/two.tir": b"2"})
+    assert dataset.load() == {"A/one.tir": b"1", "B/two.tir": b"2"}
+    dataset.save({"A/three.tir": "3"})
+    assert dataset.load() == {"A/three.tir": b"3"}
+    assert [p.name for p in tmp_path.iterdir()] == ["out"]
+
+
+def test_files_of_the_user_are_never_replaced(tmp_path):
+    mine = tmp_path / "out" / "A" / "mine.tir"
+    mine.parent.mkdir(parents=True)
+    mine.write_text("mine")
+    with pytest.raises(DomainError, match="not made by this project"):
+        TextFolderDataset(path=str(tmp_path / "out")).save({"A/mine.tir": "yours"})
+    assert mine.read_text() == "mine"
+
+
+@pytest.mark.parametrize("name", ["../escape.tir", "/tmp/escape.tir", "A/../../escape.tir"])
+def test_nothing_is_written_outside(tmp_path, name):
+    dataset = TextFolderDataset(path=str(tmp_path / "out"))
+    dataset.save({"a": "old"})
+    with pytest.raises(DomainError, match="outside"):
+        dataset.save({"b": "new", name: "x"})
+    assert dataset.load() == {"a": b"old"}
+
+
+def test_a_failed_write_leaves_the_old_folder(tmp_path):
+    dataset = TextFolderDataset(path=str(tmp_path / "out"))
+    dataset.save({"a": "old"})
+    with pytest.raises(AttributeError):
+        dataset.save({"b": "new", "c": None})
+    assert dataset.load() == {"a": b"old"}
+    assert [p.name for p in tmp_path.iterdir()] == ["out"]
+
+
+def test_a_failed_page_leaves_the_old_page(tmp_path):
+    dataset = HtmlPageDataset(filepath=str(tmp_path / "page.html"))
+    dataset.save("old")
+    with pytest.raises(UnicodeEncodeError):
+        dataset.save("\ud800")
+    assert dataset.load() == "old"
+    assert [p.name for p in tmp_path.iterdir()] == ["page.html"]
+
+
+def test_an_empty_folder_says_what_to_do(tmp_path):
+    with pytest.raises(DomainError, match="make_fleet"):
+        TirFolderDataset(path=str(tmp_path)).load()
+    assert TirFolderDataset(path=str(tmp_path / "none"), may_be_absent=True).load() == {}
+
+
+def test_files_are_found_in_any_case_and_depth(tmp_path):
+    for name in ("A/one.tir", "A/deep/TWO.TIR", "B/.hidden.tir", "B/other.txt"):
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("x")
+    assert list(TirFolderDataset(path=str(tmp_path)).load()) == ["A/deep/TWO.TIR", "A/one.tir"]
+
+
+@pytest.mark.skipif(os.name == "nt" or os.geteuid() != 0, reason="needs root to drop rights")
+def test_a_folder_without_permission_is_named(tmp_path):
+    locked = tmp_path / "A"
+    locked.mkdir(mode=0o700)
+    (locked / "one.tir").write_text("x")
+    tmp_path.chmod(0o755)
+    for parent in tmp_path.parents:
+        if parent.name.startswith("pytest-"):
+            parent.chmod(0o755)
+    code = (
+        "import os; from tire_pipeline.datasets import TirFolderDataset;"
+        f"os.setuid(65534); TirFolderDataset(path={str(tmp_path)!r}).load()"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode != 0
+    assert "may not be read" in done.stderr
+    assert str(locked) in done.stderr
