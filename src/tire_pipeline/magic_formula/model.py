@@ -1,0 +1,206 @@
+"""The tire model: coefficients of one Magic Formula version, and what is asked of them."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from tire_pipeline.errors import TirValueError
+from tire_pipeline.magic_formula.coefficients import (
+    check_values,
+    family_of,
+    missing_defaults,
+    pack_mapping,
+)
+from tire_pipeline.magic_formula.forces import TireForces, tire_forces
+
+
+@dataclass(frozen=True, eq=False)
+class TireModel:
+    """A Magic Formula tire model.
+
+    Parameters
+    ----------
+    version : str
+        "5.0", "5.1", "5.2", "6.1", "6.2" or "PAC2002".
+    coefficients : mapping of str to float
+        By their ``.tir`` names in capitals, in SI units: p, q, r and s coefficients, scale factors, ``FNOMIN``,
+        ``UNLOADED_RADIUS``, ``LONGVL``, ``NOMPRES``, ranges (``ALPMIN``, ``FZMAX``, ...).
+    defaulted : mapping of str to float
+        Coefficients that the source lacks, and the value that stands in.
+    metadata : mapping of str to object
+        What is not a coefficient, by "SECTION.KEY" in SI units: "DIMENSION.WIDTH", "MODEL.TYRESIDE", ...
+    source : object, optional
+        The file that it came from, as read.
+    path : str, optional
+        The path of that file.
+
+    Raises
+    ------
+    TirValueError
+        If a coefficient is not a finite number, or has a value that the equations divide by; it names the key.
+    TirVersionError
+        If the version is not known.
+    """
+
+    version: str
+    coefficients: Mapping[str, float]
+    defaulted: Mapping[str, float] = field(default_factory=dict)
+    metadata: Mapping[str, object] = field(default_factory=dict)
+    source: object | None = field(default=None, repr=False)
+    path: str | None = None
+
+    def __post_init__(self) -> None:
+        family_of(self.version)
+        check_values(self.coefficients, self.path)
+        values = {key: float(value) for key, value in self.coefficients.items()}
+        missing = {k: v for k, v in self.defaulted.items() if k not in values} or missing_defaults(
+            values, self.version
+        )
+        object.__setattr__(self, "coefficients", MappingProxyType(values))
+        object.__setattr__(self, "defaulted", MappingProxyType(missing))
+        object.__setattr__(self, "metadata", MappingProxyType(dict(self.metadata)))
+
+    @classmethod
+    def from_coefficients(
+        cls,
+        coefficients: Mapping[str, float],
+        version: str = "5.2",
+        metadata: Mapping[str, object] | None = None,
+    ) -> TireModel:
+        """Build a model without a file.
+
+        Parameters
+        ----------
+        coefficients : mapping of str to float
+            By ``.tir`` name, SI units. ``FNOMIN`` must be there; what else is missing is filled in and listed in
+            ``defaulted`` (scale factors 1, PKY4 2, QSY7 1, others 0).
+        version : str
+        metadata : mapping, optional
+
+        Returns
+        -------
+        TireModel
+        """
+        return cls(version=version, coefficients=dict(coefficients), metadata=metadata or {})
+
+    @property
+    def family(self) -> int:
+        """5 for the equations of MF 5.2, 6 for those of MF 6.1 and 6.2."""
+        return family_of(self.version)
+
+    @cached_property
+    def packed(self) -> np.ndarray:
+        """All coefficients as one read-only vector, in the order of ``COEFFICIENT_NAMES``."""
+        vector = pack_mapping(self.coefficients, self.defaulted)
+        vector.flags.writeable = False
+        return vector
+
+    def value(self, name: str) -> float:
+        """Return a coefficient's value, or what stands in for it.
+
+        Raises
+        ------
+        TirValueError
+            If the model has no such coefficient.
+        """
+        if name in self.coefficients:
+            return self.coefficients[name]
+        if name in self.defaulted:
+            return self.defaulted[name]
+        raise TirValueError(f"the model has no coefficient {name}", key=name, path=self.path)
+
+    def forces(
+        self,
+        *,
+        normal_load: Any,
+        slip_angle: Any = 0.0,
+        slip_ratio: Any = 0.0,
+        camber: Any = 0.0,
+        speed: Any = None,
+        pressure: Any = None,
+        turn_slip: Any = 0.0,
+        side: str | None = None,
+        axes: str = "ISO",
+        limits: str = "warn",
+        outputs: Any = None,
+    ) -> TireForces:
+        """Return forces, moments and what belongs to them at operating points.
+
+        Parameters
+        ----------
+        normal_load : float or array_like
+            Vertical load (N). A load of zero or less gives zero everywhere.
+        slip_angle, slip_ratio, camber : float or array_like
+            Slip angle (rad), longitudinal slip (-1 is a locked wheel), camber (rad).
+        speed : float or array_like, optional
+            Forward speed (m/s), for the rolling resistance; ``LONGVL`` if left out.
+        pressure : float or array_like, optional
+            Inflation pressure (Pa); the nominal one if left out. Only MF 6.1 and 6.2 use it.
+        turn_slip : float or array_like
+            Curvature of the path (1/m). 0 everywhere switches the turn slip equations off. Only MF 6.1 and 6.2.
+        side : {None, "left", "right"}
+            The side to mount the tire on: if it is not the side it was measured for (``TYRESIDE``, left where it is
+            missing), slip angle, camber, Fy, Mx and Mz are mirrored. None: the tire as it was measured.
+        axes : {"ISO", "SAE", "adapted SAE"}
+            Axis system of arguments and results.
+        limits : {"warn", "clip", "raise", "ignore"}
+            What to do with points outside the model's ranges: warn with their count and evaluate them as they are,
+            clip them, raise, or nothing.
+        outputs : sequence of str, optional
+            Compute only these fields of the result.
+
+        Returns
+        -------
+        TireForces
+            Fields of the shape that the arguments broadcast to; scalars for scalars.
+
+        Raises
+        ------
+        TirShapeError
+            If the arguments do not broadcast.
+        TirValueError
+            If an argument is not numeric or an option is not known, or with ``limits="raise"``.
+
+        Notes
+        -----
+        MF 5.2, PAC2002, 5.0 and 5.1: Appendix A of the thesis. MF 6.1 and 6.2: Pacejka, Tire and Vehicle Dynamics, 3rd
+        edition, section 4.3.2, with MF-Tyre's conventions. docs/magic_formula.md names every deviation.
+
+        Examples
+        --------
+        >>> tire = TireModel.from_coefficients(
+        ...     {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2}
+        ... )
+        >>> round(float(tire.forces(slip_angle=0.05, normal_load=4000).fy), 1)
+        -2629.0
+        """
+        return tire_forces(
+            self,
+            normal_load=normal_load,
+            slip_angle=slip_angle,
+            slip_ratio=slip_ratio,
+            camber=camber,
+            speed=speed,
+            pressure=pressure,
+            turn_slip=turn_slip,
+            side=side,
+            axes=axes,
+            limits=limits,
+            outputs=outputs,
+        )
+
+    def replace(self, **coefficients: float) -> TireModel:
+        """Return a model with some coefficients changed.
+
+        A coefficient that was defaulted and is set here is no longer defaulted.
+        """
+        changed = {**self.coefficients, **coefficients}
+        left = {k: v for k, v in self.defaulted.items() if k not in coefficients}
+        return dataclasses.replace(self, coefficients=changed, defaulted=left)
