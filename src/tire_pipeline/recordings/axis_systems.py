@@ -1,0 +1,164 @@
+"""TYDEX axis systems H, C and W and the SAE system -> ISO W.
+
+TYDEX (Unrau and Zamow, "TYDEX-Format, Description and Reference Manual", release 1.3): all three
+systems have x ahead in the wheel plane and parallel to the road.
+
+* W: origin in the contact point, y and z in the road plane and normal to it.
+* H: the same directions, origin in the wheel centre.
+* C: origin in the wheel centre, y along the spin axis, z in the wheel plane: H turned about x by
+  the camber angle.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.recordings.units import find_unit
+
+_COMPONENT = {"normal_load": "z", "fx": "x", "fy": "y", "mx": "x", "my": "y", "mz": "z"}
+
+
+def to_iso_w(
+    frame: pd.DataFrame,
+    origin: dict[str, str],
+    constants: dict[str, dict[str, object]],
+    axes: str,
+    notes: list[str],
+    conversions: list[str],
+    source: str,
+) -> None:
+    """Turn the forces and moments of `frame` into ISO W, in place, and say what was done.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        Canonical columns, SI.
+    origin : dict
+        By column, the name in the file: its last letter (`FYH`, `MZC`) gives the system.
+    constants : dict
+        The file's constants; `LOADRAD`, else half of `OVALLDIA`, for the wheel centre's height.
+    axes : {"ISO", "SAE"}
+        System of what the names do not tell.
+
+    Raises
+    ------
+    RecordingError
+        `axes` is not one of those.
+    """
+    if axes.upper() not in ("ISO", "SAE"):
+        raise RecordingError(f"axes={axes!r}", todo='choose "ISO" or "SAE"')
+    if axes.upper() == "SAE":
+        # SAE J670e: y to the right and z down. Fz is taken as given and looked at below.
+        for column in ("slip_angle", "fy", "my", "mz"):
+            if column in frame:
+                frame[column] = -frame[column]
+        conversions.append("SAE J670e to ISO: slip_angle, fy, my, mz mirrored")
+    systems = {c: _system(origin[c]) for c in _COMPONENT if c in frame}
+    if "C" in systems.values():
+        _c_to_h(frame, systems, notes, conversions)
+    _flip_load(frame, axes, notes, conversions)
+    if {"H", "C"} & {s for c, s in systems.items() if c in ("mx", "my", "mz")}:
+        _moments_to_contact(frame, systems, constants, notes, conversions)
+    bare = [origin[c] for c in systems if systems[c] == "?" and origin[c] not in _COMPONENT]
+    if bare and axes.upper() == "ISO":
+        notes.append(f"{', '.join(bare)}: no axis system given; ISO W assumed")
+
+
+def _system(name: str) -> str:
+    """W, H or C by the last letter of a TYDEX name, "?" where there is none."""
+    text = name.strip().upper()
+    if len(text) == 3 and text[0] in "FM" and text[1] in "XYZ" and text[2] in "WHC":
+        return text[2]
+    return "?"
+
+
+def _c_to_h(frame: pd.DataFrame, systems: dict[str, str], notes: list[str], conversions: list[str]) -> None:
+    """Turn about x by the camber angle; C and H then differ no more."""
+    if "camber" not in frame:
+        notes.append("C axes without camber: taken as H axes (camber 0)")
+        return
+    cos, sin = np.cos(frame["camber"]), np.sin(frame["camber"])
+    for y, z, what in (("fy", "normal_load", "forces"), ("my", "mz", "moments")):
+        here = [c for c in (y, z) if systems.get(c) == "C"]
+        if len(here) == 2:
+            frame[y], frame[z] = (
+                frame[y] * cos - frame[z] * sin,
+                frame[y] * sin + frame[z] * cos,
+            )
+            conversions.append(f"{what} turned from C to H axes by the camber angle")
+        elif here:
+            notes.append(f"{here[0]} is in C axes and its partner is missing: not turned")
+
+
+def _flip_load(frame: pd.DataFrame, axes: str, notes: list[str], conversions: list[str]) -> None:
+    if "normal_load" not in frame:
+        return
+    load = frame["normal_load"].to_numpy()
+    finite = load[np.isfinite(load) & (load != 0)]
+    if finite.size == 0 or (finite > 0).any():
+        if finite.size and (finite < 0).any():
+            notes.append(f"{(finite < 0).sum()} of {finite.size} normal loads are negative: kept")
+        return
+    frame["normal_load"] = -load
+    conversions.append("normal_load: negative throughout, mirrored (compression is positive)")
+    if axes.upper() == "ISO":
+        notes.append(
+            "Fz is negative throughout, as in SAE axes; only Fz was mirrored. If the file is in "
+            'SAE axes, read it with axes="SAE"'
+        )
+
+
+def _moments_to_contact(
+    frame: pd.DataFrame,
+    systems: dict[str, str],
+    constants: dict[str, dict[str, object]],
+    notes: list[str],
+    conversions: list[str],
+) -> None:
+    """``M_W = M_H + r x F`` with r = R (0, -sin camber, cos camber) from contact to centre."""
+    radius, which = _radius(frame, constants)
+    camber = frame.get("camber", 0.0)
+    sin, cos = np.sin(camber), np.cos(camber)
+    terms: dict[str, list[tuple[str, object]]] = {
+        "mx": [("normal_load", -sin), ("fy", -cos)],
+        "my": [("fx", cos)],
+        "mz": [("fx", sin)],
+    }
+    for moment, parts in terms.items():
+        if systems.get(moment) not in ("H", "C"):
+            continue
+        lacking = [c for c, _ in parts if c not in frame]
+        if radius is None or lacking:
+            why = "the loaded radius" if radius is None else ", ".join(lacking)
+            if moment == "mz":
+                notes.append(
+                    f"mz is about the wheel centre: {why} is not there, so its part in mz, radius "
+                    "x fx x sin(camber), is left out (nil in free rolling but for rolling drag)"
+                )
+                continue
+            notes.append(f"{moment} is about the wheel centre and stays so: {why} is not there")
+            frame.rename(columns={moment: f"{moment}_wheel_centre"}, inplace=True)
+            continue
+        frame[moment] = frame[moment] + sum(radius * frame[c] * k for c, k in parts)
+        conversions.append(f"{moment} moved from the wheel centre to the contact point ({which})")
+
+
+def _radius(
+    frame: pd.DataFrame, constants: dict[str, dict[str, object]]
+) -> tuple[pd.Series | float | None, str]:
+    """Height of the wheel centre over the contact point in the wheel plane, and where from."""
+    if "loaded_radius" in frame:
+        return frame["loaded_radius"], "by the channel loaded_radius"
+    for key, scale, which in (
+        ("LOADRAD", 1.0, "by the constant LOADRAD"),
+        ("OVALLDIA", 0.5, "by half of OVALLDIA: the tire's deflection is left out"),
+    ):
+        entry = constants.get(key, {})
+        unit, value = find_unit(str(entry.get("unit") or "")), entry.get("value")
+        if isinstance(value, float) and math.isfinite(value) and unit and value > 0:
+            return scale * value * unit.factor, which
+    return None, ""

@@ -1,0 +1,256 @@
+"""A driven vehicle's recording -> one recording per axle, by the inverse single-track model."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Literal
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.recordings.body_motion import BodyMotion, evenly_spaced, from_pose
+from tire_pipeline.recordings.sensor_motion import from_sensors
+from tire_pipeline.recordings.vehicle import GRAVITY, Vehicle
+
+Array = NDArray[np.float64]
+Axle = Literal["front", "rear"]
+
+
+@dataclass(frozen=True)
+class _AxleState:
+    fy: Array
+    fy_noise: Array
+    fy_unsure: Array
+    slip_angle: Array
+    slip_noise: Array
+    slip_unsure: Array
+    speed: Array
+    normal_load: Array
+    load_std: Array
+
+
+def axle_recording(
+    drive: pd.DataFrame,
+    vehicle: Vehicle,
+    axle: Axle = "rear",
+    *,
+    bandwidth: float = 2.5,
+    min_speed: float | None = None,
+    rate: float | None = None,
+) -> pd.DataFrame:
+    """Slip, load and force of one axle of a driven vehicle, with their uncertainty.
+
+    The inverse single-track model: with the centre of gravity a (b) behind the front (ahead of
+    the rear) axle, wheelbase l, mass m and yaw inertia J,
+
+    ``F_y,rear = (m a a_y - J r') / l`` and ``F_y,front = (m b a_y + J r') / l``
+
+    in the vehicle's axes (Mitschke and Wallentowitz, "Dynamik der Kraftfahrzeuge", single-track
+    model; signs of ISO 8855). The slip angle is that of the axle's middle, ``atan2(v_y, v_x)``
+    less the road-wheel angle: a positive slip angle gives a negative `fy`, as in ISO W.
+
+    Parameters
+    ----------
+    drive : DataFrame, one row a sample
+        `time` s and either the pose (`x`, `y` m, `yaw` rad) or the vehicle's own sensors
+        (`speed` m/s, `yaw_rate` rad/s, `lateral_acceleration` m/s^2 at the marker, and, where
+        there is one, `lateral_speed` m/s or `sideslip` rad). `steering`, the road-wheel angle in
+        rad, is needed for the front axle. `wheel_surface_speed` m/s (or `wheel_speed` rad/s with
+        `vehicle.wheel_radius`) gives the slip ratio.
+    vehicle : Vehicle
+    axle : {"rear", "front"}
+    bandwidth : float
+        Half-power frequency of the differentiation, Hz. What is faster is not in the result.
+    min_speed : float, optional
+        Slower samples are left out, m/s. Left out: a sixth of the largest speed.
+    rate : float, optional
+        Samples a second in the result, Hz. Left out: those of the drive, which are then far from
+        independent (see `attrs["independent_samples"]`).
+
+    Returns
+    -------
+    DataFrame
+        `time`, `slip_angle`, `slip_ratio` (if known), `normal_load`, `speed`, `fy`, `fx` (if
+        known), each of them with `<name>_std` (noise and unknown vehicle together) and, for
+        `fy` and `slip_angle`, `<name>_noise_std` (differentiation noise alone); `yaw_rate`,
+        `lateral_acceleration`, and `segment`, a number for each uninterrupted piece. Forces are
+        those of the whole axle. `attrs` holds `bandwidth_hz`, `independent_samples`, `noise`,
+        `vehicle`, `notes`.
+
+    Raises
+    ------
+    RecordingError
+        A needed column is missing, or nothing is left.
+    """
+    if axle not in ("front", "rear"):
+        raise RecordingError(f"axle={axle!r}", todo='choose "front" or "rear"')
+    if axle == "front" and "steering" not in drive:
+        raise RecordingError(
+            "the front axle's slip angle needs the road-wheel angle",
+            todo="give a column `steering` in rad, or take the rear axle",
+        )
+    if {"x", "y", "yaw"} <= set(drive.columns):
+        motion = from_pose(drive, vehicle, bandwidth)
+    else:
+        motion = from_sensors(drive, vehicle, bandwidth)
+    even = evenly_spaced(drive)[0]
+    state = _axle_state(motion, vehicle, axle, even)
+    notes = list(motion.notes)
+    table = _table(motion, state)
+    _add_longitudinal(table, motion, state, vehicle, axle, even, notes)
+    return _finish(table, motion, vehicle, axle, min_speed, rate, notes, drive.attrs)
+
+
+def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataFrame) -> _AxleState:
+    """Force, slip and load of the axle with their noise and their unknowns."""
+    length, mass = vehicle.wheelbase, vehicle.mass
+    rear = axle == "rear"
+    arm = vehicle.front_length if rear else vehicle.rear_length
+    sign = -1.0 if rear else 1.0
+    to_cg = vehicle.rear_length - motion.ahead
+    ay = motion.ay + to_cg * motion.yaw_acceleration
+    fy = (mass * arm * ay + sign * vehicle.yaw_inertia * motion.yaw_acceleration) / length
+    per_yaw = (mass * arm * to_cg + sign * vehicle.yaw_inertia) / length
+    noise = np.hypot(mass * arm / length * motion.ay_std, per_yaw * motion.yaw_acceleration_std)
+    unsure = np.sqrt(
+        (vehicle.inertia_std * motion.yaw_acceleration / length) ** 2
+        + (vehicle.mass_std / mass * fy) ** 2
+        + (mass * arm / length * motion.yaw_acceleration * vehicle.marker_offset_std) ** 2
+        + (mass * arm / length * motion.ax * vehicle.yaw_offset_std) ** 2
+    )
+    to_axle = (0.0 if rear else length) - motion.ahead
+    vy = motion.vy + to_axle * motion.yaw_rate
+    speed = np.maximum(np.hypot(motion.vx, vy), 1e-6)
+    slip = np.arctan2(vy, motion.vx)
+    slip_noise = np.hypot(motion.vy_std, to_axle * motion.yaw_rate_std) / speed
+    slip_unsure = np.hypot(vehicle.yaw_offset_std, vehicle.marker_offset_std * motion.yaw_rate / speed)
+    if not rear:
+        steering = even["steering"].to_numpy(dtype=float)
+        known = np.isfinite(steering)
+        if not known.any():
+            raise RecordingError("`steering` holds no number", todo="give road-wheel angles in rad")
+        filled = np.interp(np.arange(steering.size), np.flatnonzero(known), steering[known])
+        wheel = motion.smoother.smooth(filled)
+        slip = slip - wheel
+        # Lateral force in the wheel's axes; the driving force's share is added with `fx`.
+        fy, noise, unsure = (v / np.cos(wheel) for v in (fy, noise, unsure))
+    static = vehicle.front_mass if not rear else mass - vehicle.front_mass
+    height = vehicle.cg_height or 0.0
+    shift = mass * motion.ax / length * (1.0 if rear else -1.0)
+    load = static * GRAVITY + shift * height
+    load_std = np.sqrt(
+        (vehicle.mass_std * static / mass * GRAVITY) ** 2
+        + (shift * vehicle.cg_height_std) ** 2
+        + (mass / length * height * motion.ax_std) ** 2
+    )
+    return _AxleState(
+        fy, noise, unsure, slip, slip_noise, slip_unsure, speed, load, load_std * np.ones_like(fy)
+    )
+
+
+def _table(motion: BodyMotion, state: _AxleState) -> pd.DataFrame:
+    return pd.DataFrame(
+        {
+            "time": motion.time,
+            "slip_angle": state.slip_angle,
+            "normal_load": state.normal_load,
+            "speed": state.speed,
+            "fy": state.fy,
+            "fy_std": np.hypot(state.fy_noise, state.fy_unsure),
+            "fy_noise_std": state.fy_noise,
+            "slip_angle_std": np.hypot(state.slip_noise, state.slip_unsure),
+            "slip_angle_noise_std": state.slip_noise,
+            "normal_load_std": state.load_std,
+            "yaw_rate": motion.yaw_rate,
+            "lateral_acceleration": motion.ay,
+        }
+    )
+
+
+def _add_longitudinal(
+    table: pd.DataFrame,
+    motion: BodyMotion,
+    state: _AxleState,
+    vehicle: Vehicle,
+    axle: Axle,
+    even: pd.DataFrame,
+    notes: list[str],
+) -> None:
+    """Slip ratio from a wheel speed, `fx` from the longitudinal acceleration, where known."""
+    surface, std = None, 0.0
+    if "wheel_surface_speed" in even:
+        surface = even["wheel_surface_speed"].to_numpy(dtype=float)
+        std = float(even.attrs.get("wheel_surface_speed_std", 0.0))
+    elif "wheel_speed" in even and vehicle.wheel_radius:
+        surface = even["wheel_speed"].to_numpy(dtype=float) * vehicle.wheel_radius
+    elif "wheel_speed" in even:
+        notes.append("wheel_speed is there but Vehicle.wheel_radius is not: no slip_ratio")
+    if surface is not None and np.isfinite(surface).any():
+        steered = state.speed * np.cos(state.slip_angle)
+        ahead = np.maximum(steered, 1e-6)
+        table["slip_ratio"] = surface / ahead - 1.0
+        noise = np.hypot(std, motion.vx_std * surface / ahead) / ahead
+        table["slip_ratio_std"] = noise
+    share = vehicle.front_drive_share
+    if share is None:
+        return
+    part = share if axle == "front" else 1.0 - share
+    to_cg = vehicle.rear_length - motion.ahead
+    ax = motion.ax - to_cg * motion.yaw_rate**2
+    table["fx"] = part * vehicle.mass * ax
+    table["fx_std"] = part * vehicle.mass * motion.ax_std
+    notes.append("fx: mass times acceleration, without aerodynamic drag and rolling resistance")
+
+
+def _finish(
+    table: pd.DataFrame,
+    motion: BodyMotion,
+    vehicle: Vehicle,
+    axle: Axle,
+    min_speed: float | None,
+    rate: float | None,
+    notes: list[str],
+    source: dict[object, object],
+) -> pd.DataFrame:
+    """Cut what is missing or too slow, thin, number the pieces, and write the attributes."""
+    fast = table["speed"].to_numpy()
+    limit = float(np.quantile(fast[motion.good], 0.99)) / 6 if motion.good.any() else 0.0
+    limit = limit if min_speed is None else min_speed
+    keep = motion.good & (fast >= limit) & (motion.vx > 0) & np.isfinite(table["fy"].to_numpy())
+    keep &= np.isfinite(table["slip_angle"].to_numpy())
+    if not keep.any():
+        raise RecordingError(
+            "no sample is left after drop-outs and slow parts are cut", todo="lower min_speed"
+        )
+    table["segment"] = np.cumsum(np.diff(keep.astype(int), prepend=0) == 1)
+    dt = motion.smoother.dt
+    if rate is not None:
+        if not 0 < rate <= 1 / dt * 1.001:
+            raise RecordingError(f"rate={rate:g} Hz", todo=f"choose up to {1 / dt:g} Hz")
+        every = np.zeros(keep.size, dtype=bool)
+        every[:: max(1, round(1 / (rate * dt)))] = True
+        seconds = keep.sum() * dt
+        keep &= every
+    else:
+        seconds = keep.sum() * dt
+    out = table.loc[keep].reset_index(drop=True)
+    notes.append(f"{1 - motion.good.mean():.1%} of the samples rest on drop-outs or ends: cut")
+    if vehicle.cg_height is None:
+        notes.append("cg_height unknown: no longitudinal load transfer")
+    first = ["time", "slip_angle", "slip_ratio", "normal_load", "speed", "fx", "fy"]
+    out = out[[c for c in first if c in out] + [c for c in out if c not in first]]
+    out.attrs = {
+        "source": source.get("source", "drive"),
+        "format": "axle",
+        "axle": axle,
+        "bandwidth_hz": motion.smoother.bandwidth,
+        "sample_rate_hz": 1 / dt,
+        "independent_samples": max(1, int(seconds * 2 * motion.smoother.bandwidth)),
+        "noise": motion.noise,
+        "vehicle": asdict(vehicle),
+        "min_speed": limit,
+        "notes": [*source.get("notes", []), *notes],  # type: ignore[misc]
+    }
+    return out

@@ -1,0 +1,183 @@
+"""A vehicle's planar motion at one point of it, from its pose or from its own sensors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.recordings.smoothing import (
+    Smoother,
+    make_smoother,
+    reached_by_gap,
+    white_noise_std,
+)
+from tire_pipeline.recordings.vehicle import Vehicle
+
+Array = NDArray[np.float64]
+# Missing samples in a row that are bridged by a straight line; longer ones are cut out.
+BRIDGED_SAMPLES = 2
+
+
+@dataclass(frozen=True)
+class BodyMotion:
+    """Motion of the reference point, ISO vehicle axes (x ahead, y left, yaw rate to the left).
+
+    All arrays have one entry a sample. `*_std` are standard deviations of independent noise.
+
+    Parameters
+    ----------
+    time : ndarray
+        s, evenly spaced.
+    ahead : float
+        Distance of the reference point ahead of the rear axle, m.
+    vx, vy, yaw_rate, yaw_acceleration, ax, ay : ndarray
+        m/s, m/s, rad/s, rad/s^2, m/s^2, m/s^2.
+    good : ndarray of bool
+        False where a sample rests on missing data.
+    """
+
+    time: Array
+    ahead: float
+    vx: Array
+    vy: Array
+    yaw_rate: Array
+    yaw_acceleration: Array
+    ax: Array
+    ay: Array
+    vx_std: Array
+    vy_std: Array
+    yaw_rate_std: Array
+    yaw_acceleration_std: Array
+    ax_std: Array
+    ay_std: Array
+    good: NDArray[np.bool_]
+    smoother: Smoother
+    noise: dict[str, float]
+    notes: list[str]
+
+
+def evenly_spaced(drive: pd.DataFrame) -> tuple[pd.DataFrame, float, list[str]]:
+    """Put a drive on an even time base; samples that are not there become NaN.
+
+    Returns
+    -------
+    drive : DataFrame
+    dt : float
+        Sample interval, s.
+    notes : list of str
+    """
+    if "time" not in drive:
+        raise RecordingError("the drive has no time", todo="give a column `time` in s")
+    time = drive["time"].to_numpy(dtype=float)
+    order = np.flatnonzero(np.isfinite(time))
+    if order.size < 20:
+        raise RecordingError(f"the drive has {order.size} samples", todo="at least 20 are needed")
+    if (np.diff(time[order]) < 0).any():
+        raise RecordingError("the drive's time runs backwards", todo="sort or split it first")
+    steps = np.diff(time[order])
+    if not (steps > 0).any():
+        raise RecordingError("the drive's time stands still", todo="check the time column")
+    dt = float(np.median(steps[steps > 0]))
+    # The median of jittery stamps is slightly off: refine it on the whole length.
+    frames = np.round((time[order] - time[order[0]]) / dt)
+    if frames[-1] > 20 * order.size:
+        raise RecordingError(
+            "over 95% of the samples are missing on an even time base", todo="split the drive"
+        )
+    dt = float(np.polyfit(frames, time[order], 1)[0]) if frames[-1] > 0 else dt
+    frames = np.round((time[order] - time[order[0]]) / dt).astype(np.int64)
+    notes: list[str] = []
+    off = np.abs(time[order] - time[order[0]] - frames * dt)
+    if np.quantile(off, 0.95) > 0.2 * dt:
+        notes.append(
+            f"time stamps scatter by {np.quantile(off, 0.95):.2g} s around an even {dt:.4g} s; "
+            "each sample is put on the nearest even instant"
+        )
+    _, first = np.unique(frames, return_index=True)
+    table = drive.iloc[order[first]].set_index(frames[first])
+    table = table.reindex(np.arange(frames[-1] + 1))
+    table["time"] = time[order[0]] + np.arange(frames[-1] + 1) * dt
+    return table.reset_index(drop=True), dt, notes
+
+
+def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMotion:
+    """Differentiate a recorded pose.
+
+    Parameters
+    ----------
+    drive : DataFrame
+        `time` s, `x`, `y` m, `yaw` rad (counted to the left; wrapped or not).
+    vehicle : Vehicle
+        Gives the marker's place and the yaw offset.
+    bandwidth : float
+        Half-power frequency of the smoothing, Hz.
+    """
+    table, dt, notes = evenly_spaced(drive)
+    smoother = make_smoother(dt, bandwidth)
+    if len(table) <= 2 * smoother.long:
+        raise RecordingError(
+            f"{len(table)} samples are too few for a bandwidth of {bandwidth:g} Hz",
+            todo=f"at least {2 * smoother.long + 1} are needed",
+        )
+    missing = ~np.isfinite(table[["x", "y", "yaw"]].to_numpy(dtype=float)).all(axis=1)
+    if missing.all():
+        raise RecordingError("the drive's pose holds no finite sample", todo="check x, y, yaw")
+    good = ~reached_by_gap(missing, smoother.reach, BRIDGED_SAMPLES)
+    # Window ends extrapolate: cut them.
+    good[: smoother.reach] = good[-smoother.reach :] = False
+    index, here = np.arange(len(table)), np.flatnonzero(~missing)
+    x, y = (np.interp(index, here, table[c].to_numpy(dtype=float)[here]) for c in ("x", "y"))
+    unwrapped = np.unwrap(table["yaw"].to_numpy(dtype=float)[here])
+    yaw = np.interp(index, here, unwrapped) + vehicle.yaw_offset
+    world_x, world_y, turning = smoother.first(x), smoother.first(y), smoother.first(yaw)
+    cos, sin = np.cos(yaw), np.sin(yaw)
+    ahead_rate, left_rate = world_x * cos + world_y * sin, world_y * cos - world_x * sin
+    # A marker to the left of the middle line moves ahead by -lateral * yaw rate.
+    ahead_rate = ahead_rate + vehicle.marker_lateral * turning
+    vx, vy, rate = (smoother.smooth(s) for s in (ahead_rate, left_rate, turning))
+    vx_dot, vy_dot, rate_dot = (smoother.smooth(s, 1) for s in (ahead_rate, left_rate, turning))
+    moving = ~missing & good & (np.hypot(vx, vy) > 0.1 * np.nanmax(np.hypot(vx, vy)))
+    position_std = float(
+        np.sqrt(np.mean([white_noise_std(np.where(moving, s, np.nan)) ** 2 for s in (x, y)]))
+    )
+    yaw_std = white_noise_std(np.where(moving, yaw, np.nan))
+    more_vy = smoother.inflation(left_rate, position_std, moving)
+    more_vx = smoother.inflation(ahead_rate, position_std, moving)
+    more_yaw = smoother.inflation(turning, yaw_std, moving)
+    g0, g1, h0, h1 = (smoother.gain(a, b) for a, b in ((1, 0), (1, 1), (0, 0), (0, 1)))
+    one = np.ones_like(vx)
+    vx_std = one * more_vx * position_std * g0
+    vy_std = np.hypot(more_vy * position_std * g0, vx * yaw_std * h0)
+    rate_std, rate_dot_std = one * more_yaw * yaw_std * g0, one * more_yaw * yaw_std * g1
+    vx_dot_std = one * more_vx * position_std * g1
+    vy_dot_std = np.hypot(more_vy * position_std * g1, vx * yaw_std * h1)
+    return BodyMotion(
+        time=table["time"].to_numpy(dtype=float),
+        ahead=vehicle.marker_offset,
+        vx=vx,
+        vy=vy,
+        yaw_rate=rate,
+        yaw_acceleration=rate_dot,
+        ax=vx_dot - rate * vy,
+        ay=vy_dot + rate * vx,
+        vx_std=vx_std,
+        vy_std=vy_std,
+        yaw_rate_std=rate_std,
+        yaw_acceleration_std=rate_dot_std,
+        ax_std=np.sqrt(vx_dot_std**2 + (vy * rate_std) ** 2 + (rate * vy_std) ** 2),
+        ay_std=np.sqrt(vy_dot_std**2 + (vx * rate_std) ** 2 + (rate * vx_std) ** 2),
+        good=good,
+        smoother=smoother,
+        noise={
+            "position_std_m": position_std,
+            "yaw_std_rad": yaw_std,
+            "inflation_lateral": more_vy,
+            "inflation_yaw": more_yaw,
+            "missing_share": float(missing.mean()),
+        },
+        notes=notes,
+    )

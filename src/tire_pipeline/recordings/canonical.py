@@ -1,0 +1,216 @@
+"""From a file's channels, as it names and measures them, to the canonical DataFrame."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.recordings.axis_systems import to_iso_w
+from tire_pipeline.recordings.channels import CANONICAL, Channel, find_channel
+from tire_pipeline.recordings.units import find_unit
+
+_SI = {c.name: c.unit for c in CANONICAL}
+
+
+@dataclass
+class RawChannel:
+    """One channel as the file has it."""
+
+    name: str
+    unit: str | None
+    values: NDArray[np.float64]
+
+
+@dataclass
+class RawRecording:
+    """What a reader of one format hands over."""
+
+    format: str
+    channels: list[RawChannel]
+    constants: dict[str, dict[str, object]] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+    comments: list[str] = field(default_factory=list)
+
+
+def canonical_frame(
+    raw: RawRecording,
+    *,
+    source: str,
+    axes: str = "ISO",
+    units: Mapping[str, str] | None = None,
+    names: Mapping[str, str] | None = None,
+) -> pd.DataFrame:
+    """Name, convert and order the channels.
+
+    Parameters
+    ----------
+    raw : RawRecording
+    source : str
+        The file, for messages and `attrs`.
+    axes : {"ISO", "SAE"}
+        The axes the file is in where its names do not say.
+    units, names : mapping, optional
+        By the file's channel name: the unit that holds, the column that it is.
+
+    Returns
+    -------
+    DataFrame
+        See :func:`tire_pipeline.recordings.read_recording`.
+    """
+    notes, conversions = list(raw.notes), []
+    chosen = _assign(raw, dict(names or {}), notes, source)
+    columns: dict[str, NDArray[np.float64]] = {}
+    unit_names: dict[str, str] = {}
+    origin: dict[str, str] = {}
+    unsaid: list[str] = []
+    for item, channel, column in chosen:
+        unit = (units or {}).get(item.name, item.unit)
+        values = item.values
+        if channel is not None:
+            values, said = _to_si(item.name, values, unit, channel, source, column, notes, unsaid)
+            conversions += said
+            unit_names[column] = channel.unit
+        elif unit:
+            unit_names[column] = unit
+        columns[column], origin[column] = values, item.name
+    if unsaid:
+        notes.append(f"no unit given, SI assumed: {', '.join(unsaid)}")
+    if not any(name in _SI for name in columns):
+        raise RecordingError(
+            f"no channel is recognised among {', '.join(c.name for c in raw.channels[:12])!r}",
+            where=source,
+            todo="name them with names={'their name': 'slip_angle', ...}",
+        )
+    frame = _ordered(columns)
+    to_iso_w(frame, origin, raw.constants, axes, notes, conversions, source)
+    repeats = _repeats(frame, notes)
+    frame = frame.reset_index(drop=True)
+    frame.attrs = {
+        "source": source,
+        "format": raw.format,
+        "steady_points": "time" not in frame,
+        "channels": {c: origin[c] for c in frame.columns if c in origin},
+        "units": {c: unit_names[c] for c in frame.columns if c in unit_names},
+        "conversions": conversions,
+        "repeats": repeats,
+        "constants": raw.constants,
+        "comments": raw.comments,
+        "notes": notes,
+    }
+    return frame
+
+
+def _assign(
+    raw: RawRecording, names: dict[str, str], notes: list[str], source: str
+) -> list[tuple[RawChannel, Channel | None, str]]:
+    """Give each channel its column; of several for one column the best-known name wins."""
+    unknown = [n for n in names if n not in {c.name for c in raw.channels}]
+    if unknown:
+        raise RecordingError(
+            f"names= speaks of {', '.join(map(repr, unknown))}, which the file does not have",
+            where=source,
+            todo="its channels are " + ", ".join(c.name for c in raw.channels[:30]),
+        )
+    best: dict[str, tuple[int, int]] = {}
+    found: list[tuple[Channel, int] | None] = []
+    for index, item in enumerate(raw.channels):
+        told = names.get(item.name)
+        hit = find_channel(told if told is not None else item.name)
+        if hit and told is not None:
+            hit = (hit[0], -1)
+        found.append(hit)
+        if hit and (hit[0].name not in best or hit[1] < best[hit[0].name][0]):
+            best[hit[0].name] = (hit[1], index)
+    result: list[tuple[RawChannel, Channel | None, str]] = []
+    taken: set[str] = set(best)
+    for index, (item, hit) in enumerate(zip(raw.channels, found, strict=True)):
+        if hit and best[hit[0].name][1] == index:
+            result.append((item, hit[0], hit[0].name))
+            continue
+        column = names.get(item.name, item.name) or f"channel_{index + 1}"
+        if hit:
+            winner = raw.channels[best[hit[0].name][1]].name
+            notes.append(f"{item.name}: {hit[0].name} is taken from {winner}; kept beside it")
+        base, number = column, 2
+        while column in taken:
+            column, number = f"{base}_{number}", number + 1
+        taken.add(column)
+        result.append((item, None, column))
+    return result
+
+
+def _to_si(
+    name: str,
+    values: NDArray[np.float64],
+    unit: str | None,
+    channel: Channel,
+    source: str,
+    column: str,
+    notes: list[str],
+    unsaid: list[str],
+) -> tuple[NDArray[np.float64], list[str]]:
+    known = find_unit(unit)
+    if known is None:
+        if unit and unit.strip():
+            notes.append(f"{name}: unit {unit!r} is not known; {channel.unit} assumed")
+        else:
+            unsaid.append(f"{name} ({channel.unit})")
+        return values, []
+    if known.dimension != channel.dimension and not (
+        channel.dimension == "ratio" and known.dimension == "angle" and known.factor == 1
+    ):
+        raise RecordingError(
+            f"channel {name} has unit {unit!r}, which is no {channel.dimension}",
+            where=source,
+            todo=f"say what holds: units={{{name!r}: {channel.unit!r}}}",
+        )
+    if known.factor == 1 and known.offset == 0:
+        return values, []
+    with np.errstate(over="ignore", invalid="ignore"):
+        values = values * known.factor + known.offset
+    return values, [f"{column}: {name} from {unit} to {channel.unit}"]
+
+
+def _ordered(columns: dict[str, NDArray[np.float64]]) -> pd.DataFrame:
+    first = [c.name for c in CANONICAL if c.name in columns]
+    rest = [c for c in columns if c not in _SI]
+    return pd.DataFrame({c: columns[c] for c in (*first, *rest)}, copy=False)
+
+
+def _repeats(frame: pd.DataFrame, notes: list[str]) -> dict[str, int]:
+    """Drop identical rows that repeat a time stamp; count the others and repeated points."""
+    counts = {"identical_rows_dropped": 0, "repeated_stamps": 0, "backward_stamps": 0}
+    if "time" not in frame:
+        points = [c for c in ("slip_angle", "slip_ratio", "camber", "normal_load") if c in frame]
+        if points and len(frame) > 1:
+            steps = {"slip_angle": 2e-3, "slip_ratio": 2e-3, "camber": 4e-3}
+            load = float(np.nanmax(np.abs(frame["normal_load"]))) if "normal_load" in frame else 1.0
+            steps["normal_load"] = 0.02 * load if np.isfinite(load) and load > 0 else 1.0
+            with np.errstate(over="ignore", invalid="ignore"):
+                grid = pd.DataFrame({c: np.round(frame[c] / steps[c]) for c in points})
+            counts["repeated_points"] = int(grid.duplicated(keep=False).sum())
+        return counts
+    time = frame["time"].to_numpy()
+    with np.errstate(invalid="ignore"):
+        step = np.diff(time)
+    again = np.concatenate([[False], step == 0])
+    if again.any():
+        where = np.flatnonzero(again)
+        now, before = frame.iloc[where].to_numpy(), frame.iloc[where - 1].to_numpy()
+        same = ((now == before) | (np.isnan(now) & np.isnan(before))).all(axis=1)
+        counts["identical_rows_dropped"] = int(same.sum())
+        counts["repeated_stamps"] = int((~same).sum())
+        if same.any():
+            frame.drop(index=frame.index[where[same]], inplace=True)
+            notes.append(f"{same.sum()} rows that repeat the row before them were dropped")
+        if (~same).any():
+            notes.append(f"{(~same).sum()} time stamps repeat with other values: kept (see check_recording)")
+    counts["backward_stamps"] = int((step < 0).sum())
+    if counts["backward_stamps"]:
+        notes.append(f"time runs backwards {counts['backward_stamps']} times: rows kept in the file's order")
+    return counts

@@ -1,0 +1,122 @@
+"""Names by which files call a channel, and what they are called here."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One canonical column: its dimension, SI unit and the names it goes by.
+
+    `aliases` are compared without case, blanks, `_`, `-` and `.`; the earlier the better where a
+    file has several.
+    """
+
+    name: str
+    dimension: str
+    unit: str
+    aliases: tuple[str, ...]
+
+
+# The columns that the whole project speaks of.
+CANONICAL: tuple[Channel, ...] = (
+    Channel("time", "time", "s", ("RUNTIME", "ET", "t", "timestamp", "elapsed time", "MEASTIME")),
+    Channel(
+        "slip_angle",
+        "angle",
+        "rad",
+        ("SLIPANGL", "SA", "alpha", "slipang", "sideslip angle", "tire slip angle"),
+    ),
+    Channel(
+        "slip_ratio",
+        "ratio",
+        "-",
+        ("LONGSLIP", "SL", "SR", "kappa", "longitudinal slip", "slipratio", "slip"),
+    ),
+    Channel("camber", "angle", "rad", ("INCLANGL", "IA", "gamma", "inclination", "camber angle")),
+    Channel(
+        "normal_load",
+        "force",
+        "N",
+        ("FZW", "FZH", "FZ", "FZC", "vertical load", "vertical force", "wheel load", "load"),
+    ),
+    Channel(
+        "speed",
+        "speed",
+        "m/s",
+        ("LONGVEL", "TRAJVELW", "TRAJVELH", "TRAJVELC", "V", "VX", "velocity", "road speed"),
+    ),
+    Channel(
+        "pressure",
+        "pressure",
+        "Pa",
+        ("INFLPRES", "P", "tire pressure", "tyre pressure", "inflation pressure"),
+    ),
+    Channel(
+        "tread_temperature",
+        "temperature",
+        "degC",
+        ("TSTC", "TREDTEMP", "tread temp", "tire surface temperature", "tyre surface temperature"),
+    ),
+    Channel("fx", "force", "N", ("FXW", "FXH", "FX", "FXC", "longitudinal force")),
+    Channel("fy", "force", "N", ("FYW", "FYH", "FY", "FYC", "lateral force")),
+    Channel("mx", "moment", "N m", ("MXW", "MXH", "MX", "MXC", "overturning moment")),
+    Channel("my", "moment", "N m", ("MYW", "MYH", "MY", "MYC", "rolling resistance moment")),
+    Channel(
+        "mz",
+        "moment",
+        "N m",
+        ("MZW", "MZH", "MZ", "MZC", "aligning moment", "aligning torque", "self aligning torque"),
+    ),
+)
+
+# Channels that are not canonical but whose dimension is known, so that their unit can be brought
+# to SI. They keep their own name unless one is given here.
+FURTHER: tuple[Channel, ...] = (
+    Channel("wheel_speed", "rate", "rad/s", ("WHROTSPD", "N", "omega", "wheel rotation speed")),
+    Channel("loaded_radius", "length", "m", ("RL", "DSTGRWHC", "LOADRAD")),
+    Channel("effective_radius", "length", "m", ("RE", "KROLRAD")),
+    Channel("tread_temperature_inner", "temperature", "degC", ("TSTI",)),
+    Channel("tread_temperature_outer", "temperature", "degC", ("TSTO",)),
+    Channel("ambient_temperature", "temperature", "degC", ("AMBTMP", "AMBITEMP")),
+    Channel("surface_temperature", "temperature", "degC", ("RST", "TRCKTEMP")),
+    Channel("turn_slip", "curvature", "1/m", ("TURNSLIP",)),
+    Channel("simulated_fx", "force", "N", ("fx_simulated", "sim_fx")),
+    Channel("simulated_fy", "force", "N", ("fy_simulated", "sim_fy")),
+    Channel("simulated_mz", "moment", "N m", ("mz_simulated", "sim_mz")),
+    Channel("steering", "angle", "rad", ()),
+    Channel("yaw_rate", "rate", "rad/s", ()),
+    Channel("lateral_acceleration", "acceleration", "m/s^2", ()),
+    Channel("longitudinal_acceleration", "acceleration", "m/s^2", ()),
+)
+
+
+def plain_name(name: str) -> str:
+    """A name without case, blanks, `_`, `-` and `.`."""
+    return re.sub(r"[\s_.\-]+", "", name).lower()
+
+
+def _ranks() -> dict[str, tuple[Channel, int]]:
+    table: dict[str, tuple[Channel, int]] = {}
+    for channel in (*CANONICAL, *FURTHER):
+        for rank, alias in enumerate((channel.name, *channel.aliases)):
+            table.setdefault(plain_name(alias), (channel, rank))
+    return table
+
+
+_KNOWN = _ranks()
+
+
+def find_channel(name: str) -> tuple[Channel, int] | None:
+    """The channel that a name stands for, and how far down its list of aliases it is.
+
+    Examples
+    --------
+    >>> find_channel("Slip Angle")[0].name
+    'slip_angle'
+    >>> find_channel("brake_pressure") is None
+    True
+    """
+    return _KNOWN.get(plain_name(name))

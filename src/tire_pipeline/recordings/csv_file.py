@@ -1,0 +1,214 @@
+"""CSV and other delimited text: delimiter, decimal sign, header and unit row are found."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.recordings.canonical import RawChannel, RawRecording
+from tire_pipeline.recordings.channels import find_channel
+from tire_pipeline.recordings.names import split_unit
+from tire_pipeline.recordings.units import find_unit
+
+_HEAD_BYTES = 1 << 16
+_MOST_PREAMBLE = 200
+_EMPTY = {"", "nan", "na", "n/a", "null", "none", "-nan", "inf", "-inf", "+inf"}
+_NUMBER = re.compile(r"^[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?$")
+_COMMENTS = ("#", "%", "//", "!")
+
+
+@dataclass(frozen=True)
+class _Layout:
+    delimiter: str
+    decimal: str
+    header: list[str]
+    units: list[str] | None
+    data_line: int  # counted from 0
+    encoding: str
+    comments: list[str]
+
+
+def read_csv(path: Path) -> RawRecording:
+    """Read delimited text.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    RawRecording
+
+    Raises
+    ------
+    RecordingError
+        No header, no numbers, rows of different length, or no text at all.
+    """
+    layout = _find_layout(path)
+    try:
+        table = pd.read_csv(
+            path,
+            sep=r"\s+" if layout.delimiter == " " else layout.delimiter,
+            decimal=layout.decimal,
+            skiprows=layout.data_line,
+            header=None,
+            names=range(len(layout.header)),
+            index_col=False,
+            encoding=layout.encoding,
+            encoding_errors="replace",
+            na_values=sorted(_EMPTY - {"inf", "-inf", "+inf"}),
+            skipinitialspace=True,
+            quotechar='"',
+            low_memory=True,
+        )
+    except (ValueError, OverflowError, UnicodeError, IndexError) as error:
+        raise RecordingError(
+            f"rows cannot be read ({error})",
+            where=str(path),
+            todo="every row must have as many fields as the header",
+        ) from error
+    if table.empty:
+        raise RecordingError("no data rows", where=str(path))
+    notes: list[str] = []
+    channels = []
+    for index, name in enumerate(layout.header):
+        values = _numbers(table[index], name, layout.decimal, notes)
+        unit = layout.units[index] if layout.units else None
+        if values is not None:
+            channels.append(RawChannel(name, unit, values))
+    if not channels:
+        raise RecordingError("no column holds numbers", where=str(path))
+    return RawRecording("CSV", channels, notes=notes, comments=layout.comments)
+
+
+def _find_layout(path: Path) -> _Layout:
+    with path.open("rb") as file:
+        head = file.read(_HEAD_BYTES)
+        whole = len(head) < _HEAD_BYTES
+    encoding = "utf-8-sig"
+    if head[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        encoding = "utf-16"
+    elif b"\x00" in head:
+        raise RecordingError("this is no text file", where=str(path), todo="check its format")
+    try:
+        text = head.decode(encoding, errors="strict" if whole else "ignore")
+    except UnicodeDecodeError:
+        encoding = "latin-1" if encoding != "utf-16" else encoding
+        text = head.decode(encoding, errors="replace")
+    # Only what pandas takes for line ends too.
+    lines = re.split(r"\r\n|\n|\r", text)
+    lines = lines[: len(lines) if whole else -1][: _MOST_PREAMBLE + 20]
+    best: tuple[int, int, str, str] | None = None  # fields, -line
+    for delimiter, decimal in ((",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ","), (" ", ".")):
+        found = _first_numbers(lines, delimiter, decimal)
+        if found and (best is None or found[0] > best[0]):
+            best = (*found, delimiter, decimal)
+    if best is None:
+        raise RecordingError(
+            f"no row of numbers in the first {len(lines)} lines",
+            where=str(path),
+            todo="give a text table with a header row",
+        )
+    fields, line, delimiter, decimal = best
+    header, units = _header_above(lines, line, fields, delimiter)
+    if header is None:
+        raise RecordingError(
+            f"no header with {fields} names above the first row of numbers",
+            where=f"{path}:{line + 1}",
+            todo="put a row with the channels' names first",
+        )
+    comments = [s.strip() for s in lines[:line] if s.strip().startswith(_COMMENTS)]
+    return _Layout(delimiter, decimal, header, units, line, encoding, comments)
+
+
+def _fields(line: str, delimiter: str) -> list[str]:
+    if delimiter == " ":
+        return line.split()
+    parts = [p.strip().strip('"').strip() for p in line.split(delimiter)]
+    while len(parts) > 1 and parts[-1] == "":
+        parts.pop()
+    return parts
+
+
+def _is_number(text: str, decimal: str) -> bool:
+    if decimal == ",":
+        if "." in text:
+            return False
+        text = text.replace(",", ".")
+    return bool(_NUMBER.match(text))
+
+
+def _first_numbers(lines: list[str], delimiter: str, decimal: str) -> tuple[int, int] | None:
+    """Number of fields and line of the first row that is made of numbers (and gaps)."""
+    for index, line in enumerate(lines):
+        if not line.strip() or line.lstrip().startswith(_COMMENTS):
+            continue
+        parts = _fields(line, delimiter)
+        numbers = sum(_is_number(p, decimal) for p in parts)
+        others = sum(not _is_number(p, decimal) and p.lower() not in _EMPTY for p in parts)
+        if numbers and numbers >= 2 * others:
+            return len(parts), index
+    return None
+
+
+def _header_above(
+    lines: list[str], data: int, fields: int, delimiter: str
+) -> tuple[list[str] | None, list[str] | None]:
+    """The names and, where there is one, the row of units between them and the data."""
+    rows: list[list[str]] = []
+    for line in reversed(lines[:data]):
+        text = line.strip()
+        if not text:
+            continue
+        parts = _fields(text, delimiter)
+        for mark in _COMMENTS:
+            if parts[0].startswith(mark):
+                parts = _fields(text[len(mark) :].strip(), delimiter)
+                break
+        if len(parts) >= fields or (rows and len(parts) == len(rows[0])):
+            rows.append(parts)
+        if len(rows) == 2:
+            break
+    if not rows:
+        return None, None
+    if _are_units(rows[0]) and len(rows) == 2:
+        header, units = rows[1], rows[0] + [""] * (len(rows[1]) - len(rows[0]))
+        return header, units[: len(header)]
+    return rows[0], None
+
+
+def _are_units(row: list[str]) -> bool:
+    """Whether a row is one of units: more of them are units than are names of channels."""
+    known = sum(find_unit(cell) is not None for cell in row if cell)
+    named = sum(find_channel(split_unit(cell)[0]) is not None for cell in row if cell)
+    return known > named and known >= sum(bool(cell) for cell in row) / 2
+
+
+def _numbers(column: pd.Series, name: str, decimal: str, notes: list[str]) -> NDArray[np.float64] | None:
+    """A column's numbers; what is none becomes NaN with a note, a column of text goes."""
+    if pd.api.types.is_numeric_dtype(column) or pd.api.types.is_bool_dtype(column):
+        return column.to_numpy(dtype=float)
+    text = column.astype("string").str.strip()
+    if decimal == ",":
+        text = text.str.replace(",", ".", regex=False)
+    values = pd.to_numeric(text, errors="coerce")
+    lost = int((values.isna() & text.notna()).sum())
+    if values.notna().sum() == 0:
+        hit = find_channel(split_unit(name)[0])
+        if hit and hit[0].name == "time" and text.notna().any():
+            stamps = pd.to_datetime(text, errors="coerce", format="ISO8601", utc=True)
+            if stamps.notna().mean() > 0.9:
+                notes.append(f"{name}: dates, counted in seconds from the first")
+                return (stamps - stamps.min()).dt.total_seconds().to_numpy(dtype=float)
+        if text.notna().any():
+            notes.append(f"{name}: text, left out")
+            return None
+    if lost:
+        notes.append(f"{name}: {lost} cells are no numbers and became NaN")
+    return np.asarray(values.to_numpy(dtype=float, na_value=np.nan))

@@ -1,0 +1,142 @@
+"""One way in for every format."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.recordings.canonical import RawRecording, canonical_frame
+from tire_pipeline.recordings.csv_file import read_csv
+from tire_pipeline.recordings.mat_file import read_mat
+from tire_pipeline.recordings.mdf_file import read_mdf
+from tire_pipeline.recordings.names import split_unit
+from tire_pipeline.recordings.parquet_file import read_parquet
+from tire_pipeline.recordings.tydex_file import read_tydex
+
+READERS: dict[str, Callable[[Path], RawRecording]] = {
+    "TYDEX": read_tydex,
+    "CSV": read_csv,
+    "MDF4": read_mdf,
+    "MAT": read_mat,
+    "Parquet": read_parquet,
+}
+SUFFIXES: dict[str, str] = {
+    ".tdx": "TYDEX",
+    ".tydex": "TYDEX",
+    ".csv": "CSV",
+    ".tsv": "CSV",
+    ".txt": "CSV",
+    ".dat": "CSV",
+    ".asc": "CSV",
+    ".mf4": "MDF4",
+    ".mdf": "MDF4",
+    ".mat": "MAT",
+    ".parquet": "Parquet",
+    ".pq": "Parquet",
+}
+
+
+def read_recording(
+    path: str | Path,
+    *,
+    format: str | None = None,
+    axes: str = "ISO",
+    units: Mapping[str, str] | None = None,
+    names: Mapping[str, str] | None = None,
+) -> pd.DataFrame:
+    """Read a recording of any known format into canonical columns, in SI and ISO W axes.
+
+    A recording without `time` is a set of steady points. Nothing is guessed silently: where a
+    file gives no unit, SI is assumed and that is said in `attrs["notes"]`.
+
+    Parameters
+    ----------
+    path : str or Path
+    format : {"TYDEX", "CSV", "MDF4", "MAT", "Parquet"}, optional
+        Left out: by content, else by suffix.
+    axes : {"ISO", "SAE"}
+        Axes of the file where its names do not tell (TYDEX names do). "SAE" (J670e: y to the
+        right, z down) mirrors slip_angle, fy, my and mz.
+    units, names : mapping, optional
+        By the file's channel name: its unit (over what the file says), the column that it is.
+
+    Returns
+    -------
+    DataFrame, one row a sample
+        Of `time` s, `slip_angle` rad, `slip_ratio`, `camber` rad, `normal_load` N (compression
+        positive), `speed` m/s, `pressure` Pa, `tread_temperature` degC, `fx`, `fy` N, `mx`, `my`,
+        `mz` N m those that the file has, then its further channels. `attrs`: `source`, `format`,
+        `steady_points`, `channels` (the file's names), `units`, `conversions`, `repeats`,
+        `constants`, `comments`, `notes`.
+
+    Raises
+    ------
+    RecordingError
+        The file cannot be read, or holds no channel that is known.
+
+    Examples
+    --------
+    >>> recording = read_recording("sweep.csv", units={"SA": "deg"})  # doctest: +SKIP
+    """
+    file = Path(path)
+    if not file.is_file():
+        raise RecordingError("no such file", where=str(file))
+    kind = _format(file, format)
+    try:
+        raw = READERS[kind](file)
+        _split_units(raw)
+        return canonical_frame(raw, source=str(file), axes=axes, units=units, names=names)
+    except RecordingError:
+        raise
+    except (OSError, MemoryError, UnicodeError) as error:
+        raise RecordingError(
+            f"cannot be read as {kind} ({type(error).__name__}: {error})", where=str(file)
+        ) from error
+
+
+def _format(file: Path, format: str | None) -> str:
+    """The format by name, by the file's first bytes, or by its suffix."""
+    if format is not None:
+        by_name = {name.lower(): name for name in READERS}
+        if format.lower() not in by_name:
+            raise RecordingError(f"format={format!r}", todo=f"one of {', '.join(READERS)}")
+        return by_name[format.lower()]
+    try:
+        with file.open("rb") as stream:
+            head = stream.read(4096)
+    except OSError as error:
+        raise RecordingError(f"cannot be opened ({error})", where=str(file)) from error
+    if not head:
+        raise RecordingError("the file is empty", where=str(file))
+    if head[:4] == b"PAR1":
+        return "Parquet"
+    if head[:3] == b"MDF":
+        return "MDF4"
+    if head[:10] in (b"MATLAB 5.0", b"MATLAB 7.3"):
+        return "MAT"
+    if b"**HEADER" in head.upper() or b"**MEASURCHANNELS" in head.upper():
+        return "TYDEX"
+    kind = SUFFIXES.get(file.suffix.lower())
+    if kind is None:
+        raise RecordingError(
+            f"suffix {file.suffix!r} is not known",
+            where=str(file),
+            todo=f"say format=...: one of {', '.join(READERS)}",
+        )
+    return kind
+
+
+def _split_units(raw: RawRecording) -> None:
+    """Part units from names where the file has no other place for them."""
+    for channel in raw.channels:
+        base, unit = split_unit(channel.name)
+        if unit is not None and not (channel.unit and channel.unit.strip()):
+            channel.unit = unit
+            channel.name = base
+        channel.values = np.asarray(channel.values, dtype=float)
+    if len({c.values.size for c in raw.channels}) > 1:
+        raise RecordingError("channels have different lengths")

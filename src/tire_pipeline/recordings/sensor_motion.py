@@ -1,0 +1,145 @@
+"""A vehicle's planar motion from its own sensors: speed, yaw rate, lateral acceleration."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.recordings.body_motion import BRIDGED_SAMPLES, BodyMotion, evenly_spaced
+from tire_pipeline.recordings.smoothing import (
+    Smoother,
+    make_smoother,
+    reached_by_gap,
+    white_noise_std,
+)
+from tire_pipeline.recordings.vehicle import Vehicle
+
+Array = NDArray[np.float64]
+_NEEDED = ("speed", "yaw_rate", "lateral_acceleration")
+# Straight running: below these the lateral speed is taken as nought.
+_STRAIGHT_YAW_RATE, _STRAIGHT_ACCELERATION, _STRAIGHT_SECONDS = 0.02, 0.2, 0.5
+
+
+def from_sensors(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMotion:
+    """Smooth the vehicle's own sensors, all taken to sit at the marker's place.
+
+    Parameters
+    ----------
+    drive : DataFrame
+        `time` s, `speed` m/s, `yaw_rate` rad/s, `lateral_acceleration` m/s^2; optional
+        `longitudinal_acceleration` m/s^2, `lateral_speed` m/s or `sideslip` rad. Without the
+        last two the lateral speed is integrated between stretches of straight running, and its
+        uncertainty grows with the distance in time from them.
+    vehicle : Vehicle
+    bandwidth : float
+        Half-power frequency, Hz.
+
+    Raises
+    ------
+    RecordingError
+        A needed column is missing, or the lateral speed can be had in no way.
+    """
+    lacking = [name for name in _NEEDED if name not in drive]
+    if lacking:
+        raise RecordingError(
+            f"the drive has neither a pose nor {', '.join(lacking)}",
+            todo="give x, y, yaw or speed, yaw_rate, lateral_acceleration",
+        )
+    table, dt, notes = evenly_spaced(drive)
+    smoother = make_smoother(dt, bandwidth)
+    if len(table) <= 2 * smoother.long:
+        raise RecordingError(
+            f"{len(table)} samples are too few for a bandwidth of {bandwidth:g} Hz",
+            todo=f"at least {2 * smoother.long + 1} are needed",
+        )
+    missing = ~np.isfinite(table[list(_NEEDED)].to_numpy(dtype=float)).all(axis=1)
+    if missing.all():
+        raise RecordingError("the sensors hold no sample that is whole", todo="check the columns")
+    good = ~reached_by_gap(missing, smoother.reach, BRIDGED_SAMPLES)
+    good[: smoother.reach] = good[-smoother.reach :] = False
+    speed, rate, ay = (_filled(table[name]) for name in _NEEDED)
+    keep, slope = smoother.gain(0, 0), smoother.gain(0, 1)
+    stds = [white_noise_std(s) for s in (speed, rate, ay)]
+    vy, vy_std, how = _lateral_speed(table, speed, rate, ay, smoother, stds)
+    notes.append(how)
+    if "longitudinal_acceleration" in table:
+        raw = _filled(table["longitudinal_acceleration"])
+        ax, ax_std = smoother.smooth(raw), white_noise_std(raw) * keep
+    else:
+        ax = smoother.smooth(speed, 1) - smoother.smooth(rate) * vy
+        ax_std = stds[0] * slope
+    one = np.ones_like(speed)
+    return BodyMotion(
+        time=table["time"].to_numpy(dtype=float),
+        ahead=vehicle.marker_offset,
+        vx=smoother.smooth(speed),
+        vy=vy,
+        yaw_rate=smoother.smooth(rate),
+        yaw_acceleration=smoother.smooth(rate, 1),
+        ax=ax,
+        ay=smoother.smooth(ay),
+        vx_std=one * stds[0] * keep,
+        vy_std=vy_std,
+        yaw_rate_std=one * stds[1] * keep,
+        yaw_acceleration_std=one * stds[1] * slope,
+        ax_std=one * ax_std,
+        ay_std=one * stds[2] * keep,
+        good=good,
+        smoother=smoother,
+        noise=dict(zip(("speed_std", "yaw_rate_std", "ay_std"), stds, strict=True)),
+        notes=notes,
+    )
+
+
+def _filled(column: pd.Series) -> Array:
+    values = column.to_numpy(dtype=float)
+    here = np.flatnonzero(np.isfinite(values))
+    if here.size == 0:
+        raise RecordingError(f"`{column.name}` holds no number", todo="check the column")
+    return np.asarray(np.interp(np.arange(values.size), here, values[here]))
+
+
+def _lateral_speed(
+    table: pd.DataFrame, speed: Array, rate: Array, ay: Array, smoother: Smoother, stds: list[float]
+) -> tuple[Array, Array, str]:
+    """Lateral speed, its standard deviation, and how it was had."""
+    for name in ("lateral_speed", "sideslip"):
+        if name in table:
+            raw = _filled(table[name])
+            std = white_noise_std(raw) * smoother.gain(0, 0)
+            if name == "lateral_speed":
+                return smoother.smooth(raw), std * np.ones_like(raw), "lateral_speed as recorded"
+            value = smoother.smooth(speed * np.tan(raw))
+            return value, std * np.abs(speed), "lateral speed from the recorded sideslip"
+    dt = smoother.dt
+    calm = np.abs(smoother.smooth(rate)) < _STRAIGHT_YAW_RATE
+    calm &= np.abs(smoother.smooth(ay)) < _STRAIGHT_ACCELERATION
+    width = max(1, round(_STRAIGHT_SECONDS / dt))
+    straight = np.convolve(calm, np.ones(width), "same") >= width - 0.5
+    if not straight.any():
+        raise RecordingError(
+            "no stretch of straight running, so the lateral speed cannot be integrated",
+            todo="give the pose, lateral_speed or sideslip, or record straight running too",
+        )
+    anchors = np.flatnonzero(straight)
+    raw = np.concatenate([[0.0], np.cumsum((ay - rate * speed)[1:] * dt)])
+    # The drift is a straight line from one anchor to the next: a constant sensor offset.
+    value = raw - np.interp(np.arange(raw.size), anchors, raw[anchors])
+    index = np.arange(raw.size)
+    before = np.maximum.accumulate(np.where(straight, index, -1))
+    after = np.minimum.accumulate(np.where(straight, index, raw.size)[::-1])[::-1]
+    near_before, near_after = (index - before).astype(float), (after - index).astype(float)
+    near_before[before < 0] = np.inf
+    near_after[after == raw.size] = np.inf
+    gap = near_before + near_after
+    with np.errstate(invalid="ignore"):
+        steps = np.where(np.isfinite(gap), near_before * near_after / np.maximum(gap, 1), 0)
+    steps = np.where(np.isfinite(gap), steps, np.minimum(near_before, near_after))
+    one_step = dt * np.hypot(stds[2], np.abs(speed) * stds[1])
+    return (
+        smoother.smooth(value),
+        one_step * np.sqrt(steps),
+        "lateral speed integrated between stretches of straight running; road bank is taken as nil",
+    )

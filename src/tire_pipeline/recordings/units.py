@@ -1,0 +1,112 @@
+"""Units that recordings come in: to SI (temperatures to degrees Celsius)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+_DEG = math.pi / 180
+_LB = 4.4482216152605
+_PSI = 6894.757293168361
+_FT = 0.3048
+
+
+@dataclass(frozen=True)
+class Unit:
+    """``SI value = factor * value + offset`` for one dimension."""
+
+    dimension: str
+    factor: float
+    offset: float = 0.0
+
+
+def _same(dimension: str, factor: float, *names: str) -> dict[str, Unit]:
+    return {name: Unit(dimension, factor) for name in names}
+
+
+# Spellings after `_plain`: lower case, no blanks, no middle dots or carets.
+UNITS: dict[str, Unit] = {
+    **_same("time", 1, "s", "sec", "secs", "second", "seconds"),
+    **_same("time", 1e-3, "ms", "msec", "millisecond", "milliseconds"),
+    **_same("time", 1e-6, "us", "µs", "microsecond", "microseconds"),
+    **_same("time", 1e-9, "ns"),
+    **_same("time", 60, "min", "minute", "minutes"),
+    **_same("angle", 1, "rad", "radian", "radians"),
+    **_same("angle", 1e-3, "mrad"),
+    **_same("angle", _DEG, "deg", "degree", "degrees", "°", "grad_deg"),
+    **_same("force", 1, "n", "newton", "newtons"),
+    **_same("force", 1e3, "kn"),
+    **_same("force", 10, "dan"),
+    **_same("force", _LB, "lb", "lbs", "lbf"),
+    **_same("force", 9.80665, "kgf", "kp"),
+    **_same("moment", 1, "nm", "n-m", "n*m", "newtonmeter", "newton-meter"),
+    **_same("moment", 1e3, "knm"),
+    **_same("moment", 1e-3, "nmm", "n-mm", "n*mm"),
+    **_same("moment", _LB * _FT, "ft-lb", "ftlb", "lb-ft", "lbft", "ft-lbs", "lbf-ft", "ft-lbf"),
+    **_same("moment", _LB * _FT / 12, "in-lb", "inlb", "lb-in"),
+    **_same("speed", 1, "m/s", "mps", "ms-1", "m/sec"),
+    **_same("speed", 1e-3, "mm/s"),
+    **_same("speed", 1 / 3.6, "km/h", "kph", "kmh", "kmph", "km/hr"),
+    **_same("speed", 0.44704, "mph", "mi/h"),
+    **_same("speed", _FT, "ft/s"),
+    **_same("pressure", 1, "pa", "n/m2"),
+    **_same("pressure", 100, "hpa", "mbar"),
+    **_same("pressure", 1e3, "kpa"),
+    **_same("pressure", 1e6, "mpa"),
+    **_same("pressure", 1e5, "bar"),
+    **_same("pressure", _PSI, "psi", "lb/in2", "lbf/in2"),
+    **_same("temperature", 1, "degc", "°c", "c", "celsius", "deg_c", "grdc"),
+    "k": Unit("temperature", 1, -273.15),
+    "kelvin": Unit("temperature", 1, -273.15),
+    **{n: Unit("temperature", 5 / 9, -160 / 9) for n in ("degf", "°f", "f", "fahrenheit", "deg_f")},
+    **_same("ratio", 1, "-", "1", "none", "[-]", "ratio", "n/n", "m/m"),
+    **_same("ratio", 0.01, "%", "percent", "pct"),
+    **_same("length", 1, "m", "meter", "metre"),
+    **_same("length", 1e-3, "mm"),
+    **_same("length", 1e-2, "cm"),
+    **_same("length", 1e3, "km"),
+    **_same("length", 0.0254, "in", "inch", "inches", '"'),
+    **_same("length", _FT, "ft"),
+    **_same("rate", 1, "rad/s", "1/s_rad"),
+    **_same("rate", _DEG, "deg/s", "°/s"),
+    **_same("rate", 2 * math.pi / 60, "rpm", "1/min", "u/min", "rev/min"),
+    **_same("rate", 2 * math.pi, "1/s", "rev/s", "hz"),
+    **_same("acceleration", 1, "m/s2", "m/s**2"),
+    **_same("acceleration", 9.80665, "g"),
+    **_same("curvature", 1, "1/m"),
+}
+
+
+def _plain(name: str) -> str:
+    text = name.strip().strip("[]()").strip().lower().replace(" ", "")
+    for old in ("·", "⋅", "."):
+        text = text.replace(old, "")
+    return text.replace("²", "2").replace("^", "").replace("μ", "µ")
+
+
+def find_unit(name: str | None) -> Unit | None:
+    """Look a unit's spelling up.
+
+    Parameters
+    ----------
+    name : str or None
+        As a file prints it: ``"deg"``, ``"[km/h]"``, ``"N m"``, ``"deg C"``.
+
+    Returns
+    -------
+    Unit or None
+        None for an unknown or empty spelling.
+
+    Examples
+    --------
+    >>> find_unit("km/h").factor * 36
+    10.0
+    """
+    if name is None:
+        return None
+    plain = _plain(name)
+    if not plain:
+        return None
+    if plain in UNITS:
+        return UNITS[plain]
+    return UNITS.get(plain.replace("*", ""))

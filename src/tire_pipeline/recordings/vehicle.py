@@ -1,0 +1,99 @@
+"""What has to be known of a vehicle to turn its motion into axle forces."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+
+from tire_pipeline.errors import RecordingError
+
+GRAVITY = 9.80665
+
+
+@dataclass(frozen=True)
+class Vehicle:
+    """A single-track vehicle: masses, lengths, inertia, and how well each is known.
+
+    Parameters
+    ----------
+    mass : float
+        Total mass, kg.
+    front_mass : float
+        Static mass on the front axle, kg; the rear axle carries the rest.
+    wheelbase : float
+        Distance between the axles, m.
+    yaw_inertia : float
+        About the vertical axis through the centre of gravity, kg m^2.
+    yaw_inertia_std : float, optional
+        Its standard uncertainty. Left out: 20% of the value, as it is hardly ever measured.
+    mass_std : float, optional
+        Standard uncertainty of the mass, kg.
+    track : float, optional
+        Distance between left and right wheels, m; carried along, not used by the single track.
+    cg_height, cg_height_std : float, optional
+        Height of the centre of gravity, m. Without it no load is transferred between the axles.
+    marker_offset, marker_lateral : float, optional
+        Where the recorded position lies: metres ahead of the rear axle, and to the left.
+    marker_offset_std : float, optional
+        Standard uncertainty of ``marker_offset``, m.
+    yaw_offset, yaw_offset_std : float, optional
+        Added to the recorded yaw to get the vehicle's heading, rad, and its uncertainty.
+    front_drive_share : float, optional
+        Share of the total longitudinal force that the front axle carries (0 to 1). Without it
+        no `fx` is given.
+    wheel_radius : float, optional
+        Effective rolling radius, m, for wheel speeds in rad/s.
+
+    Raises
+    ------
+    RecordingError
+        A length, mass or inertia is not positive, or a value is not finite.
+    """
+
+    mass: float
+    front_mass: float
+    wheelbase: float
+    yaw_inertia: float
+    yaw_inertia_std: float | None = None
+    mass_std: float = 0.0
+    track: float | None = None
+    cg_height: float | None = None
+    cg_height_std: float = 0.0
+    marker_offset: float = 0.0
+    marker_lateral: float = 0.0
+    marker_offset_std: float = 0.0
+    yaw_offset: float = 0.0
+    yaw_offset_std: float = 0.0
+    front_drive_share: float | None = None
+    wheel_radius: float | None = None
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if value is not None and not math.isfinite(value):
+                raise RecordingError(f"Vehicle.{field.name} is {value}", todo="give a finite number")
+        for name in ("mass", "front_mass", "wheelbase", "yaw_inertia"):
+            if getattr(self, name) <= 0:
+                raise RecordingError(
+                    f"Vehicle.{name} is {getattr(self, name)}", todo="give a positive number (SI)"
+                )
+        if self.front_mass >= self.mass:
+            raise RecordingError(
+                f"the front axle carries {self.front_mass} kg of {self.mass} kg in all",
+                todo="front_mass must be below mass",
+            )
+
+    @property
+    def front_length(self) -> float:
+        """Distance from the centre of gravity to the front axle, m."""
+        return self.wheelbase * (1.0 - self.front_mass / self.mass)
+
+    @property
+    def rear_length(self) -> float:
+        """Distance from the centre of gravity to the rear axle, m."""
+        return self.wheelbase * self.front_mass / self.mass
+
+    @property
+    def inertia_std(self) -> float:
+        """Standard uncertainty of the yaw inertia, kg m^2."""
+        return 0.2 * self.yaw_inertia if self.yaw_inertia_std is None else self.yaw_inertia_std
