@@ -1,0 +1,173 @@
+"""From sweeps to Magic Formula 5.2 coefficients, by a manufacturer's own fit."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from .formula import (
+    ALIGNING,
+    LATERAL,
+    LONGITUDINAL,
+    LateralPart,
+    Points,
+    lateral,
+    longitudinal,
+)
+from .habits import Habit, fit_setup, nominal_loads
+from .levenberg import Problem, solve
+from .rig import Sweeps
+
+CHUNK = 48  # tires fitted together: keeps the derivatives in the processor's cache
+FORCE_SCALE = 0.01  # residuals are counted in hundredths of the rated load
+MOMENT_SCALE = 0.0006  # m: moments in these times the rated load
+
+
+@dataclass(frozen=True)
+class FitTask:
+    """One batch of measurements of one manufacturer.
+
+    Attributes
+    ----------
+    lateral, longitudinal : Sweeps
+        n measurements each.
+    rated_load, radius : ndarray, shape (n,)
+        N, m.
+    habit : Habit
+    freeze_draw : ndarray, shape (n,)
+        See :func:`.habits.fit_setup`.
+    weight_twist : ndarray, shape (n,)
+        Added to the habit's load power: another engineer's fit of the same data.
+    """
+
+    lateral: Sweeps
+    longitudinal: Sweeps
+    rated_load: np.ndarray
+    radius: np.ndarray
+    habit: Habit
+    freeze_draw: np.ndarray
+    weight_twist: np.ndarray
+
+    def chunk(self, rows: slice) -> FitTask:
+        """Return some of the measurements."""
+
+        def cut(sweeps: Sweeps) -> Sweeps:
+            moment = None if sweeps.moment is None else sweeps.moment[rows]
+            return Sweeps(
+                sweeps.slip[rows],
+                sweeps.normal_load[rows],
+                sweeps.camber[rows],
+                sweeps.force[rows],
+                moment,
+            )
+
+        return FitTask(
+            cut(self.lateral),
+            cut(self.longitudinal),
+            self.rated_load[rows],
+            self.radius[rows],
+            self.habit,
+            self.freeze_draw[rows],
+            self.weight_twist[rows],
+        )
+
+
+def fit_all(tasks: list[FitTask], threads: int) -> list[pd.DataFrame]:
+    """Fit every task; the number of threads does not change the result.
+
+    Parameters
+    ----------
+    tasks : list of FitTask
+    threads : int
+
+    Returns
+    -------
+    list of pandas.DataFrame
+        For each task one row a measurement: the 58 coefficients and ``FNOMIN``.
+    """
+    chunks, owner = [], []
+    for number, task in enumerate(tasks):
+        for first in range(0, task.rated_load.size, CHUNK):
+            chunks.append(task.chunk(slice(first, first + CHUNK)))
+            owner.append(number)
+    with ThreadPoolExecutor(threads) as pool:
+        done = list(pool.map(fit_chunk, chunks))
+    columns = [*LATERAL, *LONGITUDINAL, *ALIGNING, "FNOMIN"]
+    tables = []
+    for number in range(len(tasks)):
+        parts = [part for part, own in zip(done, owner, strict=True) if own == number]
+        tables.append(pd.DataFrame(np.concatenate(parts), columns=columns))
+    return tables
+
+
+def fit_chunk(task: FitTask) -> np.ndarray:
+    """Fit Fy, Fx, then Mz of a few measurements.
+
+    Parameters
+    ----------
+    task : FitTask
+
+    Returns
+    -------
+    ndarray, shape (n, 59)
+        Coefficients in the order of ``LATERAL + LONGITUDINAL + ALIGNING``, then F_z0.
+    """
+    nominal = nominal_loads(task.habit, task.rated_load)
+    points_y = _points(task.lateral, nominal, task.radius)
+    points_x = _points(task.longitudinal, nominal, task.radius)
+    fy = _fit(
+        task,
+        LATERAL,
+        lambda p, rows: lateral(p, points_y.take(rows)),
+        task.lateral,
+        task.lateral.force,
+        FORCE_SCALE,
+    )
+    fx = _fit(
+        task,
+        LONGITUDINAL,
+        lambda p, rows: longitudinal(p, points_x.take(rows)),
+        task.longitudinal,
+        task.longitudinal.force,
+        FORCE_SCALE,
+    )
+    part = LateralPart(fy, points_y)
+    assert task.lateral.moment is not None
+    mz = _fit(
+        task,
+        ALIGNING,
+        lambda p, rows: part.take(rows).aligning(p, points_y.take(rows)),
+        task.lateral,
+        task.lateral.moment,
+        MOMENT_SCALE,
+    )
+    return np.concatenate([fy, fx, mz, nominal[:, None]], axis=1)
+
+
+def _points(sweeps: Sweeps, nominal: np.ndarray, radius: np.ndarray) -> Points:
+    return Points(sweeps.slip, sweeps.camber, sweeps.normal_load, nominal[:, None], radius[:, None])
+
+
+def _fit(
+    task: FitTask, names: list[str], model, sweeps: Sweeps, target: np.ndarray, scale: float
+) -> np.ndarray:
+    setup = fit_setup(names, task.habit, task.freeze_draw)
+    rated = task.rated_load[:, None]
+    power = (task.habit.load_power + task.weight_twist)[:, None]
+    weight = (sweeps.normal_load / rated) ** power
+    weight = weight * (1.0 + task.habit.centre_weight * np.exp(-((sweeps.slip / 0.05) ** 2)))
+    return solve(
+        Problem(
+            model=model,
+            target=target,
+            weight=weight / (scale * rated),
+            start=setup.start,
+            lower=setup.lower,
+            upper=setup.upper,
+            prior=setup.start,
+            stiffness=setup.stiffness,
+        )
+    )

@@ -1,0 +1,96 @@
+"""Run every measurement of a plan through its regime and its fit."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from .fits import FitTask, fit_all
+from .habits import habit_of
+from .plan import Plan
+from .regimes import Regime, regime_of
+from .rig import Sweeps, draw_sessions, measure_lateral, measure_longitudinal
+from .settings import FleetSettings
+from .tires import thermal_parameters
+
+INTERACTION = {"additive": 0.0, "interacting": 1.0, "drifting": 0.0}
+
+
+def regimes_of(plan: Plan, settings: FleetSettings) -> dict[str, Regime]:
+    """Regimes in force, by ``category/protocol``.
+
+    Parameters
+    ----------
+    plan : Plan
+    settings : FleetSettings
+
+    Returns
+    -------
+    dict of str to Regime
+    """
+    pairs = plan.measurements[["category", "protocol"]].drop_duplicates()
+    return {
+        f"{category}/{protocol}": regime_of(category, protocol, settings.bias_size)
+        for category, protocol in pairs.itertuples(index=False)
+    }
+
+
+def measure_all(plan: Plan, settings: FleetSettings, rng: np.random.Generator) -> pd.DataFrame:
+    """Measure and fit everything that the plan names.
+
+    Parameters
+    ----------
+    plan : Plan
+    settings : FleetSettings
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    pandas.DataFrame
+        Coefficients and ``FNOMIN``, one row a measurement of the plan, in its order.
+    """
+    tires = thermal_parameters(plan.tires, INTERACTION[settings.kind])
+    freeze = pd.Series(rng.random(len(tires)), index=tires.index)
+    tasks, indices = [], []
+    for key, regime in regimes_of(plan, settings).items():
+        category, protocol = key.split("/")
+        rows = plan.measurements.query("category == @category and protocol == @protocol")
+        for _, batch in rows.groupby(np.arange(len(rows)) // 400):
+            tasks.append(_task(batch, plan, tires, freeze, regime, rng))
+            indices.append(batch.index)
+    tables = fit_all(tasks, settings.threads)
+    parts = [table.set_index(index) for table, index in zip(tables, indices, strict=True)]
+    return pd.concat(parts).sort_index()
+
+
+def _task(
+    batch: pd.DataFrame,
+    plan: Plan,
+    tires: pd.DataFrame,
+    freeze: pd.Series,
+    regime: Regime,
+    rng: np.random.Generator,
+) -> FitTask:
+    """Measure a batch; a re-fit takes the raw data of its first measurement."""
+    first = np.where(batch["same_data"] >= 0, batch["same_data"], batch.index)
+    raw = plan.measurements.loc[np.unique(first)]
+    own = tires.loc[raw["tire"]]
+    session = draw_sessions(len(raw), rng)
+    back = np.searchsorted(raw.index.to_numpy(), first)
+    tested = tires.loc[batch["tire"]]
+    return FitTask(
+        lateral=_pick(measure_lateral(own, raw, regime, session, rng), back),
+        longitudinal=_pick(measure_longitudinal(own, raw, regime, session, rng), back),
+        rated_load=tested["rated_load"].to_numpy(),
+        radius=tested["UNLOADED_RADIUS"].to_numpy(),
+        habit=habit_of(str(batch["category"].iloc[0])),
+        freeze_draw=freeze.loc[batch["tire"]].to_numpy(),
+        weight_twist=batch["weight_twist"].to_numpy(),
+    )
+
+
+def _pick(sweeps: Sweeps, rows: np.ndarray) -> Sweeps:
+    moment = None if sweeps.moment is None else sweeps.moment[rows]
+    return Sweeps(
+        sweeps.slip[rows], sweeps.normal_load[rows], sweeps.camber[rows], sweeps.force[rows], moment
+    )

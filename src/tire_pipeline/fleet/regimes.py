@@ -1,0 +1,196 @@
+"""How each manufacturer measures: rig, surface, temperature, sweeps. Bias begins here."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Regime:
+    """One manufacturer's measurement protocol. All angles rad, loads as a share of the rated load.
+
+    Attributes
+    ----------
+    adhesion, hysteresis : float
+        Test surface: factors on the two kinds of rubber friction (fine grit, coarse texture).
+    curvature_radius : float
+        1 / drum radius in 1/m; 0 for a flat belt.
+    rig_compliance : float
+        rad of slip angle lost per N of lateral force (belt and spindle).
+    speed : float
+        m/s.
+    sweep_rate : float
+        rad/s of slip angle.
+    filter_time : float
+        Time constant of the low-pass on the forces, s; causal.
+    both_directions : float
+        1: up and down sweep are averaged; 0: only the up sweep is used.
+    preheat, ambient : float
+        degC of the tread at the start and of its surroundings.
+    heating : float
+        K per J of friction work.
+    conditioning : float
+        Share of the run-in done before the test.
+    pressure : float
+        Test pressure over nominal pressure.
+    load_low, load_high : float
+        Load range over rated load.
+    slip_range : float
+        Largest slip angle, rad.
+    camber_range : float
+        Largest camber, rad.
+    slip_ratio_range : float
+        Largest slip ratio.
+    symmetrise : float
+        Share of the even part (conicity, ply steer) removed from the curves.
+    """
+
+    adhesion: float = 1.0
+    hysteresis: float = 1.0
+    curvature_radius: float = 0.0
+    rig_compliance: float = 1.5e-7
+    speed: float = 16.7
+    sweep_rate: float = 0.07
+    filter_time: float = 0.05
+    both_directions: float = 1.0
+    preheat: float = 60.0
+    ambient: float = 50.0
+    heating: float = 2.5e-4
+    conditioning: float = 0.8
+    pressure: float = 1.0
+    load_low: float = 0.25
+    load_high: float = 1.40
+    slip_range: float = 0.23
+    camber_range: float = 0.09
+    slip_ratio_range: float = 0.22
+    symmetrise: float = 0.3
+
+
+COMMON = Regime()
+
+REGIMES: dict[str, Regime] = {
+    # Flat belt, fine grit, warm tires, slow sweeps both ways: the careful laboratory.
+    "A": Regime(
+        adhesion=1.07,
+        hysteresis=1.02,
+        sweep_rate=0.05,
+        preheat=66.0,
+        load_high=1.45,
+        slip_range=0.21,
+        symmetrise=0.0,
+    ),
+    # External steel drum with a coarse coating: short contact, soft side force, cold tires.
+    "B": Regime(
+        adhesion=0.93,
+        hysteresis=1.00,
+        curvature_radius=0.62,
+        rig_compliance=2.0e-7,
+        speed=22.0,
+        sweep_rate=0.09,
+        preheat=45.0,
+        ambient=30.0,
+        slip_range=0.20,
+        symmetrise=0.6,
+        load_high=1.30,
+    ),
+    # Flat belt near the common practice, one direction only and filtered.
+    "C": Regime(
+        adhesion=1.01,
+        hysteresis=0.98,
+        both_directions=0.0,
+        sweep_rate=0.10,
+        filter_time=0.08,
+        rig_compliance=2.4e-7,
+        preheat=57.0,
+        symmetrise=0.6,
+        pressure=1.03,
+    ),
+    # Flat belt, coarse asphalt replica, well run in, high loads.
+    "D": Regime(
+        adhesion=0.98,
+        hysteresis=1.09,
+        rig_compliance=0.8e-7,
+        conditioning=1.0,
+        preheat=63.0,
+        load_high=1.55,
+        slip_range=0.25,
+        symmetrise=0.2,
+    ),
+    # Trailer on a proving ground: real asphalt, cool, fast one-way sweeps, low peak friction.
+    "E": Regime(
+        adhesion=0.90,
+        hysteresis=0.93,
+        both_directions=0.4,
+        sweep_rate=0.12,
+        speed=19.0,
+        preheat=40.0,
+        ambient=24.0,
+        conditioning=0.4,
+        rig_compliance=2.8e-7,
+        load_high=1.25,
+        slip_range=0.24,
+        symmetrise=0.1,
+    ),
+    # Internal drum: long contact, hot tires, high pressure.
+    "F": Regime(
+        adhesion=1.03,
+        hysteresis=1.03,
+        curvature_radius=-0.30,
+        rig_compliance=1.8e-7,
+        preheat=78.0,
+        ambient=62.0,
+        pressure=1.08,
+        load_high=1.35,
+        slip_range=0.19,
+        symmetrise=0.4,
+    ),
+}
+
+# What changes for a manufacturer that changes its protocol half way (kind "drifting").
+NEW_PROTOCOL: dict[str, dict[str, float]] = {
+    "A": {"adhesion": 1.01, "preheat": 58.0},
+    "B": {"adhesion": 0.98, "preheat": 56.0, "ambient": 42.0},
+    "C": {"adhesion": 1.05, "sweep_rate": 0.06, "rig_compliance": 1.5e-7},
+    "D": {"hysteresis": 1.02, "conditioning": 0.7},
+    "E": {"adhesion": 0.97, "hysteresis": 0.97, "rig_compliance": 1.7e-7, "preheat": 48.0},
+    "F": {"preheat": 66.0, "ambient": 52.0, "pressure": 1.02},
+}
+
+# Categories with under 20 files: small laboratories that copy others' practice with changes.
+TINY_REGIMES: dict[str, Regime] = {
+    "G": replace(REGIMES["A"], adhesion=1.12, preheat=50.0),
+    "H": replace(REGIMES["B"], curvature_radius=0.9, preheat=60.0),
+    "I": replace(REGIMES["C"], hysteresis=0.90, sweep_rate=0.06),
+    "J": replace(REGIMES["D"], adhesion=0.90, conditioning=0.5),
+    "K": replace(REGIMES["F"], curvature_radius=-0.5, pressure=1.0),
+}
+
+
+def regime_of(category: str, protocol: str, bias_size: float) -> Regime:
+    """Regime of a manufacturer, moved towards the common one.
+
+    Parameters
+    ----------
+    category : str
+        ``"A"`` to ``"F"``, or a tiny category ``"G"`` to ``"K"``.
+    protocol : {"old", "new"}
+    bias_size : float
+        Every field is ``common + bias_size * (own - common)``.
+
+    Returns
+    -------
+    Regime
+    """
+    own = REGIMES[category] if category in REGIMES else TINY_REGIMES[category]
+    if protocol == "new":
+        own = replace(own, **NEW_PROTOCOL[category])
+    values = {}
+    for field in fields(Regime):
+        common = getattr(COMMON, field.name)
+        values[field.name] = common + bias_size * (getattr(own, field.name) - common)
+    values["both_directions"] = float(np.clip(values["both_directions"], 0.0, 1.0))
+    values["symmetrise"] = float(np.clip(values["symmetrise"], 0.0, 1.0))
+    values["conditioning"] = float(np.clip(values["conditioning"], 0.0, 1.0))
+    return Regime(**values)
