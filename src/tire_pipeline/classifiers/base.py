@@ -1,0 +1,89 @@
+"""What every classifier offers, and how to get one by name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib import import_module
+from typing import Any, ClassVar, Protocol, Self
+
+import numpy as np
+
+from tire_pipeline.errors import DomainError
+
+CLASSIFIERS: dict[str, tuple[str, str]] = {
+    "random_forest": ("tire_pipeline.classifiers.random_forest", "RandomForest"),
+    "naive_bayes": ("tire_pipeline.classifiers.naive_bayes", "NaiveBayes"),
+    "ann": ("tire_pipeline.classifiers.ann", "Ann"),
+    "gradient_boosting": ("tire_pipeline.classifiers.gradient_boosting", "GradientBoosting"),
+    "calibrated": ("tire_pipeline.classifiers.calibrated", "CalibratedForest"),
+}
+"""Name of a classifier -> module and class; imported only when asked for."""
+
+
+class Classifier(Protocol):
+    """Gives every row a probability for each class."""
+
+    name: ClassVar[str]
+    classes_: np.ndarray
+
+    def fit(self, features: np.ndarray, labels: np.ndarray, *, seed: int) -> Self:
+        """Train.
+
+        Parameters
+        ----------
+        features : ndarray, shape (n, d)
+        labels : ndarray of str, shape (n,)
+        seed : int
+            Seed of SMOTE and of the training.
+        """
+        ...
+
+    def predict_proba(self, features: np.ndarray) -> np.ndarray:
+        """Give the probabilities, shape (n, classes), columns in the order of ``classes_``."""
+        ...
+
+    def to_state(self) -> dict[str, Any]:
+        """Give arrays, strings and numbers that bring the trained classifier back."""
+        ...
+
+    @classmethod
+    def from_state(cls, state: Mapping[str, Any]) -> Self:
+        """Bring back what :meth:`to_state` gave; predicts the same, cannot be trained further."""
+        ...
+
+
+def _class_of(name: str) -> Any:
+    if name not in CLASSIFIERS:
+        raise DomainError(f"there is no classifier {name!r}", todo=f"choose one of {', '.join(CLASSIFIERS)}")
+    module, cls = CLASSIFIERS[name]
+    return getattr(import_module(module), cls)
+
+
+def make_classifier(name: str, **options: Any) -> Classifier:
+    """Make a classifier that is not trained yet.
+
+    Parameters
+    ----------
+    name : str
+        One of ``CLASSIFIERS``.
+    **options
+        Passed to its constructor; all take ``smote: bool``.
+
+    Raises
+    ------
+    DomainError
+        If there is none of that name.
+    """
+    classifier: Classifier = _class_of(name)(**options)
+    return classifier
+
+
+def classifier_from_state(state: Mapping[str, Any]) -> Classifier:
+    """Bring back any classifier from its ``to_state()``."""
+    classifier: Classifier = _class_of(str(state["classifier"])).from_state(state)
+    return classifier
+
+
+def predicted_labels(classifier: Classifier, features: np.ndarray) -> np.ndarray:
+    """Give the most probable class of every row, shape (n,)."""
+    return classifier.classes_[classifier.predict_proba(features).argmax(axis=1)]
