@@ -1,0 +1,20 @@
+"""The rig simulator that makes sealed cases, the scorer, and the baselines.
+
+A brush tire that is no Magic Formula is run on a rig with an effect that its ``.tir`` leaves out.
+See ``docs/concealed.md``.
+"""
+
+from tire_pipeline.concealed.answers import Answer, EffectTruth, seal, unseal
+from tire_pipeline.concealed.case import Case, CaseSettings, case_plan, make_case, make_cases
+
+__all__ = [
+    "Answer",
+    "Case",
+    "CaseSettings",
+    "EffectTruth",
+    "case_plan",
+    "make_case",
+    "make_cases",
+    "seal",
+    "unseal",
+]

@@ -1,0 +1,94 @@
+"""The clean run that the ``.tir`` of a case is fitted to, and the residual against it."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.concealed._small_fit import small_fit
+from tire_pipeline.concealed.rig import FORCES, World
+from tire_pipeline.concealed.schedule import CHANNELS, Plan
+from tire_pipeline.magic_formula import DegreesWarning, TireModel
+
+
+def clean_schedule(world: World, plan: Plan) -> pd.DataFrame:
+    """Points of a clean run: pure slip, camber and combined slip at nominal speed and pressure.
+
+    The loads and angles span those of the recording.
+
+    Returns
+    -------
+    pandas.DataFrame
+        ``time`` and the tire's inputs, one row a steady point.
+    """
+    alpha = plan.amplitude * np.linspace(-1.05, 1.05, 41)
+    kappa = np.linspace(-0.21, 0.21, 31)
+    loads = plan.nominal_load * np.linspace(0.3, 1.65, 5)
+    camber = max(plan.cambers) * np.array([-1.0, -0.5, 0.5, 1.0])
+    points = []
+    for load in loads:
+        points += [(a, 0.0, 0.0, load) for a in alpha]
+        points += [(0.0, k, 0.0, load) for k in kappa if k != 0.0]
+        points += [(a, 0.0, g, load) for g in camber for a in alpha[::2]]
+        sides = (-0.1, -0.05, 0.03, 0.06)
+        points += [(a, k, 0.0, load) for a in sides for k in kappa[::2] if k != 0.0]
+    frame = pd.DataFrame(points, columns=["slip_angle", "slip_ratio", "camber", "normal_load"])
+    frame["speed"], frame["pressure"], frame["turn_slip"] = plan.speed, plan.pressure, 0.0
+    frame.insert(0, "time", np.arange(len(frame)) * 0.02)
+    return frame[["time", *CHANNELS]]
+
+
+def fit_clean(world: World, plan: Plan, *, noise: float, rng: np.random.Generator) -> TireModel:
+    """Fit MF 5.2 to a clean run: no effect, steady, new tire at its reference temperature.
+
+    Parameters
+    ----------
+    world : World
+    plan : Plan
+    noise : float
+        Standard deviation of the noise on the clean run's forces, N.
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    TireModel
+    """
+    frame = world.run(clean_schedule(world, plan), {})
+    inputs = {c: frame[c].to_numpy() for c in ("slip_angle", "slip_ratio", "camber", "normal_load")}
+    fx, fy = (frame[f].to_numpy() + noise * rng.standard_normal(len(frame)) for f in FORCES)
+    p = small_fit(plan.nominal_load, inputs, fx, fy)
+    p |= {
+        "UNLOADED_RADIUS": round(world.constants.radius, 4),
+        "LONGVL": plan.speed,
+        "ALPMIN": -1.5 * plan.amplitude,
+        "ALPMAX": 1.5 * plan.amplitude,
+        "KPUMIN": -0.3,
+        "KPUMAX": 0.3,
+        "CAMMIN": -0.2,
+        "CAMMAX": 0.2,
+        "FZMIN": 0.1 * plan.nominal_load,
+        "FZMAX": 2.0 * plan.nominal_load,
+    }
+    return TireModel.from_coefficients(p, version="5.2")
+
+
+def model_forces(tire: TireModel, frame: pd.DataFrame) -> np.ndarray:
+    """Forces that the model gives at the frame's inputs, shape (n, 2): fx, fy in N."""
+    channels = ("normal_load", "slip_angle", "slip_ratio", "camber")
+    inputs = {channel: frame[channel].to_numpy() for channel in channels}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DegreesWarning)
+        got = tire.forces(**inputs, limits="ignore", outputs=FORCES)
+    return np.column_stack([got.fx, got.fy])
+
+
+def residual(tire: TireModel, frame: pd.DataFrame) -> np.ndarray:
+    """Recorded less modelled force, shape (n, 2), N."""
+    return frame[list(FORCES)].to_numpy() - model_forces(tire, frame)
+
+
+def rms(values: np.ndarray) -> float:
+    """Root of the mean over samples of the squared force, all components together."""
+    return float(np.sqrt(np.mean(np.sum(np.atleast_2d(values) ** 2, axis=-1))))
