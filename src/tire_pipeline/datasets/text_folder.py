@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -13,6 +14,7 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.progress import track
 
 MARKER = ".made_by_tire_pipeline"
+_KEPT = (".gitkeep", "README.md")
 
 
 class TextFolderDataset(AbstractDataset[Mapping[str, str | bytes], dict[str, bytes]]):
@@ -55,6 +57,9 @@ class TextFolderDataset(AbstractDataset[Mapping[str, str | bytes], dict[str, byt
                 target = temporary / _inside(name)
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_bytes(text if isinstance(text, bytes) else text.encode("utf-8"))
+            for name in _KEPT:
+                if (folder / name).exists():
+                    shutil.copy2(folder / name, temporary / name)
             (temporary / MARKER).write_text("Replaced as a whole on the next run.\n")
 
     def _exists(self) -> bool:
@@ -67,7 +72,7 @@ class TextFolderDataset(AbstractDataset[Mapping[str, str | bytes], dict[str, byt
 def _belongs_to_user(folder: Path) -> bool:
     if not folder.exists() or (folder / MARKER).exists():
         return False
-    return any(p.is_file() and p.name not in (".gitkeep", "README.md") for p in folder.rglob("*"))
+    return any(p.is_file() and p.name not in _KEPT for p in folder.rglob("*"))
 
 
 def _inside(name: str) -> PurePosixPath:

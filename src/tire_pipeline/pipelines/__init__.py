@@ -1,0 +1,1 @@
+"""Kedro pipelines: they wire the domain, nothing else."""

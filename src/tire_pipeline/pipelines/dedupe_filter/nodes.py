@@ -1,0 +1,74 @@
+"""Drop what the thesis drops: doubles, files without values, small categories."""
+
+from __future__ import annotations
+
+import pandas as pd
+from pydantic import Field
+
+from tire_pipeline.errors import DomainError
+from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.pipelines.represent.nodes import RepresentParameters, needed_coefficients
+from tire_pipeline.tire_table import dedupe_and_filter
+
+
+class DedupeFilterParameters(Parameters):
+    """Parameters of ``dedupe_filter``.
+
+    Attributes
+    ----------
+    minimum_per_category : int
+        Smaller categories are set aside.
+    """
+
+    minimum_per_category: int = Field(20, ge=1)
+
+
+def keep_usable(
+    tire_table_raw: pd.DataFrame,
+    parameters: DedupeFilterParameters,
+    represent: RepresentParameters,
+    target_category: str,
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Keep the files that can be learned from.
+
+    Parameters
+    ----------
+    tire_table_raw : DataFrame
+        Tire table of all files that could be read.
+    parameters : DedupeFilterParameters
+    represent : RepresentParameters
+        Says which coefficients must have a value.
+    target_category : str
+        Must be among the categories that remain.
+
+    Returns
+    -------
+    kept : DataFrame
+    report : DataFrame
+        One row a dropped file, with the reason.
+
+    Raises
+    ------
+    DomainError
+        If fewer than two categories remain, or the target is not among them.
+    """
+    kept, report = dedupe_and_filter(
+        tire_table_raw,
+        minimum_per_category=parameters.minimum_per_category,
+        features=needed_coefficients(represent),
+    )
+    counts = kept.groupby("category").size().to_dict()
+    have = ", ".join(f"{name} ({count})" for name, count in counts.items()) or "none"
+    if len(counts) < 2:
+        raise DomainError(
+            f"two categories are needed to tell actors apart; what remains: {have}",
+            where="dedupe_filter",
+            todo="add files of a second actor, or lower dedupe_filter.minimum_per_category",
+        )
+    if target_category not in counts:
+        raise DomainError(
+            f"the target category {target_category!r} has no usable files; what remains: {have}",
+            where="dedupe_filter",
+            todo="set target_category to one of these",
+        )
+    return kept, report

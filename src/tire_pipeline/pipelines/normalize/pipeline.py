@@ -1,0 +1,19 @@
+"""Table -> table at one nominal load."""
+
+from kedro.pipeline import Node, Pipeline
+
+from tire_pipeline.pipelines.normalize.nodes import to_one_nominal_load
+
+
+def create_pipeline(**_: object) -> Pipeline:
+    """Rewrite all coefficients for one nominal load."""
+    return Pipeline(
+        [
+            Node(
+                to_one_nominal_load,
+                inputs=["tire_table", "params:normalize"],
+                outputs="normalized_table",
+                name="to_one_nominal_load",
+            )
+        ]
+    )
