@@ -1,0 +1,25 @@
+"""The ``.tir`` text format: reading, writing, and the file kept as it is."""
+
+from tire_pipeline.errors import TirError, TirSyntaxError, TirValueError, TirVersionError
+from tire_pipeline.tir.decode import MAX_BYTES
+from tire_pipeline.tir.document import Entry, TirFile, parse_tir
+from tire_pipeline.tir.reading import read_tir
+from tire_pipeline.tir.sidecar import read_sidecar, sidecar_path, write_sidecar
+from tire_pipeline.tir.writing import tir_bytes, write_tir
+
+__all__ = [
+    "MAX_BYTES",
+    "Entry",
+    "TirError",
+    "TirFile",
+    "TirSyntaxError",
+    "TirValueError",
+    "TirVersionError",
+    "parse_tir",
+    "read_sidecar",
+    "read_tir",
+    "sidecar_path",
+    "tir_bytes",
+    "write_sidecar",
+    "write_tir",
+]

@@ -1,0 +1,279 @@
+"""What a ``.tir`` file means: coefficients and metadata in SI, the version, and what is odd about it."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+from dataclasses import dataclass, field
+
+from tire_pipeline.errors import TirSyntaxError, TirValueError
+from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.tir.document import Entry, Scan, TirFile, parse_tir
+from tire_pipeline.tir.keys import (
+    COEFFICIENT_SECTIONS,
+    DIMENSION,
+    FORCE_SECTIONS,
+    FREE_KEYS,
+    KEY_ALIASES,
+    NEVER_COEFFICIENTS,
+)
+from tire_pipeline.tir.plausibility import odd_values
+from tire_pipeline.tir.sidecar import read_sidecar
+from tire_pipeline.tir.units import FACTORS, QUANTITIES, dimension_factors, unit_factor
+from tire_pipeline.tir.values import parse_number
+from tire_pipeline.tir.version import detect_version
+
+_MAX_WARNINGS = 100
+_FORCE_COEFFICIENT = re.compile(r"[PQRS][A-Z]+\d+").fullmatch
+
+
+@dataclass(slots=True)
+class Reading:
+    """A file's values in SI and where each comes from.
+
+    ``origin`` holds the line and the factor to SI of each coefficient and metadata key, ``empty`` the same
+    for coefficients whose value is not there.
+    """
+
+    version: str = ""
+    coefficients: dict[str, float] = field(default_factory=dict)
+    metadata: dict[str, object] = field(default_factory=dict)
+    origin: dict[str, tuple[Entry, float]] = field(default_factory=dict)
+    empty: dict[str, tuple[Entry, float]] = field(default_factory=dict)
+    warnings: list[str] = field(default_factory=list)
+    factors: dict[str, float] = field(default_factory=dict)
+
+
+def read_tir(source: str | os.PathLike[str] | bytes, *, path: str | None = None) -> TireModel:
+    """Read a tire property file.
+
+    Values become SI (m, N, rad, kg, s, Pa) here, by the file's ``[UNITS]``, and nowhere else. The p, q, r, s
+    coefficients and the scale factors are taken as they are (:mod:`tire_pipeline.tir.units`). See
+    ``docs/tir_format.md`` for every rule.
+
+    Parameters
+    ----------
+    source : path or bytes
+        The file, or its content.
+    path : str, optional
+        What to call it in messages and in the model when ``source`` is bytes.
+
+    Returns
+    -------
+    TireModel
+        ``defaulted`` lists what the version's equations need and the file lacks.
+        ``metadata["warnings"]`` is a tuple of sentences about contradictions and oddities;
+        ``metadata["sidecar"]`` holds the corrections of ``<file>.sidecar.json`` if there is one beside the
+        file. ``source`` is the :class:`TirFile`.
+
+    Raises
+    ------
+    TirError
+        The path cannot be read.
+    TirSyntaxError
+        Empty, binary, over 5 MB, or without any Magic Formula coefficient.
+    TirValueError
+        A coefficient is not a number, is not finite, or has a value that the equations divide by (``FNOMIN =
+        0``, ``PCY1 = 0``); a unit is not known. With file, line and key.
+    TirVersionError
+        The version is not one that is known.
+
+    Examples
+    --------
+    >>> tire = read_tir("tire.tir")  # doctest: +SKIP
+    >>> tire.version, tire.defaulted  # doctest: +SKIP
+    ('5.2', {'PTX1': 0.0, ...})
+    """
+    file = parse_tir(source, path=path)
+    reading = interpret(file)
+    metadata = reading.metadata
+    metadata["warnings"] = tuple(_bounded(reading.warnings))
+    if file.path is not None and not isinstance(source, bytes | bytearray | memoryview):
+        sidecar = read_sidecar(file.path)
+        if sidecar is not None:
+            metadata["sidecar"] = sidecar
+    try:
+        return TireModel(
+            version=reading.version,
+            coefficients=reading.coefficients,
+            metadata=metadata,
+            source=file,
+            path=file.path,
+        )
+    except TirValueError as error:
+        raise _with_line(error, reading, file) from None
+
+
+def interpret(file: TirFile) -> Reading:
+    """Return the values of a file in SI; raises as :func:`read_tir`."""
+    scan = file.scan()
+    reading = Reading()
+    _read_units(scan, file, reading)
+    _read_entries(scan, file, reading)
+    if not any(map(_FORCE_COEFFICIENT, reading.coefficients)):
+        raise TirSyntaxError(
+            "there is no Magic Formula coefficient in it",
+            path=file.path,
+            todo="give a tire property file with sections such as [LATERAL_COEFFICIENTS]",
+        )
+    _read_version(scan, file, reading)
+    _note_side(reading)
+    _note_lines(scan, reading)
+    reading.warnings += odd_values(reading.coefficients, reading.metadata, reading.factors)
+    return reading
+
+
+def _read_units(scan: Scan, file: TirFile, reading: Reading) -> None:
+    units: dict[str, float] = {}
+    stated: dict[str, Entry] = {}
+    for entry in scan.entries:
+        if entry.section != "UNITS" or entry.key not in FACTORS or not entry.value:
+            continue
+        factor = unit_factor(entry.key, entry.value, path=file.path, line=entry.line)
+        if units.get(entry.key, factor) != factor:
+            reading.warnings.append(
+                f"two units of {entry.key} (lines {stated[entry.key].line} and {entry.line}): "
+                "the last is taken"
+            )
+        units[entry.key], stated[entry.key] = factor, entry
+    missing = [each for each in QUANTITIES if each not in units]
+    if missing:
+        reading.warnings.append(f"no unit of {', '.join(missing)}: taken as SI")
+    reading.factors = dimension_factors(units)
+
+
+def _read_entries(scan: Scan, file: TirFile, reading: Reading) -> None:
+    coefficients, metadata, origin, factors = (
+        reading.coefficients,
+        reading.metadata,
+        reading.origin,
+        reading.factors,
+    )
+    for entry in scan.entries:
+        section, key, text = entry.section, entry.key, entry.value
+        is_coefficient = section in COEFFICIENT_SECTIONS
+        if not is_coefficient and section not in NEVER_COEFFICIENTS:
+            is_coefficient = _is_free_coefficient(section, key)
+        if is_coefficient:
+            key = KEY_ALIASES.get(key, key)
+        name = key if is_coefficient else f"{section}.{key}"
+        if not text:
+            if is_coefficient:
+                reading.empty[key] = (entry, factors[DIMENSION.get(key, "")])
+                reading.warnings.append(f"{key} has no value (line {entry.line})")
+            continue
+        dimension = DIMENSION.get(key, "") if section not in NEVER_COEFFICIENTS else ""
+        factor = factors[dimension] if dimension else 1.0
+        number = parse_number(text)
+        if number is None:
+            if section in FORCE_SECTIONS or dimension:
+                raise _not_a_number(entry, file)
+            metadata[f"{section}.{key}"] = text
+            origin[f"{section}.{key}"] = (entry, 1.0)
+            continue
+        value = number if factor == 1.0 else number * factor
+        if not math.isfinite(value):
+            raise _not_a_number(entry, file)
+        if name in origin and not _replaces(entry, origin[name], value, name, reading):
+            continue
+        if is_coefficient:
+            coefficients[key] = value
+        else:
+            metadata[name] = value
+        origin[name] = (entry, factor)
+
+
+def _is_free_coefficient(section: str, key: str) -> bool:
+    key = KEY_ALIASES.get(key, key)
+    if key in FREE_KEYS:
+        return True
+    return section == "" and (_FORCE_COEFFICIENT(key) is not None or key in DIMENSION)
+
+
+def _replaces(entry: Entry, present: tuple[Entry, float], value: float, name: str, reading: Reading) -> bool:
+    """Whether a second value of a key replaces the first: the last one does, but an alias gives way to the
+    key."""
+    old = present[0]
+    held = reading.coefficients.get(name, reading.metadata.get(name))
+    new_is_alias, old_is_alias = entry.key != name, old.key != name
+    replaces = old_is_alias or not new_is_alias or name not in reading.coefficients
+    if held != value:
+        taken = entry.line if replaces else old.line
+        reading.warnings.append(
+            f"{name} has two values (lines {old.line} and {entry.line}): that of line {taken} is taken"
+        )
+    return replaces
+
+
+def _read_version(scan: Scan, file: TirFile, reading: Reading) -> None:
+    labels: dict[str, Entry] = {}
+    for entry in scan.entries:
+        if entry.key in ("FITTYP", "PROPERTY_FILE_FORMAT") and entry.value:
+            labels[entry.key] = entry
+    fittyp, file_format = labels.get("FITTYP"), labels.get("PROPERTY_FILE_FORMAT")
+    reading.version, warnings = detect_version(
+        fittyp=fittyp.value if fittyp else None,
+        file_format=file_format.value if file_format else None,
+        comment=_version_comment(file.text),
+        keys=reading.coefficients.keys(),
+        path=file.path,
+        line=fittyp.line if fittyp else None,
+    )
+    reading.warnings += warnings
+
+
+def _version_comment(text: str) -> str | None:
+    at = text.find("TIRE_VERSION")
+    if at < 0:
+        return None
+    start = max(text.rfind("\n", 0, at), text.rfind("\r", 0, at)) + 1
+    if text[start : start + 1] not in ("!", "$"):
+        return None
+    return text[at + len("TIRE_VERSION") : at + 80].splitlines()[0].strip(" \t:=")
+
+
+def _with_line(error: TirValueError, reading: Reading, file: TirFile) -> TirValueError:
+    line = reading.origin[error.key][0].line if error.key in reading.origin else None
+    return TirValueError(error.what, path=file.path, line=line, key=error.key, todo=error.todo)
+
+
+def _note_side(reading: Reading) -> None:
+    side = reading.metadata.get("MODEL.TYRESIDE")
+    if isinstance(side, str):
+        reading.metadata["MODEL.TYRESIDE"] = side.upper()
+        if side.upper() not in ("LEFT", "RIGHT", "UNKNOWN", "SYMMETRIC"):
+            reading.warnings.append(f"TYRESIDE = {side[:40]!r} is neither LEFT nor RIGHT")
+
+
+def _note_lines(scan: Scan, reading: Reading) -> None:
+    if scan.unread_count:
+        lines = ", ".join(map(str, scan.unread[:5]))
+        more = ", ..." if scan.unread_count > 5 else ""
+        reading.warnings.append(f"{scan.unread_count} lines are nothing known (lines {lines}{more})")
+    seen: dict[str, int] = {}
+    for section in scan.sections:
+        if section.name in seen:
+            first = seen[section.name]
+            reading.warnings.append(f"[{section.name[:40]}] stands twice (lines {first} and {section.line})")
+        seen[section.name] = section.line
+
+
+def _not_a_number(entry: Entry, file: TirFile) -> TirValueError:
+    todo = "give a number; a comment after it starts with $"
+    if "," in entry.value:
+        todo = "write the decimal point as a point"
+    return TirValueError(
+        f"{entry.key} = {entry.value[:40]!r} is not a finite number",
+        path=file.path,
+        line=entry.line,
+        key=entry.key,
+        todo=todo,
+    )
+
+
+def _bounded(warnings: list[str]) -> list[str]:
+    unique = list(dict.fromkeys(warnings))
+    if len(unique) <= _MAX_WARNINGS:
+        return unique
+    return [*unique[:_MAX_WARNINGS], f"and {len(unique) - _MAX_WARNINGS} more"]

@@ -1,0 +1,120 @@
+"""Corrections that a ``.tir`` file has no place for, kept in a JSON file beside it.
+
+``tire.tir`` has its corrections in ``tire.tir.sidecar.json``::
+
+    {
+      "format": "tire-pipeline sidecar",
+      "format_version": 1,
+      "effects": {"temperature": {"parameters": {"reference": 60.0, "slope": -0.004}}}
+    }
+
+``effects`` maps an effect's name to whatever that effect wrote; nothing in it is code, and reading checks
+only that it is JSON of that form.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from tire_pipeline.errors import TirError, TirSyntaxError
+from tire_pipeline.tir.atomic import write_bytes
+
+SUFFIX = ".sidecar.json"
+FORMAT = "tire-pipeline sidecar"
+FORMAT_VERSION = 1
+MAX_BYTES = 1_000_000
+
+
+def sidecar_path(path: str | os.PathLike[str]) -> Path:
+    """Return where the corrections of a ``.tir`` file are kept.
+
+    Examples
+    --------
+    >>> sidecar_path("a/tire.tir").name
+    'tire.tir.sidecar.json'
+    """
+    return Path(os.fspath(path) + SUFFIX)
+
+
+def read_sidecar(path: str | os.PathLike[str]) -> dict[str, dict[str, object]] | None:
+    """Return ``{effect: what it wrote}`` for a ``.tir`` file, or None if it has no sidecar.
+
+    Parameters
+    ----------
+    path : path
+        Of the ``.tir`` file, not of the sidecar.
+
+    Raises
+    ------
+    TirSyntaxError
+        It is larger than 1 MB, not JSON, or of another form.
+    """
+    file = sidecar_path(path)
+    try:
+        with open(file, "rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+    except FileNotFoundError:
+        return None
+    except (OSError, ValueError) as error:
+        raise TirError(f"cannot be read: {error}", path=str(file)) from error
+    if len(data) > MAX_BYTES:
+        raise _wrong(file, "is larger than 1 MB")
+    try:
+        content = json.loads(data, parse_constant=_no_constant)
+    except (ValueError, RecursionError) as error:
+        raise _wrong(file, f"is not JSON ({type(error).__name__})") from error
+    if not isinstance(content, dict) or content.get("format") != FORMAT:
+        raise _wrong(file, f"is not a {FORMAT!r}")
+    if content.get("format_version") != FORMAT_VERSION:
+        raise _wrong(file, f"has a format_version other than {FORMAT_VERSION}")
+    effects = content.get("effects")
+    if not isinstance(effects, dict) or not all(isinstance(each, dict) for each in effects.values()):
+        raise _wrong(file, "has no 'effects' that maps names to objects")
+    return effects
+
+
+def write_sidecar(path: str | os.PathLike[str], effects: Mapping[str, Mapping[str, object]]) -> Path:
+    """Write the corrections of a ``.tir`` file beside it, all or nothing; return the sidecar's path.
+
+    Parameters
+    ----------
+    path : path
+        Of the ``.tir`` file.
+    effects : mapping
+        Effect -> what it needs, as JSON can hold it; numbers finite.
+
+    Raises
+    ------
+    TirError
+        Something in it is not JSON.
+    """
+    file = sidecar_path(path)
+    content = {"format": FORMAT, "format_version": FORMAT_VERSION, "effects": effects}
+    try:
+        text = json.dumps(content, indent=1, allow_nan=False, default=_plain)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise TirError(f"the corrections do not fit JSON: {error}", path=str(file)) from error
+    write_bytes(file, text.encode(), overwrite=True)
+    return file
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, Mapping):
+        return dict(value)
+    item = getattr(value, "tolist", None)
+    if item is None:
+        raise TypeError(f"{type(value).__name__} is not a JSON value")
+    return item()
+
+
+def _no_constant(name: str) -> object:
+    raise ValueError(f"{name} is not a JSON number")
+
+
+def _wrong(file: Path, what: str) -> TirSyntaxError:
+    return TirSyntaxError(
+        f"the sidecar {what}", path=str(file), todo="write it again, or move it away to read the .tir alone"
+    )

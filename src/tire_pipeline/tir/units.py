@@ -1,0 +1,138 @@
+"""The names that the ``[UNITS]`` section may use, and what they are in SI.
+
+Names are those of Adams Tire ("Units Supported in Tire Property Files"; case is ignored) and the ones that
+other tools write. The coefficients of the Magic Formula (p, q, r, s) are never scaled: they are ratios, and
+where an angle enters they are per radian whatever ``ANGLE`` says. Project Chrono's PAC2002 reader does the
+same, and the MF-Tyre manual asks for SI units throughout.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+
+from tire_pipeline.errors import TirValueError
+
+_POUND = 0.45359237
+_GRAVITY = 9.80665
+_FOOT = 0.3048
+_LBF = _POUND * _GRAVITY
+_PSI = _LBF / (_FOOT / 12) ** 2
+
+_NAMES: dict[str, dict[float, str]] = {
+    "LENGTH": {
+        1.0: "M METER METERS METRE METRES",
+        1e-3: "MM MILLIMETER MILLIMETERS MILLIMETRE MILLIMETRES",
+        1e-2: "CM CENTIMETER CENTIMETERS CENTIMETRE CENTIMETRES",
+        1e3: "KM KILOMETER KILOMETERS KILOMETRE KILOMETRES",
+        _FOOT / 12: "IN INCH INCHES",
+        _FOOT: "FT FOOT FEET",
+        1609.344: "MILE MILES",
+    },
+    "FORCE": {
+        1.0: "N NEWTON NEWTONS",
+        1e3: "KN KNEWTON KNEWTONS KILONEWTON KILONEWTONS",
+        1e6: "MN MEGANEWTON MEGANEWTONS",
+        _LBF: "LBF LB LBS POUND POUNDS POUND_FORCE POUNDFORCE POUNDS_FORCE",
+        1e3 * _LBF: "KLBF KIP KIPS KPOUND_FORCE",
+        _GRAVITY: "KGF KG_FORCE KILOGRAM_FORCE KP KILOPOND",
+        _LBF / 16: "OZF OUNCE_FORCE",
+        1e-5: "DYN DYNE DYNES",
+    },
+    "ANGLE": {
+        1.0: "RAD RADIAN RADIANS",
+        math.pi / 180: "DEG DEGREE DEGREES",
+    },
+    "MASS": {
+        1.0: "KG KILOGRAM KILOGRAMS KILO",
+        1e-3: "G GRAM GRAMS",
+        1e3: "T TONNE TONNES MEGAGRAM",
+        _POUND: "LB LBS LBM POUND POUNDS POUND_MASS POUNDMASS POUNDS_MASS",
+        1e3 * _POUND: "KPOUND_MASS KLBM",
+        _LBF / _FOOT: "SLUG SLUGS",
+        _LBF / (_FOOT / 12): "SLINCH SLINCHES",
+        _POUND / 16: "OZ OUNCE_MASS",
+    },
+    "TIME": {
+        1.0: "S SEC SECS SECOND SECONDS",
+        1e-3: "MS MSEC MILLI MILLISECOND MILLISECONDS",
+        60.0: "MIN MINUTE MINUTES",
+        3600.0: "H HOUR HOURS",
+    },
+    "PRESSURE": {
+        1.0: "PA PASCAL PASCALS N/M^2 N/M2 NEWTON/METER^2",
+        1e2: "HPA MBAR MILLIBAR",
+        1e3: "KPA KPASCAL KILOPASCAL KILOPASCALS",
+        1e6: "MPA MPASCAL MEGAPASCAL MEGAPASCALS N/MM^2 N/MM2",
+        1e5: "BAR BARS",
+        _PSI: "PSI LBF/IN^2 LBF/IN2",
+        1e3 * _PSI: "KSI",
+    },
+    "SPEED": {
+        1.0: "M/S MPS METER/SECOND METERS/SECOND",
+        1e-3: "MM/S",
+        1 / 3.6: "KM/H KMH KPH",
+        1609.344 / 3600: "MPH MILES/HOUR",
+        _FOOT: "FT/S FPS",
+    },
+}
+FACTORS: dict[str, dict[str, float]] = {
+    quantity: {name: factor for factor, names in table.items() for name in names.split()}
+    for quantity, table in _NAMES.items()
+}
+"""Quantity -> unit name in capitals -> SI units in one of it."""
+
+QUANTITIES = ("LENGTH", "FORCE", "ANGLE", "MASS", "TIME")
+"""What every file should state; ``PRESSURE`` and ``SPEED`` are optional."""
+
+
+def unit_factor(quantity: str, name: str, *, path: str | None = None, line: int | None = None) -> float:
+    """Return how many SI units one unit of that name is.
+
+    Raises
+    ------
+    TirValueError
+        The name is not known. Taking SI instead would be a silent error by powers of ten.
+    """
+    table = FACTORS[quantity]
+    key = " ".join(name.split()).upper().replace(" ", "_").rstrip(".")
+    if key in table:
+        return table[key]
+    raise TirValueError(
+        f"{quantity} = {name[:60]!r} is not a unit that is known",
+        path=path,
+        line=line,
+        key=quantity,
+        todo=f"use one of {', '.join(_first_names(quantity))}",
+    )
+
+
+def _first_names(quantity: str) -> Iterable[str]:
+    return (names.split()[0] for names in _NAMES[quantity].values())
+
+
+def dimension_factors(units: Mapping[str, float]) -> dict[str, float]:
+    """Return the factor to SI for each dimension that a key can have.
+
+    Parameters
+    ----------
+    units : mapping
+        Quantity -> factor; what is missing counts as SI. Speed follows from length and time if it is not
+        stated.
+    """
+    length, force, angle, mass, time = (units.get(each, 1.0) for each in QUANTITIES)
+    return {
+        "": 1.0,
+        "length": length,
+        "force": force,
+        "angle": angle,
+        "mass": mass,
+        "time": time,
+        "pressure": units.get("PRESSURE", 1.0),
+        "speed": units.get("SPEED", length / time),
+        "stiffness": force / length,
+        "damping": force * time / length,
+        "yaw stiffness": force * length / angle,
+        "inertia": mass * length**2,
+        "acceleration": length / time**2,
+    }

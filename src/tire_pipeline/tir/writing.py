@@ -1,0 +1,92 @@
+"""Write a tire model as a ``.tir`` file."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from tire_pipeline.errors import TirError
+from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.tir.atomic import write_bytes
+from tire_pipeline.tir.document import TirFile
+from tire_pipeline.tir.edits import edited_source
+from tire_pipeline.tir.fresh import fresh_text
+from tire_pipeline.tir.sidecar import sidecar_path, write_sidecar
+from tire_pipeline.tir.version import as_version
+
+
+def write_tir(
+    model: TireModel,
+    path: str | os.PathLike[str],
+    *,
+    comments: str | Iterable[str] | None = None,
+    version: str | None = None,
+    overwrite: bool = False,
+    complete: bool | None = None,
+) -> Path:
+    """Write a model as a tire property file, all or nothing.
+
+    A model that was read from a file keeps that file's order, comments, tables, line ends, units and
+    encoding; a value that was not changed keeps its printed digits, and one that was is written with as many
+    digits as give exactly that value again. A model without a file gets a new one in SI units, with the
+    standard sections.
+
+    Parameters
+    ----------
+    model : TireModel
+    path : path
+    comments : str or sequence of str, optional
+        Comment lines to add at the top. Control characters, brackets and ``$`` in them are replaced.
+    version : str, optional
+        Write it as another version.
+    overwrite : bool
+        Replace a file that is there, be it the model's own source.
+    complete : bool, optional
+        Whether to write what stands in for coefficients that the model lacks (``defaulted``), each with a
+        comment that says so. By default only where there is no source file: other tools expect all keys.
+
+    Returns
+    -------
+    Path
+        The file written. Corrections in ``metadata["sidecar"]`` go beside it (:mod:`.sidecar`).
+
+    Raises
+    ------
+    TirError
+        A file of that name, or its sidecar, is there and ``overwrite`` is False.
+    TirVersionError
+        The model cannot be written as that version.
+    OSError
+        The folder is absent or may not be written, the disk is full. No part of a file is left then.
+    """
+    target = Path(path)
+    if version is not None:
+        model = as_version(model, version)
+    sidecar = model.metadata.get("sidecar")
+    beside = sidecar_path(target)
+    if beside.exists() and not overwrite:
+        raise TirError(
+            "there are corrections for a file of that name",
+            path=str(beside),
+            todo="choose another name, or pass overwrite=True",
+        )
+    write_bytes(target, tir_bytes(model, comments=comments, complete=complete), overwrite=overwrite)
+    if isinstance(sidecar, Mapping) and sidecar:
+        write_sidecar(target, sidecar)
+    else:
+        beside.unlink(missing_ok=True)
+    return target
+
+
+def tir_bytes(
+    model: TireModel,
+    *,
+    comments: str | Iterable[str] | None = None,
+    complete: bool | None = None,
+) -> bytes:
+    """Return the content that :func:`write_tir` writes."""
+    lines = [comments] if isinstance(comments, str) else list(comments or ())
+    if isinstance(model.source, TirFile):
+        return edited_source(model, model.source, lines, complete=bool(complete)).to_bytes()
+    return fresh_text(model, lines, complete=complete is not False).encode("utf-8")
