@@ -116,7 +116,7 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
     noise = np.hypot(mass * arm / length * motion.ay_std, per_yaw * motion.yaw_acceleration_std)
     unsure = np.sqrt(
         (vehicle.inertia_std * motion.yaw_acceleration / length) ** 2
-        + (vehicle.mass_std / mass * fy) ** 2
+        + (vehicle.axle_mass_std * ay) ** 2
         + (mass * arm / length * motion.yaw_acceleration * vehicle.marker_offset_std) ** 2
         + (mass * arm / length * motion.ax * vehicle.yaw_offset_std) ** 2
     )
@@ -141,7 +141,7 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
     shift = mass * motion.ax / length * (1.0 if rear else -1.0)
     load = static * GRAVITY + shift * height
     load_std = np.sqrt(
-        (vehicle.mass_std * static / mass * GRAVITY) ** 2
+        (vehicle.axle_mass_std * GRAVITY) ** 2
         + (shift * vehicle.cg_height_std) ** 2
         + (mass / length * height * motion.ax_std) ** 2
     )

@@ -129,32 +129,27 @@ def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMo
     good = ~reached_by_gap(missing, smoother.reach, BRIDGED_SAMPLES)
     # Window ends extrapolate: cut them.
     good[: smoother.reach] = good[-smoother.reach :] = False
-    index, here = np.arange(len(table)), np.flatnonzero(~missing)
-    x, y = (np.interp(index, here, table[c].to_numpy(dtype=float)[here]) for c in ("x", "y"))
-    unwrapped = np.unwrap(table["yaw"].to_numpy(dtype=float)[here])
-    yaw = np.interp(index, here, unwrapped) + vehicle.yaw_offset
+    x, y, yaw = _bridged(table, missing)
+    yaw = yaw + vehicle.yaw_offset
     world_x, world_y, turning = smoother.first(x), smoother.first(y), smoother.first(yaw)
     cos, sin = np.cos(yaw), np.sin(yaw)
-    ahead_rate, left_rate = world_x * cos + world_y * sin, world_y * cos - world_x * sin
     # A marker to the left of the middle line moves ahead by -lateral * yaw rate.
-    ahead_rate = ahead_rate + vehicle.marker_lateral * turning
-    vx, vy, rate = (smoother.smooth(s) for s in (ahead_rate, left_rate, turning))
-    vx_dot, vy_dot, rate_dot = (smoother.smooth(s, 1) for s in (ahead_rate, left_rate, turning))
-    moving = ~missing & good & (np.hypot(vx, vy) > 0.1 * np.nanmax(np.hypot(vx, vy)))
-    position_std = float(
-        np.sqrt(np.mean([white_noise_std(np.where(moving, s, np.nan)) ** 2 for s in (x, y)]))
-    )
-    yaw_std = white_noise_std(np.where(moving, yaw, np.nan))
-    more_vy = smoother.inflation(left_rate, position_std, moving)
-    more_vx = smoother.inflation(ahead_rate, position_std, moving)
+    ahead = world_x * cos + world_y * sin + vehicle.marker_lateral * turning
+    left = world_y * cos - world_x * sin
+    vx, vy, rate = (smoother.smooth(s) for s in (ahead, left, turning))
+    vx_dot, vy_dot, rate_dot = (smoother.smooth(s, 1) for s in (ahead, left, turning))
+    speed = np.hypot(vx, vy)
+    moving = ~missing & good & (speed > 0.1 * speed.max())
+    stds = [white_noise_std(np.where(moving, s, np.nan)) for s in (x, y, yaw)]
+    position_std, yaw_std = float(np.hypot(*stds[:2]) / np.sqrt(2)), stds[2]
+    more_vx, more_vy = (smoother.inflation(s, position_std, moving) for s in (ahead, left))
     more_yaw = smoother.inflation(turning, yaw_std, moving)
-    g0, g1, h0, h1 = (smoother.gain(a, b) for a, b in ((1, 0), (1, 1), (0, 0), (0, 1)))
+    g0, g1, h0 = (smoother.gain(a, b) for a, b in ((1, 0), (1, 1), (0, 0)))
     one = np.ones_like(vx)
-    vx_std = one * more_vx * position_std * g0
+    vx_std, vx_dot_std = one * more_vx * position_std * g0, one * more_vx * position_std * g1
     vy_std = np.hypot(more_vy * position_std * g0, vx * yaw_std * h0)
+    turned = more_yaw * yaw_std * smoother.rotation_gain()
     rate_std, rate_dot_std = one * more_yaw * yaw_std * g0, one * more_yaw * yaw_std * g1
-    vx_dot_std = one * more_vx * position_std * g1
-    vy_dot_std = np.hypot(more_vy * position_std * g1, vx * yaw_std * h1)
     return BodyMotion(
         time=table["time"].to_numpy(dtype=float),
         ahead=vehicle.marker_offset,
@@ -168,8 +163,8 @@ def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMo
         vy_std=vy_std,
         yaw_rate_std=rate_std,
         yaw_acceleration_std=rate_dot_std,
-        ax_std=np.sqrt(vx_dot_std**2 + (vy * rate_std) ** 2 + (rate * vy_std) ** 2),
-        ay_std=np.sqrt(vy_dot_std**2 + (vx * rate_std) ** 2 + (rate * vx_std) ** 2),
+        ax_std=np.sqrt(vx_dot_std**2 + (vy * turned) ** 2 + (rate * vy_std) ** 2),
+        ay_std=np.sqrt((more_vy * position_std * g1) ** 2 + (vx * turned) ** 2 + (rate * vx_std) ** 2),
         good=good,
         smoother=smoother,
         noise={
@@ -180,4 +175,15 @@ def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMo
             "missing_share": float(missing.mean()),
         },
         notes=notes,
+    )
+
+
+def _bridged(table: pd.DataFrame, missing: NDArray[np.bool_]) -> tuple[Array, Array, Array]:
+    """Position and unwrapped yaw with straight lines over what is missing."""
+    index, here = np.arange(len(table)), np.flatnonzero(~missing)
+    x, y, yaw = (table[c].to_numpy(dtype=float)[here] for c in ("x", "y", "yaw"))
+    return (
+        np.interp(index, here, x),
+        np.interp(index, here, y),
+        np.interp(index, here, np.unwrap(yaw)),
     )

@@ -32,7 +32,7 @@ DART_CAR = Vehicle(
     wheelbase=0.1735,
     yaw_inertia=0.0048,
     yaw_inertia_std=0.0015,
-    mass_std=0.01,
+    axle_mass_std=0.005,
     track=0.08,
     cg_height=0.035,
     cg_height_std=0.015,
@@ -90,7 +90,7 @@ def read_dart(path: str | Path) -> pd.DataFrame:
     frames, delayed = _frames(stamp)
     _, first = np.unique(frames, return_index=True)
     count = int(frames[-1]) + 1
-    time: Array = np.arange(count) * _FRAME
+    time = np.asarray(np.arange(count) * _FRAME, dtype=np.float64)
     out = pd.DataFrame({"time": time})
     for theirs, ours in _POSE.items():
         values = raw[theirs].to_numpy()

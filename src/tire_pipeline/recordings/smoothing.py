@@ -65,6 +65,19 @@ class Smoother:
             last = np.convolve(savgol_coeffs(self.short, _ORDER, deriv=1, delta=self.dt), last)
         return float(np.linalg.norm(last))
 
+    def rotation_gain(self) -> float:
+        """Gain from noise of the yaw angle to ``(d v_y/dt + yaw rate v_x) / v_x``.
+
+        The yaw's error turns the velocity one way and enters the yaw rate the other way. The two
+        cancel but for the difference of the filters that they pass.
+        """
+        direct = savgol_coeffs(self.long, _ORDER, deriv=1, delta=self.dt)
+        rate = np.convolve(
+            savgol_coeffs(self.short, _ORDER, deriv=1, delta=self.dt),
+            savgol_coeffs(self.long, _ORDER, deriv=0, delta=self.dt),
+        )
+        return float(np.linalg.norm(rate - np.pad(direct, (self.short - 1) // 2)))
+
     def inflation(self, rate: Array, input_std: float, good: NDArray[np.bool_]) -> float:
         """How much stronger the noise is near the band than white noise of ``input_std`` would be.
 

@@ -26,8 +26,8 @@ class Vehicle:
         About the vertical axis through the centre of gravity, kg m^2.
     yaw_inertia_std : float, optional
         Its standard uncertainty. Left out: 20% of the value, as it is hardly ever measured.
-    mass_std : float, optional
-        Standard uncertainty of the mass, kg.
+    axle_mass_std : float, optional
+        Standard uncertainty of the mass that each axle carries, kg.
     track : float, optional
         Distance between left and right wheels, m; carried along, not used by the single track.
     cg_height, cg_height_std : float, optional
@@ -55,7 +55,7 @@ class Vehicle:
     wheelbase: float
     yaw_inertia: float
     yaw_inertia_std: float | None = None
-    mass_std: float = 0.0
+    axle_mass_std: float = 0.0
     track: float | None = None
     cg_height: float | None = None
     cg_height_std: float = 0.0
