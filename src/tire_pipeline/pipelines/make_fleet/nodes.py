@@ -6,7 +6,8 @@ from typing import Literal
 
 from pydantic import Field
 
-from tire_pipeline.fleet import FleetSettings, make_fleet, truth_files
+from tire_pipeline.fleet import FleetSettings, make_fleet
+from tire_pipeline.fleet.write import truth_files
 from tire_pipeline.pipelines.parameters import Parameters
 
 

@@ -1,0 +1,188 @@
+"""Who measured a tire: three classifiers, two splits, always both."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from pydantic import Field
+
+from tire_pipeline.classifiers.evaluate import Evaluation, evaluate_classifier
+from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.progress import track
+from tire_pipeline.reporting import new_figure
+
+SPLITS = ("random", "by_tire")
+NAMES = ("random_forest", "ann", "naive_bayes")
+_NOT_FEATURES = ["file", "category", "tire_id"]
+
+
+class ForestParameters(Parameters):
+    """Size of the forest (thesis, Table 5.5)."""
+
+    trees: int = Field(30, ge=1, le=1000)
+    depth: int = Field(10, ge=1, le=100)
+
+
+class AnnParameters(Parameters):
+    """Training of the ANN (thesis, Table 5.4)."""
+
+    epochs: int = Field(300, ge=1)
+    batch_size: int = Field(32, ge=1)
+    learning_rate: float = Field(1e-3, gt=0)
+    weight_decay: float = Field(0.01, ge=0)
+
+
+class TrainClassifierParameters(Parameters):
+    """Parameters of ``train_classifier``.
+
+    Attributes
+    ----------
+    smote : bool
+        Balance the training set with SMOTE.
+    trainings : int
+        Figures are means over this many.
+    forest : ForestParameters
+    ann : AnnParameters
+    """
+
+    smote: bool = True
+    trainings: int = Field(10, ge=1)
+    forest: ForestParameters = ForestParameters()
+    ann: AnnParameters = AnnParameters()
+
+    def options(self, name: str) -> dict[str, Any]:
+        """Constructor arguments of one classifier."""
+        forest = {"n_trees": self.forest.trees, "max_depth": self.forest.depth}
+        own = {"random_forest": forest, "ann": self.ann.model_dump()}
+        return {"smote": self.smote, **own.get(name, {})}
+
+
+def split_rows(table: pd.DataFrame, splits: pd.DataFrame, split: str) -> tuple[np.ndarray, np.ndarray]:
+    """Row numbers of the training and the test part of one split."""
+    part = splits.set_index("file").loc[table["file"], split].to_numpy()
+    return np.flatnonzero(part == "train"), np.flatnonzero(part == "test")
+
+
+def score_classifiers(
+    features: pd.DataFrame, splits: pd.DataFrame, parameters: TrainClassifierParameters, seed: int
+) -> pd.DataFrame:
+    """Accuracy and weighted F1 of each classifier on both splits (thesis, Table 5.6).
+
+    Parameters
+    ----------
+    features : DataFrame
+        ``file, category, tire_id`` and the features, without bins.
+    splits : DataFrame
+        ``file, random, by_tire``.
+    parameters : TrainClassifierParameters
+    seed : int
+
+    Returns
+    -------
+    DataFrame
+        ``features, classifier, split, smote, accuracy, accuracy_std, f1, f1_std, trainings``.
+    """
+    seeds = range(seed, seed + parameters.trainings)
+    values, labels = _arrays(features)
+    rows = []
+    for name, split in track([(n, s) for n in NAMES for s in SPLITS], "training classifiers"):
+        train, test = split_rows(features, splits, split)
+        result = evaluate_classifier(
+            name, values, labels, train, test, seeds=seeds, **parameters.options(name)
+        )
+        rows.append(_score_row("as they are", name, split, parameters, result))
+    return pd.DataFrame(rows)
+
+
+def train_forest(
+    binned_features: pd.DataFrame,
+    binned_features_by_tire: pd.DataFrame,
+    splits: pd.DataFrame,
+    parameters: TrainClassifierParameters,
+    seed: int,
+) -> tuple[dict[str, Any], pd.DataFrame, pd.DataFrame, Figure]:
+    """Train the agent's forest on bins, and measure it on both splits.
+
+    Parameters
+    ----------
+    binned_features, binned_features_by_tire : DataFrame
+        Bin numbers, by the training set of each split.
+    splits : DataFrame
+    parameters : TrainClassifierParameters
+    seed : int
+
+    Returns
+    -------
+    classifier : dict
+        State of the forest trained on the random split (the thesis' one).
+    scores : DataFrame
+        As :func:`score_classifiers`.
+    per_class : DataFrame
+        ``split, category, precision, recall, f1, rows``.
+    confusion : Figure
+    """
+    seeds = range(seed, seed + parameters.trainings)
+    results: dict[str, Evaluation] = {}
+    for split, table in zip(SPLITS, (binned_features, binned_features_by_tire), strict=True):
+        values, labels = _arrays(table)
+        train, test = split_rows(table, splits, split)
+        results[split] = evaluate_classifier(
+            "random_forest", values, labels, train, test, seeds=seeds, **parameters.options("random_forest")
+        )
+    scores = [_score_row("in bins", "random_forest", s, parameters, r) for s, r in results.items()]
+    per_class = pd.concat(
+        [r.per_class.rename_axis("category").reset_index().assign(split=s) for s, r in results.items()]
+    )
+    first = ["split", "category"]
+    per_class = per_class[first + [c for c in per_class.columns if c not in first]]
+    state = results["random"].classifiers[0].to_state()
+    return state, pd.DataFrame(scores), per_class, confusion_figure(results)
+
+
+def join_scores(features: pd.DataFrame, bins: pd.DataFrame) -> pd.DataFrame:
+    """One table of scores."""
+    return pd.concat([features, bins], ignore_index=True)
+
+
+def confusion_figure(results: dict[str, Evaluation]) -> Figure:
+    """Confusion matrices side by side, as shares of each true category."""
+    figure, axes = new_figure(1, len(results), width=4.6 * len(results), height=4.2)
+    words = {"random": "random split", "by_tire": "split by physical tire"}
+    for one, (split, result) in zip(np.atleast_1d(np.asarray(axes)), results.items(), strict=True):
+        shares = result.confusion.div(result.confusion.sum(axis=1), axis=0).fillna(0.0)
+        one.imshow(shares, vmin=0, vmax=1, cmap="Blues")
+        one.grid(False)
+        one.set_xticks(range(len(shares)), shares.columns)
+        one.set_yticks(range(len(shares)), shares.index)
+        one.set_xlabel("predicted category")
+        one.set_ylabel("true category")
+        one.set_title(f"{words[split]}: accuracy {result.accuracy:.3f}")
+        for row, values in enumerate(shares.to_numpy()):
+            for column, value in enumerate(values):
+                ink = "white" if value > 0.5 else "black"
+                one.text(column, row, f"{value:.2f}", ha="center", va="center", color=ink, fontsize=8)
+    return figure
+
+
+def _arrays(table: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
+    values = table.drop(columns=_NOT_FEATURES).to_numpy(dtype=float)
+    return values, table["category"].to_numpy(dtype=str)
+
+
+def _score_row(
+    features: str, name: str, split: str, parameters: TrainClassifierParameters, result: Evaluation
+) -> dict[str, Any]:
+    return {
+        "features": features,
+        "classifier": name,
+        "split": split,
+        "smote": parameters.smote,
+        "accuracy": result.accuracy,
+        "accuracy_std": float(result.scores["accuracy"].std(ddof=0)),
+        "f1": result.f1,
+        "f1_std": float(result.scores["f1"].std(ddof=0)),
+        "trainings": parameters.trainings,
+    }

@@ -1,0 +1,41 @@
+"""Features -> classifiers, measured on both splits."""
+
+from kedro.pipeline import Node, Pipeline
+
+from tire_pipeline.pipelines.train_classifier.nodes import (
+    join_scores,
+    score_classifiers,
+    train_forest,
+)
+
+
+def create_pipeline(**_: object) -> Pipeline:
+    """Train and measure the classifiers."""
+    return Pipeline(
+        [
+            Node(
+                score_classifiers,
+                inputs=["features", "splits", "params:train_classifier", "params:seed"],
+                outputs="scores_of_features",
+                name="score_classifiers",
+            ),
+            Node(
+                train_forest,
+                inputs=[
+                    "binned_features",
+                    "binned_features_by_tire",
+                    "splits",
+                    "params:train_classifier",
+                    "params:seed",
+                ],
+                outputs=["classifier", "scores_of_bins", "classifier_per_class", "confusion_matrix"],
+                name="train_forest",
+            ),
+            Node(
+                join_scores,
+                inputs=["scores_of_features", "scores_of_bins"],
+                outputs="classifier_scores",
+                name="join_scores",
+            ),
+        ]
+    )
