@@ -88,7 +88,7 @@ def canonical_frame(
         )
     frame = _ordered(columns)
     to_iso_w(frame, origin, raw.constants, axes, notes, conversions, source)
-    repeats = _repeats(frame, notes)
+    frame, repeats = _repeats(frame, notes)
     frame = frame.reset_index(drop=True)
     frame.attrs = {
         "source": source,
@@ -182,19 +182,20 @@ def _ordered(columns: dict[str, NDArray[np.float64]]) -> pd.DataFrame:
     return pd.DataFrame({c: columns[c] for c in (*first, *rest)}, copy=False)
 
 
-def _repeats(frame: pd.DataFrame, notes: list[str]) -> dict[str, int]:
+def _repeats(frame: pd.DataFrame, notes: list[str]) -> tuple[pd.DataFrame, dict[str, int]]:
     """Drop identical rows that repeat a time stamp; count the others and repeated points."""
     counts = {"identical_rows_dropped": 0, "repeated_stamps": 0, "backward_stamps": 0}
     if "time" not in frame:
         points = [c for c in ("slip_angle", "slip_ratio", "camber", "normal_load") if c in frame]
         if points and len(frame) > 1:
             steps = {"slip_angle": 2e-3, "slip_ratio": 2e-3, "camber": 4e-3}
-            load = float(np.nanmax(np.abs(frame["normal_load"]))) if "normal_load" in frame else 1.0
-            steps["normal_load"] = 0.02 * load if np.isfinite(load) and load > 0 else 1.0
+            loads = np.abs(frame["normal_load"].to_numpy()) if "normal_load" in frame else np.ones(1)
+            loads = loads[np.isfinite(loads)]
+            steps["normal_load"] = 0.02 * float(loads.max(initial=0.0)) or 1.0
             with np.errstate(over="ignore", invalid="ignore"):
                 grid = pd.DataFrame({c: np.round(frame[c] / steps[c]) for c in points})
             counts["repeated_points"] = int(grid.duplicated(keep=False).sum())
-        return counts
+        return frame, counts
     time = frame["time"].to_numpy()
     with np.errstate(invalid="ignore"):
         step = np.diff(time)
@@ -206,11 +207,11 @@ def _repeats(frame: pd.DataFrame, notes: list[str]) -> dict[str, int]:
         counts["identical_rows_dropped"] = int(same.sum())
         counts["repeated_stamps"] = int((~same).sum())
         if same.any():
-            frame.drop(index=frame.index[where[same]], inplace=True)
+            frame = frame.drop(index=frame.index[where[same]])
             notes.append(f"{same.sum()} rows that repeat the row before them were dropped")
         if (~same).any():
             notes.append(f"{(~same).sum()} time stamps repeat with other values: kept (see check_recording)")
     counts["backward_stamps"] = int((step < 0).sum())
     if counts["backward_stamps"]:
         notes.append(f"time runs backwards {counts['backward_stamps']} times: rows kept in the file's order")
-    return counts
+    return frame, counts

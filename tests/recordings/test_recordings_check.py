@@ -1,0 +1,63 @@
+"""What check_recording finds, and where."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from tire_pipeline.recordings import check_recording
+
+
+def good(count=400):
+    t = np.arange(count) * 0.01
+    return pd.DataFrame(
+        {
+            "time": t,
+            "slip_angle": 0.1 * np.sin(t),
+            "normal_load": 3000.0,
+            "fy": -2000 * np.sin(t),
+        }
+    )
+
+
+def test_nothing_wrong():
+    assert check_recording(good()) == []
+
+
+def cut(frame, **columns):
+    for name, (rows, value) in columns.items():
+        frame.loc[rows, name] = value
+    return frame
+
+
+@pytest.mark.parametrize(
+    ("frame", "name", "severity", "rows"),
+    [
+        (good().drop(columns="fy"), "no_force_channel", "error", ()),
+        (good().drop(columns="normal_load"), "no_normal_load", "error", ()),
+        (good().drop(columns="slip_angle"), "no_slip_channel", "error", ()),
+        (good(10), "few_samples", "error", ()),
+        (cut(good(), time=(200, 1.985)), "time_runs_backwards", "error", ((200, 200),)),
+        (cut(good(), time=(7, np.nan)), "time_not_finite", "error", ((7, 7),)),
+        (cut(good(), time=(7, 0.06)), "repeated_time_stamps", "warning", ((7, 7),)),
+        (good().drop(index=range(100, 150)), "gaps_in_time", "warning", ((100, 100),)),
+        (cut(good(), fy=(slice(20, 49), np.nan)), "missing_block", "warning", ((20, 49),)),
+        (good().assign(fx=np.nan), "empty_channel", "warning", ()),
+        (good().assign(slip_angle=lambda d: d.slip_angle * 57.3), "angle_in_degrees", "error", ()),
+        (good().assign(normal_load=-3000.0), "no_positive_load", "error", ()),
+    ],
+)
+def test_each_fault_is_found_where_it_is(frame, name, severity, rows):
+    issues = check_recording(frame)
+    assert [i.name for i in issues] == [name]
+    assert issues[0].severity == severity
+    assert issues[0].rows == rows
+    assert issues[0].advice in str(issues[0])
+
+
+def test_errors_come_first():
+    frame = good().drop(columns="normal_load").drop(index=range(100, 150))
+    assert [i.severity for i in check_recording(frame)] == ["error", "warning"]
+
+
+def test_a_few_missing_values_are_no_issue():
+    assert check_recording(cut(good(), fy=([5, 9, 30], np.nan))) == []
