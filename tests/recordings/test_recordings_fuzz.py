@@ -19,6 +19,8 @@ from tire_pipeline.recordings import check_recording, read_recording
 SUFFIX = {"TYDEX": ".tdx", "CSV": ".csv", "MDF4": ".mf4", "MAT": ".mat", "Parquet": ".parquet"}
 QUICK, LONG = 400, 20_000  # for each of the five formats
 FOLDER = TemporaryDirectory()
+# asammdf closes in __del__ what it could not open; that is its noise, not ours.
+pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 
 
 @cache
@@ -46,18 +48,17 @@ def whole(kind: str) -> bytes:
     return file.read_bytes()
 
 
-EDITS = st.lists(
-    st.tuples(
-        st.floats(0, 1, exclude_max=True),
-        st.sampled_from(["set", "insert", "delete", "copy"]),
-        st.binary(min_size=1, max_size=8)
-        | st.sampled_from(
-            [b"\xff" * 8, b"\0" * 8, b"1e999", b"nan", b",", b"\n", b"**END\n", b"\xef\xbb\xbf"]
-        ),
-    ),
-    min_size=1,
-    max_size=6,
+PATCH = st.binary(min_size=1, max_size=8) | st.sampled_from(
+    [b"\xff" * 8, b"\0" * 8, b"1e999", b"nan", b",", b"\n", b"**END\n"]
 )
+PLACE = st.floats(0, 1, exclude_max=True)
+# Insertions shift all that follows, which a binary file hardly survives: half of the cases only
+# overwrite a few bytes, so that the inner parts of the parsers are reached too.
+ROUGH = st.lists(
+    st.tuples(PLACE, st.sampled_from(["set", "insert", "delete", "copy"]), PATCH), min_size=1, max_size=6
+)
+FINE = st.lists(st.tuples(PLACE, st.just("set"), st.binary(min_size=1, max_size=2)), min_size=1, max_size=3)
+CASES = st.tuples(FINE, st.just(1.0)) | st.tuples(ROUGH, st.floats(0, 2))
 
 
 def damaged(kind: str, edits, keep: float) -> bytes:
@@ -96,10 +97,10 @@ def fuzz(kind: str, count: int) -> None:
     read = 0
 
     @settings(max_examples=count, deadline=None, database=None, suppress_health_check=list(HealthCheck))
-    @given(EDITS, st.floats(0, 2))
-    def run(edits, keep):
+    @given(CASES)
+    def run(case):
         nonlocal read
-        read += try_to_read(kind, damaged(kind, edits, keep))
+        read += try_to_read(kind, damaged(kind, *case))
 
     run()
     # Damage that always or never shows would be no test.
