@@ -1,6 +1,7 @@
 """The Magic Formula engine: tire models, their forces, and what is done with their coefficients."""
 
 from tire_pipeline.magic_formula.axes import AXES
+from tire_pipeline.magic_formula.batch import forces_batch, model_of, pack, pack_matrix
 from tire_pipeline.magic_formula.coefficients import COEFFICIENT_NAMES
 from tire_pipeline.magic_formula.forces import TireForces
 from tire_pipeline.magic_formula.inputs import DegreesWarning, TireRangeWarning
@@ -15,4 +16,8 @@ __all__ = [
     "TireForces",
     "TireModel",
     "TireRangeWarning",
+    "forces_batch",
+    "model_of",
+    "pack",
+    "pack_matrix",
 ]

@@ -1,9 +1,10 @@
 """Axis systems by name: the signs that turn each one's quantities into ISO W ones.
 
-- ISO (ISO 8855, W axes): x forward, y left, z up. A positive slip angle is a contact point that moves to the left.
+- ISO (ISO 8855, W axes): x forward, y left, z up. A positive slip angle is a contact point that moves to
+  the left.
 - SAE (J670): x forward, y right, z down. A positive slip angle is a contact point that moves to the right.
-- adapted SAE (Pacejka's book): the SAE axes, but a positive slip angle is a contact point that moves to the left, so
-  that it gives a positive side force.
+- adapted SAE (Pacejka's book): the SAE axes, but a positive slip angle is a contact point that moves to the
+  left, so that it gives a positive side force.
 
 Camber is positive in all three when the wheel's top leans to the right. docs/axes.md shows each sign.
 """

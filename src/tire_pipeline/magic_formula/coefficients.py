@@ -1,4 +1,4 @@
-"""The coefficients that each version's equations use, what stands in for missing ones, and the packed order."""
+"""The coefficients that each version uses, what stands in for missing ones, and the packed order."""
 
 from __future__ import annotations
 
@@ -20,10 +20,32 @@ def _numbered(prefix: str, *numbers: int) -> list[str]:
 GENERAL = ["FNOMIN", "UNLOADED_RADIUS", "LONGVL"]
 PRESSURE = ["NOMPRES", "INFLPRES"]
 
-_SCALE_BOTH = (
-    "LFZO LCX LMUX LEX LKX LHX LVX LCY LMUY LEY LKY LHY LVY LTR LRES LXAL LYKA LVYKA LS LMX LVMX LMY "
-    "LSGKP LSGAL"
-).split()
+_SCALE_BOTH = [
+    "LFZO",
+    "LCX",
+    "LMUX",
+    "LEX",
+    "LKX",
+    "LHX",
+    "LVX",
+    "LCY",
+    "LMUY",
+    "LEY",
+    "LKY",
+    "LHY",
+    "LVY",
+    "LTR",
+    "LRES",
+    "LXAL",
+    "LYKA",
+    "LVYKA",
+    "LS",
+    "LMX",
+    "LVMX",
+    "LMY",
+    "LSGKP",
+    "LSGAL",
+]
 _SCALE_5 = ["LGAX", "LGAY", "LGAZ"]
 _SCALE_6 = ["LKYC", "LKZC", "LMP"]
 SCALE_FACTORS = _SCALE_BOTH + _SCALE_5 + _SCALE_6
@@ -146,8 +168,8 @@ def family_of(version: str) -> int:
 def missing_defaults(coefficients: Mapping[str, float], version: str) -> dict[str, float]:
     """Return the coefficients that the version's equations use and that are missing, with what stands in.
 
-    A missing scale factor is 1, ``PKY4`` 2 and ``QSY7`` 1 (both give the 5.2 form), ``LONGVL`` 16.7 m/s, ``NOMPRES``
-    takes ``INFLPRES`` and the other way round, everything else 0.
+    A missing scale factor is 1, ``PKY4`` 2 and ``QSY7`` 1 (both give the 5.2 form), ``LONGVL`` 16.7 m/s,
+    ``NOMPRES`` takes ``INFLPRES`` and the other way round, everything else 0.
     """
     missing = {
         name: _DEFAULTS[name] for name in NAMES_BY_FAMILY[family_of(version)] if name not in coefficients
@@ -161,8 +183,8 @@ def missing_defaults(coefficients: Mapping[str, float], version: str) -> dict[st
 def check_values(coefficients: Mapping[str, float], path: str | None = None) -> None:
     """Raise :class:`TirValueError`, naming the key, for values that no equation can use.
 
-    Not finite or not a number; ``FNOMIN`` missing, zero or negative; a divisor (``PCX1``, ``PCY1``, ``PKY2``, some
-    scale factors) that is zero.
+    Not finite or not a number; ``FNOMIN`` missing, zero or negative; a divisor (``PCX1``, ``PCY1``,
+    ``PKY2``, some scale factors) that is zero.
     """
     if "FNOMIN" not in coefficients:
         raise TirValueError(
@@ -199,7 +221,7 @@ def check_values(coefficients: Mapping[str, float], path: str | None = None) -> 
 
 
 def pack_mapping(coefficients: Mapping[str, float], defaulted: Mapping[str, float]) -> np.ndarray:
-    """Return the packed vector (``COEFFICIENT_NAMES`` order) of what is given, what stands in, and neutral values."""
+    """Return the packed vector (``COEFFICIENT_NAMES`` order) of what is given and what stands in."""
     vector = np.array([_DEFAULTS[name] for name in COEFFICIENT_NAMES])
     for source in (defaulted, coefficients):
         for name, value in source.items():

@@ -1,13 +1,13 @@
 """Magic Formula 5.2 (and PAC2002, 5.0, 5.1): the thesis' Appendix A, equations (A.1) to (A.72), in order.
 
-Each function works on arrays of operating points or on one of them. Where the printed appendix slips, the right form
-stands here and the docstring names the equation; docs/magic_formula.md lists them all.
+Each function works on arrays of operating points or on one of them. Where the printed appendix slips, the
+right form stands here and the docstring names the equation; docs/magic_formula.md lists them all.
 """
 
 from __future__ import annotations
 
 from tire_pipeline.magic_formula.jit import jitable
-from tire_pipeline.magic_formula.ops import absolute, arctan, cos, exp, maximum, minimum, sin
+from tire_pipeline.magic_formula.ops import absolute, arctan, cos, exp, maximum, minimum, select, sin
 from tire_pipeline.magic_formula.shapes import (
     cos_arctan,
     cosine_curve,
@@ -131,16 +131,15 @@ def rolling_resistance(p, fx, fz, speed, kx, shx, svx):
     v = speed / p.LONGVL
     v2 = v * v
     by_speed = p.QSY1 + p.QSY2 * fx / p.FNOMIN + p.QSY3 * absolute(v) + p.QSY4 * v2 * v2
-    if p.QSY1 == 0.0 and p.QSY2 == 0.0:
-        moment = p.UNLOADED_RADIUS * (svx + kx * shx)
-    else:
-        moment = -p.UNLOADED_RADIUS * fz * by_speed * p.LMY
-    return moment * sign(speed)
+    from_force = p.UNLOADED_RADIUS * (svx + kx * shx)
+    from_coefficients = -p.UNLOADED_RADIUS * fz * by_speed * p.LMY
+    no_coefficients = (p.QSY1 == 0.0) & (p.QSY2 == 0.0)
+    return select(no_coefficients, from_force, from_coefficients) * sign(speed)
 
 
 @jitable
 def relaxation(p, gamma, fz, dfz, fz0):
-    """Return the lateral and the longitudinal relaxation length (MF-Tyre 5.2, by PTY1, PTY2, PTX1 to PTX3)."""
+    """Return the lateral and the longitudinal relaxation length (MF-Tyre 5.2, by PTY and PTX)."""
     lateral = (
         p.PTY1
         * sine_of_twice_arctan(divide(fz, p.PTY2 * fz0))

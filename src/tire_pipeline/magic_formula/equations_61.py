@@ -1,7 +1,8 @@
-"""Magic Formula 6.1 and 6.2: Pacejka, Tire and Vehicle Dynamics, 3rd edition, section 4.3.2, (4.E1) to (4.E78).
+"""Magic Formula 6.1 and 6.2: Pacejka, Tire and Vehicle Dynamics, 3rd edition, section 4.3.2, (4.E1) to
+(4.E78).
 
-Angles enter as they are (alpha* = alpha, gamma* = gamma), as MF-Tyre does. Where MF-Tyre and the book differ, the
-equations follow MF-Tyre; docs/magic_formula.md lists every such place.
+Angles enter as they are (alpha* = alpha, gamma* = gamma), as MF-Tyre does. Where MF-Tyre and the book
+differ, the equations follow MF-Tyre; docs/magic_formula.md lists every such place.
 """
 
 from __future__ import annotations
@@ -207,7 +208,14 @@ def overturning(p, fy, gamma, fz, dpi):
 
 
 @jitable
-def rolling_resistance(p, fx, gamma, fz, speed, dpi):
+def rolling_load_factor(p, fz, dpi):
+    """Return (Fz / Fz0)^QSY7 (p / p0)^QSY8, the last factor of the rolling resistance."""
+    pressure = maximum(1.0 + dpi, 1e-6)
+    return power(fz / p.FNOMIN, p.QSY7) * power(pressure, p.QSY8)
+
+
+@jitable
+def rolling_resistance(p, fx, gamma, fz, speed, by_load):
     """Return My (Besselink, Schmeitz and Pacejka, equation A48: (4.E70) with the sign of the W axes)."""
     v = speed / p.LONGVL
     v2 = v * v
@@ -219,14 +227,12 @@ def rolling_resistance(p, fx, gamma, fz, speed, dpi):
         + p.QSY4 * v2 * v2
         + (p.QSY5 + p.QSY6 * load) * gamma * gamma
     )
-    pressure = maximum(1.0 + dpi, 1e-6)
-    by_load = power(load, p.QSY7) * power(pressure, p.QSY8)
     return -p.UNLOADED_RADIUS * p.FNOMIN * by_state * by_load * p.LMY * sign(speed)
 
 
 @jitable
 def relaxation(p, kx, ky, gamma, fz, dfz, dpi, fz0):
-    """Return the relaxation lengths K / C (paper, equations 17 to 19), or by PTX and PTY where C is not given."""
+    """Return the relaxation lengths K / C (paper, equations 17 to 19), or by PTX, PTY where C is missing."""
     cx = p.LONGITUDINAL_STIFFNESS * (1.0 + p.PCFX1 * dfz + p.PCFX2 * dfz * dfz) * (1.0 + p.PCFX3 * dpi)
     cy = p.LATERAL_STIFFNESS * (1.0 + p.PCFY1 * dfz + p.PCFY2 * dfz * dfz) * (1.0 + p.PCFY3 * dpi)
     x = divide(fz, p.PTY2 * fz0)
@@ -244,7 +250,7 @@ def relaxation(p, kx, ky, gamma, fz, dfz, dpi, fz0):
 
 
 @jitable
-def evaluate_61(p, alpha, kappa, gamma, fz, speed, dpi, z):
+def evaluate_61(p, alpha, kappa, gamma, fz, speed, dpi, by_load, z):
     """Return the twelve outputs at points with a positive load.
 
     Parameters
@@ -254,6 +260,8 @@ def evaluate_61(p, alpha, kappa, gamma, fz, speed, dpi, z):
         Slip angle (rad), slip ratio, camber (rad), load (N, positive), speed (m/s); ISO W axes.
     dpi : float or ndarray
         Relative change of pressure (4.E2b).
+    by_load : float or ndarray
+        What :func:`rolling_load_factor` returns.
     z : Zetas
         Turn slip factors; ``NO_TURN_SLIP`` without it.
 
@@ -280,6 +288,6 @@ def evaluate_61(p, alpha, kappa, gamma, fz, speed, dpi, z):
     mz = -trail * gyk * fy0_upright + mzr + arm * fx
 
     mx = overturning(p, fy, gamma, fz, dpi)
-    my = rolling_resistance(p, fx, gamma, fz, speed, dpi)
+    my = rolling_resistance(p, fx, gamma, fz, speed, by_load)
     lateral, longitudinal = relaxation(p, kx, ky, gamma, fz, dfz, dpi, fz0)
     return fx, fy, mx, my, mz, trail, mux, muy, ky, kx, lateral, longitudinal

@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.lib.stride_tricks import as_strided
 
 from tire_pipeline.errors import TirValueError
-from tire_pipeline.magic_formula import inputs, numpy_form
+from tire_pipeline.magic_formula import engine, inputs
 from tire_pipeline.magic_formula.axes import Signs, is_mirrored, signs_of
 from tire_pipeline.magic_formula.numpy_form import OUTPUTS
 
 if TYPE_CHECKING:
     from tire_pipeline.magic_formula.model import TireModel
+
+_BUFFER = 32768
+"""Points at a time where the arguments have to be broadcast against each other."""
+
+
+_POINT = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure", "turn_slip")
+_NUMBERS = frozenset((float, int, np.float64))
 
 
 @dataclass(frozen=True)
@@ -69,39 +79,118 @@ def tire_forces(
     outputs: Sequence[str] | None = None,
 ) -> TireForces:
     """Evaluate a tire model; see :meth:`TireModel.forces`."""
-    wanted = _wanted(outputs)
+    sixth = model.family == 6
+    if speed is None:
+        speed = model.value("LONGVL")
+    if not sixth:
+        pressure = 0.0
+    elif pressure is None:
+        pressure = model.value("NOMPRES")
+    point = (slip_angle, slip_ratio, camber, normal_load, speed, pressure)
+    if (
+        model.simple
+        and axes == "ISO"
+        and side is None
+        and outputs is None
+        and turn_slip.__class__ in _NUMBERS
+    ):
+        quick = _one_point(model, point, turn_slip, limits)
+        if quick is not None:
+            return quick
+    wanted = checked_outputs(outputs)
     signs = signs_of(axes, is_mirrored(side, model.metadata.get("MODEL.TYRESIDE")))
-    given = {
-        "slip_angle": slip_angle,
-        "slip_ratio": slip_ratio,
-        "camber": camber,
-        "normal_load": normal_load,
-        "speed": model.value("LONGVL") if speed is None else speed,
-    }
-    if model.family == 6:
-        given["pressure"] = model.value("NOMPRES") if pressure is None else pressure
-        given["turn_slip"] = turn_slip
+    given = dict(zip(_POINT, (*point, turn_slip), strict=True))
     arrays, shape = inputs.as_float_arrays(given)
-    for name in ("slip_angle", "camber", "turn_slip"):
-        if name in arrays and getattr(signs, name) < 0:
-            arrays[name] = -arrays[name]
-    arrays = inputs.apply_limits(arrays, model.coefficients, limits)
-    turn = arrays.get("turn_slip")
-    results = numpy_form.evaluate(
-        model.packed,
-        model.family,
-        arrays["slip_angle"],
-        arrays["slip_ratio"],
-        arrays["camber"],
-        arrays["normal_load"],
-        arrays["speed"],
-        arrays.get("pressure", 0.0),
-        turn if turn is not None and np.any(turn) else None,
+    flipped = {name: getattr(signs, name) < 0 for name in ("slip_angle", "camber")}
+    arrays, largest = inputs.apply_limits(arrays, model.ranges, limits, flipped)
+    turn = arrays.pop("turn_slip")
+    turning = sixth and bool(turn.any() if turn.ndim else turn)
+    values = _evaluate(
+        model,
+        [*arrays.values(), turn * signs.turn_slip] if turning else list(arrays.values()),
+        shape,
+        _sign_vector(signs),
+        wanted,
+        largest,
     )
-    return _as_forces(results, shape, signs, wanted)
+    return TireForces(**dict(zip(wanted, values, strict=True)))
 
 
-def _wanted(outputs: Sequence[str] | None) -> tuple[str, ...]:
+def _one_point(model: TireModel, point: tuple[Any, ...], turn_slip: float, limits: str) -> TireForces | None:
+    """Evaluate one ordinary point in ISO axes without arrays; None if it is not an ordinary one."""
+    for x in point:
+        if x.__class__ not in _NUMBERS:
+            return None
+    if turn_slip != 0 or limits != "warn":
+        return None
+    if not (abs(point[0]) <= inputs.LOOKS_LIKE_DEGREES and abs(point[2]) <= inputs.LOOKS_LIKE_DEGREES):
+        return None
+    for place, low, high in model.range_list:
+        if not low <= point[place] <= high:
+            return None
+    values = engine.run_point(model.packed, model.family, point)
+    if outputs is None:
+        return TireForces(*values)
+    return TireForces(**{name: values[OUTPUTS.index(name)] for name in checked_outputs(outputs)})
+
+
+@lru_cache(maxsize=16)
+def _sign_vector(signs: Signs) -> np.ndarray:
+    by_output = [getattr(signs, name, 1.0) for name in OUTPUTS]
+    by_output[OUTPUTS.index("cornering_stiffness")] = signs.fy * signs.slip_angle
+    vector = np.array([signs.slip_angle, signs.camber, *by_output])
+    vector.flags.writeable = False
+    return vector
+
+
+def _evaluate(
+    model: TireModel,
+    arrays: list[np.ndarray],
+    shape: tuple[int, ...],
+    signs: np.ndarray,
+    wanted: Sequence[str],
+    largest: float,
+) -> list[Any]:
+    """Lay the points out as rows, run them, and give the results the shape of the points."""
+    matrix = model.packed[None, :]
+    size = math.prod(shape)
+    if all(_is_row(x, shape) for x in arrays):
+        rows = [x.reshape(1, -1) if x.shape == shape else _repeated(x, size) for x in arrays]
+        out = engine.run(matrix, model.family, rows[:6], signs, wanted, largest, *rows[6:])[0]
+    else:
+        out = np.empty((len(wanted), size))
+        start = 0
+        flags = ["external_loop", "buffered", "delay_bufalloc", "zerosize_ok"]
+        with np.nditer(arrays, flags, [["readonly"]] * len(arrays), order="C", buffersize=_BUFFER) as chunks:
+            chunks.reset()
+            for chunk in chunks:
+                rows = [x[None, :] for x in chunk]
+                stop = start + rows[0].shape[1]
+                out[:, start:stop] = engine.run(
+                    matrix, model.family, rows[:6], signs, wanted, largest, *rows[6:]
+                )[0]
+                start = stop
+    if not shape:
+        return [row[0] for row in out]
+    return [row.reshape(shape) for row in out]
+
+
+def _is_row(x: np.ndarray, shape: tuple[int, ...]) -> bool:
+    return x.size == 1 or (x.shape == shape and (x.ndim == 1 or x.flags.c_contiguous))
+
+
+def _repeated(x: np.ndarray, size: int) -> np.ndarray:
+    return as_strided(x.reshape(1), (1, size), (0, 0), writeable=False)
+
+
+def checked_outputs(outputs: Sequence[str] | None) -> tuple[str, ...]:
+    """Return the names of the outputs that are asked for; all of them for None.
+
+    Raises
+    ------
+    TirValueError
+        For a name that is not an output.
+    """
     if outputs is None:
         return OUTPUTS
     unknown = [name for name in outputs if name not in OUTPUTS]
@@ -110,19 +199,3 @@ def _wanted(outputs: Sequence[str] | None) -> tuple[str, ...]:
             f"outputs {unknown} are not known", key="outputs", todo=f"use some of {list(OUTPUTS)}"
         )
     return tuple(outputs)
-
-
-def _as_forces(
-    results: Sequence[np.ndarray], shape: tuple[int, ...], signs: Signs, wanted: Sequence[str]
-) -> TireForces:
-    values = {}
-    for name, value in zip(OUTPUTS, results, strict=True):
-        if name not in wanted:
-            continue
-        sign = getattr(signs, name, 1.0)
-        if name == "cornering_stiffness":
-            sign = signs.fy * signs.slip_angle
-        value = np.broadcast_to(value, shape)
-        value = -value if sign < 0 else np.array(value)
-        values[name] = value if shape else value[()]
-    return TireForces(**values)

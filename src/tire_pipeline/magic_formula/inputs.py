@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
 from tire_pipeline.errors import TirShapeError, TirValueError
-from tire_pipeline.magic_formula.coefficients import RANGES
 
 LOOKS_LIKE_DEGREES = 1.6
 """Angles beyond this (rad) draw a warning."""
 
 _ANGLES = ("slip_angle", "camber")
+_CHUNK = 1 << 20
+_STACK_LEVEL = 5
 
 
 class TireRangeWarning(UserWarning):
@@ -24,7 +26,7 @@ class DegreesWarning(UserWarning):
     """Angles are so large that they look like degrees."""
 
 
-def as_float_arrays(inputs: Mapping[str, object]) -> tuple[dict[str, np.ndarray], tuple[int, ...]]:
+def as_float_arrays(inputs: Mapping[str, Any]) -> tuple[dict[str, np.ndarray], tuple[int, ...]]:
     """Return the inputs as float arrays and the shape they broadcast to.
 
     Raises
@@ -36,10 +38,13 @@ def as_float_arrays(inputs: Mapping[str, object]) -> tuple[dict[str, np.ndarray]
     """
     arrays: dict[str, np.ndarray] = {}
     for name, value in inputs.items():
+        if isinstance(value, str):
+            raise TirValueError(f"{name} is not numeric: {value!r}", key=name)
         try:
-            arrays[name] = np.asarray(value, dtype=np.float64)
+            array = np.asarray(value, dtype=np.float64)
         except (TypeError, ValueError):
             raise TirValueError(f"{name} is not numeric: {value!r}", key=name) from None
+        arrays[name] = array if array.flags.aligned else array.copy()
     shapes = {array.shape for array in arrays.values()}
     if len(shapes) == 1:
         return arrays, shapes.pop()
@@ -54,21 +59,28 @@ def as_float_arrays(inputs: Mapping[str, object]) -> tuple[dict[str, np.ndarray]
 
 
 def apply_limits(
-    arrays: dict[str, np.ndarray], coefficients: Mapping[str, float], limits: str
-) -> dict[str, np.ndarray]:
-    """Check the inputs (ISO axes) against the file's ranges; warn, clip or raise.
+    arrays: dict[str, np.ndarray],
+    ranges: Mapping[str, tuple[str, str, float, float]],
+    limits: str,
+    flipped: Mapping[str, bool],
+) -> tuple[dict[str, np.ndarray], float]:
+    """Check the inputs against the file's ranges; warn, clip or raise.
 
     Parameters
     ----------
     arrays : dict of str to ndarray
-    coefficients : mapping
-        Holds ``ALPMIN``, ``ALPMAX`` and so on; a range that is missing is not checked.
+    ranges : mapping
+        Input -> names and values of the two ends of its range.
     limits : {"warn", "clip", "raise", "ignore"}
+    flipped : mapping of str to bool
+        The inputs whose sign is the other way round than in the file's axes.
 
     Returns
     -------
-    dict of str to ndarray
+    arrays : dict of str to ndarray
         The inputs, clipped if asked.
+    largest_angle : float
+        The largest magnitude of slip angle and camber.
 
     Raises
     ------
@@ -79,34 +91,53 @@ def apply_limits(
         raise TirValueError(
             f"limits {limits!r} is not known", key="limits", todo='use "warn", "clip" or "raise"'
         )
-    _warn_of_degrees(arrays)
+    extremes = {name: _extremes(array) for name, array in arrays.items()}
+    largest_angle = max(max(-low, high) for low, high in (extremes[name] for name in _ANGLES))
+    if largest_angle > LOOKS_LIKE_DEGREES:
+        _warn_of_degrees(arrays, extremes)
     if limits == "ignore":
-        return arrays
+        return arrays, largest_angle
     found: list[str] = []
-    for name, (low_key, high_key) in RANGES.items():
-        if name not in arrays:
-            continue
-        low = coefficients.get(low_key, -np.inf)
-        high = coefficients.get(high_key, np.inf)
-        if low >= high:
-            continue
-        array = arrays[name]
-        if array.size == 0 or (array.min() >= low and array.max() <= high):
+    for name, (low_key, high_key, low, high) in ranges.items():
+        if flipped.get(name):
+            low, high = -high, -low
+        least, most = extremes[name]
+        if least >= low and most <= high:
             continue
         if limits == "clip":
-            arrays[name] = np.clip(array, low, high)
+            clipped = np.clip(arrays[name], low, high)
+            # a load of zero or less means no contact, whatever the range
+            arrays[name] = np.where(arrays[name] > 0, clipped, 0) if name == "normal_load" else clipped
             continue
-        outside = (array < low) | (array > high)
-        if name == "normal_load":
-            outside &= array > 0
-        count = int(np.count_nonzero(outside))
+        count = _count_outside(arrays[name], low, high, name == "normal_load")
         if count:
             found.append(
-                f"{name}: {count} of {array.size} outside {low_key} = {low:g} to {high_key} = {high:g}"
+                f"{name}: {count} of {arrays[name].size} outside {low_key} = {low:g} to {high_key} = {high:g}"
             )
     if found:
         _tell("; ".join(found), limits)
-    return arrays
+    return arrays, largest_angle
+
+
+def _extremes(array: np.ndarray) -> tuple[float, float]:
+    if array.size == 1:
+        value = array.item()
+        return value, value
+    if array.size == 0:
+        return 0.0, 0.0
+    return float(array.min()), float(array.max())
+
+
+def _count_outside(array: np.ndarray, low: float, high: float, is_load: bool) -> int:
+    flat = array.reshape(-1)
+    count = 0
+    for start in range(0, flat.size, _CHUNK):
+        part = flat[start : start + _CHUNK]
+        outside = (part < low) | (part > high)
+        if is_load:
+            outside &= part > 0
+        count += int(np.count_nonzero(outside))
+    return count
 
 
 def _tell(found: str, limits: str) -> None:
@@ -118,20 +149,18 @@ def _tell(found: str, limits: str) -> None:
     warnings.warn(
         f"operating points lie outside the model's range and are evaluated as they are ({found})",
         TireRangeWarning,
-        stacklevel=5,
+        stacklevel=_STACK_LEVEL,
     )
 
 
-def _warn_of_degrees(arrays: Mapping[str, np.ndarray]) -> None:
+def _warn_of_degrees(arrays: Mapping[str, np.ndarray], extremes: Mapping[str, tuple[float, float]]) -> None:
     for name in _ANGLES:
-        array = arrays.get(name)
-        if array is None or array.size == 0:
-            continue
-        if array.max() > LOOKS_LIKE_DEGREES or array.min() < -LOOKS_LIKE_DEGREES:
-            count = int(np.count_nonzero(np.abs(array) > LOOKS_LIKE_DEGREES))
+        low, high = extremes[name]
+        if max(-low, high) > LOOKS_LIKE_DEGREES:
+            count = _count_outside(arrays[name], -LOOKS_LIKE_DEGREES, LOOKS_LIKE_DEGREES, False)
             warnings.warn(
-                f"{name}: {count} of {array.size} values are beyond {LOOKS_LIKE_DEGREES} rad: this looks like degrees; "
-                "the model takes radians",
+                f"{name}: {count} of {arrays[name].size} values are beyond {LOOKS_LIKE_DEGREES} rad: "
+                "this looks like degrees; the model takes radians",
                 DegreesWarning,
-                stacklevel=5,
+                stacklevel=_STACK_LEVEL,
             )

@@ -13,11 +13,13 @@ import numpy as np
 
 from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula.coefficients import (
+    RANGES,
     check_values,
     family_of,
     missing_defaults,
     pack_mapping,
 )
+from tire_pipeline.magic_formula.engine import compiles
 from tire_pipeline.magic_formula.forces import TireForces, tire_forces
 
 
@@ -30,8 +32,8 @@ class TireModel:
     version : str
         "5.0", "5.1", "5.2", "6.1", "6.2" or "PAC2002".
     coefficients : mapping of str to float
-        By their ``.tir`` names in capitals, in SI units: p, q, r and s coefficients, scale factors, ``FNOMIN``,
-        ``UNLOADED_RADIUS``, ``LONGVL``, ``NOMPRES``, ranges (``ALPMIN``, ``FZMAX``, ...).
+        By their ``.tir`` names in capitals, in SI units: p, q, r and s coefficients, scale factors,
+        ``FNOMIN``, ``UNLOADED_RADIUS``, ``LONGVL``, ``NOMPRES``, ranges (``ALPMIN``, ``FZMAX``, ...).
     defaulted : mapping of str to float
         Coefficients that the source lacks, and the value that stands in.
     metadata : mapping of str to object
@@ -44,7 +46,8 @@ class TireModel:
     Raises
     ------
     TirValueError
-        If a coefficient is not a finite number, or has a value that the equations divide by; it names the key.
+        If a coefficient is not a finite number, or has a value that the equations divide by; it names the
+        key.
     TirVersionError
         If the version is not known.
     """
@@ -79,8 +82,8 @@ class TireModel:
         Parameters
         ----------
         coefficients : mapping of str to float
-            By ``.tir`` name, SI units. ``FNOMIN`` must be there; what else is missing is filled in and listed in
-            ``defaulted`` (scale factors 1, PKY4 2, QSY7 1, others 0).
+            By ``.tir`` name, SI units. ``FNOMIN`` must be there; what else is missing is filled in and
+            listed in ``defaulted`` (scale factors 1, PKY4 2, QSY7 1, others 0).
         version : str
         metadata : mapping, optional
 
@@ -90,7 +93,7 @@ class TireModel:
         """
         return cls(version=version, coefficients=dict(coefficients), metadata=metadata or {})
 
-    @property
+    @cached_property
     def family(self) -> int:
         """5 for the equations of MF 5.2, 6 for those of MF 6.1 and 6.2."""
         return family_of(self.version)
@@ -101,6 +104,28 @@ class TireModel:
         vector = pack_mapping(self.coefficients, self.defaulted)
         vector.flags.writeable = False
         return vector
+
+    @cached_property
+    def simple(self) -> bool:
+        """Whether compiled code is there for this model."""
+        return compiles(self.packed[None, :])
+
+    @cached_property
+    def ranges(self) -> dict[str, tuple[str, str, float, float]]:
+        """The ranges that the model is valid for: input -> names and values of its two ends."""
+        found = {}
+        for name, (low_key, high_key) in RANGES.items():
+            low = self.coefficients.get(low_key, -np.inf)
+            high = self.coefficients.get(high_key, np.inf)
+            if low < high and np.isfinite([low, high]).any() and (name != "pressure" or self.family == 6):
+                found[name] = (low_key, high_key, low, high)
+        return found
+
+    @cached_property
+    def range_list(self) -> list[tuple[int, float, float]]:
+        """The ranges by the place of the input among the arguments, for quick checks."""
+        order = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
+        return [(order.index(name), low, high) for name, (*_, low, high) in self.ranges.items()]
 
     def value(self, name: str) -> float:
         """Return a coefficient's value, or what stands in for it.
@@ -144,15 +169,17 @@ class TireModel:
         pressure : float or array_like, optional
             Inflation pressure (Pa); the nominal one if left out. Only MF 6.1 and 6.2 use it.
         turn_slip : float or array_like
-            Curvature of the path (1/m). 0 everywhere switches the turn slip equations off. Only MF 6.1 and 6.2.
+            Curvature of the path (1/m). 0 everywhere switches the turn slip equations off. Only MF 6.1 and
+            6.2.
         side : {None, "left", "right"}
-            The side to mount the tire on: if it is not the side it was measured for (``TYRESIDE``, left where it is
-            missing), slip angle, camber, Fy, Mx and Mz are mirrored. None: the tire as it was measured.
+            The side to mount the tire on: if it is not the side it was measured for (``TYRESIDE``, left
+            where it is missing), slip angle, camber, Fy, Mx and Mz are mirrored. None: the tire as it was
+            measured.
         axes : {"ISO", "SAE", "adapted SAE"}
             Axis system of arguments and results.
         limits : {"warn", "clip", "raise", "ignore"}
-            What to do with points outside the model's ranges: warn with their count and evaluate them as they are,
-            clip them, raise, or nothing.
+            What to do with points outside the model's ranges: warn with their count and evaluate them as
+            they are, clip them, raise, or nothing.
         outputs : sequence of str, optional
             Compute only these fields of the result.
 
@@ -170,8 +197,9 @@ class TireModel:
 
         Notes
         -----
-        MF 5.2, PAC2002, 5.0 and 5.1: Appendix A of the thesis. MF 6.1 and 6.2: Pacejka, Tire and Vehicle Dynamics, 3rd
-        edition, section 4.3.2, with MF-Tyre's conventions. docs/magic_formula.md names every deviation.
+        MF 5.2, PAC2002, 5.0 and 5.1: Appendix A of the thesis. MF 6.1 and 6.2: Pacejka, Tire and Vehicle
+        Dynamics, 3rd edition, section 4.3.2, with MF-Tyre's conventions. docs/magic_formula.md names every
+        deviation.
 
         Examples
         --------

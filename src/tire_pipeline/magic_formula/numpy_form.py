@@ -1,4 +1,4 @@
-"""The equations over arrays with NumPy alone: what compiled code is compared with and what runs without it."""
+"""The equations over arrays with NumPy alone: what runs without numba, and what numba is compared with."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from tire_pipeline.magic_formula.coefficients import Coefficients
 from tire_pipeline.magic_formula.equations_52 import evaluate_52
-from tire_pipeline.magic_formula.equations_61 import NO_TURN_SLIP, evaluate_61
+from tire_pipeline.magic_formula.equations_61 import NO_TURN_SLIP, evaluate_61, rolling_load_factor
 from tire_pipeline.magic_formula.shapes import clamp
 
 OUTPUTS = (
@@ -64,7 +64,8 @@ def _evaluate(vector, family, alpha, kappa, gamma, fz, speed, pressure, turn_sli
             from tire_pipeline.magic_formula.turn_slip import zetas_of
 
             zetas = zetas_of(p, alpha, kappa, gamma, load, speed, dpi, turn_slip)
-        raw = evaluate_61(p, alpha, kappa, gamma, load, speed, dpi, zetas)
+        by_load = rolling_load_factor(p, load, dpi)
+        raw = evaluate_61(p, alpha, kappa, gamma, load, speed, dpi, by_load, zetas)
     return tuple(np.where(loaded, value, 0.0) for value in raw)
 
 

@@ -71,7 +71,7 @@ def weight(b, c, e, slip, shift):
 
 @jitable
 def equivalent_slip(alpha, ratio, kappa):
-    """Return arctan(sqrt(tan^2 alpha + (Kx / Ky)^2 kappa^2)) sgn(alpha) (A.68, A.69 with the sign outside)."""
+    """Return arctan(sqrt(tan^2 alpha + (Kx / Ky)^2 kappa^2)) sgn(alpha) (A.68, A.69)."""
     s, c = sin(alpha), cos(alpha)
     tangent = divide(s, c)
     k = clamp(ratio, HUGE) * kappa

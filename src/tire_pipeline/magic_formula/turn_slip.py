@@ -1,7 +1,8 @@
 """The reduction factors of turn slip: Pacejka, 3rd edition, (4.76) to (4.105).
 
-Turn slip is the curvature of the wheel's path (1/m), positive for a turn to the left in ISO W axes. The spin slip is
-phi = turn_slip - (1 - epsilon_gamma) sin(camber) / Re, with the unloaded radius for the effective rolling radius Re.
+Turn slip is the curvature of the wheel's path (1/m), positive for a turn to the left in ISO W axes. The
+spin slip is phi = turn_slip - (1 - epsilon_gamma) sin(camber) / Re, with the unloaded radius for the
+effective rolling radius Re.
 """
 
 from __future__ import annotations
@@ -63,8 +64,8 @@ def _side_shift(p, spin, fz, dfz, dpi, epsilon, ky0, direction):
     c = p.PHYP1
     d = (p.PHYP2 + p.PHYP3 * dfz) * direction
     e = min(p.PHYP4, 1.0)
-    # S_Hyphi replaces the camber term of S_Hy: by (4.76) a spin of -(1 - epsilon) sin(camber) must shift as camber
-    # does, hence the sign that the ISO W axes give
+    # S_Hyphi replaces the camber term of S_Hy: by (4.76) a spin of -(1 - epsilon) sin(camber) must shift as
+    # camber does, hence the sign that the ISO W axes give
     per_spin = -divide(camber_stiffness(p, fz, dfz, dpi), 1.0 - epsilon)
     b = divide(per_spin, c * d * ky0)
     bx = b * spin

@@ -1,0 +1,154 @@
+"""Many tires at many points in one call, on plain arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tire_pipeline.errors import TirShapeError, TirValueError
+from tire_pipeline.magic_formula import engine
+from tire_pipeline.magic_formula.coefficients import (
+    COEFFICIENT_NAMES,
+    INDEX,
+    family_of,
+    missing_defaults,
+    pack_mapping,
+)
+from tire_pipeline.magic_formula.forces import checked_outputs
+from tire_pipeline.magic_formula.inputs import as_float_arrays
+from tire_pipeline.magic_formula.numpy_form import OUTPUTS
+
+if TYPE_CHECKING:
+    from tire_pipeline.magic_formula.model import TireModel
+
+_NEUTRAL = {version: pack_mapping({}, missing_defaults({}, version)) for version in ("5.2", "6.1")}
+_NO_SIGNS = np.ones(2 + len(OUTPUTS))
+
+
+def pack(model: TireModel) -> np.ndarray:
+    """Return a model's coefficients as a vector in the order of ``COEFFICIENT_NAMES`` (a copy)."""
+    return model.packed.copy()
+
+
+def pack_matrix(values: Any, names: Sequence[str], version: str = "5.2") -> np.ndarray:
+    """Return packed coefficients of many tires.
+
+    Parameters
+    ----------
+    values : array_like of shape (tires, len(names))
+        Coefficients by ``.tir`` name, SI units. NaN stands for a coefficient that the tire lacks.
+    names : sequence of str
+        What the columns are; names that the equations do not use are ignored.
+    version : str
+        Says what stands in for coefficients that are missing, as in :class:`TireModel`.
+
+    Returns
+    -------
+    ndarray of shape (tires, len(COEFFICIENT_NAMES))
+
+    Raises
+    ------
+    TirShapeError
+        If there are not as many columns as names.
+    TirValueError
+        If a tire has no nominal load.
+    """
+    values = np.asarray(values, dtype=np.float64)
+    if values.ndim != 2 or values.shape[1] != len(names):
+        raise TirShapeError(
+            f"coefficients have shape {values.shape}, but there are {len(names)} names",
+            todo="give one row a tire and one column a name",
+        )
+    neutral = _NEUTRAL["5.2" if family_of(version) == 5 else "6.1"]
+    matrix = np.tile(neutral, (len(values), 1))
+    for column, name in enumerate(names):
+        place = INDEX.get(name)
+        if place is not None:
+            given = values[:, column]
+            matrix[:, place] = np.where(np.isnan(given), matrix[:, place], given)
+    for name, other in (("NOMPRES", "INFLPRES"), ("INFLPRES", "NOMPRES")):
+        empty = matrix[:, INDEX[name]] == 0
+        matrix[empty, INDEX[name]] = matrix[empty, INDEX[other]]
+    if not (matrix[:, INDEX["FNOMIN"]] > 0).all():
+        bad = np.flatnonzero(~(matrix[:, INDEX["FNOMIN"]] > 0))
+        raise TirValueError(
+            f"{len(bad)} tires have no positive FNOMIN (rows {bad[:5].tolist()} ...)", key="FNOMIN"
+        )
+    return matrix
+
+
+def forces_batch(
+    matrix: np.ndarray,
+    *,
+    normal_load: Any,
+    slip_angle: Any = 0.0,
+    slip_ratio: Any = 0.0,
+    camber: Any = 0.0,
+    speed: Any = None,
+    pressure: Any = None,
+    version: str = "5.2",
+    outputs: Sequence[str] = ("fx", "fy", "mz"),
+) -> dict[str, np.ndarray]:
+    """Evaluate many tires, each at the same points or each at its own.
+
+    Parameters
+    ----------
+    matrix : ndarray of shape (tires, len(COEFFICIENT_NAMES))
+        Packed coefficients (:func:`pack`, :func:`pack_matrix`); all of versions of one family of equations.
+    normal_load, slip_angle, slip_ratio, camber, speed, pressure : float or array_like
+        Broadcast together to (points,), or to (tires, points) where each tire has its own; rad, N, m/s, Pa; ISO W
+        axes. ``speed`` and ``pressure`` left out: each tire's ``LONGVL`` and nominal pressure.
+    version : str
+        A version of the family: "5.2" (also for PAC2002, 5.0, 5.1) or "6.1" (also for 6.2).
+    outputs : sequence of str
+        Fields of :class:`TireForces` to compute.
+
+    Returns
+    -------
+    dict of str to ndarray of shape (tires, points)
+        Ranges are not checked here.
+
+    Raises
+    ------
+    TirShapeError
+        If shapes do not fit.
+    """
+    matrix = np.ascontiguousarray(matrix, dtype=np.float64)
+    if matrix.ndim != 2 or matrix.shape[1] != len(COEFFICIENT_NAMES):
+        raise TirShapeError(
+            f"packed coefficients have shape {matrix.shape}, not (tires, {len(COEFFICIENT_NAMES)})",
+            todo="use pack or pack_matrix",
+        )
+    wanted = checked_outputs(outputs)
+    given: dict[str, Any] = {
+        "slip_angle": slip_angle,
+        "slip_ratio": slip_ratio,
+        "camber": camber,
+        "normal_load": normal_load,
+        "speed": matrix[:, [INDEX["LONGVL"]]] if speed is None else speed,
+        "pressure": matrix[:, [INDEX["NOMPRES"]]] if pressure is None else pressure,
+    }
+    arrays, shape = as_float_arrays(given)
+    tires = len(matrix)
+    if len(shape) > 2 or (len(shape) == 2 and shape[0] not in (1, tires)):
+        raise TirShapeError(
+            f"points have shape {shape}; it must be (points,) or ({tires}, points)",
+            todo="give one row a tire",
+        )
+    full = (tires, shape[-1] if shape else 1)
+    points = [np.broadcast_to(x, full) for x in arrays.values()]
+    largest = max(float(np.abs(arrays[name]).max(initial=0.0)) for name in ("slip_angle", "camber"))
+    out = engine.run(matrix, family_of(version), points, _NO_SIGNS, wanted, largest)
+    return {name: out[:, k] for k, name in enumerate(wanted)}
+
+
+def model_of(vector: np.ndarray, version: str, metadata: Mapping[str, object] | None = None) -> TireModel:
+    """Return the tire model of a packed vector: the opposite of :func:`pack`."""
+    from tire_pipeline.magic_formula.coefficients import NAMES_BY_FAMILY
+    from tire_pipeline.magic_formula.model import TireModel
+
+    used = NAMES_BY_FAMILY[family_of(version)]
+    coefficients = {name: float(vector[INDEX[name]]) for name in used}
+    return TireModel.from_coefficients(coefficients, version, metadata)
