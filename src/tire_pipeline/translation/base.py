@@ -1,0 +1,116 @@
+"""What every translator offers, and how to get one by name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib import import_module
+from typing import Any, ClassVar, Protocol, Self
+
+import pandas as pd
+
+from tire_pipeline.errors import DomainError
+
+TRANSLATORS: dict[str, tuple[str, str]] = {
+    "agent": ("tire_pipeline.translation.thesis.translator", "AgentTranslator"),
+}
+"""Name of a translator -> module and class; imported only when asked for.
+
+A new translator is one file with one class and one line here.
+"""
+
+
+class Translator(Protocol):
+    """Learns from a training table; gives tires as the target would have measured them."""
+
+    name: ClassVar[str]
+
+    def fit(self, training: pd.DataFrame, *, target: str, seed: int) -> Self:
+        """Learn.
+
+        Parameters
+        ----------
+        training : DataFrame
+            Tire table with ``category``, all tires at one nominal load.
+        target : str
+            The category to translate to.
+        seed : int
+            Seed of whatever is drawn.
+
+        Raises
+        ------
+        DomainError
+            If the table has no tire of the target, or none of any other category.
+        """
+        ...
+
+    def translate(self, source: pd.DataFrame) -> pd.DataFrame:
+        """Translate.
+
+        Parameters
+        ----------
+        source : DataFrame
+            Tire table, at the nominal load of the training table.
+
+        Returns
+        -------
+        DataFrame
+            A copy with other coefficients; same rows, columns, index and metadata.
+        """
+        ...
+
+    def to_state(self) -> dict[str, Any]:
+        """Give arrays, strings and numbers that bring the fitted translator back."""
+        ...
+
+    @classmethod
+    def from_state(cls, state: Mapping[str, Any]) -> Self:
+        """Bring back what :meth:`to_state` gave; it translates the same."""
+        ...
+
+
+def _class_of(name: str) -> Any:
+    if name not in TRANSLATORS:
+        raise DomainError(f"there is no translator {name!r}", todo=f"choose one of {', '.join(TRANSLATORS)}")
+    module, cls = TRANSLATORS[name]
+    return getattr(import_module(module), cls)
+
+
+def make_translator(name: str, **options: Any) -> Translator:
+    """Make a translator that has learnt nothing yet.
+
+    Parameters
+    ----------
+    name : str
+        One of ``TRANSLATORS``.
+    **options
+        Passed to its constructor.
+    """
+    translator: Translator = _class_of(name)(**options)
+    return translator
+
+
+def translator_from_state(state: Mapping[str, Any]) -> Translator:
+    """Bring back any translator from its ``to_state()``."""
+    translator: Translator = _class_of(str(state["translator"])).from_state(state)
+    return translator
+
+
+def check_target(training: pd.DataFrame, target: str) -> None:
+    """Refuse a training table without the target, or with nothing but the target.
+
+    Raises
+    ------
+    DomainError
+        Naming the categories that there are.
+    """
+    categories = sorted(training["category"].astype(str).unique())
+    if target not in categories:
+        raise DomainError(
+            f"no training file is of the target category {target!r}",
+            todo=f"choose one of {', '.join(categories) or 'none: the table is empty'}",
+        )
+    if len(categories) < 2:
+        raise DomainError(
+            f"all training files are of the target category {target!r}",
+            todo="add files of at least one other category",
+        )

@@ -1,0 +1,1 @@
+"""The thesis' translator: a classifier as reward, an agent that moves features bin by bin."""

@@ -1,0 +1,109 @@
+"""Training of one agent with stable-baselines3: PPO or A2C, 320 roll-out steps, 4 environments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.classifiers.compiled_forest import CompiledForest
+from tire_pipeline.errors import DomainError
+from tire_pipeline.translation.thesis.policy import GreedyPolicy
+from tire_pipeline.translation.thesis.rules import Rules
+
+ALGORITHMS = ("PPO", "A2C")
+N_STEPS = 320
+N_ENVS = 4
+TOTAL_STEPS = {"PPO": 100_000, "A2C": 300_000}
+"""Steps of all environments together. The thesis does not give its number. A2C updates once where PPO
+updates 200 times, so it gets more steps and still takes less time."""
+
+
+@dataclass(frozen=True)
+class TrainedAgent:
+    """What is left of a training.
+
+    Attributes
+    ----------
+    policy : GreedyPolicy
+    learning_curve : DataFrame
+        One row an episode: ``step`` (steps of all environments so far), ``reward``, ``length``.
+    """
+
+    policy: GreedyPolicy
+    learning_curve: pd.DataFrame
+
+
+def train_agent(
+    starts: np.ndarray,
+    forest: CompiledForest,
+    rules: Rules,
+    *,
+    algorithm: str = "PPO",
+    total_steps: int | None = None,
+    seed: int = 0,
+    n_steps: int = N_STEPS,
+    n_envs: int = N_ENVS,
+) -> TrainedAgent:
+    """Train one agent; everything not named here is stable-baselines3's default.
+
+    Parameters
+    ----------
+    starts : ndarray of int, shape (n, d)
+        Bins of the training tires.
+    forest : CompiledForest
+        The classifier.
+    rules : Rules
+    algorithm : {"PPO", "A2C"}
+    total_steps : int, optional
+        Steps of all environments together; ``TOTAL_STEPS`` if not given.
+    seed : int
+    n_steps, n_envs : int
+        Steps of each environment between two updates, and environments.
+    """
+    from tire_pipeline.translation.thesis.batch_environment import BatchEnv
+
+    with one_thread():
+        env = BatchEnv(starts, forest, rules, n_envs=n_envs, seed=seed)
+        model = make_model(env, algorithm=algorithm, seed=seed, n_steps=n_steps)
+        steps = TOTAL_STEPS[algorithm] if total_steps is None else total_steps
+        model.learn(total_timesteps=steps)  # type: ignore[attr-defined]
+    return TrainedAgent(
+        policy=GreedyPolicy.from_model(model, rules.n_bins),
+        learning_curve=pd.DataFrame(env.episodes, columns=["step", "reward", "length"]),
+    )
+
+
+def make_model(env: object, *, algorithm: str, seed: int, n_steps: int = N_STEPS) -> object:
+    """Give an untrained PPO or A2C with the thesis' settings."""
+    import stable_baselines3
+
+    from tire_pipeline.translation.thesis.bin_policy import BinPolicy
+
+    if algorithm not in ALGORITHMS:
+        raise DomainError(
+            f"there is no algorithm {algorithm!r}", todo=f"choose one of {', '.join(ALGORITHMS)}"
+        )
+    options: dict[str, object] = {}
+    if algorithm == "PPO":  # Adam's update in one operation; eps is stable-baselines3's default
+        options["policy_kwargs"] = {"optimizer_kwargs": {"eps": 1e-5, "fused": True}}
+    made: object = getattr(stable_baselines3, algorithm)(
+        BinPolicy, env, n_steps=n_steps, seed=seed, device="cpu", verbose=0, **options
+    )
+    return made
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """Keep torch to one thread: for nets this small, more only wait for each other."""
+    import torch
+
+    before = torch.get_num_threads()
+    torch.set_num_threads(1)
+    try:
+        yield
+    finally:
+        torch.set_num_threads(before)

@@ -1,0 +1,206 @@
+"""The thesis' translator from training table to translated tires."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar, Self
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.classifiers.compiled_forest import CompiledForest
+from tire_pipeline.classifiers.random_forest import RandomForest
+from tire_pipeline.errors import DomainError
+from tire_pipeline.representations import (
+    Representation,
+    make_representation,
+    representation_from_state,
+)
+from tire_pipeline.state_files import prefixed, without_prefix
+from tire_pipeline.translation.base import check_target
+from tire_pipeline.translation.thesis.binning import EqualWidthBins
+from tire_pipeline.translation.thesis.policy import GreedyPolicy
+from tire_pipeline.translation.thesis.real_states import real_states
+from tire_pipeline.translation.thesis.roll_out import RollOut, roll_out
+from tire_pipeline.translation.thesis.rules import MAX_STEPS, PATIENCE, Rules
+
+
+class AgentTranslator:
+    """A random forest on binned features, and an agent that moves a tire's bins to please it.
+
+    Parameters
+    ----------
+    algorithm : {"PPO", "A2C"}
+    reward : {"reach_target_fast", "maximize_reward"}
+    representation : str or fitted Representation
+        A name of ``REPRESENTATIONS``; or one that is fitted already, then it is used as it is.
+    n_bins : int
+    total_steps : int, optional
+        Training steps; see ``training.TOTAL_STEPS``.
+    representation_options : mapping, optional
+        For the constructor of a representation given by name.
+    smote : bool
+        For the forest.
+    patience, max_steps : int
+        See ``Rules``.
+
+    Notes
+    -----
+    A feature that ends up k bins from where it started is moved by k bin widths, so what the agent
+    does not touch keeps its exact value.
+    """
+
+    name: ClassVar[str] = "agent"
+
+    def __init__(
+        self,
+        algorithm: str = "PPO",
+        reward: str = "reach_target_fast",
+        representation: str | Representation = "coefficients",
+        n_bins: int = 20,
+        total_steps: int | None = None,
+        *,
+        representation_options: Mapping[str, Any] | None = None,
+        smote: bool = True,
+        patience: int = PATIENCE,
+        max_steps: int = MAX_STEPS,
+    ) -> None:
+        self.algorithm = algorithm
+        self.reward = reward
+        self.n_bins = n_bins
+        self.total_steps = total_steps
+        self.smote = smote
+        self.patience = patience
+        self.max_steps = max_steps
+        self._given = None if isinstance(representation, str) else representation
+        self._wanted = representation if isinstance(representation, str) else representation.name
+        self._options = dict(representation_options or {})
+        self.learning_curve = pd.DataFrame(columns=["step", "reward", "length"])
+        self._parts: tuple[Representation, EqualWidthBins, CompiledForest, Rules] | None = None
+        self.policy: GreedyPolicy | None = None
+
+    def fit(
+        self,
+        training: pd.DataFrame,
+        *,
+        target: str,
+        seed: int,
+        classifier: RandomForest | None = None,
+    ) -> Self:
+        """Fit the representation, the bins, the forest and the agent.
+
+        Parameters
+        ----------
+        training : DataFrame
+            Tire table with ``category``.
+        target : str
+        seed : int
+        classifier : RandomForest, optional
+            Trained on the bins of the same representation and table; trained here if not given.
+        """
+        from tire_pipeline.translation.thesis.training import train_agent
+
+        check_target(training, target)
+        representation = self._given or make_representation(self._wanted, **self._options)
+        if self._given is None:
+            representation.fit(training, seed=seed)
+        features = representation.encode(training)
+        bins = EqualWidthBins.fit(features, self.n_bins)
+        starts = bins.assign(features)
+        labels = training["category"].to_numpy().astype(str)
+        if classifier is None:
+            classifier = RandomForest(smote=self.smote).fit(starts, labels, seed=seed)
+        if classifier.forest is None or target not in classifier.classes_:
+            raise DomainError(
+                f"the classifier does not know the target {target!r}", todo="train it on this table"
+            )
+        real_features, real_lookup = real_states(representation, bins)
+        rules = Rules(
+            n_features=features.shape[1],
+            n_bins=self.n_bins,
+            target=int(np.flatnonzero(classifier.classes_ == target)[0]),
+            reward=self.reward,
+            patience=self.patience,
+            max_steps=self.max_steps,
+            real_features=real_features,
+            real_lookup=real_lookup,
+        )
+        agent = train_agent(
+            starts,
+            classifier.forest,
+            rules,
+            algorithm=self.algorithm,
+            total_steps=self.total_steps,
+            seed=seed,
+        )
+        self._parts = (representation, bins, classifier.forest, rules)
+        self.policy, self.learning_curve = agent.policy, agent.learning_curve
+        return self
+
+    def translate(self, source: pd.DataFrame) -> pd.DataFrame:
+        """Move every tire as the agent does, and decode where it ends up."""
+        representation, features, _ = self._moved(source)
+        return representation.decode(features, source)
+
+    def translate_curves(self, source: pd.DataFrame) -> np.ndarray:
+        """Give the curves as the thesis decodes them, N, shape (n, 3, 100)."""
+        representation, features, _ = self._moved(source)
+        return representation.decode_curves(features, source)
+
+    def follow(self, source: pd.DataFrame) -> RollOut:
+        """Give the roll-out itself: states, probabilities, actions."""
+        return self._moved(source)[2]
+
+    @property
+    def action_names(self) -> tuple[str, ...]:
+        """Feature and direction of every action, in order."""
+        representation = self._fitted()[0]
+        names = representation.feature_names
+        return tuple(f"{name} {way}" for name in names for way in ("down", "up"))
+
+    def to_state(self) -> dict[str, Any]:
+        """Give everything that translating needs; the learning curve is not part of it."""
+        representation, bins, forest, rules = self._fitted()
+        assert self.policy is not None  # fit sets both
+        return {
+            "translator": self.name,
+            "algorithm": self.algorithm,
+            "reward": self.reward,
+            **prefixed("representation", representation.to_state()),
+            **prefixed("bins", bins.to_state()),
+            **prefixed("forest", forest.to_state()),
+            **prefixed("rules", rules.to_state()),
+            **prefixed("policy", self.policy.to_state()),
+        }
+
+    @classmethod
+    def from_state(cls, state: Mapping[str, Any]) -> Self:
+        """Bring back what :meth:`to_state` gave."""
+        representation = representation_from_state(without_prefix("representation", state))
+        bins = EqualWidthBins.from_state(without_prefix("bins", state))
+        rules = Rules.from_state(without_prefix("rules", state))
+        back = cls(
+            algorithm=str(state["algorithm"]),
+            reward=str(state["reward"]),
+            representation=representation,
+            n_bins=bins.n_bins,
+            patience=rules.patience,
+            max_steps=rules.max_steps,
+        )
+        forest = CompiledForest.from_state(without_prefix("forest", state))
+        back._parts = (representation, bins, forest, rules)
+        back.policy = GreedyPolicy.from_state(without_prefix("policy", state))
+        return back
+
+    def _fitted(self) -> tuple[Representation, EqualWidthBins, CompiledForest, Rules]:
+        if self._parts is None:
+            raise DomainError("the agent is not trained", todo="call fit(...) first")
+        return self._parts
+
+    def _moved(self, source: pd.DataFrame) -> tuple[Representation, np.ndarray, RollOut]:
+        representation, bins, forest, rules = self._fitted()
+        assert self.policy is not None  # fit sets both
+        features = representation.encode(source)
+        starts = bins.assign(features)
+        result = roll_out(self.policy, starts, forest, rules)
+        return representation, bins.moved(features, starts, result.states), result
