@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 import re
+from array import array
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.canonical import RawChannel, RawRecording
@@ -15,7 +17,6 @@ from tire_pipeline.recordings.units import find_unit
 
 # Columns of the parameter sections: key 1-10, comment 11-40, unit 41-50, values of ten each.
 _KEY, _COMMENT, _UNIT, _WIDTH = 10, 40, 50, 10
-_LARGEST = 1 << 31
 
 
 @dataclass(frozen=True)
@@ -46,8 +47,8 @@ def read_tydex(path: Path) -> RawRecording:
     RecordingError
         A section is missing, or a line cannot be read; with its number.
     """
-    sections, comments = _sections(path)
-    if "MEASURCHANNELS" not in sections or "MEASURDATA" not in sections:
+    sections, comments, rows = _sections(path)
+    if "MEASURCHANNELS" not in sections or rows is None:
         raise RecordingError(
             "no **MEASURCHANNELS and **MEASURDATA: a TYDEX file without measurements",
             where=str(path),
@@ -57,7 +58,7 @@ def read_tydex(path: Path) -> RawRecording:
     scales = [_scale(path, n, s, notes) for n, s in sections["MEASURCHANNELS"]]
     if not scales:
         raise RecordingError("**MEASURCHANNELS is empty", where=str(path))
-    data = _data(path, sections["MEASURDATA"], len(scales))
+    data = rows.table(len(scales))
     channels = []
     for index, scale in enumerate(scales):
         values = data[:, index]
@@ -75,30 +76,74 @@ def read_tydex(path: Path) -> RawRecording:
     return RawRecording("TYDEX", channels, constants, notes, comments)
 
 
-def _sections(path: Path) -> tuple[dict[str, list[tuple[int, str]]], list[str]]:
-    """Lines by section, with their numbers; and the free text of **COMMENTS."""
+class _Rows:
+    """The numbers of the data section, gathered line by line in little memory."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._values = array("d")
+        self._widths: dict[int, int] = {}  # width of a line -> the first line of that width
+
+    def add(self, number: int, line: str) -> None:
+        words = line.split(";") if ";" in line else line.replace(",", " ").split()
+        try:
+            values = [float(w.replace("D", "E").replace("d", "e")) for w in words]
+        except ValueError as error:
+            raise RecordingError(
+                f"a data row holds what is no number ({error})",
+                where=f"{self._path}:{number}",
+                todo="comment lines begin with `!`",
+            ) from error
+        self._values.extend(values)
+        self._widths.setdefault(len(values), number)
+
+    def table(self, columns: int) -> NDArray[np.float64]:
+        """One row a measurement; rows may have been wrapped over shorter lines."""
+        flat = np.frombuffer(self._values, dtype=np.float64) if self._values else np.empty(0)
+        if flat.size == 0:
+            raise RecordingError("**MEASURDATA is empty", where=str(self._path))
+        wrapped = max(self._widths) < columns and flat.size % columns == 0
+        if set(self._widths) == {columns} or wrapped:
+            return flat.reshape(-1, columns)
+        first = min(line for width, line in self._widths.items() if width != columns)
+        raise RecordingError(
+            f"a data row does not hold {columns} numbers, one for each channel",
+            where=f"{self._path}:{first}",
+            todo="check that **MEASURCHANNELS lists every column",
+        )
+
+
+def _sections(path: Path) -> tuple[dict[str, list[tuple[int, str]]], list[str], _Rows | None]:
+    """Lines by section, with their numbers; the free text of **COMMENTS; the data."""
     found: dict[str, list[tuple[int, str]]] = {}
     comments: list[str] = []
     current: str | None = None
+    rows: _Rows | None = None
     with path.open(encoding="latin-1", newline=None) as file:
         for number, line in enumerate(file, 1):
-            line = line.rstrip("\n").rstrip()
+            line = line.rstrip()
             if line.startswith("**"):
                 current = line[2:].strip().upper()
                 if current == "END":
                     break
-                if current in found and current == "MEASURDATA":
-                    raise RecordingError(
-                        "a second **MEASURDATA",
-                        where=f"{path}:{number}",
-                        todo="split the file: one measurement each",
-                    )
+                if current == "MEASURDATA":
+                    if rows is not None:
+                        raise RecordingError(
+                            "a second **MEASURDATA",
+                            where=f"{path}:{number}",
+                            todo="split the file: one measurement each",
+                        )
+                    rows = _Rows(path)
                 found.setdefault(current, [])
             elif current == "COMMENTS":
                 comments.append(line.lstrip("! "))
-            elif line.strip() and not line.lstrip().startswith("!") and current is not None:
+            elif not line.strip() or line.lstrip().startswith("!") or current is None:
+                continue
+            elif current == "MEASURDATA" and rows is not None:
+                rows.add(number, line)
+            else:
                 found[current].append((number, line))
-    return found, [c for c in comments if c]
+    return found, [c for c in comments if c], rows
 
 
 def _parts(line: str) -> tuple[str, str, str, list[str]]:
@@ -146,37 +191,6 @@ def _scale(path: Path, number: int, line: str, notes: list[str]) -> _Scale:
     if filled[0] == 0.0:
         notes.append(f"{key}: factor 0, so the channel is constant")
     return _Scale(key, unit, *filled)
-
-
-def _data(path: Path, lines: list[tuple[int, str]], columns: int) -> np.ndarray:
-    """The numbers of the data section, one row a measurement."""
-    rows: list[np.ndarray] = []
-    widths: set[int] = set()
-    for number, line in lines:
-        words = line.replace(",", " ").split() if ";" not in line else line.split(";")
-        try:
-            row = np.array([float(w.replace("D", "E").replace("d", "e")) for w in words])
-        except ValueError as error:
-            raise RecordingError(
-                f"a data row holds what is no number ({error})",
-                where=f"{path}:{number}",
-                todo="comment lines begin with `!`",
-            ) from error
-        widths.add(row.size)
-        rows.append(row)
-    if not rows:
-        raise RecordingError("**MEASURDATA is empty", where=str(path))
-    if widths == {columns}:
-        return np.vstack(rows)
-    flat = np.concatenate(rows)
-    if max(widths) < columns and flat.size % columns == 0:
-        return flat.reshape(-1, columns)
-    first = next(n for (n, _), r in zip(lines, rows, strict=True) if r.size != columns)
-    raise RecordingError(
-        f"a data row does not hold {columns} numbers, one for each channel",
-        where=f"{path}:{first}",
-        todo="check that **MEASURCHANNELS lists every column",
-    )
 
 
 def _constant(line: str) -> tuple[str, dict[str, object]]:
