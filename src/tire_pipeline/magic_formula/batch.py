@@ -98,8 +98,8 @@ def forces_batch(
     matrix : ndarray of shape (tires, len(COEFFICIENT_NAMES))
         Packed coefficients (:func:`pack`, :func:`pack_matrix`); all of versions of one family of equations.
     normal_load, slip_angle, slip_ratio, camber, speed, pressure : float or array_like
-        Broadcast together to (points,), or to (tires, points) where each tire has its own; rad, N, m/s, Pa; ISO W
-        axes. ``speed`` and ``pressure`` left out: each tire's ``LONGVL`` and nominal pressure.
+        Broadcast together to (points,), or to (tires, points) where each tire has its own; rad, N, m/s, Pa;
+        ISO W axes. ``speed`` and ``pressure`` left out: each tire's ``LONGVL`` and nominal pressure.
     version : str
         A version of the family: "5.2" (also for PAC2002, 5.0, 5.1) or "6.1" (also for 6.2).
     outputs : sequence of str

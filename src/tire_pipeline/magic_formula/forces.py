@@ -94,7 +94,7 @@ def tire_forces(
         and outputs is None
         and turn_slip.__class__ in _NUMBERS
     ):
-        quick = _one_point(model, point, turn_slip, limits)
+        quick = _one_point(model, point, turn_slip, limits, outputs)
         if quick is not None:
             return quick
     wanted = checked_outputs(outputs)
@@ -116,7 +116,13 @@ def tire_forces(
     return TireForces(**dict(zip(wanted, values, strict=True)))
 
 
-def _one_point(model: TireModel, point: tuple[Any, ...], turn_slip: float, limits: str) -> TireForces | None:
+def _one_point(
+    model: TireModel,
+    point: tuple[Any, ...],
+    turn_slip: float,
+    limits: str,
+    outputs: Sequence[str] | None,
+) -> TireForces | None:
     """Evaluate one ordinary point in ISO axes without arrays; None if it is not an ordinary one."""
     for x in point:
         if x.__class__ not in _NUMBERS:

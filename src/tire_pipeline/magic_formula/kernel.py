@@ -71,8 +71,8 @@ def _stamp() -> int:
 def kernel_for(family: int, chosen: int) -> Callable[..., Any]:
     """Return the compiled loop of a family (5 or 6) that stores the outputs ``SETS[chosen]``.
 
-    It is called with the packed coefficients (tires, coefficients); slip angle, slip ratio, camber, load, speed
-    and pressure, each (tires, points) and of any strides; the signs (slip angle, camber, then the twelve
+    It is called with the packed coefficients (tires, coefficients); slip angle, slip ratio, camber, load,
+    speed and pressure, each (tires, points) and of any strides; the signs (slip angle, camber, the twelve
     outputs); the row of ``out`` for each of the twelve outputs, or -1; and ``out`` (tires, rows, points).
     """
     build = _build_52 if family == 5 else _build_61
