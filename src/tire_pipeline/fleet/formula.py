@@ -10,14 +10,70 @@ from dataclasses import dataclass
 
 import numpy as np
 
-LATERAL = (
-    "PCY1 PDY1 PDY2 PDY3 PEY1 PEY2 PEY3 PEY4 PKY1 PKY2 PKY3 PHY1 PHY2 PHY3 PVY1 PVY2 PVY3 PVY4"
-).split()
-LONGITUDINAL = "PCX1 PDX1 PDX2 PDX3 PEX1 PEX2 PEX3 PEX4 PKX1 PKX2 PKX3 PHX1 PHX2 PVX1 PVX2".split()
-ALIGNING = (
-    "QBZ1 QBZ2 QBZ3 QBZ4 QBZ5 QBZ9 QBZ10 QCZ1 QDZ1 QDZ2 QDZ3 QDZ4 QDZ6 QDZ7 QDZ8 QDZ9 "
-    "QEZ1 QEZ2 QEZ3 QEZ4 QEZ5 QHZ1 QHZ2 QHZ3 QHZ4"
-).split()
+LATERAL = [
+    "PCY1",
+    "PDY1",
+    "PDY2",
+    "PDY3",
+    "PEY1",
+    "PEY2",
+    "PEY3",
+    "PEY4",
+    "PKY1",
+    "PKY2",
+    "PKY3",
+    "PHY1",
+    "PHY2",
+    "PHY3",
+    "PVY1",
+    "PVY2",
+    "PVY3",
+    "PVY4",
+]
+LONGITUDINAL = [
+    "PCX1",
+    "PDX1",
+    "PDX2",
+    "PDX3",
+    "PEX1",
+    "PEX2",
+    "PEX3",
+    "PEX4",
+    "PKX1",
+    "PKX2",
+    "PKX3",
+    "PHX1",
+    "PHX2",
+    "PVX1",
+    "PVX2",
+]
+ALIGNING = [
+    "QBZ1",
+    "QBZ2",
+    "QBZ3",
+    "QBZ4",
+    "QBZ5",
+    "QBZ9",
+    "QBZ10",
+    "QCZ1",
+    "QDZ1",
+    "QDZ2",
+    "QDZ3",
+    "QDZ4",
+    "QDZ6",
+    "QDZ7",
+    "QDZ8",
+    "QDZ9",
+    "QEZ1",
+    "QEZ2",
+    "QEZ3",
+    "QEZ4",
+    "QEZ5",
+    "QHZ1",
+    "QHZ2",
+    "QHZ3",
+    "QHZ4",
+]
 
 
 @dataclass(frozen=True)

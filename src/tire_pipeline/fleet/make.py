@@ -97,11 +97,11 @@ class _Writer:
         self.with_compound = settings.compound_in_metadata
         self.templates: dict[str, Template] = {}
 
-    def text(self, category: str, measurement: int, date: float, without: str, side: str) -> str:
+    def text(self, category: str, measurement: int, date: float, without: str) -> str:
         if category not in self.templates:
             self.templates[category] = Template(hand_of(category), self.with_compound)
         day = _FIRST_DAY + dt.timedelta(days=int(date * _DAYS))
-        words = {"date": day.isoformat(), "side": side, "compound": self.compound[measurement]}
+        words = {"date": day.isoformat(), "compound": self.compound[measurement]}
         return self.templates[category].render(self.rows[measurement], words, without)
 
 
@@ -113,9 +113,7 @@ def _training_files(
     origin = []
     for category, own in plan.files.groupby("category"):
         numbers = rng.permutation(len(own)) + 1
-        sides = np.where(rng.random(len(own)) < 0.8, "LEFT", "RIGHT")
-        listed = sorted(zip(numbers, own.itertuples(index=False), sides, strict=True))
-        for number, row, side in listed:
+        for number, row in sorted(zip(numbers, own.itertuples(index=False), strict=True)):
             path = f"{category}/{hand_of(str(category)).name % number}"
             files[path] = writer.text(str(category), row.measurement, row.date, row.without, str(side))
             origin.append({"file": path, "measurement": row.measurement, "file_role": row.role})
@@ -133,7 +131,7 @@ def _evaluation_files(
     chosen = plan.measurements[plan.measurements["role"].isin(EVALUATION_SETS)]
     for row in chosen.itertuples():
         path = f"{row.role}/{row.category}/{row.tire}.tir"
-        text = writer.text(row.category, row.Index, row.date, "", "LEFT")
+        text = writer.text(row.category, row.Index, row.date, "")
         if row.repeat == 2:
             second[path] = text
             continue

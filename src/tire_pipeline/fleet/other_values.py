@@ -89,6 +89,7 @@ def other_values(
         "DREFF": scatter(0.25, 0.05),
         "FREFF": scatter(0.07, 0.1),
         "FNOMIN": fnomin,
+        "VXLOW": 1.0,
         "LONGVL": np.full(count, round(regime.speed, 2)),
         "KPUMIN": np.full(count, -round(regime.slip_ratio_range, 3)),
         "KPUMAX": np.full(count, round(regime.slip_ratio_range, 3)),

@@ -31,8 +31,8 @@ FEATURES: tuple[str, ...] = (
     "PVY2",
 )
 MISSING_FEATURES: tuple[str, ...] = ("PEY2", "PHY2", "PVY2", "PVY1", "PHY1", "PKY2")
-PRESSURES = (0.88, 0.94, 1.06, 1.12)
-WEARS = (0.25, 0.5, 0.8)
+PRESSURES = (0.92, 0.96, 1.04, 1.08)
+WEARS = (0.2, 0.4, 0.6)
 EVALUATION_SETS: tuple[str, ...] = ("four", "tuning", "hidden")
 
 
@@ -163,7 +163,7 @@ def _variants(
                 row["wear"] = float(rng.choice(WEARS))
             elif sort < 0.75:
                 row["same_data"] = first_of[tire]
-                row["weight_twist"] = float(rng.choice([-0.3, -0.15, 0.15, 0.3]))
+                row["weight_twist"] = float(rng.choice([-0.2, -0.1, 0.1, 0.2]))
                 row["weight_twist"] += float(rng.normal(0.0, 0.02))
         rows.append(row)
     return rows

@@ -79,12 +79,12 @@ def draw_sessions(count: int, rng: np.random.Generator) -> Session:
         return rng.normal(0.0, scale, (count, 1))
 
     return Session(
-        gain=1.0 + normal(0.004),
-        load_gain=1.0 + normal(0.004),
-        surface=1.0 + normal(0.007),
+        gain=1.0 + normal(0.003),
+        load_gain=1.0 + normal(0.003),
+        surface=1.0 + normal(0.006),
         angle=normal(0.0004),
-        temperature=normal(2.0),
-        stiffness=normal(0.08),
+        temperature=normal(1.2),
+        stiffness=normal(0.06),
     )
 
 

@@ -10,10 +10,36 @@ _COMBINED_X = ["RBX1", "RBX2", "RCX1", "REX1", "REX2", "RHX1"]
 _COMBINED_Y = [
     "RBY1 RBY2 RBY3 RCY1 REY1 REY2 RHY1 RHY2 RVY1 RVY2 RVY3 RVY4 RVY5 RVY6",
 ]
-_SCALE_FACTORS = (
-    "LFZO LCX LMUX LEX LKX LHX LVX LGAX LCY LMUY LEY LKY LHY LVY LGAY LTR LRES LGAZ LXAL LYKA LVYKA "
-    "LS LSGKP LSGAL LGYR LMX LVMX LMY"
-).split()
+_SCALE_FACTORS = [
+    "LFZO",
+    "LCX",
+    "LMUX",
+    "LEX",
+    "LKX",
+    "LHX",
+    "LVX",
+    "LGAX",
+    "LCY",
+    "LMUY",
+    "LEY",
+    "LKY",
+    "LHY",
+    "LVY",
+    "LGAY",
+    "LTR",
+    "LRES",
+    "LGAZ",
+    "LXAL",
+    "LYKA",
+    "LVYKA",
+    "LS",
+    "LSGKP",
+    "LSGAL",
+    "LGYR",
+    "LMX",
+    "LVMX",
+    "LMY",
+]
 
 # The coefficient sections in file order. Each key is a column of the table of values.
 COEFFICIENT_SECTIONS: dict[str, list[str]] = {
@@ -184,7 +210,7 @@ class Template:
         values : dict of str to float
             In SI; every key of :attr:`keys`.
         words : dict of str to str
-            ``date``, ``side`` and, if written, ``compound``.
+            ``date`` and, if written, ``compound``.
         without : str, optional
             A coefficient that gets no value.
 
@@ -246,10 +272,10 @@ class Template:
         lines += [*self._section("MODEL"), line("PROPERTY_FILE_FORMAT", "'MF-TYRE'")]
         if hand.fittyp:
             lines += [line("FITTYP", hand.fittyp)]
-        lines += [line("TYPE", "'CAR'"), line("TYRESIDE", "'%(side)s'"), line("USE_MODE", "14")]
+        lines += [line("TYPE", "'CAR'"), line("TYRESIDE", "'LEFT'"), line("USE_MODE", "14")]
         if compound:
             lines += [line("COMPOUND_CLASS", "'%(compound)s'")]
-        return [*lines, line("VXLOW", "1"), self._place("LONGVL")]
+        return [*lines, self._place("VXLOW"), self._place("LONGVL")]
 
     def _numbers(self) -> list[str]:
         lines: list[str] = []
@@ -277,7 +303,7 @@ _PLAIN_SECTIONS: dict[str, list[str]] = {
     "INCLINATION_ANGLE_RANGE": ["CAMMIN", "CAMMAX"],
     "VERTICAL_FORCE_RANGE": ["FZMIN", "FZMAX"],
 }
-_LENGTHS = {"UNLOADED_RADIUS", "WIDTH", "RIM_RADIUS", "RIM_WIDTH", "LONGVL"}
+_LENGTHS = {"UNLOADED_RADIUS", "WIDTH", "RIM_RADIUS", "RIM_WIDTH", "LONGVL", "VXLOW"}
 _PER_LENGTH = {"VERTICAL_STIFFNESS", "VERTICAL_DAMPING"}
 _ANGLES = {"ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX"}
 _PRESSURES = {"INFLPRES", "NOMPRES"}

@@ -99,24 +99,29 @@ def _true_parameters(
     count = len(tires)
     rated = tires["load_index"].to_numpy() * GRAVITY
     aspect = tires["ASPECT_RATIO"].to_numpy()
-    size_stiffness = 1.0 + 0.9 * (0.52 - aspect) + 0.025 * heaviness
+    low = (0.52 - aspect) / 0.08
+    big = (rated - 6800.0) / 1000.0
 
     def spread(scale: float) -> np.ndarray:
         return rng.normal(0.0, scale, count)
 
-    softness = 1.0 + 1.6 * (aspect - 0.52) - 0.08 * heaviness + spread(0.10)
+    softness = 1.0 - 0.13 * low - 0.08 * heaviness + spread(0.08)
+    size_friction = 1.0 + 0.030 * low - 0.020 * heaviness
+    size_stiffness = 1.0 + 0.075 * low + 0.045 * heaviness
     return {
         "rated_load": rated,
-        "friction": means[:, 0] * (1.0 + spread(0.020)),
-        "friction_load": 0.115 + 0.05 * (aspect - 0.5) + spread(0.010),
+        "friction": means[:, 0] * size_friction * (1.0 + spread(0.018)),
+        "friction_load": 0.135 - 0.026 * low + 0.024 * heaviness + spread(0.016),
         "stiffness": 17.0 * means[:, 1] * size_stiffness * (1.0 + spread(0.025)),
-        "stiffness_peak": 1.50 - 0.6 * (aspect - 0.52) + spread(0.06),
-        "stiffness_shape": 1.05 + spread(0.05),
-        "pressure_shape": 2.75 + spread(0.12),
-        "friction_drop": 0.16 + 0.25 * (means[:, 0] - 1.0) + spread(0.015),
-        "slide_speed": 4.0 + spread(0.25),
-        "ply_steer": spread(0.0012),
-        "conicity": spread(0.0045),
+        "stiffness_peak": 1.55 + 0.13 * low - 0.08 * big + spread(0.07),
+        "stiffness_shape": 1.05 - 0.05 * low + spread(0.06),
+        "pressure_shape": 2.80 + 0.24 * low - 0.20 * heaviness + spread(0.18),
+        "friction_drop": 0.17 + 0.25 * (means[:, 0] - 1.0) - 0.030 * low + spread(0.025),
+        "slide_speed": 4.0 + spread(0.30),
+        "ply_steer": spread(0.0018),
+        "conicity": spread(0.0070),
+        "conicity_load": 0.5 + spread(0.4),
+        "ply_steer_load": spread(0.6),
         "camber_thrust": 0.052 + 0.03 * (tires["WIDTH"].to_numpy() - 0.22) / 0.04 * 0.2 + spread(0.003),
         "camber_friction": 1.8 + spread(0.25),
         "camber_stiffness": 0.42 + spread(0.05),

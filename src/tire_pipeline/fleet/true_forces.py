@@ -113,8 +113,9 @@ def in_contact(tires: pd.DataFrame, contact: Contact) -> TrueTires:
         friction_x=friction * t["friction_x_ratio"] * (1.0 - 2.0 * camber**2),
         cornering_stiffness=stiffness * (1.0 - t["camber_stiffness"] * np.abs(camber)),
         slip_stiffness=slip_stiffness * (1.0 + contact.curvature) ** -0.3,
-        slip_shift=t["ply_steer"] + t["camber_thrust"] * camber * (1.3 - 0.3 * x),
-        force_shift=t["conicity"] * load * (0.6 * t["rated_load"] / load) ** 0.5,
+        slip_shift=t["ply_steer"] * (1.0 + t["ply_steer_load"] * (x - 0.6))
+        + t["camber_thrust"] * camber * (1.3 - 0.3 * x),
+        force_shift=t["conicity"] * load * (0.6 * t["rated_load"] / load) ** t["conicity_load"],
         half_length=length,
         relaxation_length=stiffness / t["carcass_stiffness"] * contact.pressure**-0.3,
         residual_torque=t["residual_torque"] * load * t["UNLOADED_RADIUS"],
