@@ -278,7 +278,7 @@ class LateralPart:
     """What the aligning torque takes from the lateral force: Fy0, its shift S_Hf and B_y C_y."""
 
     def __init__(self, lateral_parameters: np.ndarray, points: Points) -> None:
-        c1, d1, d2, d3, _, _, _, _, k1, k2, k3, h1, h2, h3, v1, v2, v3, v4 = _columns(lateral_parameters)
+        _, d1, d2, d3, _, _, _, _, k1, k2, k3, h1, h2, h3, v1, v2, v3, v4 = _columns(lateral_parameters)
         fz, fz0, g = points.normal_load, points.nominal_load, points.camber
         df = (fz - fz0) / fz0
         self.force = lateral(lateral_parameters, points)[0]

@@ -80,8 +80,7 @@ def _all_values(
     parts = []
     regimes = regimes_of(plan, settings)
     for key, regime in regimes.items():
-        category, protocol = key.split("/")
-        rows = plan.measurements.query("category == @category and protocol == @protocol")
+        rows = plan.measurements[plan.measurements["regime"] == key]
         own = coefficients.loc[rows.index]
         parts.append(other_values(plan.tires.loc[rows["tire"]], own, regime, rows, rng))
     other = pd.concat(parts).sort_index()
@@ -115,7 +114,7 @@ def _training_files(
         numbers = rng.permutation(len(own)) + 1
         for number, row in sorted(zip(numbers, own.itertuples(index=False), strict=True)):
             path = f"{category}/{hand_of(str(category)).name % number}"
-            files[path] = writer.text(str(category), row.measurement, row.date, row.without, str(side))
+            files[path] = writer.text(str(category), row.measurement, row.date, row.without)
             origin.append({"file": path, "measurement": row.measurement, "file_role": row.role})
     table = pd.DataFrame(origin)
     return files, table.join(plan.measurements.drop(columns="role"), on="measurement")

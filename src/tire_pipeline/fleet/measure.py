@@ -28,11 +28,8 @@ def regimes_of(plan: Plan, settings: FleetSettings) -> dict[str, Regime]:
     -------
     dict of str to Regime
     """
-    pairs = plan.measurements[["category", "protocol"]].drop_duplicates()
-    return {
-        f"{category}/{protocol}": regime_of(category, protocol, settings.bias_size)
-        for category, protocol in pairs.itertuples(index=False)
-    }
+    names = plan.measurements["regime"].drop_duplicates()
+    return {name: regime_of(*name.split("/"), settings.bias_size) for name in names}
 
 
 def measure_all(plan: Plan, settings: FleetSettings, rng: np.random.Generator) -> pd.DataFrame:
@@ -53,8 +50,7 @@ def measure_all(plan: Plan, settings: FleetSettings, rng: np.random.Generator) -
     freeze = pd.Series(rng.random(len(tires)), index=tires.index)
     tasks, indices = [], []
     for key, regime in regimes_of(plan, settings).items():
-        category, protocol = key.split("/")
-        rows = plan.measurements.query("category == @category and protocol == @protocol")
+        rows = plan.measurements[plan.measurements["regime"] == key]
         for _, batch in rows.groupby(np.arange(len(rows)) // 400):
             tasks.append(_task(batch, plan, tires, freeze, regime, rng))
             indices.append(batch.index)

@@ -46,9 +46,9 @@ class Plan:
         All physical tires (:func:`.tires.draw_tires`) with ``role``: ``training``, ``paired``,
         ``four``, ``tuning`` or ``hidden``.
     measurements : pandas.DataFrame
-        One row a fit: ``category``, ``tire``, ``pressure``, ``wear``, ``protocol``, ``date`` (0 to
-        1), ``role`` (``kept``, ``missing``, ``tiny`` or an evaluation set), ``repeat`` (1 or 2),
-        ``same_data`` (row whose raw data is fitted again, or -1), ``weight_twist``.
+        One row a fit: ``category``, ``tire``, ``pressure``, ``wear``, ``protocol``,
+        ``regime`` (``category/protocol``), ``date`` (0 to 1), ``role`` (``kept``, ``missing``, ``tiny``
+        or an evaluation set), ``repeat`` (1 or 2), ``same_data`` (row whose raw data is fitted again, or -1), ``weight_twist``.
     files : pandas.DataFrame
         One row a file of the training fleet: ``measurement``, ``role``, ``without`` (feature
         that has no value, or ""), ``date``, ``category``.
@@ -108,6 +108,7 @@ def make_plan(settings: FleetSettings, rng: np.random.Generator) -> Plan:
     new = measurements["category"].isin(settings.drifting) & (measurements["date"] >= 0.5)
     drifts = settings.kind == "drifting"
     measurements["protocol"] = np.where(new & drifts, "new", "old")
+    measurements["regime"] = measurements["category"] + "/" + measurements["protocol"]
     return Plan(
         tires=pd.concat(tires),
         measurements=measurements,
