@@ -1,0 +1,25 @@
+"""Many tires as one table: what can be learned from, one nominal load, splits, bins."""
+
+from tire_pipeline.tire_table.bins import Binning
+from tire_pipeline.tire_table.dedupe import IDENTICAL, NO_VALUE, SMALL, dedupe_and_filter
+from tire_pipeline.tire_table.from_models import KNOWN_COEFFICIENTS, METADATA, from_models
+from tire_pipeline.tire_table.normalize import normalize_table
+from tire_pipeline.tire_table.physical_tire import SIZE_KEYS, physical_tire_ids
+from tire_pipeline.tire_table.splits import random_split, split_by_tire, split_table
+
+__all__ = [
+    "IDENTICAL",
+    "KNOWN_COEFFICIENTS",
+    "METADATA",
+    "NO_VALUE",
+    "SIZE_KEYS",
+    "SMALL",
+    "Binning",
+    "dedupe_and_filter",
+    "from_models",
+    "normalize_table",
+    "physical_tire_ids",
+    "random_split",
+    "split_by_tire",
+    "split_table",
+]
