@@ -6,6 +6,8 @@ See ``docs/concealed.md``.
 
 from tire_pipeline.concealed.answers import Answer, EffectTruth, seal, unseal
 from tire_pipeline.concealed.case import Case, CaseSettings, case_plan, make_case, make_cases
+from tire_pipeline.concealed.held_out import held_out_errors
+from tire_pipeline.concealed.score import score
 
 __all__ = [
     "Answer",
@@ -13,8 +15,10 @@ __all__ = [
     "CaseSettings",
     "EffectTruth",
     "case_plan",
+    "held_out_errors",
     "make_case",
     "make_cases",
+    "score",
     "seal",
     "unseal",
 ]

@@ -124,23 +124,27 @@ def _hold(tx, ty, limit_x, limit_y, coupling):
     """Bristle shear held within the friction limit; returns it and whether it slides."""
     rx = tx / limit_x
     ry = ty / limit_y
-    nx = math.sqrt(rx * rx + coupling * ry * ry)
-    ny = math.sqrt(coupling * rx * rx + ry * ry)
+    nx = rx * rx + coupling * ry * ry
+    ny = coupling * rx * rx + ry * ry
     slides = False
     if nx > 1.0:
-        tx /= nx
+        tx /= math.sqrt(nx)
         slides = True
     if ny > 1.0:
-        ty /= ny
+        ty /= math.sqrt(ny)
         slides = True
     return tx, ty, slides
 
 
 @njit(cache=True)
-def _profile(c, xi):
-    """Ground pressure over its mean at ``xi`` in -1..1 (1 is the leading edge)."""
+def _profile(c, n_bristles):
+    """Ground pressure over its mean at every bristle, from the leading edge backwards."""
     n = c[PROFILE]
-    return (n + 1.0) / n * (1.0 - abs(xi) ** n) * (1.0 + c[PROFILE_SKEW] * xi) + 1e-6
+    out = np.empty(n_bristles)
+    for j in range(n_bristles):
+        xi = 1.0 - (2.0 * j + 1.0) / n_bristles
+        out[j] = (n + 1.0) / n * (1.0 - abs(xi) ** n) * (1.0 + c[PROFILE_SKEW] * xi) + 1e-6
+    return out
 
 
 @njit(cache=True)
@@ -157,9 +161,10 @@ def _slips(c, e, row, fy, phase):
 
 
 @njit(cache=True)
-def _march(c, e, fz, contact, sx, sy, spin, speed, n_bristles):
+def _march(c, e, fz, contact, sx, sy, spin, speed, profile):
     """Follow one bristle through the contact: the steady forces and moment."""
     a, kx, ky, mu = contact
+    n_bristles = profile.shape[0]
     dx = 2.0 * a / n_bristles
     coupling = min(max(c[COUPLING] + e[E_COUPLING], 0.0), 1.5)
     slip = math.sqrt(sx * sx + sy * sy) * (speed / c[SPEED0]) ** min(e[E_SPEED] * 3.0, 1.0)
@@ -171,7 +176,7 @@ def _march(c, e, fz, contact, sx, sy, spin, speed, n_bristles):
         xi = 1.0 - (2.0 * j + 1.0) / n_bristles
         ux += sx * dx
         uy += (sy + spin * xi * a) * dx
-        grip = (mu_slide if sliding else mu) * q0 * _profile(c, xi)
+        grip = (mu_slide if sliding else mu) * q0 * profile[j]
         tx, ty, sliding = _hold(kx * ux, ky * uy, grip * c[MU_RATIO_X], grip, coupling)
         ux = tx / kx
         uy = ty / ky
@@ -219,6 +224,7 @@ def roll_steady(c, e, rows, dt, time0, n_bristles):
         fx N, fy N, mz N m, tread temperature degC, wear (1 at the end of the nominal run).
     """
     n = rows.shape[0]
+    profile = _profile(c, n_bristles)
     out = np.empty((n, 5))
     state = np.array([c[AMBIENT], c[AMBIENT], 0.0, 0.0])
     rates = np.zeros(2)
@@ -234,7 +240,7 @@ def roll_steady(c, e, rows, dt, time0, n_bristles):
         contact = _contact(c, e, load, row[SPEED], row[PRESSURE], state[0], state[2], state[3], rates, time)
         for _ in range(30):
             sx, sy, spin = _slips(c, e, row, fy + c[COMPLIANCE_FX] * fx, phase)
-            fx, fy_new, mz = _march(c, e, load, contact, sx, sy - twist, spin, row[SPEED], n_bristles)
+            fx, fy_new, mz = _march(c, e, load, contact, sx, sy - twist, spin, row[SPEED], profile)
             change = -mz / c[CARCASS_PSI] - twist
             shift = fy_new - fy
             twist += 0.6 * change
@@ -249,7 +255,7 @@ def roll_steady(c, e, rows, dt, time0, n_bristles):
 
 
 @njit(cache=True)
-def _step(c, e, load, contact, slips, twist, speed, u, slides, carcass):
+def _step(c, e, load, contact, slips, twist, speed, profile, u, slides, carcass):
     """Carry every bristle one place backwards, deform it, and let the carcass springs follow."""
     a, kx, ky, mu = contact
     n = u.shape[0]
@@ -268,7 +274,7 @@ def _step(c, e, load, contact, slips, twist, speed, u, slides, carcass):
         slid = slides[j - 1] if j > 0 else False
         ux += sx * dx - carcass[2]
         uy += (sy - twist + spin * xi * a) * dx - carcass[3]
-        grip = (mu_slide if slid else mu) * q0 * _profile(c, xi)
+        grip = (mu_slide if slid else mu) * q0 * profile[j]
         tx, ty, slid = _hold(kx * ux, ky * uy, grip * c[MU_RATIO_X], grip, coupling)
         u[j, 0] = tx / kx
         u[j, 1] = ty / ky
@@ -294,6 +300,7 @@ def roll_transient(c, e, rows, dt, time0, n_bristles):
     1 is the tire as drawn, small values make the carcass rigid.
     """
     n = rows.shape[0]
+    profile = _profile(c, n_bristles)
     out = np.empty((n, 5))
     state = np.array([c[AMBIENT], c[AMBIENT], 0.0, 0.0])
     rates = np.zeros(2)
@@ -321,7 +328,7 @@ def roll_transient(c, e, rows, dt, time0, n_bristles):
             for m in range(7):
                 row[m] = before[m] + part * (rows[i, m] - before[m])
             slips = _slips(c, e, row, fy + c[COMPLIANCE_FX] * fx, phase)
-            fx, fy, mz = _step(c, e, load, contact, slips, twist, speed, u, slides, carcass)
+            fx, fy, mz = _step(c, e, load, contact, slips, twist, speed, profile, u, slides, carcass)
             twist += 0.2 * (-mz / c[CARCASS_PSI] - twist)
         _heat(c, rows[i], fx, fy, state, dt)
         out[i, 0], out[i, 1], out[i, 2] = fx, fy, mz

@@ -265,7 +265,7 @@ def _scale(rng: np.random.Generator, bench: _Bench, name: str, settings: CaseSet
 
     guess = min(max(strength.GUESS[name], low), high)
     found, got = strength.find_strength(measure, wanted, guess, (low, high))
-    if not settings.effect[0] <= got <= settings.effect[1] or abs(got / wanted - 1.0) > 0.5:
+    if not settings.effect[0] <= got <= settings.effect[1]:
         raise _Unfit
     return sign * found
 

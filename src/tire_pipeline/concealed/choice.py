@@ -69,9 +69,8 @@ def choose(rng: np.random.Generator, kind: str) -> Choice:
     if kind == "pair":
         names = _draw_pair(rng)
         return Choice(names, names, None, _hidden(rng, names))
-    which = int(rng.integers(len(AMBIGUOUS_SETS)))
-    options = AMBIGUOUS_SETS[which][:1] if which == 3 else AMBIGUOUS_SETS[which]
-    name = str(rng.choice(options))
+    which = int(rng.choice(len(AMBIGUOUS_SETS), p=[0.3, 0.3, 0.3, 0.1]))
+    name = str(rng.choice(AMBIGUOUS_SETS[which][: 1 if which == 3 else 2]))
     return Choice((name,), (name,), which, which == 1)
 
 

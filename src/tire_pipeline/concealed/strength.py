@@ -88,7 +88,7 @@ def find_strength(
     for _ in range(5):
         got = measure(x)
         tried.append((x, got))
-        if abs(got / wanted - 1.0) < 0.08:
+        if abs(got / wanted - 1.0) < 0.15:
             break
         slope = 1.0
         if len(tried) > 1 and tried[-2][1] > 0 and got > 0 and tried[-2][0] != x:

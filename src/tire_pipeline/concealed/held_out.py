@@ -1,0 +1,43 @@
+"""Errors of a corrected model on the held-out run, for the scorer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.concealed.case import Case
+from tire_pipeline.concealed.clean_run import model_forces
+from tire_pipeline.concealed.rig import FORCES
+
+
+def held_out_errors(
+    case: Case, predict: Callable[[pd.DataFrame], pd.DataFrame]
+) -> dict[str, dict[str, float]]:
+    """RMS error on the held-out run before and after the correction.
+
+    Parameters
+    ----------
+    case : Case
+    predict : callable
+        Held-out inputs (no forces) -> DataFrame with ``fx`` and ``fy``, N; as
+        ``report.corrected.predict``. A force that it lacks counts as uncorrected.
+
+    Returns
+    -------
+    dict
+        Output -> ``rms_before``, ``rms_after``, N.
+    """
+    inputs = case.held_out.drop(columns=list(FORCES))
+    before = model_forces(case.tire, inputs)
+    after = predict(inputs)
+    out = {}
+    for i, force in enumerate(FORCES):
+        measured = case.held_out[force].to_numpy()
+        guess = after[force].to_numpy() if force in after else before[:, i]
+        out[force] = {
+            "rms_before": float(np.sqrt(np.mean((measured - before[:, i]) ** 2))),
+            "rms_after": float(np.sqrt(np.mean((measured - guess) ** 2))),
+        }
+    return out

@@ -1,0 +1,396 @@
+"""Scores of explanations against the sealed answers, with confidence intervals and every miss.
+
+The reports come as the dictionaries of ``report.to_dict()``; the rules are in
+``docs/concealed.md`` and were fixed before any report was scored.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+from statsmodels.stats.proportion import proportion_confint
+
+from tire_pipeline.concealed.answers import Answer, EffectTruth
+from tire_pipeline.concealed.names import ARTEFACTS, PHYSICS
+from tire_pipeline.errors import DomainError
+
+STRENGTH_LIMIT = 0.6
+"""Effects stronger than this share of the noise must be found."""
+
+LOCATION_LIMIT = 1.0
+"""Windows and regimes are scored for effects stronger than the noise."""
+
+GAIN_LIMIT = 0.1
+"""Held-out recovery is scored where the oracle removes this share of the squared error."""
+
+STRENGTH_BINS = (0.0, 0.6, 1.0, 2.0, 4.0, np.inf)
+"""Edges, in effect over noise, of the groups that the scores are also given by."""
+
+Report = Mapping[str, Any]
+
+
+def named(report: Report) -> tuple[str, ...]:
+    """Catalogue names that a report puts first, in its order."""
+    names = [str(effect["name"]) for effect in report.get("effects", ())]
+    return tuple(name for name in names if name in PHYSICS or name in ARTEFACTS)
+
+
+def covering(report: Report) -> set[str]:
+    """Catalogue names of a report together with the alternatives it leaves open."""
+    out: set[str] = set()
+    for effect in report.get("effects", ()):
+        out |= {str(effect["name"]), *map(str, effect.get("alternatives", ()))}
+    return {name for name in out if name in PHYSICS or name in ARTEFACTS}
+
+
+def false_physics(report: Report, answer: Answer) -> bool:
+    """Whether physics is named where none is missing.
+
+    An effect that leaves the true artefact open among its alternatives is not counted.
+    """
+    truth = {effect.name for effect in answer.effects}
+    for effect in report.get("effects", ()):
+        open_to_truth = truth & set(effect.get("alternatives", ()))
+        if effect["name"] in PHYSICS and effect["name"] not in truth and not open_to_truth:
+            return True
+    return False
+
+
+def exact_set(report: Report, answer: Answer) -> bool:
+    """Whether the names put first are the true ones, none too many and none too few."""
+    found = named(report)
+    return len(found) == len(set(found)) and set(found) == {e.name for e in answer.effects}
+
+
+def interval_iou(a: Sequence[Sequence[float]], b: Sequence[Sequence[float]]) -> float:
+    """Intersection over union of two sets of intervals; 1 if both are empty.
+
+    Parameters
+    ----------
+    a, b : sequence of (low, high)
+        Intervals of one set may overlap.
+    """
+    edges = np.unique([float(v) for pair in (*a, *b) for v in pair])
+    if edges.size < 2:
+        return 1.0 if [list(p) for p in a] == [list(p) for p in b] else 0.0
+    middles, lengths = 0.5 * (edges[1:] + edges[:-1]), np.diff(edges)
+
+    def inside(pairs: Sequence[Sequence[float]]) -> np.ndarray:
+        hits = [(middles > p[0]) & (middles < p[1]) for p in pairs]
+        return np.any(hits, axis=0) if hits else np.zeros(middles.shape, dtype=bool)
+
+    in_a, in_b = inside(a), inside(b)
+    union = float(lengths[in_a | in_b].sum())
+    return float(lengths[in_a & in_b].sum()) / union if union > 0 else 0.0
+
+
+def calibration_error(confidence: ArrayLike, correct: ArrayLike, n_bins: int = 10) -> float:
+    """Expected calibration error: mean distance of confidence and hit rate over equal bins.
+
+    Parameters
+    ----------
+    confidence : array_like, shape (n,)
+        0 to 1.
+    correct : array_like of bool, shape (n,)
+    n_bins : int
+    """
+    p, hit = np.asarray(confidence, dtype=float), np.asarray(correct, dtype=float)
+    if p.size == 0:
+        return float("nan")
+    place = np.minimum((np.clip(p, 0.0, 1.0) * n_bins).astype(int), n_bins - 1)
+    total = 0.0
+    for k in np.unique(place):
+        here = place == k
+        total += here.mean() * abs(p[here].mean() - hit[here].mean())
+    return float(total)
+
+
+def recovered(held_out: Mapping[str, Mapping[str, float]], answer: Answer) -> float | None:
+    """Squared held-out error removed, as a share of what the oracle removes.
+
+    Parameters
+    ----------
+    held_out : mapping
+        Output -> ``rms_before`` and ``rms_after`` of the explained model on the held-out run, N.
+    answer : Answer
+
+    Returns
+    -------
+    float or None
+        Held within -1 and 1; None where the oracle removes too little to tell.
+    """
+    before = best = after = 0.0
+    for output, oracle in answer.oracle.items():
+        before += oracle["rms_before"] ** 2
+        best += oracle["rms_oracle"] ** 2
+        got = held_out.get(output)
+        rms_after = got["rms_after"] if got is not None else oracle["rms_before"]
+        after += rms_after**2
+    if before <= 0.0 or (before - best) / before < GAIN_LIMIT:
+        return None
+    return min(max((before - after) / (before - best), -1.0), 1.0)
+
+
+def score(
+    reports: Mapping[str, Report],
+    answers: Iterable[Answer],
+    *,
+    held_out: Mapping[str, Mapping[str, Mapping[str, float]]] | None = None,
+    seed: int = 0,
+) -> dict[str, Any]:
+    """Score reports against answers.
+
+    Parameters
+    ----------
+    reports : mapping
+        Case -> ``report.to_dict()``. Every case must be there.
+    answers : iterable of Answer
+    held_out : mapping, optional
+        Case -> output -> ``rms_before``, ``rms_after`` of the explained model on held-out data.
+    seed : int
+        For the bootstrap of means.
+
+    Returns
+    -------
+    dict
+        ``scores``: list of {name, value, low, high, n, target, met}; ``by_strength``;
+        ``by_effect``; ``misses``: every case that was not answered rightly, with the reason.
+
+    Raises
+    ------
+    DomainError
+        If a case has no report.
+    """
+    rows = list(answers)
+    absent = [a.case_id for a in rows if a.case_id not in reports]
+    if absent:
+        raise DomainError(
+            f"{len(absent)} of {len(rows)} cases have no report, first {absent[0]}",
+            where="score",
+            todo="explain all cases before scoring",
+        )
+    pairs = [(reports[a.case_id], a) for a in rows]
+    rng = np.random.default_rng(seed)
+    return {
+        "n": len(rows),
+        "scores": _name_scores(pairs) + _value_scores(pairs, held_out or {}, rng),
+        "by_strength": _by_strength(pairs),
+        "by_effect": _by_effect(pairs),
+        "misses": [miss for report, answer in pairs if (miss := _miss(report, answer))],
+    }
+
+
+def _name_scores(pairs: list[tuple[Report, Answer]]) -> list[dict[str, Any]]:
+    def of(*kinds: str) -> list[tuple[Report, Answer]]:
+        return [(r, a) for r, a in pairs if a.kind in kinds]
+
+    def strong(rows: list[tuple[Report, Answer]]) -> list[tuple[Report, Answer]]:
+        return [(r, a) for r, a in rows if weakest(a) > STRENGTH_LIMIT]
+
+    null, single, double = of("nothing", "artefact"), of("single"), of("pair")
+    vague, outside = of("ambiguous"), of("unknown")
+    count = [len(covering(r)) for r, _ in vague]
+    return [
+        _share("false physics, nothing missing", [false_physics(r, a) for r, a in of("nothing")]),
+        _share("false physics, artefact only", [false_physics(r, a) for r, a in of("artefact")]),
+        _share("false physics", [false_physics(r, a) for r, a in null], at_most=0.02),
+        _share("any name, nothing missing", [bool(named(r)) for r, _ in of("nothing")]),
+        _share("artefact found", [exact_set(r, a) for r, a in of("artefact")]),
+        _share("exact set, single", [exact_set(r, a) for r, a in single]),
+        _share(
+            "exact set, single above 0.6 noise",
+            [exact_set(r, a) for r, a in strong(single)],
+            at_least=0.95,
+        ),
+        _share("exact set, pair", [exact_set(r, a) for r, a in double]),
+        _share(
+            "exact set, pair above 0.6 noise",
+            [exact_set(r, a) for r, a in strong(double)],
+            at_least=0.85,
+        ),
+        _share("ambiguous covered", [covers(r, a) for r, a in vague], at_least=0.95),
+        _mean("ambiguous, names given", count, at_most=2.0),
+        _share(
+            "false names, outside the catalogue",
+            [bool(named(r)) for r, _ in outside],
+            at_most=0.05,
+        ),
+    ]
+
+
+def weakest(answer: Answer) -> float:
+    """Strength over noise of a case's weakest effect; 0 where there is none."""
+    return min((e.over_noise for e in answer.effects), default=0.0)
+
+
+def covers(report: Report, answer: Answer) -> bool:
+    """Whether the names given, with alternatives, hold the truth and nothing unacceptable."""
+    given = covering(report)
+    truth = {e.name for e in answer.effects}
+    return truth <= given and given <= truth | set(answer.acceptable)
+
+
+def _value_scores(
+    pairs: list[tuple[Report, Answer]],
+    held_out: Mapping[str, Mapping[str, Mapping[str, float]]],
+    rng: np.random.Generator,
+) -> list[dict[str, Any]]:
+    windows: list[float] = []
+    regimes: list[float] = []
+    confidence: list[float] = []
+    correct: list[bool] = []
+    for report, answer in pairs:
+        truth = {e.name: e for e in answer.effects}
+        right = set(truth) | set(answer.acceptable)
+        for effect in report.get("effects", ()):
+            if effect["name"] not in PHYSICS and effect["name"] not in ARTEFACTS:
+                continue
+            confidence.append(float(effect.get("confidence", 1.0)))
+            correct.append(effect["name"] in right)
+            true = truth.get(effect["name"])
+            if true is not None and true.over_noise > LOCATION_LIMIT:
+                windows.append(interval_iou(effect.get("when", ()), true.when))
+                regimes += _regime_ious(effect, true)
+    shares = [
+        share
+        for _, a in pairs
+        if a.effects and a.kind != "unknown" and a.case_id in held_out
+        if (share := recovered(held_out[a.case_id], a)) is not None
+    ]
+    ece = _mean("calibration error", [], at_most=0.05)
+    if confidence:
+        value = calibration_error(confidence, correct)
+        draws = []
+        for _ in range(500):
+            pick = rng.integers(len(correct), size=len(correct))
+            draws.append(calibration_error(np.take(confidence, pick), np.take(correct, pick)))
+        low, high = np.quantile(draws, [0.025, 0.975])
+        ece |= {"value": value, "low": float(low), "high": float(high), "n": len(correct)}
+        ece["met"] = bool(value <= 0.05)
+    return [
+        _mean("window IoU", windows, at_least=0.8, rng=rng),
+        _mean("regime IoU", regimes, at_least=0.8, rng=rng),
+        _mean("held-out share of the oracle's", shares, at_least=0.9, rng=rng),
+        ece,
+    ]
+
+
+def _regime_ious(effect: Mapping[str, Any], true: EffectTruth) -> list[float]:
+    """One value a channel that both name and over which the truth has an extent."""
+    out = []
+    for channel, (low, high) in effect.get("where", {}).items():
+        if channel in true.where and true.where[channel][1] > true.where[channel][0]:
+            out.append(interval_iou([(low, high)], [true.where[channel]]))
+    return out
+
+
+def _by_strength(pairs: list[tuple[Report, Answer]]) -> list[dict[str, Any]]:
+    out = []
+    for kind in ("single", "pair", "artefact", "ambiguous"):
+        for low, high in pairwise(STRENGTH_BINS):
+            hits = [
+                covers(r, a) if kind == "ambiguous" else exact_set(r, a)
+                for r, a in pairs
+                if a.kind == kind and low < weakest(a) <= high
+            ]
+            if hits:
+                row = _share("right", hits)
+                upper = None if np.isinf(high) else high
+                out.append({"kind": kind, "above": low, "up_to": upper, **row})
+    return out
+
+
+def _by_effect(pairs: list[tuple[Report, Answer]]) -> list[dict[str, Any]]:
+    """How often each true effect was among the first names, whatever else was there."""
+    hits: dict[str, list[bool]] = {}
+    for report, answer in pairs:
+        for effect in answer.effects:
+            hits.setdefault(effect.name, []).append(effect.name in named(report))
+    return [{"effect": name, **_share("found", hits[name])} for name in sorted(hits)]
+
+
+def _miss(report: Report, answer: Answer) -> dict[str, Any] | None:
+    """Describe what went wrong with a case; None if nothing did."""
+    found, truth = set(named(report)), {e.name for e in answer.effects}
+    if answer.kind == "ambiguous":
+        right = covers(report, answer)
+    elif answer.kind == "unknown":
+        right, truth = not found, set()
+    else:
+        right = exact_set(report, answer)
+    if right:
+        return None
+    return {
+        "case": answer.case_id,
+        "kind": answer.kind,
+        "true": sorted(e.name for e in answer.effects),
+        "over_noise": [round(e.over_noise, 2) for e in answer.effects],
+        "verdict": report.get("verdict"),
+        "named": sorted(found),
+        "alternatives": sorted(covering(report) - found),
+        "missed": sorted(truth - found),
+        "invented": sorted(found - truth),
+        "missing_channels": list(answer.missing_channels),
+    }
+
+
+def _share(
+    name: str,
+    hits: Sequence[bool],
+    *,
+    at_most: float | None = None,
+    at_least: float | None = None,
+) -> dict[str, Any]:
+    """Proportion with Wilson's 95% interval."""
+    n = len(hits)
+    k = int(np.sum(hits)) if n else 0
+    low, high = proportion_confint(k, n, method="wilson") if n else (float("nan"),) * 2
+    return _row(name, k / n if n else float("nan"), low, high, n, at_most, at_least)
+
+
+def _mean(
+    name: str,
+    values: Sequence[float],
+    *,
+    at_most: float | None = None,
+    at_least: float | None = None,
+    rng: np.random.Generator | None = None,
+) -> dict[str, Any]:
+    """Mean with a 95% bootstrap interval over cases."""
+    x = np.asarray(values, dtype=float)
+    if x.size == 0:
+        return _row(name, float("nan"), float("nan"), float("nan"), 0, at_most, at_least)
+    rng = rng or np.random.default_rng(0)
+    means = x[rng.integers(x.size, size=(1000, x.size))].mean(axis=1)
+    low, high = np.quantile(means, [0.025, 0.975])
+    return _row(name, float(x.mean()), low, high, x.size, at_most, at_least)
+
+
+def _row(
+    name: str,
+    value: float,
+    low: float,
+    high: float,
+    n: int,
+    at_most: float | None,
+    at_least: float | None,
+) -> dict[str, Any]:
+    target = None
+    met: bool | None = None
+    if at_most is not None:
+        target, met = f"<= {at_most}", bool(value <= at_most)
+    elif at_least is not None:
+        target, met = f">= {at_least}", bool(value >= at_least)
+    return {
+        "name": name,
+        "value": value if n else None,
+        "low": float(low) if n else None,
+        "high": float(high) if n else None,
+        "n": int(n),
+        "target": target,
+        "met": met if n else None,
+    }
