@@ -6,7 +6,7 @@ import pytest
 
 from tire_pipeline.classifiers.random_forest import RandomForest
 from tire_pipeline.representations import make_representation
-from tire_pipeline.translation.thesis.binning import EqualWidthBins
+from tire_pipeline.tire_table.bins import Binning
 
 
 def _synthetic_table():
@@ -25,7 +25,7 @@ def table():
 @pytest.fixture(scope="session")
 def binned(table):
     features = make_representation("coefficients").encode(table)
-    return EqualWidthBins.fit(features, 10).assign(features)
+    return Binning.fit(features, 10).transform(features)
 
 
 @pytest.fixture(scope="session")

@@ -8,9 +8,9 @@ import torch
 from tire_pipeline.errors import DomainError
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.state_files import read_state, write_state
+from tire_pipeline.tire_table.bins import Binning
 from tire_pipeline.translation import make_translator, translator_from_state
 from tire_pipeline.translation.thesis.batch_environment import BatchEnv
-from tire_pipeline.translation.thesis.binning import EqualWidthBins
 from tire_pipeline.translation.thesis.policy import GreedyPolicy
 from tire_pipeline.translation.thesis.roll_out import roll_out
 from tire_pipeline.translation.thesis.rules import REWARDS, Rules
@@ -43,9 +43,9 @@ def test_only_what_moved_changes(translator, table):
     names = list(LATERAL_WITHOUT_CAMBER)
     others = [c for c in table.columns if c not in names]
     assert translated[others].equals(source[others])
-    bins = EqualWidthBins.fit(table[names].to_numpy(), 10)
-    steps = translator.follow(source).states - bins.assign(source[names].to_numpy())
-    expected = source[names].to_numpy() + steps * bins.widths
+    bins = Binning.fit(table[names].to_numpy(), 10)
+    steps = translator.follow(source).states - bins.transform(source[names].to_numpy())
+    expected = source[names].to_numpy() + steps * (bins.high - bins.low) / 10
     np.testing.assert_allclose(translated[names].to_numpy(), expected, rtol=1e-12)
     still = steps == 0
     np.testing.assert_array_equal(translated[names].to_numpy()[still], source[names].to_numpy()[still])
@@ -90,12 +90,12 @@ def test_power_series_knows_its_imaginary_states(table):
 
     representation = make_representation("power_series").fit(table)
     features = representation.encode(table)
-    bins = EqualWidthBins.fit(features, 12)
+    bins = Binning.fit(features, 12)
     groups, lookup = real_states(representation, bins)
     assert 0 < lookup.mean() < 1
     rules = Rules(12, 12, target=0, real_features=groups, real_lookup=lookup)
     states = np.random.default_rng(0).integers(0, 12, size=(500, 12))
-    expected = representation.is_real(bins.centres(states))
+    expected = representation.is_real(bins.inverse(states))
     assert 0 < expected.mean() < 1
     assert [rules.is_real(state) for state in states] == list(expected)
 

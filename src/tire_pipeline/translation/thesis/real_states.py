@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.representations.base import CURVE_LOADS, Representation
-from tire_pipeline.translation.thesis.binning import EqualWidthBins
+from tire_pipeline.tire_table.bins import Binning
 
 
-def real_states(representation: Representation, bins: EqualWidthBins) -> tuple[np.ndarray, np.ndarray]:
+def real_states(representation: Representation, bins: Binning) -> tuple[np.ndarray, np.ndarray]:
     """Ask the representation once for every combination of bins that decides.
 
     Whether Appendix C has a real solution depends, load by load, on the three derivatives there.
@@ -27,10 +27,11 @@ def real_states(representation: Representation, bins: EqualWidthBins) -> tuple[n
     grid = np.stack(np.meshgrid(*[np.arange(n)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
     lookup = []
     for load in range(n_loads):
+        states = np.zeros((len(grid), len(bins.low)), dtype=np.int64)
+        states[:, groups[load]] = grid
+        values = bins.inverse(states)
         # the same values at all three loads, so that the answer for the tire is that for the load
-        values = bins.centres(np.zeros((1, len(bins.low)), dtype=int)).repeat(len(grid), axis=0)
-        own = bins.low[groups[load]] + (grid + 0.5) * bins.widths[groups[load]]
         for other in range(n_loads):
-            values[:, groups[other]] = own
+            values[:, groups[other]] = values[:, groups[load]]
         lookup.append(representation.is_real(values).reshape(n, n, n))
     return groups, np.stack(lookup)

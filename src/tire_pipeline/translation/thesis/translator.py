@@ -17,8 +17,8 @@ from tire_pipeline.representations import (
     representation_from_state,
 )
 from tire_pipeline.state_files import prefixed, without_prefix
+from tire_pipeline.tire_table.bins import Binning
 from tire_pipeline.translation.base import check_target
-from tire_pipeline.translation.thesis.binning import EqualWidthBins
 from tire_pipeline.translation.thesis.policy import GreedyPolicy
 from tire_pipeline.translation.thesis.real_states import real_states
 from tire_pipeline.translation.thesis.roll_out import RollOut, roll_out
@@ -46,8 +46,8 @@ class AgentTranslator:
 
     Notes
     -----
-    A feature that ends up k bins from where it started is moved by k bin widths, so what the agent
-    does not touch keeps its exact value.
+    A feature moves by the distance between the centres of the bins where it ends and where it
+    started: with equal width by whole bin widths. What the agent does not touch keeps its value.
     """
 
     name: ClassVar[str] = "agent"
@@ -76,7 +76,7 @@ class AgentTranslator:
         self._wanted = representation if isinstance(representation, str) else representation.name
         self._options = dict(representation_options or {})
         self.learning_curve = pd.DataFrame(columns=["step", "reward", "length"])
-        self._parts: tuple[Representation, EqualWidthBins, CompiledForest, Rules] | None = None
+        self._parts: tuple[Representation, Binning, CompiledForest, Rules] | None = None
         self.policy: GreedyPolicy | None = None
 
     def fit(
@@ -86,6 +86,7 @@ class AgentTranslator:
         target: str,
         seed: int,
         classifier: RandomForest | None = None,
+        bins: Binning | None = None,
     ) -> Self:
         """Fit the representation, the bins, the forest and the agent.
 
@@ -96,7 +97,9 @@ class AgentTranslator:
         target : str
         seed : int
         classifier : RandomForest, optional
-            Trained on the bins of the same representation and table; trained here if not given.
+            Trained on the bins of the same representation; trained here if not given.
+        bins : Binning, optional
+            Of the same representation; fitted here, with equal width, if not given.
         """
         from tire_pipeline.translation.thesis.training import train_agent
 
@@ -105,8 +108,9 @@ class AgentTranslator:
         if self._given is None:
             representation.fit(training, seed=seed)
         features = representation.encode(training)
-        bins = EqualWidthBins.fit(features, self.n_bins)
-        starts = bins.assign(features)
+        if bins is None:
+            bins = Binning.fit(features, self.n_bins, names=representation.feature_names)
+        starts = bins.transform(features)
         labels = training["category"].to_numpy().astype(str)
         if classifier is None:
             classifier = RandomForest(smote=self.smote).fit(starts, labels, seed=seed)
@@ -117,7 +121,7 @@ class AgentTranslator:
         real_features, real_lookup = real_states(representation, bins)
         rules = Rules(
             n_features=features.shape[1],
-            n_bins=self.n_bins,
+            n_bins=bins.n_bins,
             target=int(np.flatnonzero(classifier.classes_ == target)[0]),
             reward=self.reward,
             patience=self.patience,
@@ -177,7 +181,7 @@ class AgentTranslator:
     def from_state(cls, state: Mapping[str, Any]) -> Self:
         """Bring back what :meth:`to_state` gave."""
         representation = representation_from_state(without_prefix("representation", state))
-        bins = EqualWidthBins.from_state(without_prefix("bins", state))
+        bins = Binning.from_state(without_prefix("bins", state))
         rules = Rules.from_state(without_prefix("rules", state))
         back = cls(
             algorithm=str(state["algorithm"]),
@@ -192,7 +196,7 @@ class AgentTranslator:
         back.policy = GreedyPolicy.from_state(without_prefix("policy", state))
         return back
 
-    def _fitted(self) -> tuple[Representation, EqualWidthBins, CompiledForest, Rules]:
+    def _fitted(self) -> tuple[Representation, Binning, CompiledForest, Rules]:
         if self._parts is None:
             raise DomainError("the agent is not trained", todo="call fit(...) first")
         return self._parts
@@ -201,6 +205,7 @@ class AgentTranslator:
         representation, bins, forest, rules = self._fitted()
         assert self.policy is not None  # fit sets both
         features = representation.encode(source)
-        starts = bins.assign(features)
+        starts = bins.transform(features)
         result = roll_out(self.policy, starts, forest, rules)
-        return representation, bins.moved(features, starts, result.states), result
+        moved = bins.inverse(result.states) - bins.inverse(starts)
+        return representation, features + moved, result
