@@ -146,9 +146,11 @@ def forces_batch(
 
 def model_of(vector: np.ndarray, version: str, metadata: Mapping[str, object] | None = None) -> TireModel:
     """Return the tire model of a packed vector: the opposite of :func:`pack`."""
-    from tire_pipeline.magic_formula.coefficients import NAMES_BY_FAMILY
+    from tire_pipeline.magic_formula.coefficients import EXTENSIONS_6, NAMES_BY_FAMILY
     from tire_pipeline.magic_formula.model import TireModel
 
     used = NAMES_BY_FAMILY[family_of(version)]
     coefficients = {name: float(vector[INDEX[name]]) for name in used}
+    extensions = {name: float(vector[INDEX[name]]) for name in EXTENSIONS_6}
+    coefficients.update({name: value for name, value in extensions.items() if value != 0})
     return TireModel.from_coefficients(coefficients, version, metadata)

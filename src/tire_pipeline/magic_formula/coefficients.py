@@ -114,8 +114,11 @@ _TURN_SLIP = [
     "QDRP1",
 ]
 
+EXTENSIONS_6 = ("PHY3", "QYZ1")
+"""Not of MF 6.1: what a model converted from 5.2 carries so that nothing changes (:mod:`.convert`)."""
+
 COEFFICIENT_NAMES: tuple[str, ...] = tuple(
-    [*GENERAL, *PRESSURE, *SCALE_FACTORS, *_BOTH, *_ONLY_5, *_ONLY_6, *_TURN_SLIP]
+    [*GENERAL, *PRESSURE, *SCALE_FACTORS, *_BOTH, *_ONLY_5, *_ONLY_6, *_TURN_SLIP, "QYZ1"]
 )
 """The order of a packed coefficient vector: one order for all versions."""
 

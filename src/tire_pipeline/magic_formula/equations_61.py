@@ -104,12 +104,15 @@ def lateral_friction(p, gamma, dfz, dpi):
 
 @jitable
 def pure_lateral(p, alpha, gamma, fz, dfz, dpi, fz0, z):
-    """Return Fy0, mu_y, K_ya, S_Hy, S_Vy, B_y C_y (4.E19 to 4.E30)."""
+    """Return Fy0, mu_y, K_ya, S_Hy, S_Vy, B_y C_y (4.E19 to 4.E30).
+
+    ``PHY3``, the camber shift of 5.2 (A.25), is an extension: no 6.1 file has it but a converted one.
+    """
     ky = cornering_stiffness(p, gamma, fz, dpi, fz0, z.z3)
     svyg = camber_shift(p, gamma, fz, dfz, z.z2)
     muy = lateral_friction(p, gamma, dfz, dpi)
     by_camber = divide(camber_stiffness(p, fz, dfz, dpi) * gamma - svyg, ky)
-    shy = (p.PHY1 + p.PHY2 * dfz) * p.LHY + by_camber * z.z0 + z.z4 - 1.0
+    shy = (p.PHY1 + p.PHY2 * dfz) * p.LHY + p.PHY3 * gamma + by_camber * z.z0 + z.z4 - 1.0
     svy = fz * (p.PVY1 + p.PVY2 * dfz) * p.LVY * p.LMUY * z.z2 + svyg
     alpha_y = alpha + shy
     cy = p.PCY1 * p.LCY
@@ -285,7 +288,9 @@ def evaluate_61(p, alpha, kappa, gamma, fz, speed, dpi, by_load, z):
     mzr = residual_torque(p, alpha, alpha_r, ratio, kappa, gamma, fz, dfz, dpi, by_cy, direction, z)
     fy0_upright = pure_lateral(p, alpha, 0.0 * gamma, fz, dfz, dpi, fz0, NO_TURN_SLIP)[0]
     arm = (p.SSZ1 + p.SSZ2 * fy / p.FNOMIN + (p.SSZ3 + p.SSZ4 * dfz) * gamma) * p.UNLOADED_RADIUS * p.LS
-    mz = -trail * gyk * fy0_upright + mzr + arm * fx
+    # QYZ1 is an extension: 1 in a model converted from 5.2, whose F'y keeps its camber (A.65)
+    fy_prime = gyk * (fy0_upright + p.QYZ1 * (fy0 - fy0_upright))
+    mz = -trail * fy_prime + mzr + arm * fx
 
     mx = overturning(p, fy, gamma, fz, dpi)
     my = rolling_resistance(p, fx, gamma, fz, speed, by_load)

@@ -87,13 +87,7 @@ def tire_forces(
     elif pressure is None:
         pressure = model.value("NOMPRES")
     point = (slip_angle, slip_ratio, camber, normal_load, speed, pressure)
-    if (
-        model.simple
-        and axes == "ISO"
-        and side is None
-        and outputs is None
-        and turn_slip.__class__ in _NUMBERS
-    ):
+    if model.simple and axes == "ISO" and side is None and turn_slip.__class__ in _NUMBERS:
         quick = _one_point(model, point, turn_slip, limits, outputs)
         if quick is not None:
             return quick

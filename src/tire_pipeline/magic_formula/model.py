@@ -19,8 +19,10 @@ from tire_pipeline.magic_formula.coefficients import (
     missing_defaults,
     pack_mapping,
 )
+from tire_pipeline.magic_formula.convert import to_version
 from tire_pipeline.magic_formula.engine import compiles
 from tire_pipeline.magic_formula.forces import TireForces, tire_forces
+from tire_pipeline.magic_formula.nominal_load import nominal_load_changed
 
 
 @dataclass(frozen=True, eq=False)
@@ -232,3 +234,11 @@ class TireModel:
         changed = {**self.coefficients, **coefficients}
         left = {k: v for k, v in self.defaulted.items() if k not in coefficients}
         return dataclasses.replace(self, coefficients=changed, defaulted=left)
+
+    def nominal_load_changed(self, new: float) -> TireModel:
+        """Return the same tire with another nominal load; see :func:`.nominal_load.nominal_load_changed`."""
+        return nominal_load_changed(self, new)
+
+    def to_version(self, version: str) -> TireModel:
+        """Return the tire as a model of another version; see :func:`.convert.to_version`."""
+        return to_version(self, version)
