@@ -20,5 +20,5 @@ DEFAULT = (
 def register_pipelines() -> dict[str, Pipeline]:
     """All pipelines by name; ``__default__`` is the eight from reading to evaluation."""
     pipelines = find_pipelines(raise_errors=True)
-    pipelines["__default__"] = sum((pipelines[name] for name in DEFAULT), Pipeline([]))
+    pipelines["__default__"] = sum((pipelines[name] for name in DEFAULT if name in pipelines), Pipeline([]))
     return pipelines

@@ -67,7 +67,7 @@ _POWERS = {
 """Coefficient -> power of r that it is multiplied by, after its polynomial if it has one."""
 
 
-def normalize_table(table: pd.DataFrame, nominal_load: float) -> pd.DataFrame:
+def normalize_table(table: pd.DataFrame, nominal_load: npt.ArrayLike) -> pd.DataFrame:
     """Write the same forces with one nominal load.
 
     A coefficient that a file lacks counts as 0, and stays without a value unless it no longer is 0.
@@ -76,8 +76,8 @@ def normalize_table(table: pd.DataFrame, nominal_load: float) -> pd.DataFrame:
     ----------
     table : DataFrame
         A tire table; not changed.
-    nominal_load : float
-        N.
+    nominal_load : float or array_like, shape (rows,)
+        N; an array brings every row to its own, for example back to where it came from.
 
     Returns
     -------
@@ -89,22 +89,25 @@ def normalize_table(table: pd.DataFrame, nominal_load: float) -> pd.DataFrame:
     DomainError
         ``nominal_load`` or some ``FNOMIN`` is not positive, or a coefficient leaves the range of numbers.
     """
-    if not (np.isfinite(nominal_load) and nominal_load > 0):
-        raise DomainError(f"a nominal load of {nominal_load} N", todo="give a positive one")
+    wanted = np.broadcast_to(np.asarray(nominal_load, dtype=float), len(table))
+    bad = wanted[~(np.isfinite(wanted) & (wanted > 0))]
+    if bad.size:
+        raise DomainError(f"a nominal load of {bad[0]} N", todo="give a positive one")
     present = table["FNOMIN"].to_numpy(dtype=float)
     if not np.all(present > 0):
         file = table.loc[~(present > 0), "file"].iloc[0]
         raise DomainError("FNOMIN is not positive", where=str(file), todo="drop this file")
-    ratio = nominal_load / present
+    ratio = wanted / present
     is_61 = table["version"].str.startswith("6").to_numpy(dtype=bool)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         changed = _changed(_Table(table), ratio, is_61)
     result = table.copy()
     for name, values in changed.items():
         if not np.isfinite(values).all():
-            file = table.loc[~np.isfinite(values), "file"].iloc[0]
+            row = int(np.flatnonzero(~np.isfinite(values))[0])
+            file = table["file"].iloc[row]
             raise DomainError(
-                f"{name} has no finite value at a nominal load of {nominal_load:g} N",
+                f"{name} has no finite value at a nominal load of {wanted[row]:g} N",
                 where=str(file),
                 todo="drop this file, or choose a nominal load near to its own",
             )
@@ -113,7 +116,7 @@ def normalize_table(table: pd.DataFrame, nominal_load: float) -> pd.DataFrame:
             result[name] = np.where(absent, np.nan, values)
         elif np.any(values != 0.0):
             result[name] = np.where(values == 0.0, np.nan, values)
-    return result.assign(FNOMIN=float(nominal_load))
+    return result.assign(FNOMIN=wanted)
 
 
 class _Table:

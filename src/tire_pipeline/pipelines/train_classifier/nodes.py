@@ -103,7 +103,7 @@ def train_forest(
     splits: pd.DataFrame,
     parameters: TrainClassifierParameters,
     seed: int,
-) -> tuple[dict[str, Any], pd.DataFrame, pd.DataFrame, Figure]:
+) -> tuple[dict[str, Any], pd.DataFrame, pd.DataFrame, pd.DataFrame]:
     """Train the agent's forest on bins, and measure it on both splits.
 
     Parameters
@@ -122,7 +122,8 @@ def train_forest(
         As :func:`score_classifiers`.
     per_class : DataFrame
         ``split, category, precision, recall, f1, rows``.
-    confusion : Figure
+    confusion : DataFrame
+        ``split, true, predicted, share``: shares of each true category.
     """
     seeds = range(seed, seed + parameters.trainings)
     results: dict[str, Evaluation] = {}
@@ -139,7 +140,7 @@ def train_forest(
     first = ["split", "category"]
     per_class = per_class[first + [c for c in per_class.columns if c not in first]]
     state = results["random"].classifiers[0].to_state()
-    return state, pd.DataFrame(scores), per_class, confusion_figure(results)
+    return state, pd.DataFrame(scores), per_class, _confusion(results)
 
 
 def join_scores(features: pd.DataFrame, bins: pd.DataFrame) -> pd.DataFrame:
@@ -147,24 +148,34 @@ def join_scores(features: pd.DataFrame, bins: pd.DataFrame) -> pd.DataFrame:
     return pd.concat([features, bins], ignore_index=True)
 
 
-def confusion_figure(results: dict[str, Evaluation]) -> Figure:
-    """Confusion matrices side by side, as shares of each true category."""
-    figure, axes = new_figure(1, len(results), width=4.6 * len(results), height=4.2)
+def confusion_figure(confusion: pd.DataFrame) -> Figure:
+    """Confusion matrices side by side, as shares of each true category (thesis, Figure 5.3)."""
+    figure, axes = new_figure(1, len(SPLITS), width=4.6 * len(SPLITS), height=4.2)
     words = {"random": "random split", "by_tire": "split by physical tire"}
-    for one, (split, result) in zip(np.atleast_1d(np.asarray(axes)), results.items(), strict=True):
-        shares = result.confusion.div(result.confusion.sum(axis=1), axis=0).fillna(0.0)
+    for one, split in zip(np.asarray(axes), SPLITS, strict=True):
+        part = confusion[confusion["split"] == split]
+        shares = part.pivot(index="true", columns="predicted", values="share")
         one.imshow(shares, vmin=0, vmax=1, cmap="Blues")
         one.grid(False)
         one.set_xticks(range(len(shares)), shares.columns)
         one.set_yticks(range(len(shares)), shares.index)
         one.set_xlabel("predicted category")
         one.set_ylabel("true category")
-        one.set_title(f"{words[split]}: accuracy {result.accuracy:.3f}")
+        one.set_title(words[split])
         for row, values in enumerate(shares.to_numpy()):
             for column, value in enumerate(values):
                 ink = "white" if value > 0.5 else "black"
                 one.text(column, row, f"{value:.2f}", ha="center", va="center", color=ink, fontsize=8)
     return figure
+
+
+def _confusion(results: dict[str, Evaluation]) -> pd.DataFrame:
+    parts = []
+    for split, result in results.items():
+        shares = result.confusion.div(result.confusion.sum(axis=1), axis=0).fillna(0.0)
+        long = shares.rename_axis(index="true", columns="predicted").stack().rename("share")
+        parts.append(long.reset_index().assign(split=split))
+    return pd.concat(parts, ignore_index=True)[["split", "true", "predicted", "share"]]
 
 
 def _arrays(table: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:

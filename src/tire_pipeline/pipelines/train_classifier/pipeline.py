@@ -3,6 +3,7 @@
 from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline.pipelines.train_classifier.nodes import (
+    confusion_figure,
     join_scores,
     score_classifiers,
     train_forest,
@@ -28,8 +29,14 @@ def create_pipeline(**_: object) -> Pipeline:
                     "params:train_classifier",
                     "params:seed",
                 ],
-                outputs=["classifier", "scores_of_bins", "classifier_per_class", "confusion_matrix"],
+                outputs=["classifier", "scores_of_bins", "classifier_per_class", "confusion_table"],
                 name="train_forest",
+            ),
+            Node(
+                confusion_figure,
+                inputs="confusion_table",
+                outputs="confusion_matrix",
+                name="draw_confusion",
             ),
             Node(
                 join_scores,

@@ -1,0 +1,158 @@
+"""The report: what was read, what the classifier can do, what the translation did."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure as MplFigure
+
+from tire_pipeline.evaluation import curves_of
+from tire_pipeline.evaluation.curves import EvaluationGrid
+from tire_pipeline.pipelines.train_agent.nodes import learning_figure
+from tire_pipeline.pipelines.train_classifier.nodes import confusion_figure
+from tire_pipeline.reporting import Figure, Table, Text, colour_of, new_figure, render_page
+
+THESIS_METRICS = ("forces", "cornering_stiffness", "peak_friction")
+
+
+def force_figure(translated_table: pd.DataFrame, references: pd.DataFrame) -> MplFigure:
+    """Lateral force of up to four tires: as measured, as translated, and as the target measured."""
+    names = list(dict.fromkeys(translated_table["set"]))
+    part = translated_table[translated_table["set"] == names[0]] if names else translated_table
+    tires = list(dict.fromkeys(part["tire"]))[:4]
+    figure, axes = new_figure(1, max(len(tires), 1), width=3.2 * max(len(tires), 1), height=3.4, sharey=True)
+    grid = EvaluationGrid(loads=np.array([6000.0]))
+    angles = np.degrees(grid.slip_angles)
+    for one, tire in zip(np.atleast_1d(np.asarray(axes)), tires, strict=False):
+        own = part[part["tire"] == tire]
+        categories = sorted(own["category"].unique())
+        for row in own.to_dict("records"):
+            fy = curves_of(pd.DataFrame([row]), grid, lateral_only=True).fy[0, 0] / 1e3
+            colour = colour_of(categories.index(row["category"]))
+            after = row["state"] == "after"
+            label = f"{row['category']} translated" if after else f"{row['category']} as measured"
+            one.plot(angles, fy, color=colour, ls="--" if after else "-", lw=1.1, label=label)
+        target = references[references["tire"] == tire] if len(references) else references
+        if len(target):
+            fy = curves_of(target.head(1), grid, lateral_only=True).fy[0, 0] / 1e3
+            one.plot(angles, fy, color="black", lw=2, label="target's measurement")
+        one.set_title(str(tire))
+        one.set_xlabel("slip angle / deg")
+    first = np.atleast_1d(np.asarray(axes))[0]
+    first.set_ylabel("lateral force at 6 kN / kN")
+    handles, labels = first.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=5, fontsize=8)
+    return figure
+
+
+def build_report(
+    ingest_summary: dict[str, Any],
+    filter_report: pd.DataFrame,
+    tire_table: pd.DataFrame,
+    classifier_scores: pd.DataFrame,
+    classifier_per_class: pd.DataFrame,
+    confusion_table: pd.DataFrame,
+    learning_curve: pd.DataFrame,
+    evaluation_summary: pd.DataFrame,
+    translated_table: pd.DataFrame,
+    references: pd.DataFrame,
+    target_category: str,
+) -> str:
+    """One page in plain words; every figure beside what it must be compared with.
+
+    Returns
+    -------
+    str
+        HTML without outside references.
+    """
+    parts = [
+        Text(
+            _main(ingest_summary, tire_table, classifier_scores, evaluation_summary, target_category),
+            emphasis=True,
+        ),
+        *_files(ingest_summary, filter_report, tire_table),
+        *_classifier(classifier_scores, classifier_per_class),
+        Figure(confusion_figure(confusion_table), "Shares of each true category."),
+        Figure(
+            learning_figure(learning_curve),
+            "A rising curve says that the agent learned to please the classifier, "
+            "not that the tires became right.",
+            heading="The agent",
+        ),
+        *_translation(evaluation_summary, target_category),
+        Figure(
+            force_figure(translated_table, references),
+            "Lateral force over slip angle: solid as measured, dashed as translated.",
+            heading="Force curves",
+        ),
+    ]
+    return render_page("Tire models: who measured them, and what translation does", parts)
+
+
+def _main(
+    ingest: dict[str, Any], table: pd.DataFrame, scores: pd.DataFrame, summary: pd.DataFrame, target: str
+) -> list[str]:
+    forest = scores[(scores["classifier"] == "random_forest") & (scores["features"] == "as they are")]
+    by_split = forest.set_index("split")["accuracy"]
+    lines = [
+        f"{ingest['read']} of {ingest['files']} files were read; {len(table)} remain after filtering.",
+        f"The forest names the measuring actor rightly for {by_split['random']:.1%} of the test files when "
+        f"files are split at random, and for {by_split['by_tire']:.1%} when they are split by physical tire. "
+        "Only the second figure says what it does on a new tire: at random, variants of one tire stand on "
+        "both sides, and the forest recognises the tire.",
+    ]
+    for name, part in summary[summary["metric"].isin(THESIS_METRICS)].groupby("set", sort=False):
+        ratio = part.pivot(index="metric", columns="translator", values="ratio").loc[list(THESIS_METRICS)]
+        agent = " / ".join(f"{value:.2f}" for value in ratio["agent"])
+        floor = " / ".join(f"{value:.2f}" for value in ratio["floor"])
+        better = int((ratio["agent"] < 1).sum())
+        lines.append(
+            f"Set {name}: after the agent's translation to {target} the errors of forces / "
+            f"cornering stiffness / peak friction are {agent} times those of the untranslated files "
+            f"(1 is doing nothing; "
+            f"{floor} is the target measuring again). It beats doing nothing on {better} of 3."
+        )
+    if summary.empty:
+        lines.append(
+            "No tire here was measured by the target as well, so nobody can tell from these files "
+            "whether the translations are right."
+        )
+    return lines
+
+
+def _files(ingest: dict[str, Any], dropped: pd.DataFrame, table: pd.DataFrame) -> list[Text | Table]:
+    counts = table.groupby("category").agg(files=("file", "size"), tires=("tire_id", "nunique")).reset_index()
+    parts: list[Text | Table] = [
+        Table(counts, "Files and physical tires that remain, by category.", heading="The files")
+    ]
+    if len(dropped):
+        reasons = dropped.groupby("reason").size().rename("files").reset_index()
+        parts.append(Table(reasons, "Why files were dropped; filter_report.csv names each."))
+    if ingest["set_aside"]:
+        text = f"{ingest['set_aside']} files could not be read; ingest_report.csv gives line and reason."
+        parts.append(Text([text]))
+    return parts
+
+
+def _classifier(scores: pd.DataFrame, per_class: pd.DataFrame) -> list[Table]:
+    words = {"random": "random", "by_tire": "by physical tire"}
+    shown = scores.assign(split=scores["split"].map(words))
+    caption = "Accuracy and weighted F1, mean and spread of several trainings."
+    detail = per_class.assign(split=per_class["split"].map(words))
+    return [
+        Table(shown, caption, heading="Who measured a tire?"),
+        Table(detail, "The agent's forest, for each category."),
+    ]
+
+
+def _translation(summary: pd.DataFrame, target: str) -> list[Text | Table]:
+    if summary.empty:
+        return []
+    caption = (
+        "Sum of squared errors to the target's measurement, divided by that of the untranslated files, "
+        "and share of files whose error became smaller. `no change` is the naive baseline, `floor` the "
+        "target measuring a second time. The first three metrics are the thesis'."
+    )
+    return [Table(summary, caption, heading=f"Translation to {target}")]
