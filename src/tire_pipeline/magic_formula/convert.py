@@ -22,13 +22,14 @@ def to_version(model: TireModel, version: str) -> TireModel:
     ----------
     model : TireModel
     version : str
-        5.0, 5.1, 5.2 and PAC2002 turn into one another, 6.1 and 6.2 too, and each of the former into the latter.
+        5.0, 5.1, 5.2 and PAC2002 turn into one another, 6.1 and 6.2 too, and each of the former into the
+        latter.
 
     Returns
     -------
     TireModel
-        From 5.2 to 6.1, forces and moments stay as they are at every point; :func:`conversion_notes` says what
-        does not, and what other software would see.
+        From 5.2 to 6.1, forces and moments stay as they are at every point; :func:`conversion_notes` says
+        what does not, and what other software would see.
 
     Raises
     ------
@@ -39,12 +40,12 @@ def to_version(model: TireModel, version: str) -> TireModel:
 
     Notes
     -----
-    Camber scale factors (``LGAX``, ``LGAY``, ``LGAZ``), which 6.1 lacks, go into the coefficients that multiply
-    camber. The camber thrust of 6.1 (4.E27, 4.E30) must not shift the slip angle where 5.2 does not:
-    PKY6 = PVY3 LMUY and PKY7 = PVY4 LMUY cancel its S_Vyg. Two things of 5.2 have no exact place in 6.1, and stay as
-    extensions that only the equations here honour: the shift PHY3 gamma of (A.25), which does not depend on load
-    as K_yg0 / K_ya must, stays in ``PHY3``; and ``QYZ1`` = 1 says that F'y of the aligning torque is taken at
-    camber (A.65), not without it (4.E74).
+    Camber scale factors (``LGAX``, ``LGAY``, ``LGAZ``), which 6.1 lacks, go into the coefficients that
+    multiply camber. The camber thrust of 6.1 (4.E27, 4.E30) must not shift the slip angle where 5.2 does not:
+    PKY6 = PVY3 LMUY and PKY7 = PVY4 LMUY cancel its S_Vyg. Two things of 5.2 have no exact place in 6.1,
+    and stay as extensions that only the equations here honour: the shift PHY3 gamma of (A.25), which does
+    not depend on load as K_yg0 / K_ya must, stays in ``PHY3``; and ``QYZ1`` = 1 says that F'y of the
+    aligning torque is taken at camber (A.65), not without it (4.E74).
     """
     old, new = model.family, family_of(version)
     if old == new:
@@ -64,13 +65,13 @@ def conversion_notes(model: TireModel, version: str) -> list[str]:
     notes = []
     if model.value("PHY3") != 0:
         notes.append(
-            "PHY3 has no exact place in 6.1 and is kept as an extension: software that ignores it shifts Fy over "
-            "camber differently."
+            "PHY3 has no exact place in 6.1 and is kept as an extension: "
+            "software that ignores it shifts Fy over camber differently."
         )
     if any(model.value(name) != 0 for name in ("PHY3", "PVY3", "PVY4", "PDY3", "PEY4", "PKY3")):
         notes.append(
-            "QYZ1 = 1 is an extension: software that ignores it gives another Mz at camber, because 6.1 takes the "
-            "trail times Fy without camber (4.E74)."
+            "QYZ1 = 1 is an extension: software that ignores it gives another Mz at camber, "
+            "because 6.1 takes the trail times Fy without camber (4.E74)."
         )
     if model.value("QSY1") == 0 and model.value("QSY2") == 0:
         notes.append("My becomes 0: 6.1 has no rolling resistance from Fx at free rolling (A.72).")

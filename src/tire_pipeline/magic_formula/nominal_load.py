@@ -1,7 +1,7 @@
 """The same tire with another nominal load (thesis, Appendix B, and the forms that it leaves out).
 
-Every form in which Fz0 appears keeps its shape, so forces at any load stay as they are. With r = new / old and
-dfz = r dfz' + (r - 1), a scale factor LFZO, which multiplies both nominal loads, changes nothing of this.
+Every form in which Fz0 appears keeps its shape, so forces at any load stay as they are. With r = new / old
+and dfz = r dfz' + (r - 1), a scale factor LFZO, which multiplies both nominal loads, changes nothing of this.
 """
 
 from __future__ import annotations
@@ -80,8 +80,8 @@ def changed_coefficients(coefficients: Mapping[str, Any], new: float, family: in
     Notes
     -----
     Thesis, Appendix B: polynomials in dfz, the exponential form (``PKX``), p Fz0, and D_t. Beyond it:
-    K_y = p Fz0 sin(2 arctan(Fz / (q Fz0))) keeps its values with p / r and q / r; forces over Fz0 (``SSZ2``, ``QSX``,
-    ``QSY2``) take a factor r.
+    K_y = p Fz0 sin(2 arctan(Fz / (q Fz0))) keeps its values with p / r and q / r; forces over Fz0
+    (``SSZ2``, ``QSX``, ``QSY2``) take a factor r.
     """
     if not (np.isfinite(new) and new > 0):
         raise TirValueError(
