@@ -157,6 +157,8 @@ def test_mdf4_with_units_and_two_rates(tmp_path):
             ]
         )
         mdf.append([Signal(slow * 2 + 40, slow, unit="°C", name="TSTC")])
+        words = Signal(np.array([b"dry", b"wet", b"dry"]), slow[:3], name="surface", encoding="utf-8")
+        mdf.append([words])
         mdf.save(file, compression=2)
     recording = read_recording(file)
     check(recording, "MDF4")
@@ -164,6 +166,7 @@ def test_mdf4_with_units_and_two_rates(tmp_path):
     np.testing.assert_allclose(recording.loc[inside, "tread_temperature"], T[inside] * 2 + 40)
     assert recording.loc[~inside, "tread_temperature"].isna().all()
     assert any("fastest group" in n for n in recording.attrs["notes"])
+    assert "surface: no plain numbers, left out" in recording.attrs["notes"]
 
 
 def test_mdf3_is_refused_in_words(tmp_path):

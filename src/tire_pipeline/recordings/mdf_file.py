@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import struct
 from pathlib import Path
 
 import numpy as np
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.canonical import RawChannel, RawRecording
-from tire_pipeline.recordings.limits import check_expansion
+from tire_pipeline.recordings.mdf_blocks import check_blocks
 
-_HEADER = struct.Struct("<4sI2Q")
-_FIRST_BLOCK = 64
-_MOST_LINKS = 1 << 20
-# Blocks whose first link leads to the next of their kind.
-_CHAINED = (b"##DG", b"##CG", b"##CN", b"##DL", b"##CH", b"##EV", b"##AT", b"##FH")
+# MDF 4.1: data types 0 to 5 are integers and floats, channel type 1 is of changing length.
+_LARGEST_NUMERIC_TYPE, _VARIABLE_LENGTH = 5, 1
 
 
 def read_mdf(path: Path) -> RawRecording:
@@ -35,7 +31,7 @@ def read_mdf(path: Path) -> RawRecording:
     RecordingError
         Another version, a damaged file, or no numeric channels.
     """
-    _check_blocks(path)
+    check_blocks(path)
     try:
         from asammdf import MDF
 
@@ -50,72 +46,6 @@ def read_mdf(path: Path) -> RawRecording:
         ) from error
 
 
-def _check_blocks(path: Path) -> None:
-    """Every link must lead to a block inside the file, and no chain may run in a circle.
-
-    Damaged links would else send the parser round for ever, or make it ask for memory without
-    end (ASAM MDF 4.1, chapter 4: a block is `##XX`, length, number of links, links, data).
-    """
-    size = path.stat().st_size
-    with path.open("rb") as file:
-        if file.read(8)[:3] != b"MDF":
-            raise RecordingError("no MDF file", where=str(path))
-        file.seek(8)
-        version = file.read(8).strip(b" \x00")
-        if not version.startswith(b"4"):
-            raise RecordingError(
-                f"MDF version {version.decode('latin-1')!r}",
-                where=str(path),
-                todo="only version 4 is read: convert it with asammdf",
-            )
-        seen: set[int] = set()
-        waiting = [_FIRST_BLOCK]
-        unpacked = 0.0
-        follows: dict[int, int] = {}
-        while waiting:
-            at = waiting.pop()
-            if at in seen:
-                continue
-            seen.add(at)
-            if len(seen) > _MOST_LINKS or at + _HEADER.size > size:
-                raise RecordingError("a block link leads out of the file", where=str(path))
-            file.seek(at)
-            kind, _, length, links = _HEADER.unpack(file.read(_HEADER.size))
-            if not kind.startswith(b"##") or length < _HEADER.size + 8 * links or at + length > size:
-                raise RecordingError(f"damaged block at byte {at}", where=str(path))
-            raw = file.read(8 * links)
-            targets = struct.unpack(f"<{links}Q", raw)
-            if kind in _CHAINED and links and targets[0]:
-                follows[at] = targets[0]
-            if kind == b"##DZ":
-                body = file.read(24)
-                if len(body) == 24:
-                    unpacked += struct.unpack_from("<Q", body, 8)[0]
-            if kind == b"##CG":
-                # record id, cycles, flags, path separator, reserved, data bytes, invalidation bytes
-                body = file.read(32)
-                if len(body) == 32:
-                    cycles = struct.unpack_from("<Q", body, 8)[0]
-                    width = sum(struct.unpack_from("<2I", body, 24))
-                    check_expansion(path, float(cycles) * max(width, 1))
-            waiting.extend(t for t in targets if t)
-        check_expansion(path, unpacked)
-    _no_circles(follows, path)
-
-
-def _no_circles(follows: dict[int, int], path: Path) -> None:
-    done: set[int] = set()
-    for start in follows:
-        here: set[int] = set()
-        at: int | None = start
-        while at is not None and at not in done:
-            if at in here:
-                raise RecordingError(f"the chain of blocks at {at} runs in a circle", where=str(path))
-            here.add(at)
-            at = follows.get(at)
-        done |= here
-
-
 def _collect(file: object) -> RawRecording:
     """All numeric channels on the time base of the group with most samples."""
     notes: list[str] = []
@@ -126,6 +56,9 @@ def _collect(file: object) -> RawRecording:
         channels: list[RawChannel] = []
         for number, channel in enumerate(group.channels):
             if number == master_index:
+                continue
+            if channel.data_type > _LARGEST_NUMERIC_TYPE or channel.channel_type == _VARIABLE_LENGTH:
+                notes.append(f"{channel.name}: no plain numbers, left out")
                 continue
             signal = file.get(group=index, index=number)  # type: ignore[attr-defined]
             samples = np.asarray(signal.samples)
