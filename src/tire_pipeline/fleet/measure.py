@@ -13,7 +13,7 @@ from .rig import Sweeps, draw_sessions, measure_lateral, measure_longitudinal
 from .settings import FleetSettings
 from .tires import thermal_parameters
 
-INTERACTION = {"additive": 0.0, "interacting": 1.0, "drifting": 0.0}
+INTERACTION = {"additive": 0.0, "interacting": 0.75, "drifting": 0.0}
 
 
 def regimes_of(plan: Plan, settings: FleetSettings) -> dict[str, Regime]:

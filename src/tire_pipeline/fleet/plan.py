@@ -48,7 +48,8 @@ class Plan:
     measurements : pandas.DataFrame
         One row a fit: ``category``, ``tire``, ``pressure``, ``wear``, ``protocol``,
         ``regime`` (``category/protocol``), ``date`` (0 to 1), ``role`` (``kept``, ``missing``, ``tiny``
-        or an evaluation set), ``repeat`` (1 or 2), ``same_data`` (row whose raw data is fitted again, or -1), ``weight_twist``.
+        or an evaluation set), ``repeat`` (1 or 2), ``same_data`` (row whose raw data is fitted
+        again, or -1), ``weight_twist``.
     files : pandas.DataFrame
         One row a file of the training fleet: ``measurement``, ``role``, ``without`` (feature
         that has no value, or ""), ``date``, ``category``.

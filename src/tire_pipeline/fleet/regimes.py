@@ -73,8 +73,8 @@ COMMON = Regime()
 REGIMES: dict[str, Regime] = {
     # Flat belt, fine grit, warm tires, slow sweeps both ways: the careful laboratory.
     "A": Regime(
-        adhesion=1.10,
-        hysteresis=1.06,
+        adhesion=1.14,
+        hysteresis=1.09,
         sweep_rate=0.06,
         preheat=68.0,
         ambient=54.0,
@@ -196,3 +196,6 @@ def regime_of(category: str, protocol: str, bias_size: float) -> Regime:
     values["symmetrise"] = float(np.clip(values["symmetrise"], 0.0, 1.0))
     values["conditioning"] = float(np.clip(values["conditioning"], 0.0, 1.0))
     return Regime(**values)
+
+
+MANUFACTURER_FIELDS: tuple[str, ...] = tuple(field.name for field in fields(Regime))

@@ -81,7 +81,7 @@ def draw_sessions(count: int, rng: np.random.Generator) -> Session:
     return Session(
         gain=1.0 + normal(0.003),
         load_gain=1.0 + normal(0.003),
-        surface=1.0 + normal(0.006),
+        surface=1.0 + normal(0.0055),
         angle=normal(0.0004),
         temperature=normal(1.2),
         stiffness=normal(0.06),
@@ -118,7 +118,7 @@ def measure_lateral(
     command = np.concatenate([ramp, ramp[::-1]])
     fy, mz = _sweep_slip_angle(true, command, regime, session)
     scale = true.tires["rated_load"][:, :, None]
-    fy = fy * session.gain[:, :, None] + rng.normal(0.0, 0.006, fy.shape) * scale
+    fy = fy * session.gain[:, :, None] + rng.normal(0.0, 0.005, fy.shape) * scale
     mz = mz * session.gain[:, :, None] + rng.normal(0.0, 0.0004, mz.shape) * scale
     fy, mz = _directions(fy, regime), _directions(mz, regime)
     fy, mz = _symmetrise(fy, regime.symmetrise), _symmetrise(mz, regime.symmetrise)
