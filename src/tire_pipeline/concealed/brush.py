@@ -174,8 +174,9 @@ def _march(c, e, fz, contact, sx, sy, spin, speed, profile):
     sliding = False
     for j in range(n_bristles):
         xi = 1.0 - (2.0 * j + 1.0) / n_bristles
-        ux += sx * dx
-        uy += (sy + spin * xi * a) * dx
+        way = dx if j > 0 else 0.5 * dx
+        ux += sx * way
+        uy += (sy + spin * xi * a) * way
         grip = (mu_slide if sliding else mu) * q0 * profile[j]
         tx, ty, sliding = _hold(kx * ux, ky * uy, grip * c[MU_RATIO_X], grip, coupling)
         ux = tx / kx
@@ -272,8 +273,9 @@ def _step(c, e, load, contact, slips, twist, speed, profile, u, slides, carcass)
         ux = u[j - 1, 0] if j > 0 else 0.0
         uy = u[j - 1, 1] if j > 0 else 0.0
         slid = slides[j - 1] if j > 0 else False
-        ux += sx * dx - carcass[2]
-        uy += (sy - twist + spin * xi * a) * dx - carcass[3]
+        part = 1.0 if j > 0 else 0.5
+        ux += part * (sx * dx - carcass[2])
+        uy += part * ((sy - twist + spin * xi * a) * dx - carcass[3])
         grip = (mu_slide if slid else mu) * q0 * profile[j]
         tx, ty, slid = _hold(kx * ux, ky * uy, grip * c[MU_RATIO_X], grip, coupling)
         u[j, 0] = tx / kx

@@ -1,0 +1,230 @@
+"""The scorer on reports made by hand."""
+
+import json
+
+import numpy as np
+import pytest
+
+from tire_pipeline.concealed import Answer, EffectTruth, score
+from tire_pipeline.concealed.score import (
+    calibration_error,
+    covers,
+    exact_set,
+    false_physics,
+    interval_iou,
+    recovered,
+)
+from tire_pipeline.errors import DomainError
+
+
+def truth(name: str, kind: str = "physics", over_noise: float = 2.0, **more: object) -> EffectTruth:
+    values = {
+        "strength": 1.0,
+        "rms": 50.0,
+        "over_misfit": 2.0,
+        "output": "fy",
+        "when": ((10.0, 20.0),),
+        "where": {"normal_load": (2000.0, 4000.0)},
+        "details": {},
+    } | more
+    return EffectTruth(name=name, kind=kind, over_noise=over_noise, **values)
+
+
+def answer(case_id: str, kind: str, *effects: EffectTruth, acceptable: tuple = ()) -> Answer:
+    return Answer(
+        case_id=case_id,
+        kind=kind,
+        effects=effects,
+        acceptable=acceptable,
+        missing_channels=(),
+        blocks=(),
+        focus=(),
+        largest_force=5000.0,
+        misfit=30.0,
+        noise=25.0,
+        oracle={"fy": {"rms_before": 100.0, "rms_oracle": 40.0}},
+    )
+
+
+def entry(name: str, *alternatives: str, confidence: float = 1.0, **more: object) -> dict:
+    return {"name": name, "alternatives": list(alternatives), "confidence": confidence, **more}
+
+
+def report(*effects: dict, verdict: str = "explained") -> dict:
+    return {"verdict": verdict, "effects": list(effects)}
+
+
+def value(result: dict, name: str) -> dict:
+    return next(row for row in result["scores"] if row["name"] == name)
+
+
+def test_perfect_reports_score_perfectly_and_miss_nothing():
+    answers = [
+        answer("a", "nothing"),
+        answer("b", "single", truth("wear")),
+        answer("c", "pair", truth("camber"), truth("force_offset", "artefact")),
+        answer("d", "ambiguous", truth("temperature"), acceptable=("temperature", "wear")),
+        answer("e", "artefact", truth("time_delay", "artefact")),
+        answer("f", "unknown", truth("backlash", "unknown")),
+    ]
+    good = {"when": [[10.0, 20.0]], "where": {"normal_load": [2000.0, 4000.0]}}
+    reports = {
+        "a": report(verdict="agrees"),
+        "b": report(entry("wear", **good)),
+        "c": report(entry("force_offset", **good), entry("camber", **good)),
+        "d": report(entry("wear", "temperature"), verdict="ambiguous"),
+        "e": report(entry("time_delay", **good)),
+        "f": report(verdict="unexplained"),
+    }
+    held_out = {k: {"fy": {"rms_before": 100.0, "rms_after": 40.0}} for k in "bcde"}
+    result = score(reports, answers, held_out=held_out)
+    assert result["misses"] == []
+    for row in result["scores"]:
+        assert row["met"] in (True, None), row
+    assert value(result, "window IoU")["value"] == 1.0
+    assert value(result, "held-out share of the oracle's")["value"] == pytest.approx(1.0)
+    assert value(result, "calibration error")["value"] == pytest.approx(0.0)
+    assert value(result, "ambiguous, names given")["value"] == 2.0
+    json.dumps(result)
+
+
+def test_every_kind_of_mistake_is_counted_and_listed():
+    answers = [
+        answer("null", "nothing"),
+        answer("artefact", "artefact", truth("time_delay", "artefact")),
+        answer("single", "single", truth("wear")),
+        answer("extra", "single", truth("wear")),
+        answer("half", "pair", truth("wear"), truth("camber")),
+        answer("vague", "ambiguous", truth("temperature"), acceptable=("temperature", "wear")),
+        answer("outside", "unknown", truth("backlash", "unknown")),
+    ]
+    reports = {
+        "null": report(entry("camber")),
+        "artefact": report(entry("relaxation_length")),
+        "single": report(verdict="agrees"),
+        "extra": report(entry("wear"), entry("camber")),
+        "half": report(entry("wear")),
+        "vague": report(entry("wear", "friction_scale")),
+        "outside": report(entry("time_delay")),
+    }
+    result = score(reports, answers)
+    assert {m["case"] for m in result["misses"]} == set(reports)
+    assert value(result, "false physics")["value"] == 1.0
+    assert value(result, "exact set, single")["value"] == 0.0
+    assert value(result, "exact set, pair")["value"] == 0.0
+    assert value(result, "ambiguous covered")["value"] == 0.0
+    assert value(result, "false names, outside the catalogue")["value"] == 1.0
+    half = next(m for m in result["misses"] if m["case"] == "half")
+    assert half["missed"] == ["camber"]
+    assert half["invented"] == []
+    extra = next(m for m in result["misses"] if m["case"] == "extra")
+    assert extra["invented"] == ["camber"]
+
+
+def test_an_artefact_named_with_physics_left_open_is_no_false_physics():
+    a = answer("a", "artefact", truth("time_delay", "artefact"))
+    assert not false_physics(report(entry("time_delay", "relaxation_length")), a)
+    assert not false_physics(report(entry("relaxation_length", "time_delay")), a)
+    assert false_physics(report(entry("relaxation_length")), a)
+    assert not exact_set(report(entry("relaxation_length", "time_delay")), a)
+
+
+def test_naming_everything_covers_nothing():
+    a = answer("a", "ambiguous", truth("wear"), acceptable=("temperature", "wear"))
+    assert covers(report(entry("temperature", "wear")), a)
+    assert covers(report(entry("wear")), a)
+    assert not covers(report(entry("temperature")), a)
+    assert not covers(report(entry("wear", "temperature", "camber")), a)
+
+
+def test_the_same_name_twice_is_not_the_exact_set():
+    a = answer("a", "single", truth("wear"))
+    assert exact_set(report(entry("wear")), a)
+    assert not exact_set(report(entry("wear"), entry("wear")), a)
+    assert exact_set(report(entry("wear"), entry("unexplained")), a), "no catalogue name"
+
+
+def test_weak_effects_do_not_count_towards_the_target_but_are_shown():
+    answers = [
+        answer("weak", "single", truth("wear", over_noise=0.4)),
+        answer("strong", "single", truth("wear", over_noise=0.7)),
+    ]
+    result = score({"weak": report(), "strong": report(entry("wear"))}, answers)
+    assert value(result, "exact set, single")["value"] == 0.5
+    assert value(result, "exact set, single above 0.6 noise")["n"] == 1
+    assert value(result, "exact set, single above 0.6 noise")["met"] is True
+    bins = {(r["above"], r["up_to"]): r["value"] for r in result["by_strength"]}
+    assert bins == {(0.0, 0.6): 0.0, (0.6, 1.0): 1.0}
+    assert result["by_effect"][0]["n"] == 2
+
+
+def test_intervals_are_wilsons():
+    answers = [answer(str(i), "nothing") for i in range(50)]
+    result = score({str(i): report() for i in range(50)}, answers)
+    row = value(result, "false physics")
+    z2 = 1.959963984540054**2
+    assert row["low"] == pytest.approx(0.0, abs=1e-12)
+    assert row["high"] == pytest.approx(z2 / (50 + z2))
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "expected"),
+    [
+        ([(0, 10)], [(0, 10)], 1.0),
+        ([(0, 10)], [(5, 15)], 1.0 / 3.0),
+        ([(0, 4), (6, 10)], [(0, 10)], 0.8),
+        ([(0, 6), (4, 10)], [(0, 10)], 1.0),
+        ([], [(0, 10)], 0.0),
+        ([(0, 1)], [(2, 3)], 0.0),
+        ([], [], 1.0),
+    ],
+)
+def test_interval_iou(a, b, expected):
+    assert interval_iou(a, b) == pytest.approx(expected)
+    assert interval_iou(b, a) == pytest.approx(expected)
+
+
+def test_calibration_error_of_known_cases():
+    assert calibration_error([1.0, 1.0], [True, False]) == pytest.approx(0.5)
+    assert calibration_error([0.75] * 4, [True, True, True, False]) == pytest.approx(0.0)
+    assert calibration_error([0.95, 0.05], [False, True]) == pytest.approx(0.95)
+    assert np.isnan(calibration_error([], []))
+
+
+def test_recovered_share_of_the_oracles_gain():
+    a = answer("a", "single", truth("wear"))
+    assert recovered({"fy": {"rms_after": 40.0}}, a) == pytest.approx(1.0)
+    assert recovered({"fy": {"rms_after": 100.0}}, a) == pytest.approx(0.0)
+    assert recovered({"fy": {"rms_after": 1e6}}, a) == -1.0
+    assert recovered({}, a) == pytest.approx(0.0), "a force that is not predicted is uncorrected"
+    half = np.sqrt((100.0**2 + 40.0**2) / 2.0)
+    assert recovered({"fy": {"rms_after": half}}, a) == pytest.approx(0.5)
+    from dataclasses import replace
+
+    flat = replace(a, oracle={"fy": {"rms_before": 41.0, "rms_oracle": 40.0}})
+    assert recovered({"fy": {"rms_after": 40.0}}, flat) is None
+
+
+def test_windows_and_regimes_are_scored_for_rightly_named_strong_effects_only():
+    answers = [
+        answer("hit", "single", truth("wear")),
+        answer("wrong", "single", truth("wear")),
+        answer("weak", "single", truth("wear", over_noise=0.8)),
+    ]
+    where = {"normal_load": [3000.0, 4000.0], "speed": [0.0, 1.0]}
+    shown = {"when": [[10.0, 15.0]], "where": where}
+    reports = {
+        "hit": report(entry("wear", **shown)),
+        "wrong": report(entry("camber", **shown)),
+        "weak": report(entry("wear", **shown)),
+    }
+    result = score(reports, answers)
+    assert value(result, "window IoU")["n"] == 1
+    assert value(result, "window IoU")["value"] == pytest.approx(0.5)
+    assert value(result, "regime IoU")["n"] == 1
+    assert value(result, "regime IoU")["value"] == pytest.approx(0.5)
+
+
+def test_a_case_without_a_report_stops_the_scoring():
+    with pytest.raises(DomainError, match="1 of 1 cases have no report"):
+        score({}, [answer("a", "nothing")])
