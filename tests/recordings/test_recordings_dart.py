@@ -4,6 +4,7 @@ The limits below describe what the data was seen to show; they guard the reading
 nothing about new data.
 """
 
+import json
 import os
 from dataclasses import replace
 from functools import cache
@@ -176,3 +177,10 @@ def test_other_files_are_refused(tmp_path):
         read_dart(
             small_drive(tmp_path, lambda t: t.astype({"vicon x": str}).replace({"vicon x": {"0.0": "a"}}))
         )
+
+
+def test_attributes_can_be_written_as_json_and_the_encoder_step_is_carried(tmp_path):
+    drive = read_dart(small_drive(tmp_path, lambda t: t))
+    recording = axle_recording(drive, DART_CAR)
+    assert json.loads(json.dumps(recording.attrs))["format"] == "axle"
+    assert recording["slip_ratio_std"].median() > 0.9 * drive.attrs["wheel_surface_speed_std"] / 1.6

@@ -141,7 +141,7 @@ def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMo
     speed = np.hypot(vx, vy)
     moving = ~missing & good & (speed > 0.1 * speed.max())
     stds = [white_noise_std(np.where(moving, s, np.nan)) for s in (x, y, yaw)]
-    position_std, yaw_std = float(np.hypot(*stds[:2]) / np.sqrt(2)), stds[2]
+    position_std, yaw_std = float(np.sqrt((stds[0] ** 2 + stds[1] ** 2) / 2)), stds[2]
     more_vx, more_vy = (smoother.inflation(s, position_std, moving) for s in (ahead, left))
     more_yaw = smoother.inflation(turning, yaw_std, moving)
     g0, g1, h0 = (smoother.gain(a, b) for a, b in ((1, 0), (1, 1), (0, 0)))
