@@ -74,8 +74,6 @@ def decode(data: bytes, path: str | None = None) -> tuple[str, str, bytes]:
     TirSyntaxError
         Empty or binary.
     """
-    if not data.strip(b" \t\r\n\f\v\x1a\0"):
-        raise TirSyntaxError("the file is empty", path=path, todo="export it again")
     mark = b""
     encodings: tuple[str, ...] = ("utf-8", "cp1252", "latin-1")
     for bom, name in _BOMS:
@@ -88,6 +86,8 @@ def decode(data: bytes, path: str | None = None) -> tuple[str, str, bytes]:
             text = data[len(mark) :].decode(encoding)
         except UnicodeDecodeError:
             continue
+        if not text.strip(" \t\r\n\f\v\x1a\0"):
+            raise TirSyntaxError("the file is empty", path=path, todo="export it again")
         if "\0" not in text:
             return text, encoding, mark
     raise _binary(path)

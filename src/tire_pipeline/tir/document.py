@@ -13,7 +13,7 @@ from tire_pipeline.tir.decode import decode, load_bytes
 from tire_pipeline.tir.keys import section_name
 from tire_pipeline.tir.values import parse_number
 
-MAX_ENTRIES = 5_000
+MAX_ENTRIES = 2_000
 """More keys than that are refused (real files have 100 to 400): it bounds the memory that a file can ask
 for."""
 MAX_SECTIONS = 1_000

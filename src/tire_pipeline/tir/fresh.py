@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 
+from tire_pipeline.errors import TirValueError
+from tire_pipeline.magic_formula.coefficients import check_values
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.tir.escaping import comment_lines, quoted
-from tire_pipeline.tir.keys import FREE_KEYS, NEVER_COEFFICIENTS, section_name
+from tire_pipeline.tir.keys import NEVER_COEFFICIENTS, names_coefficient, section_name
 from tire_pipeline.tir.layout import LAYOUT, describe, home_section
 from tire_pipeline.tir.values import format_number
 from tire_pipeline.tir.version import VERSION_FITTYP
@@ -64,14 +66,23 @@ def metadata_entries(metadata: Mapping[str, object]) -> dict[tuple[str, str], st
         if match is None or not isinstance(value, str | int | float):
             continue
         section = section_name(match[1])
-        if section not in NEVER_COEFFICIENTS:
+        if section not in NEVER_COEFFICIENTS and not names_coefficient(section, match[2]):
             found[section, match[2]] = value
     return found
 
 
 def writable_defaults(model: TireModel) -> dict[str, float]:
-    """Return what stands in for missing coefficients, without the zero that no file may hold (a radius)."""
-    return {k: v for k, v in model.defaulted.items() if v != 0 or k not in FREE_KEYS}
+    """Return what stands in for missing coefficients, without the zeros that no file may hold (a radius,
+    PCX1)."""
+    return {name: value for name, value in model.defaulted.items() if _may_be_written(name, value)}
+
+
+def _may_be_written(name: str, value: float) -> bool:
+    try:
+        check_values({"FNOMIN": 1.0, name: value})
+    except TirValueError:
+        return False
+    return True
 
 
 def value_text(value: str | float) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 SECTION_ALIASES = {
     "UNIT": "UNITS",
     "MDI": "MDI_HEADER",
@@ -101,6 +103,31 @@ DIMENSION: dict[str, str] = {key: name for name, keys in _DIMENSIONS.items() for
 
 TABLE_SECTIONS = frozenset(["SHAPE", "DEFLECTION_LOAD_CURVE", "BOTTOMING_CURVE"])
 """Sections that hold rows of numbers."""
+
+_FORCE_COEFFICIENT = re.compile(r"[PQRS][A-Z]+\d+").fullmatch
+
+
+def names_force_coefficient(key: str) -> bool:
+    """Whether a key looks like a p, q, r or s coefficient: letters and a number."""
+    return _FORCE_COEFFICIENT(key) is not None
+
+
+def names_coefficient(section: str, key: str) -> bool:
+    """Whether a key of a section (both in capitals, the section's standard name) is a coefficient.
+
+    Examples
+    --------
+    >>> names_coefficient("INERTIA", "MASS"), names_coefficient("WHEEL", "FNOMIN")
+    (False, True)
+    """
+    if section in COEFFICIENT_SECTIONS:
+        return True
+    if section in NEVER_COEFFICIENTS:
+        return False
+    key = KEY_ALIASES.get(key, key)
+    if key in FREE_KEYS:
+        return True
+    return section == "" and (names_force_coefficient(key) or key in DIMENSION)
 
 
 def section_name(raw: str) -> str:

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import math
 import os
-import re
 from dataclasses import dataclass, field
 
 from tire_pipeline.errors import TirSyntaxError, TirValueError
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.tir.document import Entry, Scan, TirFile, parse_tir
 from tire_pipeline.tir.keys import (
-    COEFFICIENT_SECTIONS,
     DIMENSION,
     FORCE_SECTIONS,
-    FREE_KEYS,
     KEY_ALIASES,
     NEVER_COEFFICIENTS,
+    names_coefficient,
+    names_force_coefficient,
 )
 from tire_pipeline.tir.plausibility import odd_values
 from tire_pipeline.tir.sidecar import read_sidecar
@@ -25,7 +24,8 @@ from tire_pipeline.tir.values import parse_number
 from tire_pipeline.tir.version import detect_version
 
 _MAX_WARNINGS = 100
-_FORCE_COEFFICIENT = re.compile(r"[PQRS][A-Z]+\d+").fullmatch
+_DIVISORS = ("PCX1", "PCY1", "PKY2")
+_FORCES = {"longitudinal": ("PCX1", "PDX1", "PKX1"), "lateral": ("PCY1", "PDY1", "PKY1", "PKY2")}
 
 
 @dataclass(slots=True)
@@ -111,12 +111,13 @@ def interpret(file: TirFile) -> Reading:
     reading = Reading()
     _read_units(scan, file, reading)
     _read_entries(scan, file, reading)
-    if not any(map(_FORCE_COEFFICIENT, reading.coefficients)):
+    if not any(map(names_force_coefficient, reading.coefficients)):
         raise TirSyntaxError(
             "there is no Magic Formula coefficient in it",
             path=file.path,
             todo="give a tire property file with sections such as [LATERAL_COEFFICIENTS]",
         )
+    _drop_what_is_not_modelled(reading)
     _read_version(scan, file, reading)
     _note_side(reading)
     _note_lines(scan, reading)
@@ -152,9 +153,7 @@ def _read_entries(scan: Scan, file: TirFile, reading: Reading) -> None:
     )
     for entry in scan.entries:
         section, key, text = entry.section, entry.key, entry.value
-        is_coefficient = section in COEFFICIENT_SECTIONS
-        if not is_coefficient and section not in NEVER_COEFFICIENTS:
-            is_coefficient = _is_free_coefficient(section, key)
+        is_coefficient = names_coefficient(section, key)
         if is_coefficient:
             key = KEY_ALIASES.get(key, key)
         name = key if is_coefficient else f"{section}.{key}"
@@ -184,13 +183,6 @@ def _read_entries(scan: Scan, file: TirFile, reading: Reading) -> None:
         origin[name] = (entry, factor)
 
 
-def _is_free_coefficient(section: str, key: str) -> bool:
-    key = KEY_ALIASES.get(key, key)
-    if key in FREE_KEYS:
-        return True
-    return section == "" and (_FORCE_COEFFICIENT(key) is not None or key in DIMENSION)
-
-
 def _replaces(entry: Entry, present: tuple[Entry, float], value: float, name: str, reading: Reading) -> bool:
     """Whether a second value of a key replaces the first: the last one does, but an alias gives way to the
     key."""
@@ -204,6 +196,21 @@ def _replaces(entry: Entry, present: tuple[Entry, float], value: float, name: st
             f"{name} has two values (lines {old.line} and {entry.line}): that of line {taken} is taken"
         )
     return replaces
+
+
+def _drop_what_is_not_modelled(reading: Reading) -> None:
+    """Take zeros for no value where a whole force is zero: fits of one direction only leave the other one
+    so."""
+    for force, keys in _FORCES.items():
+        values = [reading.coefficients.get(key) for key in keys]
+        divided_by = [reading.coefficients.get(key) for key in keys if key in _DIVISORS]
+        if any(values) or 0.0 not in divided_by:
+            continue
+        for key in keys:
+            if key in reading.coefficients:
+                del reading.coefficients[key]
+                reading.empty[key] = reading.origin.pop(key)
+        reading.warnings.append(f"{' = '.join(keys)} = 0: the {force} force is not modelled")
 
 
 def _read_version(scan: Scan, file: TirFile, reading: Reading) -> None:
