@@ -1,70 +1,132 @@
-"""stable-baselines3's MlpPolicy, computed with fewer and larger torch operations.
+"""stable-baselines3's MlpPolicy for states of bins, with compiled nets behind torch's autograd.
 
-For nets of 64-64 nodes nearly all time goes into starting operations. ``MlpPolicy`` codes each
-feature of a MultiDiscrete observation by itself, builds a distribution object and checks it, and calls
-a tree of modules. Here the same numbers come from a dozen operations; parameters, their names and
-their initial values are those of ``MlpPolicy``.
+For nets of 64-64 nodes nearly all time goes into starting torch operations. The algorithms (PPO, A2C:
+roll-outs, advantages, losses, clipping, optimisers) stay stable-baselines3's; only the nets' forward and
+backward pass are compiled, as one autograd function on one parameter that holds all weights. Initial
+values, network and gradients are those of ``MlpPolicy``; a test compares them.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import torch
 from stable_baselines3.common.policies import ActorCriticPolicy
-from torch.nn.functional import linear, one_hot
+
+from tire_pipeline.translation.thesis.compiled_policy import (
+    HIDDEN,
+    net_shapes,
+    nets_backward,
+    nets_forward,
+    pick,
+    sample,
+)
 
 _PI = ("mlp_extractor.policy_net.0", "mlp_extractor.policy_net.2", "action_net")
 _VF = ("mlp_extractor.value_net.0", "mlp_extractor.value_net.2", "value_net")
+_NAMES = [f"{layer}.{part}" for layer in (*_PI, *_VF) for part in ("weight", "bias")]
 
 
 class BinPolicy(ActorCriticPolicy):
-    """``MlpPolicy`` for states of bins and a Discrete action space, with its default net."""
+    """``MlpPolicy`` with its default net, for states of bins and a Discrete action space."""
 
-    def extract_features(  # type: ignore[override]
-        self, obs: torch.Tensor, features_extractor: Any = None
-    ) -> torch.Tensor:
-        """Code bins as zeros and ones, shape (batch, d * n_bins)."""
-        n_bins = int(self.observation_space.nvec[0])  # type: ignore[attr-defined]
-        return one_hot(obs.long(), n_bins).flatten(start_dim=1).float()
+    weights: torch.nn.Parameter
+
+    def _build(self, lr_schedule: Any) -> None:
+        """Build ``MlpPolicy``, then move its parameters into one."""
+        wanted, self.optimizer_class = self.optimizer_class, torch.optim.SGD  # replaced below
+        options, self.optimizer_kwargs = self.optimizer_kwargs, {}
+        super()._build(lr_schedule)
+        self.optimizer_class, self.optimizer_kwargs = wanted, options
+        space: Any = self.observation_space
+        self._n_bins = int(space.nvec[0])
+        self._n_actions = int(self.action_space.n)  # type: ignore[attr-defined]
+        self._shapes = [
+            *net_shapes(len(space.nvec), self._n_bins, self._n_actions),
+            *net_shapes(len(space.nvec), self._n_bins, 1),
+        ]
+        own = dict(self.named_parameters())
+        parts = [own[name].detach().t().reshape(-1) for name in _NAMES]
+        del self.mlp_extractor, self.action_net, self.value_net
+        self.weights = torch.nn.Parameter(torch.cat(parts))
+        self.optimizer = wanted([self.weights], lr=lr_schedule(1), **options)  # type: ignore[call-arg]
+
+    def mlp_parameters(self, values: torch.Tensor | None = None) -> dict[str, torch.Tensor]:
+        """Give the weights, or anything of their size, by ``MlpPolicy``'s names and shapes."""
+        flat = (self.weights if values is None else values).detach()
+        parts = flat.split([int(np.prod(shape)) for shape in self._shapes])
+        return {
+            name: part.reshape(shape).t().clone()
+            for name, part, shape in zip(_NAMES, parts, self._shapes, strict=True)
+        }
 
     def forward(
         self, obs: torch.Tensor, deterministic: bool = False
     ) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
         """Give an action for every state, the state's value and the action's log probability."""
-        logs, values = self._logs_and_values(obs)
+        logs, shares, values, _ = self._nets(obs)
         if deterministic:
-            actions = logs.argmax(dim=1)
+            actions = logs.argmax(axis=1)
         else:
-            actions = torch.multinomial(logs.exp(), 1, replacement=True).squeeze(1)
-        return actions, values, logs.gather(1, actions[:, None]).squeeze(1)
+            actions = np.empty(len(logs), dtype=np.int64)
+            sample(shares, torch.rand(len(logs), dtype=torch.float64).numpy(), actions)
+        chosen = logs[np.arange(len(logs)), actions]
+        return torch.from_numpy(actions), torch.from_numpy(values), torch.from_numpy(chosen)
 
     def evaluate_actions(  # type: ignore[override]
         self, obs: torch.Tensor, actions: torch.Tensor
     ) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
         """Give values, log probabilities of the actions, and the entropy of the distribution."""
-        logs, values = self._logs_and_values(obs)
-        chosen = logs.gather(1, actions.long().reshape(-1, 1)).squeeze(1)
-        return values, chosen, -(logs.exp() * logs).sum(dim=1)
+        values, logs, entropy = _Evaluate.apply(self.weights, self, obs, actions)  # type: ignore[no-untyped-call]
+        return values, logs, entropy
 
-    def _logs_and_values(self, obs: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
-        pi, vf = self._layers()
-        coded = self.extract_features(obs)
-        return torch.log_softmax(_net(coded, pi), dim=1), _net(coded, vf)
+    def predict_values(self, obs: torch.Tensor) -> torch.Tensor:  # type: ignore[override]
+        """Give the values, shape (m, 1)."""
+        return torch.from_numpy(self._nets(obs)[2])
 
-    def _layers(self) -> tuple[list[tuple[Any, Any]], list[tuple[Any, Any]]]:
-        """The net's parameters, looked up once: the optimiser changes them in place."""
-        if "_looked_up" not in self.__dict__:
-            parameters = dict(self.named_parameters())
-            self.__dict__["_looked_up"] = tuple(
-                [(parameters[f"{name}.weight"], parameters[f"{name}.bias"]) for name in names]
-                for names in (_PI, _VF)
-            )
-        layers: tuple[list[tuple[Any, Any]], list[tuple[Any, Any]]] = self.__dict__["_looked_up"]
-        return layers
+    def _predict(self, observation: torch.Tensor, deterministic: bool = False) -> torch.Tensor:  # type: ignore[override]
+        return self.forward(observation, deterministic)[0]
+
+    def parameters(self, recurse: bool = True) -> Any:
+        """Give the one parameter, without a search through all modules."""
+        return iter((self.weights,)) if "weights" in self._parameters else super().parameters()
+
+    def _nets(self, obs: torch.Tensor) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Log probabilities, probabilities, values (m, 1) and hidden layers (4, m, 64)."""
+        states = obs.numpy()
+        m = len(states)
+        logs = np.empty((m, self._n_actions), dtype=np.float32)
+        shares = np.empty_like(logs)
+        values = np.empty((m, 1), dtype=np.float32)
+        hidden = np.empty((4, m, HIDDEN), dtype=np.float32)
+        flat = self.weights.detach().numpy()
+        nets_forward(flat, states, self._n_bins, hidden, logs, shares, values)
+        return logs, shares, values, hidden
 
 
-def _net(values: torch.Tensor, layers: list[tuple[Any, Any]]) -> torch.Tensor:
-    for weight, bias in layers[:-1]:
-        values = torch.tanh(linear(values, weight, bias))
-    return linear(values, *layers[-1])
+class _Evaluate(torch.autograd.Function):
+    """Values, log probabilities of given actions and entropies, with their gradient."""
+
+    @staticmethod
+    def forward(  # type: ignore[override]
+        ctx: Any, weights: torch.Tensor, policy: BinPolicy, obs: torch.Tensor, actions: torch.Tensor
+    ) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
+        logs, shares, values, hidden = policy._nets(obs)
+        numbers = actions.long().reshape(-1).numpy()
+        chosen, entropy = np.empty((2, len(logs)), dtype=np.float32)
+        pick(logs, shares, numbers, chosen, entropy)
+        ctx.kept = (policy, obs.numpy(), logs, shares, hidden, numbers, entropy)
+        return torch.from_numpy(values), torch.from_numpy(chosen), torch.from_numpy(entropy)
+
+    @staticmethod
+    def backward(ctx: Any, *gradients: torch.Tensor) -> tuple[torch.Tensor, None, None, None]:  # type: ignore[override]
+        policy, states, logs, shares, hidden, numbers, entropy = ctx.kept
+        d_value, d_log, d_entropy = (g.contiguous().reshape(-1).numpy() for g in gradients)
+        flat = policy.weights.detach().numpy()
+        gradient = np.zeros_like(flat)
+        nets_backward(
+            flat, states, policy._n_bins, hidden, logs, shares, numbers, entropy,
+            d_value, d_log, d_entropy, gradient,
+        )  # fmt: skip
+        return torch.from_numpy(gradient), None, None, None

@@ -82,14 +82,15 @@ def make_model(env: object, *, algorithm: str, seed: int, n_steps: int = N_STEPS
     import stable_baselines3
 
     from tire_pipeline.translation.thesis.bin_policy import BinPolicy
+    from tire_pipeline.translation.thesis.flat_adam import FlatAdam
 
     if algorithm not in ALGORITHMS:
         raise DomainError(
             f"there is no algorithm {algorithm!r}", todo=f"choose one of {', '.join(ALGORITHMS)}"
         )
     options: dict[str, object] = {}
-    if algorithm == "PPO":  # Adam's update in one operation; eps is stable-baselines3's default
-        options["policy_kwargs"] = {"optimizer_kwargs": {"eps": 1e-5, "fused": True}}
+    if algorithm == "PPO":  # the same Adam; eps is stable-baselines3's default
+        options["policy_kwargs"] = {"optimizer_class": FlatAdam, "optimizer_kwargs": {"eps": 1e-5}}
     made: object = getattr(stable_baselines3, algorithm)(
         BinPolicy, env, n_steps=n_steps, seed=seed, device="cpu", verbose=0, **options
     )
