@@ -149,6 +149,14 @@ def _sqrt(x):
     return implementation
 
 
+@overload(ops.log, jit_options=OPTIONS)
+def _log(x):
+    def implementation(x):
+        return np.log(x)
+
+    return implementation
+
+
 @overload(ops.power, jit_options=OPTIONS)
 def _power(base, exponent):
     def implementation(base, exponent):

@@ -16,7 +16,6 @@ import numpy as np
 from numba import njit, types
 
 from tire_pipeline.magic_formula import fast_math as fast_math  # teaches numba the operations
-from tire_pipeline.magic_formula.coefficients import COEFFICIENT_NAMES, Coefficients
 from tire_pipeline.magic_formula.equations_52 import evaluate_52
 from tire_pipeline.magic_formula.equations_61 import (
     NO_TURN_SLIP,
@@ -24,21 +23,12 @@ from tire_pipeline.magic_formula.equations_61 import (
     rolling_load_factor,
 )
 from tire_pipeline.magic_formula.numpy_form import OUTPUTS, SATURATION
+from tire_pipeline.magic_formula.unpacking import unpack
 
 BLOCK = 256
 """Points in a block."""
 
 
-def _unpacker() -> Callable[..., Any]:
-    """Return a compiled function that gives a packed vector its names."""
-    # written out item by item: numba's own conversion of an array to a tuple takes 40 microseconds
-    items = ", ".join(f"c[{i}]" for i in range(len(COEFFICIENT_NAMES)))
-    scope: dict[str, Any] = {"Coefficients": Coefficients}
-    exec(f"def unpack(c):\n    return Coefficients({items})", scope)
-    return njit(error_model="numpy", forceinline=True)(scope["unpack"])
-
-
-_unpack = _unpacker()
 SETS: tuple[tuple[str, ...], ...] = (("fx", "fy"), ("fx", "fy", "mz"), OUTPUTS)
 """The sets of outputs that kernels exist for, from the cheapest to the whole."""
 
@@ -62,7 +52,8 @@ _SIGNATURE = types.void(
 def _stamp() -> int:
     """Return a number made from the sources of a kernel: part of the key that it is kept under."""
     folder = Path(__file__).parent
-    names = ("kernel", "fast_math", "shapes", "coefficients", "equations_52", "equations_61", "ops")
+    equations = ("equations_52", "equations_61", "shapes", "coefficients")
+    names = ("kernel", "unpacking", "fast_math", "ops", *equations)
     text = b"".join((folder / f"{name}.py").read_bytes() for name in names)
     return int(sha256(text).hexdigest()[:15], 16)
 
@@ -130,7 +121,7 @@ def _build_52(stamp: int, moments: bool, others: bool) -> Callable[..., Any]:
         w = np.empty(19 * BLOCK)
         n = out.shape[2]
         for t in range(out.shape[0]):
-            p = _unpack(matrix[t])
+            p = unpack(matrix[t])
             for start in range(0, n, BLOCK):
                 m = min(BLOCK, n - start)
                 _take_in(w, t, start, m, alpha, kappa, gamma, fz, speed, pressure, signs)
@@ -152,7 +143,7 @@ def _build_61(stamp: int, moments: bool, others: bool) -> Callable[..., Any]:
         w = np.empty(19 * BLOCK)
         n = out.shape[2]
         for t in range(out.shape[0]):
-            p = _unpack(matrix[t])
+            p = unpack(matrix[t])
             per_pascal = 1.0 / p.NOMPRES if p.NOMPRES > 0.0 else 0.0
             for start in range(0, n, BLOCK):
                 m = min(BLOCK, n - start)
@@ -191,14 +182,14 @@ def point_function(family: int) -> Callable[..., tuple[float, ...]]:
     stamp = _stamp()
 
     def point_52(c, alpha, kappa, gamma, fz, speed, pressure):
-        p = _unpack(c)
+        p = unpack(c)
         loaded = not fz <= 0.0 and stamp > 0
         load = min(fz, SATURATION) if loaded else p.FNOMIN
         values = evaluate_52(p, _held(alpha), _held(kappa), _held(gamma), load, _held(speed))
         return _unloaded(values, loaded)
 
     def point_61(c, alpha, kappa, gamma, fz, speed, pressure):
-        p = _unpack(c)
+        p = unpack(c)
         loaded = not fz <= 0.0 and stamp > 0
         load = min(fz, SATURATION) if loaded else p.FNOMIN
         dpi = (_held(pressure) - p.NOMPRES) / p.NOMPRES if p.NOMPRES > 0.0 else 0.0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from types import MappingProxyType
@@ -242,3 +242,9 @@ class TireModel:
     def to_version(self, version: str) -> TireModel:
         """Return the tire as a model of another version; see :func:`.convert.to_version`."""
         return to_version(self, version)
+
+    def jacobian(self, names: Sequence[str], **points: Any) -> dict[str, np.ndarray]:
+        """Return the derivatives of forces with respect to coefficients; see :func:`.jacobian.jacobian`."""
+        from tire_pipeline.magic_formula.jacobian import jacobian
+
+        return jacobian(self, names, **points)

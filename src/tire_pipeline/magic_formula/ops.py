@@ -32,6 +32,11 @@ def exp(x):
     return np.exp(x)
 
 
+def log(x):
+    """Return the natural logarithm."""
+    return np.log(x)
+
+
 def sqrt(x):
     """Return the square root."""
     return np.sqrt(x)

@@ -1,0 +1,331 @@
+"""Writes ``gradients_52.py`` and ``gradients_61.py``: run ``python -m tire_pipeline.magic_formula.derive``.
+
+The equations are traced once with symbols in place of numbers. Going backwards through what they did (reverse
+differentiation) gives the derivatives with respect to all coefficients for little more than the cost of the
+value itself. The result is straight-line code that the interpreter runs on arrays and the compiler on points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tire_pipeline.magic_formula.coefficients import COEFFICIENT_NAMES, NAMES_BY_FAMILY, Coefficients
+from tire_pipeline.magic_formula.equations_52 import evaluate_52
+from tire_pipeline.magic_formula.equations_61 import NO_TURN_SLIP, evaluate_61, rolling_load_factor
+
+DERIVED = ("fx", "fy", "mx", "my", "mz")
+"""The outputs that have gradients, in the order in which the equations return them."""
+
+_UFUNCS = {
+    np.add: "+",
+    np.subtract: "-",
+    np.multiply: "*",
+    np.divide: "/",
+    np.sin: "sin",
+    np.cos: "cos",
+    np.arctan: "arctan",
+    np.exp: "exp",
+    np.sqrt: "sqrt",
+    np.power: "power",
+    np.minimum: "minimum",
+    np.maximum: "maximum",
+    np.absolute: "absolute",
+}
+_known: dict[tuple[Any, ...], Symbol] = {}
+
+
+class Symbol:
+    """One intermediate value: an operation and what it was applied to. Equal ones are the same object."""
+
+    __slots__ = ("arguments", "number", "operation")
+
+    def __new__(cls, operation: str, *arguments: Any) -> Symbol:
+        """Return the symbol, made only if there is none like it."""
+        key = (operation, *(a.number if isinstance(a, Symbol) else ("c", a) for a in arguments))
+        found = _known.get(key)
+        if found is None:
+            found = super().__new__(cls)
+            found.operation, found.arguments, found.number = operation, arguments, len(_known)
+            _known[key] = found
+        return found
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Symbol:
+        """Note a NumPy function that is applied to the symbol."""
+        return _make(_UFUNCS[ufunc], *inputs)
+
+    def __array_function__(self, function: Any, types: Any, inputs: Any, options: Any) -> Symbol:
+        """Note ``np.where``."""
+        if function is not np.where:
+            return NotImplemented
+        return _make("select", *inputs)
+
+    def __add__(self, other: Any) -> Symbol:
+        return _make("+", self, other)
+
+    def __radd__(self, other: Any) -> Symbol:
+        return _make("+", other, self)
+
+    def __sub__(self, other: Any) -> Symbol:
+        return _make("-", self, other)
+
+    def __rsub__(self, other: Any) -> Symbol:
+        return _make("-", other, self)
+
+    def __mul__(self, other: Any) -> Symbol:
+        return _make("*", self, other)
+
+    def __rmul__(self, other: Any) -> Symbol:
+        return _make("*", other, self)
+
+    def __truediv__(self, other: Any) -> Symbol:
+        return _make("/", self, other)
+
+    def __rtruediv__(self, other: Any) -> Symbol:
+        return _make("/", other, self)
+
+    def __neg__(self) -> Symbol:
+        return _make("-", 0.0, self)
+
+    def __lt__(self, other: Any) -> Symbol:
+        return Symbol("<", self, other)
+
+    def __gt__(self, other: Any) -> Symbol:
+        return Symbol(">", self, other)
+
+    def __eq__(self, other: Any) -> Symbol:  # type: ignore[override]
+        return Symbol("==", self, other)
+
+    def __and__(self, other: Any) -> Symbol:
+        return Symbol("&", self, other)
+
+    def __hash__(self) -> int:
+        return self.number
+
+
+def _is(x: Any, value: float) -> bool:
+    return not isinstance(x, Symbol) and x == value
+
+
+def _make(operation: str, *arguments: Any) -> Any:
+    """Return a symbol, or what is simpler and the same."""
+    a, b = (*arguments, None)[:2]
+    if operation == "+" and (_is(a, 0.0) or _is(b, 0.0)):
+        return b if _is(a, 0.0) else a
+    if operation == "-" and _is(b, 0.0):
+        return a
+    if operation == "*" and (_is(a, 0.0) or _is(b, 0.0)):
+        return 0.0
+    if operation == "*" and (_is(a, 1.0) or _is(b, 1.0)):
+        return b if _is(a, 1.0) else a
+    if operation == "/" and (_is(a, 0.0) or _is(b, 1.0)):
+        return a
+    if operation == "select" and a is not None and arguments[1] is arguments[2]:
+        return arguments[1]
+    if not any(isinstance(x, Symbol) for x in arguments):
+        return _constant(operation, arguments)
+    return Symbol(operation, *arguments)
+
+
+def _constant(operation: str, arguments: tuple[Any, ...]) -> float:
+    for ufunc, name in _UFUNCS.items():
+        if name == operation:
+            return float(ufunc(*arguments))
+    return float(np.where(*arguments))
+
+
+def _pulled_back(y: Symbol, bar: Any) -> Iterable[tuple[Any, Any]]:
+    """Yield, for each argument of y, the argument and its share of y's derivative ``bar``."""
+    name, arguments = y.operation, y.arguments
+    a, b = (*arguments, None)[:2]
+    if name == "+":
+        return [(a, bar), (b, bar)]
+    if name == "-":
+        return [(a, bar), (b, _make("-", 0.0, bar))]
+    if name == "*":
+        return [(a, _make("*", bar, b)), (b, _make("*", bar, a))]
+    if name == "/":
+        share = _make("/", bar, b)
+        return [(a, share), (b, _make("-", 0.0, _make("*", share, y)))]
+    if name == "sin":
+        return [(a, _make("*", bar, _make("cos", a)))]
+    if name == "cos":
+        return [(a, _make("-", 0.0, _make("*", bar, _make("sin", a))))]
+    if name == "arctan":
+        return [(a, _make("/", bar, _make("+", 1.0, _make("*", a, a))))]
+    if name == "exp":
+        return [(a, _make("*", bar, y))]
+    if name == "sqrt":
+        return [(a, _make("select", y == 0.0, 0.0, _make("/", _make("*", 0.5, bar), y)))]
+    if name == "power":
+        log = Symbol("log", a)
+        return [
+            (a, _make("*", bar, _make("*", b, _make("/", y, a)))),
+            (b, _make("*", bar, _make("*", y, log))),
+        ]
+    if name in ("minimum", "maximum"):
+        first = Symbol("<", a, b) if name == "minimum" else Symbol(">", a, b)
+        return [(a, _make("select", first, bar, 0.0)), (b, _make("select", first, 0.0, bar))]
+    if name == "absolute":
+        return [(a, _make("select", Symbol("<", a, 0.0), _make("-", 0.0, bar), bar))]
+    if name == "select":
+        condition, yes, no = arguments
+        return [
+            (yes, _make("select", condition, bar, 0.0)),
+            (no, _make("select", condition, 0.0, bar)),
+        ]
+    return []
+
+
+def gradient(output: Symbol) -> dict[str, Any]:
+    """Return the derivative of an output with respect to each coefficient that it depends on."""
+    order = _needed([output])
+    depends: set[int] = set()
+    for y in order:
+        is_coefficient = y.operation == "coefficient"
+        if is_coefficient or any(isinstance(a, Symbol) and a.number in depends for a in y.arguments):
+            depends.add(y.number)
+    bars: dict[int, Any] = {output.number: 1.0}
+    found: dict[str, Any] = {}
+    for y in sorted(order, key=lambda each: -each.number):
+        bar = bars.get(y.number)
+        if bar is None or y.number not in depends:
+            continue
+        if y.operation == "coefficient":
+            found[y.arguments[0]] = bar
+            continue
+        for argument, share in _pulled_back(y, bar):
+            if isinstance(argument, Symbol) and argument.number in depends:
+                bars[argument.number] = _make("+", bars.get(argument.number, 0.0), share)
+    return {name: found[name] for name in COEFFICIENT_NAMES if name in found and not _is(found[name], 0)}
+
+
+def _needed(outputs: Iterable[Any]) -> list[Symbol]:
+    """Return the symbols that the outputs need, each after what it needs."""
+    seen: dict[int, Symbol] = {}
+    stack = [y for y in outputs if isinstance(y, Symbol)]
+    while stack:
+        y = stack.pop()
+        if y.number not in seen:
+            seen[y.number] = y
+            stack += [a for a in y.arguments if isinstance(a, Symbol)]
+    return sorted(seen.values(), key=lambda y: y.number)
+
+
+def traced(family: int) -> tuple[Any, ...]:
+    """Return the symbols of the five forces and moments."""
+    used = set(NAMES_BY_FAMILY[family])
+    p = Coefficients(*(Symbol("coefficient", n) if n in used else 0.0 for n in COEFFICIENT_NAMES))
+    names = ("alpha", "kappa", "gamma", "fz", "speed", "dpi")
+    point = [Symbol("input", name) for name in names]
+    with np.errstate(all="ignore"):
+        if family == 5:
+            return evaluate_52(p, *point[:5])[:5]
+        by_load = rolling_load_factor(p, point[3], point[5])
+        return evaluate_61(p, *point, by_load, NO_TURN_SLIP)[:5]
+
+
+def _text(y: Any, names: dict[int, str]) -> str:
+    return names[y.number] if isinstance(y, Symbol) else repr(float(y))
+
+
+def function_source(name: str, output: Symbol) -> tuple[str, list[str]]:
+    """Return the source of a function that returns an output's gradient, and the coefficients it is over."""
+    by_name = gradient(output)
+    names: dict[int, str] = {}
+    lines = []
+    for y in _needed(by_name.values()):
+        if y.operation == "input":
+            names[y.number] = y.arguments[0]
+            continue
+        if y.operation == "coefficient":
+            names[y.number] = f"p.{y.arguments[0]}"
+            continue
+        arguments = [_text(a, names) for a in y.arguments]
+        names[y.number] = f"t{len(lines)}"
+        infix = not y.operation[0].isalpha()
+        value = f" {y.operation} ".join(arguments) if infix else f"{y.operation}({', '.join(arguments)})"
+        if infix and arguments[0] == "0.0" and y.operation == "-":
+            value = f"-{arguments[1]}"
+        lines.append(f"    t{len(lines)} = {value}")
+    results = ",\n".join(f"        {_text(value, names)}" for value in by_name.values())
+    head = [
+        "@jitable",
+        f"def {name}(p, alpha, kappa, gamma, fz, speed, dpi):",
+        f'    """Return the gradient of {name}."""',
+    ]
+    return "\n".join([*head, *lines, f"    return (\n{results},\n    )\n"]), list(by_name)
+
+
+def kernel_source(name: str, count: int) -> str:
+    """Return the source of the loop over points that stores the columns asked for."""
+    stores = "\n".join(f"            w[{k} * BLOCK + i] = g[{k}]" for k in range(count))
+    return f'''
+def loop_{name}(c, alpha, kappa, gamma, fz, speed, dpi, rows, out):
+    """Store the gradient of {name}; ``rows`` has the row of ``out`` for each coefficient, or -1."""
+    p = unpack(c)
+    w = np.empty({count} * BLOCK)
+    for start in range(0, out.shape[1], BLOCK):
+        m = min(BLOCK, out.shape[1] - start)
+        for i in range(m):
+            j = start + i
+            g = {name}(p, alpha[j], kappa[j], gamma[j], fz[j], speed[j], dpi[j])
+{stores}
+        for k in range({count}):
+            if rows[k] >= 0:
+                out[rows[k], start : start + m] = w[k * BLOCK : k * BLOCK + m]
+'''
+
+
+def module_source(family: int) -> str:
+    """Return the source of a gradients module."""
+    _known.clear()
+    outputs = traced(family)
+    parts, lists = [], []
+    for name, output in zip(DERIVED, outputs, strict=True):
+        source, over = function_source(name, output)
+        parts.append(f"{source}\n{kernel_source(name, len(over))}\n")
+        lists.append(f'    "{name}": (\n' + "".join(f'        "{n}",\n' for n in over) + "    ),\n")
+    head = _HEAD.format(family=family, stamp=source_stamp())
+    return head + "OVER = {\n" + "".join(lists) + "}\n\n\n" + "\n".join(parts)
+
+
+def source_stamp() -> str:
+    """Return a mark of the sources that the gradients are made from and compiled with."""
+    folder = Path(__file__).parent
+    names = ("derive", "fast_math", "shapes", "coefficients", "equations_52", "equations_61", "ops", "jit")
+    text = b"".join((folder / f"{name}.py").read_bytes() for name in names)
+    return sha256(text).hexdigest()[:16]
+
+
+_HEAD = '''"""Gradients over coefficients, family {family}. Written by ``derive.py``: change that."""
+
+# ruff: noqa
+# fmt: off
+
+import numpy as np
+
+from tire_pipeline.magic_formula.jit import jitable
+from tire_pipeline.magic_formula.ops import (
+    absolute, arctan, cos, exp, log, maximum, minimum, power, select, sin, sqrt,
+)
+from tire_pipeline.magic_formula.unpacking import unpack
+
+BLOCK = 64
+STAMP = "{stamp}"
+'''
+
+
+def main() -> None:
+    """Write both modules."""
+    folder = Path(__file__).parent
+    for family, name in ((5, "gradients_52"), (6, "gradients_61")):
+        (folder / f"{name}.py").write_text(module_source(family))
+
+
+if __name__ == "__main__":
+    main()

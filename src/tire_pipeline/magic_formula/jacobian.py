@@ -1,0 +1,169 @@
+"""Derivatives of forces and moments with respect to coefficients."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tire_pipeline.errors import TirValueError
+from tire_pipeline.magic_formula import gradients_52, gradients_61
+from tire_pipeline.magic_formula.coefficients import INDEX, Coefficients
+from tire_pipeline.magic_formula.inputs import as_float_arrays
+from tire_pipeline.magic_formula.jit import HAVE_NUMBA
+from tire_pipeline.magic_formula.numpy_form import SATURATION, relative_pressure
+from tire_pipeline.magic_formula.shapes import clamp
+
+if TYPE_CHECKING:
+    from tire_pipeline.magic_formula.model import TireModel
+
+_CHUNK = 4096
+
+
+def jacobian(
+    model: TireModel,
+    names: Sequence[str],
+    *,
+    normal_load: Any,
+    slip_angle: Any = 0.0,
+    slip_ratio: Any = 0.0,
+    camber: Any = 0.0,
+    speed: Any = None,
+    pressure: Any = None,
+    outputs: Sequence[str] = ("fx", "fy", "mz"),
+    out: Mapping[str, np.ndarray] | None = None,
+) -> dict[str, np.ndarray]:
+    """Return d(output) / d(coefficient) at operating points.
+
+    Parameters
+    ----------
+    model : TireModel
+    names : sequence of str
+        Coefficients, by ``.tir`` name; a column of zeros for one that the output does not depend on.
+    normal_load, slip_angle, slip_ratio, camber, speed, pressure : float or array_like
+        As in :meth:`TireModel.forces`, in ISO W axes. Ranges are not checked, turn slip is not known here.
+    outputs : sequence of str
+        Some of "fx", "fy", "mx", "my", "mz".
+    out : mapping of str to ndarray of shape (len(names), number of points), optional
+        Where to put each output's derivatives: it saves the time that new memory takes.
+
+    Returns
+    -------
+    dict of str to ndarray of shape (*shape of the points, len(names))
+
+    Raises
+    ------
+    TirValueError
+        For a name that is not a coefficient, or an output without derivatives.
+    TirShapeError
+        If the arguments do not broadcast.
+
+    Notes
+    -----
+    Analytic: the equations are differentiated backwards once (:mod:`.derive`). At a kink (a bound, a magnitude,
+    a sign) it is the derivative of one side.
+    """
+    given = (slip_angle, slip_ratio, camber, normal_load)
+    given += (model.value("LONGVL") if speed is None else speed,)
+    given += (0.0 if model.family == 5 else model.value("NOMPRES") if pressure is None else pressure,)
+    keys = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
+    arrays, shape = as_float_arrays(dict(zip(keys, given, strict=True)))
+    flat = [np.ascontiguousarray(np.broadcast_to(x, shape)).reshape(-1) for x in arrays.values()]
+    found = packed_jacobian(model.packed, model.family, names, flat, outputs, out)
+    return {name: value.T.reshape(*shape, len(names)) for name, value in found.items()}
+
+
+def packed_jacobian(
+    vector: np.ndarray,
+    family: int,
+    names: Sequence[str],
+    points: Sequence[np.ndarray],
+    outputs: Sequence[str],
+    given: Mapping[str, np.ndarray] | None = None,
+) -> dict[str, np.ndarray]:
+    """Return the derivatives with respect to some of a packed vector's coefficients.
+
+    Parameters
+    ----------
+    vector : ndarray
+        Packed coefficients.
+    family : {5, 6}
+    names : sequence of str
+    points : six contiguous ndarrays of shape (points,)
+        Slip angle, slip ratio, camber, load, speed, pressure.
+    outputs : sequence of str
+    given : mapping of str to C-contiguous ndarray of shape (len(names), points), optional
+        Where to put the results.
+
+    Returns
+    -------
+    dict of str to ndarray of shape (len(names), points)
+    """
+    unknown = [name for name in names if name not in INDEX]
+    if unknown:
+        raise TirValueError(f"{unknown} are not coefficients", todo="use names of COEFFICIENT_NAMES")
+    module = gradients_52 if family == 5 else gradients_61
+    p = Coefficients(*vector.tolist())
+    alpha, kappa, gamma, fz, speed, pressure = points
+    with np.errstate(all="ignore"):
+        loaded = fz > 0.0
+        load = np.where(loaded, np.minimum(fz, SATURATION), p.FNOMIN)
+        state = [clamp(x, SATURATION) for x in (alpha, kappa, gamma)]
+        state += [load, clamp(speed, SATURATION), relative_pressure(p, pressure)]
+    found = {}
+    for output in outputs:
+        if output not in module.OVER:
+            raise TirValueError(f"{output!r} has no derivatives", todo=f"use some of {list(module.OVER)}")
+        over = module.OVER[output]
+        place = {name: i for i, name in enumerate(names)}
+        rows = np.array([place.get(name, -1) for name in over])
+        absent = [i for name, i in place.items() if name not in over]
+        out = np.empty((len(names), len(fz))) if given is None else given[output]
+        out[absent] = 0.0
+        _fill(module, output, np.asarray(vector), p, state, rows, out)
+        if not loaded.all():
+            out[:, ~loaded] = 0.0
+        found[output] = out
+    return found
+
+
+def _fill(
+    module: Any,
+    output: str,
+    vector: np.ndarray,
+    p: Coefficients,
+    state: Sequence[np.ndarray],
+    rows: np.ndarray,
+    out: np.ndarray,
+) -> None:
+    if HAVE_NUMBA and max(np.abs(x).max(initial=0.0) for x in (state[0], state[2])) <= 1e4:
+        _compiled(module.__name__, output)(vector, *state, rows, out)
+        return
+    gradient = getattr(module, output)
+    for start in range(0, out.shape[1], _CHUNK):
+        part = slice(start, start + _CHUNK)
+        with np.errstate(all="ignore"):
+            values = gradient(p, *(x[part] for x in state))
+        for row, value in zip(rows, values, strict=True):
+            if row >= 0:
+                out[row, part] = value
+
+
+@lru_cache(maxsize=10)
+def _compiled(module: str, output: str) -> Callable[..., None]:
+    from numba import njit, types
+
+    from tire_pipeline.magic_formula import fast_math
+
+    assert fast_math is not None  # it has taught numba the operations
+    vector = types.Array(types.float64, 1, "C", readonly=True)
+    signature = types.void(
+        *([vector] * 7),
+        types.Array(types.int64, 1, "C", readonly=True),
+        types.Array(types.float64, 2, "C"),
+    )
+    source = gradients_52 if module.endswith("52") else gradients_61
+    options = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
+    return njit(signature, **options)(getattr(source, f"loop_{output}"))
