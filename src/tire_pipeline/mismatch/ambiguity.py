@@ -1,0 +1,111 @@
+"""Which other effects would look the same in this recording: by the angle between what they do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.candidates import Variant, screening_columns
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.refit import Fit, refit
+from tire_pipeline.mismatch.search import Search, gain_of, objective, prune
+from tire_pipeline.mismatch.simulate import simulate
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Rival:
+    """An effect that could stand in for an accepted one.
+
+    Parameters
+    ----------
+    name : str
+    apart : float
+        Share of the accepted effect's part that the rival cannot imitate (squared sine of the
+        angle between them, in the metric of the noise).
+    nats : float
+        How much likelier the accepted effect should be, from that angle and its size.
+    lost : float
+        How much likelier it is, both fitted.
+    """
+
+    name: str
+    apart: float
+    nats: float
+    lost: float
+
+    @property
+    def possible(self) -> bool:
+        """Whether the recording cannot exclude it."""
+        by_design = self.nats < settings.AMBIGUITY_NATS or self.apart < settings.AMBIGUITY_SHARE
+        return by_design and self.lost < max(settings.AMBIGUITY_NATS, settings.AMBIGUITY_LOST * self.nats)
+
+
+def rivals(search: Search, index: int) -> list[Rival]:
+    """Compare effect number ``index`` of the accepted set with all others, nearest first."""
+    fit, data = search.fit, search.data
+    changes = fit.changes
+    rest = [c for j, c in enumerate(changes) if j != index]
+    others = [
+        Variant(n, p, f) for j, ((n, p), f) in enumerate(zip(changes, fit.free, strict=True)) if j != index
+    ]
+    whole, without = simulate(data, changes), simulate(data, rest)
+    part = {o: whole[o] - without[o] for o in data.outputs}
+    size = search.system.reduce(search.system.sums(part))[2]
+    best: dict[str, tuple[float, Variant]] = {}
+    for v in search.variants:
+        if v.name in fit.names:
+            continue
+        columns = screening_columns(data, rest, v)
+        if columns[data.outputs[0]].shape[1] == 0:
+            continue
+        info, score, _ = search.system.reduce(search.system.sums(part, columns))
+        explained = _explained(info, score)
+        apart = float(np.clip(1.0 - explained / max(size, 1e-12), 0.0, 1.0))
+        if v.name not in best or apart < best[v.name][0]:
+            best[v.name] = (apart, v)
+    empty = objective(search.system, rest)
+    own = gain_of(search, fit, empty)
+    out = []
+    for name, (_, v) in sorted(best.items(), key=lambda t: t[1][0])[:4]:
+        if best[name][0] > 0.35:
+            continue
+        trial = prune(search, refit(search.system, [*others, v], start=[*rest, (name, v.start)]))
+        apart = _apart(search, trial, part, size, name)
+        nats = 0.5 * apart * size / search.inflation
+        out.append(Rival(name, apart, nats, own - gain_of(search, trial, empty)))
+    return sorted(out, key=lambda r: r.apart)
+
+
+def _apart(search: Search, trial: Fit, part: dict[str, Array], size: float, name: str) -> float:
+    """Share of a part that the rival's fitted form, with its derivatives, does not span."""
+    data = search.data
+    i = trial.names.index(name)
+    whole = simulate(data, trial.changes)
+    without = simulate(data, [c for j, c in enumerate(trial.changes) if j != i])
+    own = [k for k, (j, _) in enumerate(trial.labels) if j == i]
+    columns = {o: np.column_stack([whole[o] - without[o], trial.columns[o][:, own]]) for o in data.outputs}
+    info, score, _ = search.system.reduce(search.system.sums(part, columns))
+    return float(np.clip(1.0 - _explained(info, score) / max(size, 1e-12), 0.0, 1.0))
+
+
+def _explained(info: Array, score: Array) -> float:
+    scale = np.sqrt(np.maximum(np.diag(info), 1e-300))
+    m = info / scale[:, None] / scale[None, :]
+    s = score / scale
+    return float(s @ np.linalg.lstsq(m + 1e-9 * np.eye(s.size), s, rcond=1e-9)[0])
+
+
+def experiment(name: str, names: list[str]) -> str:
+    """Return what to record to separate an effect from its rivals."""
+    effect = catalogue()[name]
+    reasons = []
+    for other in names:
+        why = effect.looks_like.get(other) or catalogue()[other].looks_like.get(name)
+        if why:
+            reasons.append(why)
+    because = f" ({'; '.join(reasons)})" if reasons else ""
+    return f"To separate {name} from {', '.join(names)}: {effect.experiment}{because}."

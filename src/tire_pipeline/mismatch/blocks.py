@@ -1,0 +1,84 @@
+"""Sweeps: the pieces of a recording that are held out, permuted and resampled as wholes."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.cluster.vq import kmeans2
+
+from tire_pipeline.mismatch.data import Data
+
+Array = np.ndarray
+_LEAST_SECONDS = 1.0
+_MOST_BLOCKS = 100
+
+
+def sweeps(data: Data) -> Array:
+    """Return the number of the sweep that each sample belongs to.
+
+    A sweep ends where the slip angle (or the slip ratio) passes through zero, at gaps, and where
+    one would last more than a twenty-fourth of the recording. Without time, cells of the operating space.
+
+    Parameters
+    ----------
+    data : Data
+
+    Returns
+    -------
+    ndarray of int, shape (n,)
+        0, 1, ... without holes.
+    """
+    if data.time is None:
+        return _cells(data)
+    total = float(data.step.sum())
+    least = max(_LEAST_SECONDS, total / _MOST_BLOCKS)
+    most = max(total / 24.0, 1.5 * least)
+    cuts = data.start.copy()
+    for name, level in (("slip_angle", 0.004), ("slip_ratio", 0.008)):
+        x = data.smooth(name)
+        if np.quantile(np.abs(x), 0.95) > level:
+            side = np.sign(np.where(np.abs(x) < level, 0.0, x))
+            cuts |= _changes(side)
+    elapsed = np.cumsum(data.step)
+    block = np.zeros(data.size, int)
+    number, begin = 0, elapsed[0]
+    times = elapsed
+    for i in np.flatnonzero(cuts | (np.arange(data.size) == 0)):
+        if times[i] - begin >= least:
+            number, begin = number + 1, times[i]
+        block[i:] = number
+    return _split_long(block, elapsed, most)
+
+
+def _changes(side: Array) -> Array:
+    """True where the side differs from the last one that was not zero."""
+    known = np.flatnonzero(side != 0.0)
+    out = np.zeros(side.size, bool)
+    turned = known[1:][side[known[1:]] != side[known[:-1]]]
+    out[turned] = True
+    return out
+
+
+def _split_long(block: Array, elapsed: Array, most: float) -> Array:
+    out = np.zeros_like(block)
+    number = 0
+    for k in range(block[-1] + 1):
+        rows = np.flatnonzero(block == k)
+        if rows.size == 0:
+            continue
+        span = elapsed[rows[-1]] - elapsed[rows[0]]
+        pieces = max(1, int(np.ceil(span / most)))
+        out[rows] = number + np.minimum(np.arange(rows.size) * pieces // rows.size, pieces - 1)
+        number += pieces
+    return out
+
+
+def _cells(data: Data) -> Array:
+    """Cells of the operating space, about six points or more each."""
+    names = [n for n in ("slip_angle", "slip_ratio", "camber", "normal_load") if np.ptp(data.get(n)) > 0.0]
+    if not names:
+        return np.arange(data.size) * 8 // data.size
+    x = np.column_stack([data.get(n) / np.std(data.get(n)) for n in names])
+    count = int(np.clip(data.size // 6, 4, 24))
+    _, label = kmeans2(x, count, minit="++", seed=0)
+    _, label = np.unique(label, return_inverse=True)
+    return label

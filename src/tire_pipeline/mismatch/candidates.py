@@ -1,0 +1,105 @@
+"""Columns of the effects: what the recording would show if a parameter moved a little."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.effects import Effect, catalogue
+from tire_pipeline.mismatch.simulate import Change, simulate
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One form of one effect: where it starts and which parameters float."""
+
+    name: str
+    start: Mapping[str, float]
+    free: tuple[str, ...]
+
+    @property
+    def effect(self) -> Effect:
+        """The effect's description."""
+        return catalogue()[self.name]
+
+
+def variants(data: Data, names: Sequence[str] | None = None) -> tuple[list[Variant], dict[str, str]]:
+    """Return all forms of all effects that this recording can show, and why others cannot be looked for."""
+    out: list[Variant] = []
+    absent: dict[str, str] = {}
+    for name, effect in catalogue().items():
+        if names is not None and name not in names:
+            continue
+        why = effect.absent(data)
+        if why is not None:
+            absent[name] = why
+            continue
+        for start in effect.starts(data):
+            free = tuple(p for p in effect.free(data, start) if _acts(data, effect, p))
+            if free:
+                out.append(Variant(name, start, free))
+    return out, absent
+
+
+def _acts(data: Data, effect: Effect, name: str) -> bool:
+    parameter = next(p for p in effect.parameters if p.name == name)
+    return parameter.output is None or parameter.output in data.outputs
+
+
+def derivatives(
+    data: Data, changes: Sequence[Change], index: int, free: Sequence[str]
+) -> Iterator[tuple[str, dict[str, Array]]]:
+    """Yield d force / d parameter for the floating parameters of ``changes[index]``.
+
+    Parameters
+    ----------
+    data : Data
+    changes : sequence of (name, parameters)
+        The effects that are in, with the parameters at which to differentiate.
+    index : int
+    free : sequence of str
+    """
+    name, values = changes[index]
+    effect = catalogue()[name]
+    for parameter in effect.parameters:
+        if parameter.name not in free:
+            continue
+        at = values[parameter.name]
+        h = parameter.step
+        sides = []
+        for value in (at + h, at - h):
+            moved = dict(values)
+            moved[parameter.name] = float(np.clip(value, parameter.low, parameter.high))
+            swapped = [*changes[:index], (name, moved), *changes[index + 1 :]]
+            sides.append((moved[parameter.name], simulate(data, swapped)))
+        (up, f_up), (down, f_down) = sides
+        if up == down:
+            continue
+        yield parameter.name, {o: (f_up[o] - f_down[o]) / (up - down) for o in data.outputs}
+
+
+def screening_columns(data: Data, changes: Sequence[Change], variant: Variant) -> dict[str, Array]:
+    """Return the columns with which a form is screened, shape (n, k) for each output.
+
+    At a start where the effect is absent these are the derivatives; elsewhere the whole difference
+    that the start makes comes first.
+    """
+    now = simulate(data, changes)
+    with_it = [*changes, (variant.name, dict(variant.start))]
+    whole = simulate(data, with_it)
+    parts: list[dict[str, Array]] = []
+    size = {o: float(np.sqrt(np.mean((whole[o] - now[o]) ** 2))) for o in data.outputs}
+    force = {o: float(np.sqrt(np.mean(now[o] ** 2))) for o in data.outputs}
+    if any(size[o] > 1e-7 * max(force.values()) for o in data.outputs):
+        parts.append({o: whole[o] - now[o] for o in data.outputs})
+    for name, column in derivatives(data, with_it, len(changes), variant.free):
+        step = next(p.step for p in variant.effect.parameters if p.name == name)
+        parts.append({o: c * step for o, c in column.items()})
+    if not parts:
+        return {o: np.zeros((data.size, 0)) for o in data.outputs}
+    return {o: np.column_stack([p[o] for p in parts]) for o in data.outputs}

@@ -1,0 +1,316 @@
+"""From a DataFrame to clean arrays: what is missing, broken or recorded wrongly is said, not explained."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects.base import Finding
+from tire_pipeline.mismatch.simulate import plain_forces
+from tire_pipeline.mismatch.smoothing import denoise
+
+Array = np.ndarray
+INPUTS = (
+    "slip_angle",
+    "slip_ratio",
+    "camber",
+    "normal_load",
+    "speed",
+    "pressure",
+    "tread_temperature",
+    "turn_slip",
+)
+FORCES = ("fx", "fy")
+LEAST_SAMPLES = 20
+_RATE = 50.0
+
+
+@dataclass
+class Prepared:
+    """The recording, cleaned.
+
+    Parameters
+    ----------
+    data : Data
+        All usable samples, at 50 to 100 Hz.
+    findings : list of Finding
+        Artefacts that needed no fit, already repaired or taken out.
+    notes : list of str
+        What the user should know.
+    rows : ndarray of int
+        For each sample of ``data`` the row of the recording where it begins.
+    """
+
+    data: Data
+    findings: list[Finding]
+    notes: list[str]
+    rows: Array
+    extra: dict[str, Array] = field(default_factory=dict)
+
+
+def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
+    """Check a recording, repair what is exactly wrong, and bring it to arrays.
+
+    Parameters
+    ----------
+    tire : TireModel
+    recording : pandas.DataFrame
+        Canonical columns, SI.
+
+    Raises
+    ------
+    RecordingError
+        If something is missing that nothing can replace.
+    """
+    notes: list[str] = []
+    arrays = _arrays(recording)
+    time = _time(arrays)
+    rows = _usable(arrays, time, notes)
+    arrays = {n: a[rows] for n, a in arrays.items()}
+    time = None if time is None else time[rows]
+    findings, bad = _exact(tire, arrays, time)
+    if bad.any():
+        rows, arrays = rows[~bad], {n: a[~bad] for n, a in arrays.items()}
+        time = None if time is None else time[~bad]
+        if rows.size < LEAST_SAMPLES:
+            raise RecordingError(
+                f"after taking out {int(bad.sum())} samples with a stuck or clipped channel only {rows.size} are left",
+                todo="record again",
+            )
+    for name in ("camber", "slip_ratio", "slip_angle"):
+        if name not in arrays:
+            arrays[name] = np.zeros(rows.size)
+            notes.append(f"{name} is not recorded and taken as zero")
+    _overlap(tire, arrays)
+    start = _pieces(time, rows, notes)
+    arrays, time, start, rows = _binned(arrays, time, start, rows)
+    if time is not None:
+        for name in ("slip_angle", "slip_ratio", "camber", "normal_load"):
+            arrays[name] = denoise(arrays[name], start)
+    present = {n for n in INPUTS if n in recording.columns and n in arrays}
+    own = own_relaxation(tire)
+    data = Data(
+        tire=tire,
+        channels={n: a for n, a in arrays.items() if n not in FORCES},
+        recorded={n: arrays[n] for n in FORCES if n in arrays},
+        time=time,
+        start=start,
+        present=present,
+        beside=None,
+        fixed={"own_relaxation": own},
+    )
+    return Prepared(data, findings, notes, rows)
+
+
+def _arrays(recording: pd.DataFrame) -> dict[str, Array]:
+    """Return the numeric columns that are known, as float64."""
+    if not isinstance(recording, pd.DataFrame):
+        raise RecordingError("the recording is not a DataFrame", todo="read it with read_recording")
+    arrays: dict[str, Array] = {}
+    for name in recording.columns:
+        try:
+            arrays[str(name)] = recording[name].to_numpy(dtype=float, na_value=np.nan)
+        except (TypeError, ValueError):
+            if name in (*INPUTS, *FORCES, "time"):
+                raise RecordingError(
+                    f"column {name} is not numeric", where=str(name), todo="convert it"
+                ) from None
+    for name in [n for n, a in arrays.items() if n != "time" and not np.isfinite(a).any()]:
+        del arrays[name]
+    if not any(n in arrays for n in FORCES):
+        raise RecordingError(
+            "no force channel: the recording has neither fx nor fy",
+            todo=f"name the force columns fx, fy (columns are: {', '.join(map(str, recording.columns))})",
+        )
+    if "normal_load" not in arrays:
+        raise RecordingError(
+            "no normal_load, without which no tire model gives a force", todo="record or compute it"
+        )
+    if "slip_angle" not in arrays and "slip_ratio" not in arrays:
+        raise RecordingError("neither slip_angle nor slip_ratio is recorded", todo="record one of them")
+    if len(recording) < LEAST_SAMPLES:
+        raise RecordingError(
+            f"only {len(recording)} samples; at least {LEAST_SAMPLES} are needed to tell an effect from noise",
+            todo="use a longer recording",
+        )
+    return arrays
+
+
+def _time(arrays: Mapping[str, Array]) -> Array | None:
+    """Return the time stamps, which must rise."""
+    if "time" not in arrays:
+        return None
+    time = arrays["time"]
+    known = time[np.isfinite(time)]
+    if known.size == 0:
+        return None
+    steps = np.diff(known)
+    if np.any(steps < 0.0):
+        at = int(np.flatnonzero(steps < 0.0)[0]) + 1
+        raise RecordingError(
+            f"time goes backwards {int((steps < 0).sum())} times, first at sample {at}",
+            where="time",
+            todo="sort the recording, or split it where it begins anew",
+        )
+    if np.any(steps == 0.0):
+        at = int(np.flatnonzero(steps == 0.0)[0]) + 1
+        raise RecordingError(
+            f"{int((steps == 0).sum())} time stamps are repeated, first at sample {at}",
+            where="time",
+            todo="drop the repeated rows: recording.drop_duplicates('time')",
+        )
+    return time
+
+
+def _usable(arrays: Mapping[str, Array], time: Array | None, notes: list[str]) -> Array:
+    """Return the rows in which every channel that matters is finite."""
+    n = arrays["normal_load"].size
+    ok = np.ones(n, bool)
+    if time is not None:
+        ok &= np.isfinite(time)
+    for name in (*INPUTS, *FORCES):
+        if name in arrays:
+            ok &= np.isfinite(arrays[name])
+    lost = int(n - ok.sum())
+    if lost:
+        worst = max(
+            (*INPUTS, *FORCES), key=lambda c: int((~np.isfinite(arrays[c])).sum()) if c in arrays else -1
+        )
+        notes.append(
+            f"{lost} of {n} samples have no number in some channel (most often {worst}) and are left out"
+        )
+    if ok.sum() < max(LEAST_SAMPLES, 0.1 * n):
+        raise RecordingError(
+            f"only {int(ok.sum())} of {n} samples have numbers in all channels",
+            todo="drop the columns that are mostly empty",
+        )
+    return np.flatnonzero(ok)
+
+
+def _exact(tire: Any, arrays: dict[str, Array], time: Array | None) -> tuple[list[Finding], Array]:
+    """Find exact artefacts and repair them in ``arrays``; return them and the samples to take out."""
+    n = arrays["normal_load"].size
+    bad = np.zeros(n, bool)
+    findings: list[Finding] = []
+    found: list[Finding] = []
+    if time is not None:
+        for name in ("stuck_channel", "clipping"):
+            found = catalogue()[name].detect({k: a[~bad] for k, a in arrays.items()}, None)
+            rows = np.flatnonzero(~bad)
+            for finding in found:
+                hit = np.zeros(n, bool)
+                hit[rows[finding.bad]] = True
+                at = time[hit]
+                span = (float(at[0]), float(at[-1])) if name == "stuck_channel" else None
+                finding = Finding(**{**finding.__dict__, "bad": hit, "span": span})
+                bad |= hit
+                findings.append(finding)
+    pick = np.flatnonzero(~bad)
+    pick = pick[:: max(1, pick.size // 4000)]
+
+    def run(channels: Mapping[str, Array]) -> dict[str, Array]:
+        zero = np.zeros(channels["normal_load"].size)
+        return plain_forces(
+            tire,
+            slip_angle=channels.get("slip_angle", zero),
+            slip_ratio=channels.get("slip_ratio", zero),
+            camber=channels.get("camber", zero),
+            normal_load=channels["normal_load"],
+        )
+
+    nominal = float(tire.coefficients.get("NOMPRES", 0.0) or 2.3e5)
+    for _ in range(3):
+        again = False
+        for name in ("sign_convention", "unit_error"):
+            some = {k: a[pick] for k, a in arrays.items()} | {"_nominal_pressure": np.array([nominal])}
+            for finding in catalogue()[name].detect(some, run):
+                for channel, repaired in finding.repaired.items():
+                    factor = _ratio(repaired, some[channel])
+                    arrays[channel] = arrays[channel] * factor
+                findings.append(Finding(**{**finding.__dict__, "repaired": {}}))
+                again = True
+        if not again:
+            break
+    return findings, bad
+
+
+def _ratio(new: Array, old: Array) -> float:
+    k = int(np.argmax(np.abs(old)))
+    return float(new[k] / old[k])
+
+
+def _overlap(tire: Any, arrays: Mapping[str, Array]) -> None:
+    """Raise if the recording lies where the model says nothing."""
+    load = arrays["normal_load"]
+    c = tire.coefficients
+    low, high = 0.02 * c.get("FNOMIN", 4000.0), 8.0 * c.get("FNOMIN", 4000.0)
+    if c.get("FZMAX", 0.0) > 0.0:
+        low = min(low, c.get("FZMIN", low)) if c.get("FZMIN", 0.0) > 0.0 else low
+        high = max(high, 1.5 * c["FZMAX"])
+    inside = (load > low) & (load < high)
+    if inside.mean() < 0.1:
+        raise RecordingError(
+            f"no overlap between model and recording: the loads are {np.min(load):.4g} to {np.max(load):.4g} N, "
+            f"the model's nominal load is {c.get('FNOMIN', float('nan')):.4g} N",
+            where="normal_load",
+            todo="use the .tir file of this tire, or check the unit of the load",
+        )
+
+
+def _pieces(time: Array | None, rows: Array, notes: list[str]) -> Array:
+    """Return where uninterrupted pieces begin."""
+    start = np.zeros(rows.size, bool)
+    start[0] = True
+    if time is None:
+        return start
+    steps = np.diff(time)
+    typical = float(np.median(steps))
+    gaps = np.flatnonzero((steps > 3.5 * typical) | (np.diff(rows) > 3))
+    start[gaps + 1] = True
+    long = steps[gaps] > 10.0 * typical
+    if long.any():
+        notes.append(f"{int(long.sum())} gaps in the time line, the longest {float(steps[gaps].max()):.3g} s")
+    return start
+
+
+def _binned(
+    arrays: dict[str, Array], time: Array | None, start: Array, rows: Array
+) -> tuple[dict[str, Array], Array | None, Array, Array]:
+    """Average neighbours so that the rate is 50 to 100 Hz; nothing is averaged over a gap."""
+    if time is None:
+        return arrays, time, start, rows
+    rate = 1.0 / max(float(np.median(np.diff(time))), 1e-9)
+    m = int(rate / _RATE + 1e-6)
+    if m < 2:
+        return arrays, time, start, rows
+    piece = np.cumsum(start) - 1
+    first = np.flatnonzero(start)[piece]
+    group = (np.arange(rows.size) - first) // m
+    edges = np.flatnonzero(np.r_[True, (np.diff(group) != 0) | (np.diff(piece) != 0)])
+    size = np.diff(np.r_[edges, rows.size])
+    keep = size >= max(1, m // 2)
+    mean = {n: (np.add.reduceat(a, edges) / size)[keep] for n, a in arrays.items()}
+    stamps = (np.add.reduceat(time, edges) / size)[keep]
+    begins = np.add.reduceat(start.astype(int), edges)[keep] > 0
+    begins[0] = True
+    return mean, stamps, begins, rows[edges][keep]
+
+
+def own_relaxation(tire: Any) -> dict[str, float] | None:
+    """Return the relaxation lengths that the file itself states, m."""
+    c = tire.coefficients
+    missing = getattr(tire, "defaulted", {})
+    radius = c.get("UNLOADED_RADIUS", 0.3)
+    out = {}
+    if c.get("PTY1", 0.0) > 0.0 and "PTY1" not in missing and c.get("PTY2", 0.0) > 0.0:
+        out["slip_angle"] = float(c["PTY1"] * np.sin(2.0 * np.arctan(1.0 / c["PTY2"])) * radius)
+    if c.get("PTX1", 0.0) > 0.0 and "PTX1" not in missing:
+        out["slip_ratio"] = float(c["PTX1"] * radius)
+    return out or None

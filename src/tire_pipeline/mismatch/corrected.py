@@ -1,0 +1,152 @@
+"""The model with the missing physics put in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch.checks import INPUTS, own_relaxation
+from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.simulate import Change, simulate
+from tire_pipeline.mismatch.smoothing import denoise
+
+_CHUNK = 200_000
+
+
+@dataclass(frozen=True)
+class CorrectedModel:
+    """A tire model and the effects that it left out.
+
+    Parameters
+    ----------
+    tire : TireModel
+    changes : tuple of (name, parameters)
+    reference : dict
+        Nominal pressure and speed, and what work, heat and time are measured by.
+    outputs : tuple of str
+        Forces that were recorded.
+    """
+
+    tire: Any
+    changes: tuple[Change, ...]
+    reference: Mapping[str, Any]
+    outputs: tuple[str, ...]
+    simulated: Mapping[str, str] = field(default_factory=dict)
+
+    def predict(self, recording: pd.DataFrame) -> pd.DataFrame:
+        """Return the corrected forces at the samples of a recording.
+
+        Parameters
+        ----------
+        recording : pandas.DataFrame
+            Canonical columns; forces are not needed.
+
+        Returns
+        -------
+        pandas.DataFrame
+            ``fx``, ``fy`` in N (those that were recorded when the model was corrected), index as
+            the recording's. Artefacts of the sensors are put in, too: this is what would be recorded.
+
+        Raises
+        ------
+        RecordingError
+            If a channel is missing that the model or an effect needs.
+        """
+        data = self._data(recording)
+        forces = simulate(data, self.changes)
+        return pd.DataFrame(forces, index=recording.index)
+
+    def _data(self, recording: pd.DataFrame) -> Data:
+        n = len(recording)
+        if "normal_load" not in recording:
+            raise RecordingError("no normal_load to predict forces from", todo="add the column")
+        channels = {
+            str(c): recording[c].to_numpy(dtype=float, na_value=np.nan)
+            for c in recording.columns
+            if c in INPUTS
+        }
+        time = recording["time"].to_numpy(dtype=float) if "time" in recording else None
+        start = np.zeros(n, bool)
+        start[:1] = True
+        if time is not None and n > 1:
+            steps = np.diff(time)
+            start[1:] = (steps > 3.5 * np.median(steps)) | (steps <= 0.0)
+        for name in ("slip_angle", "slip_ratio", "camber"):
+            channels.setdefault(name, np.zeros(n))
+        for name in ("slip_angle", "slip_ratio", "camber", "normal_load"):
+            if time is not None:
+                channels[name] = denoise(channels[name], start)
+        for name, _ in self.changes:
+            for channel in catalogue()[name].channels:
+                if channel not in channels:
+                    raise RecordingError(f"{name} needs the channel {channel}", todo="add the column")
+        return Data(
+            tire=self.tire,
+            channels=channels,
+            recorded={o: np.zeros(n) for o in self.outputs},
+            time=time,
+            start=start,
+            present={c for c in channels if c in recording.columns},
+            beside=None,
+            fixed={**self.reference, "own_relaxation": own_relaxation(self.tire)},
+        )
+
+    def tire_model(self) -> tuple[Any, dict[str, dict[str, object]]]:
+        """Return the tire model with all effects that its format has a place for, and the rest.
+
+        Returns
+        -------
+        tire : TireModel
+        sidecar : dict
+            Effect -> equation, parameters and reference values, for what a ``.tir`` cannot hold.
+            Artefacts belong to the recording, not to the tire, and are in neither.
+        """
+        tire, sidecar = self.tire, {}
+        for name, p in self.changes:
+            effect = catalogue()[name]
+            if effect.kind == "artefact":
+                continue
+            coefficients = effect.coefficients(tire, p)
+            if coefficients:
+                tire = tire.replace(**coefficients)
+            else:
+                sidecar[name] = {
+                    "equation": effect.equation,
+                    "source": effect.source,
+                    "parameters": {k: float(v) for k, v in p.items()},
+                    "reference": {
+                        k: v for k, v in self.reference.items() if isinstance(v, (int, float, dict))
+                    },
+                }
+        return tire, sidecar
+
+    def to_tir(self, path: str | Path, *, overwrite: bool = False) -> Path:
+        """Write the corrected ``.tir`` file, and a sidecar for what the format has no place for.
+
+        Parameters
+        ----------
+        path : path
+        overwrite : bool
+
+        Returns
+        -------
+        Path
+            Of the ``.tir`` file.
+        """
+        from tire_pipeline.tir import write_sidecar, write_tir
+
+        tire, sidecar = self.tire_model()
+        names = ", ".join(n for n, _ in self.changes) or "nothing"
+        written = write_tir(
+            tire, path, comments=f"corrected by tire_pipeline.mismatch: {names}", overwrite=overwrite
+        )
+        if sidecar:
+            write_sidecar(written, sidecar)
+        return written

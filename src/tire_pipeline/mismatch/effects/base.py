@@ -1,0 +1,178 @@
+"""What every effect that a recording may hold beside the tire model has in common."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+Array = np.ndarray
+Parameters = Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One parameter of an effect: the effect is absent at ``zero``.
+
+    Parameters
+    ----------
+    name, unit : str
+    low, high : float
+        Physical bounds.
+    step : float
+        A change that is small against what matters, for finite differences.
+    zero : float
+        The value at which the parameter does nothing.
+    output : str, optional
+        ``"fx"`` or ``"fy"`` if it acts on one output alone.
+    """
+
+    name: str
+    unit: str
+    low: float
+    high: float
+    step: float
+    zero: float = 0.0
+    output: str | None = None
+
+
+@dataclass
+class State:
+    """A simulation on its way from the channels to the forces; effects change it in place.
+
+    Similarity (Pacejka, Tire and Vehicle Dynamics, 3rd ed., section 4.2): a tire whose friction is m
+    times and whose slip stiffness is k times the model's gives ``m F(slip k / m)``; effects add to
+    the logarithms of m and k.
+    """
+
+    slip_angle: Array
+    slip_ratio: Array
+    camber: Array
+    normal_load: Array
+    log_friction: Array
+    log_friction_y: Array
+    log_stiffness: Array
+    log_stiffness_y: Array
+    coefficients: dict[str, float] = field(default_factory=dict)
+    turn_slip: Array | None = None
+    added_y: Array | float = 0.0
+    forces: dict[str, Array] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """An artefact that shows without a fit: in which channel, how sure, and the repair.
+
+    Parameters
+    ----------
+    name, channel, text : str
+    parameters : dict
+        ``{name: (value, standard error, unit)}``.
+    repaired : dict of ndarray
+        Channels to put in place of the recorded ones.
+    bad : ndarray of bool, optional
+        Samples that no repair brings back.
+    evidence : float
+        Between 0 and 1.
+    span : (start, end), optional
+        s, if it does not last the whole recording.
+    """
+
+    name: str
+    channel: str
+    text: str
+    parameters: dict[str, tuple[float, float, str]]
+    repaired: dict[str, Array] = field(default_factory=dict)
+    bad: Array | None = None
+    evidence: float = 0.98
+    span: tuple[float, float] | None = None
+
+
+class Effect:
+    """One effect; a subclass a file. Class attributes describe it, the methods apply it.
+
+    Attributes
+    ----------
+    name, kind : str
+        ``kind`` is ``"physics"`` or ``"artefact"``.
+    title : str
+        Plain words for the report.
+    equation, source : str
+    channels : tuple of str
+        Channels that have to be there and vary.
+    needs_time : bool
+    own_inputs : bool
+        True if it is a function of the model's own inputs, so that a flexible form of these could
+        stand for it.
+    dynamic : bool
+        True if it lags or shifts in time, so that half a sample of it is a matter of how the rig samples.
+    needed : tuple of str
+        Parameters that are never dropped for being small: without them it is another effect.
+    parameters : tuple of Parameter
+    looks_like : dict
+        Name of another effect -> what tells them apart.
+    experiment : str
+        What to record to be sure of it.
+    """
+
+    name = ""
+    kind = "physics"
+    title = ""
+    equation = ""
+    source = ""
+    channels: tuple[str, ...] = ()
+    needs_time = False
+    own_inputs = False
+    dynamic = False
+    needed: tuple[str, ...] = ()
+    parameters: tuple[Parameter, ...] = ()
+    looks_like: Mapping[str, str] = {}
+    experiment = ""
+    order = 50
+
+    def absent(self, data: object) -> str | None:
+        """Say why the effect cannot be looked for in this recording, or None if it can."""
+        if self.needs_time and data.time is None:  # type: ignore[attr-defined]
+            return "the recording has no time"
+        for name in self.channels:
+            if not data.varies(name):  # type: ignore[attr-defined]
+                return f"{name} is not recorded or does not vary"
+        return None
+
+    def starts(self, data: object) -> list[dict[str, float]]:
+        """Return the parameter values to start from: one dict for each form worth trying."""
+        return [self.zeros(data)]
+
+    def inputs(self, state: State, data: object, p: Parameters) -> None:
+        """Change what the tire sees (slips, camber, load)."""
+
+    def tire(self, state: State, data: object, p: Parameters) -> None:
+        """Change the tire (friction, stiffness, coefficients)."""
+
+    def outputs(self, state: State, data: object, p: Parameters) -> None:
+        """Change the forces that are recorded."""
+
+    def detect(self, channels: Mapping[str, Array], simulate: object) -> list[Finding]:
+        """Look for the effect without a fit (artefacts that are exact); nothing by default.
+
+        Parameters
+        ----------
+        channels : mapping of ndarray
+            The recording's channels.
+        simulate : callable
+            ``simulate(channels) -> {"fx": ..., "fy": ...}``: the model on changed channels.
+        """
+        return []
+
+    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+        """Return the ``.tir`` coefficients that hold the effect, or nothing if the format has no place."""
+        return {}
+
+    def zeros(self, data: object) -> dict[str, float]:
+        """Return the parameter values at which the effect is absent."""
+        return {p.name: p.zero for p in self.parameters}
+
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """Return the names of the parameters that float in the form that begins at ``start``."""
+        return tuple(p.name for p in self.parameters)

@@ -1,0 +1,60 @@
+"""Camber: thrust, peak and stiffness of the lateral force."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+
+
+class Camber(Effect):
+    """The lateral force answers to camber in a way that the model does not know."""
+
+    name = "camber"
+    title = "camber"
+    equation = (
+        "slip_angle += shift camber; Fy += Fz camber (thrust + thrust_load dfz) cos(arctan(10 slip_ratio)); "
+        "friction *= 1 - friction_loss camber^2; stiffness *= 1 - stiffness_loss |camber|"
+    )
+    source = "MF 5.2: PHY3, PVY3, PVY4, PDY3, PKY3 (thesis, Appendix A, lateral force, pure slip)"
+    channels = ("camber",)
+    parameters = (
+        Parameter("shift", "rad/rad", -2.0, 2.0, 0.01),
+        Parameter("thrust", "1/rad", -4.0, 4.0, 0.02),
+        Parameter("thrust_load", "1/rad", -4.0, 4.0, 0.02),
+        Parameter("friction_loss", "1/rad^2", -40.0, 60.0, 0.5),
+        Parameter("stiffness_loss", "1/rad", -6.0, 10.0, 0.05),
+    )
+    looks_like = {
+        "camber_offset": "an offset of the camber sensor acts at zero camber too",
+        "slip_angle_offset": "an offset does not change sign with camber",
+        "plysteer_conicity": "conicity does not change with camber",
+    }
+    experiment = "the same slip sweep at camber of both signs and at zero"
+    order = 40
+
+    def tire(self, state: State, data: object, p: Parameters) -> None:
+        """Change friction and stiffness with camber."""
+        g = state.camber
+        loss = np.maximum(1.0 - p["friction_loss"] * g**2, 0.05)
+        soft = np.maximum(1.0 - p["stiffness_loss"] * np.abs(g), 0.05)
+        state.log_friction_y = state.log_friction_y + np.log(loss)
+        state.log_stiffness_y = state.log_stiffness_y + np.log(soft)
+        state.slip_angle = state.slip_angle + p["shift"] * g
+        excess = data.load_excess(state.normal_load)  # type: ignore[attr-defined]
+        thrust = p["thrust"] + p["thrust_load"] * excess
+        fade = 1.0 / np.sqrt(1.0 + (10.0 * state.slip_ratio) ** 2)
+        state.added_y = state.added_y + state.normal_load * g * thrust * fade
+
+    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+        """Add to PHY3, PVY3, PVY4, PDY3, PKY3 (MF 5.x; 6.x keeps the shift in PVY3 and PKY6)."""
+        c = tire.coefficients  # type: ignore[attr-defined]
+        names = {
+            "PVY3": p["thrust"],
+            "PVY4": p["thrust_load"],
+            "PDY3": p["friction_loss"],
+            "PKY3": p["stiffness_loss"],
+        }
+        if not str(getattr(tire, "version", "5.2")).startswith("6"):
+            names["PHY3"] = p["shift"]
+        return {n: c.get(n, 0.0) + v for n, v in names.items()}

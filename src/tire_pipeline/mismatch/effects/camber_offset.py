@@ -1,0 +1,34 @@
+"""The camber channel is off by a constant."""
+
+from __future__ import annotations
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+
+
+class CamberOffset(Effect):
+    """The camber thrust is there at recorded camber zero."""
+
+    name = "camber_offset"
+    kind = "artefact"
+    title = "an offset of the camber"
+    equation = "camber = recorded camber - offset"
+    source = "alignment of the rig"
+    own_inputs = True
+    parameters = (Parameter("offset", "rad", -0.15, 0.15, 0.0005),)
+    looks_like = {
+        "plysteer_conicity": "conicity does not change stiffness with camber",
+        "camber": "the effect of camber is nothing at camber zero",
+        "slip_angle_offset": "camber thrust is there where the tire slides, too",
+    }
+    experiment = "the same sweep at camber of both signs"
+    order = 10
+
+    def absent(self, data: object) -> str | None:
+        """Ask for a model that knows camber."""
+        if not data.knows_camber:  # type: ignore[attr-defined]
+            return "the model does not answer to camber"
+        return super().absent(data)
+
+    def inputs(self, state: State, data: object, p: Parameters) -> None:
+        """Take the offset off."""
+        state.camber = state.camber - p["offset"]

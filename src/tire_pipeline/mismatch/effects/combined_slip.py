@@ -1,0 +1,60 @@
+"""Combined slip: how much one slip takes from the force of the other."""
+
+from __future__ import annotations
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+
+_NAMES = ("RBX1", "RBX2", "RBY1", "RBY2")
+_TYPICAL = {"RBX1": 12.0, "RBX2": 12.0, "RBY1": 14.0, "RBY2": 10.0}
+
+
+class CombinedSlip(Effect):
+    """Weighting functions of the model missing or wrong."""
+
+    name = "combined_slip"
+    title = "combined slip"
+    equation = (
+        "Fx = G(slip_angle) Fx0, Fy = G(slip_ratio) Fy0; G = cos(C arctan(B s)), "
+        "B = RB1 cos(arctan(RB2 s_other)), C = RC1 (1 where the file has none)"
+    )
+    source = "MF 5.2 weighting functions (thesis, Appendix A, combined slip); Bayle et al. 1993"
+    channels = ("slip_angle", "slip_ratio")
+    own_inputs = True
+    parameters = tuple(Parameter(n, "1", 0.0, 80.0, 0.2) for n in _NAMES)
+    looks_like = {"friction_scale": "friction acts on pure slip too"}
+    experiment = "brake ramps at three slip angles or more"
+    order = 40
+
+    def absent(self, data: object) -> str | None:
+        """Ask for points with both slips."""
+        missing = super().absent(data)
+        if missing is None and not data.has_combined:  # type: ignore[attr-defined]
+            missing = "no points with slip angle and slip ratio together"
+        return missing
+
+    def starts(self, data: object) -> list[dict[str, float]]:
+        """From the file's own values, or typical ones where it has none."""
+        c = data.tire_coefficients  # type: ignore[attr-defined]
+        own = {n: float(c.get(n, 0.0)) for n in _NAMES}
+        return [{n: own[n] if own[n] > 0.0 else _TYPICAL[n] for n in _NAMES}]
+
+    def zeros(self, data: object) -> dict[str, float]:
+        """Return the file's own values: there the effect is absent."""
+        c = data.tire_coefficients  # type: ignore[attr-defined]
+        return {n: float(c.get(n, 0.0)) for n in _NAMES}
+
+    def tire(self, state: State, data: object, p: Parameters) -> None:
+        """Replace the weighting coefficients."""
+        c = data.tire_coefficients  # type: ignore[attr-defined]
+        changes = {n: p[n] for n in _NAMES}
+        for axis in "XY":
+            if not c.get(f"RC{axis}1", 0.0):
+                changes[f"RC{axis}1"] = 1.0
+        state.coefficients.update(changes)
+
+    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+        """RBX1, RBX2, RBY1, RBY2."""
+        c = tire.coefficients  # type: ignore[attr-defined]
+        out = {n: p[n] for n in _NAMES}
+        out.update({n: 1.0 for n in ("RCX1", "RCY1") if not c.get(n, 0.0)})
+        return out

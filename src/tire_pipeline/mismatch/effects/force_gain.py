@@ -1,0 +1,36 @@
+"""A force channel that reads too high or too low by a factor."""
+
+from __future__ import annotations
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+
+
+class ForceGain(Effect):
+    """Peak and slope move by the same factor, in one channel or both."""
+
+    name = "force_gain"
+    kind = "artefact"
+    title = "a wrong gain of a force channel"
+    equation = "F recorded = (1 + gain) F"
+    source = "load cell calibration"
+    own_inputs = True
+    parameters = (
+        Parameter("fy", "1", -0.8, 2.0, 0.01, output="fy"),
+        Parameter("fx", "1", -0.8, 2.0, 0.01, output="fx"),
+    )
+    looks_like = {
+        "friction_scale": "friction leaves the slope at zero slip as it is",
+        "unit_error": "a wrong unit is an exact ratio",
+    }
+    experiment = "hang a known weight on the load cell; or one sweep to full sliding"
+    order = 84
+
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """Gains of the forces that move."""
+        return tuple(n for n in data.outputs if data.driven(n))  # type: ignore[attr-defined]
+
+    def outputs(self, state: State, data: object, p: Parameters) -> None:
+        """Scale the forces."""
+        for name in ("fx", "fy"):
+            if name in state.forces:
+                state.forces[name] = state.forces[name] * (1.0 + p[name])

@@ -1,0 +1,33 @@
+"""A constant added to a force: the load cell was not zeroed."""
+
+from __future__ import annotations
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+
+
+class ForceOffset(Effect):
+    """The same offset at every slip and load."""
+
+    name = "force_offset"
+    kind = "artefact"
+    title = "an offset of a force channel"
+    equation = "F recorded = F + offset"
+    source = "load cell zero"
+    own_inputs = True
+    parameters = (
+        Parameter("fy", "N", -5000.0, 5000.0, 1.0, output="fy"),
+        Parameter("fx", "N", -5000.0, 5000.0, 1.0, output="fx"),
+    )
+    looks_like = {
+        "plysteer_conicity": "conicity grows with load",
+        "slip_angle_offset": "an offset of slip angle does not show where the tire slides",
+        "sensor_drift": "drift changes over time",
+    }
+    experiment = "straight rolling at three loads; read the load cell with the wheel lifted"
+    order = 85
+
+    def outputs(self, state: State, data: object, p: Parameters) -> None:
+        """Add the offsets."""
+        for name in ("fx", "fy"):
+            if name in state.forces:
+                state.forces[name] = state.forces[name] + p[name]

@@ -1,0 +1,46 @@
+"""Inflation pressure: friction and slip stiffness change with it."""
+
+from __future__ import annotations
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.shared import safe_log1p
+
+
+class InflationPressure(Effect):
+    """The model is right at one pressure and wrong at others."""
+
+    name = "inflation_pressure"
+    title = "inflation pressure"
+    equation = (
+        "d = (p - p0) / p0; friction *= 1 + friction d; stiffness *= 1 + stiffness d; "
+        "lateral stiffness besides *= 1 + lateral_stiffness d"
+    )
+    source = "MF 6.1: PPX1..4, PPY1..4; Besselink, Schmeitz, Pacejka 2010, VSD 48 (suppl. 1)"
+    channels = ("pressure",)
+    parameters = (
+        Parameter("friction", "1", -1.5, 1.5, 0.02),
+        Parameter("stiffness", "1", -2.5, 2.5, 0.02),
+        Parameter("lateral_stiffness", "1", -2.0, 2.0, 0.02, output="fy"),
+    )
+    looks_like = {"temperature": "temperature lags; pressure steps show at once"}
+    experiment = "the same sweep at three pressures, in an order that is not the order of time"
+    order = 40
+
+    def tire(self, state: State, data: object, p: Parameters) -> None:
+        """Scale friction and stiffness with pressure."""
+        d = data.pressure_excess  # type: ignore[attr-defined]
+        state.log_friction = state.log_friction + safe_log1p(p["friction"] * d)
+        state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * d)
+        state.log_stiffness_y = state.log_stiffness_y + safe_log1p(p["lateral_stiffness"] * d)
+
+    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+        """PPX1, PPX3, PPY1, PPY3 of MF 6.x."""
+        if not str(getattr(tire, "version", "")).startswith("6"):
+            return {}
+        c = tire.coefficients  # type: ignore[attr-defined]
+        return {
+            "PPX1": c.get("PPX1", 0.0) + p["stiffness"],
+            "PPX3": c.get("PPX3", 0.0) + p["friction"],
+            "PPY1": c.get("PPY1", 0.0) + p["stiffness"] + p["lateral_stiffness"],
+            "PPY3": c.get("PPY3", 0.0) + p["friction"],
+        }

@@ -1,0 +1,40 @@
+"""The force channels went through a filter that the slip channels did not."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.shared import first_order
+
+
+class LowPass(Effect):
+    """First-order low pass: amplitude falls and phase lags with frequency."""
+
+    name = "low_pass"
+    kind = "artefact"
+    title = "a low-pass filter on the force channels"
+    equation = "lag dF'/dt + F' = F, F recorded = F'"
+    source = "amplifier or acquisition filter"
+    needs_time = True
+    dynamic = True
+    parameters = (Parameter("lag", "s", 0.0, 2.0, 0.004),)
+    looks_like = {
+        "relaxation_length": "the lag of relaxation is shorter at speed",
+        "time_delay": "a delay keeps the amplitude",
+    }
+    experiment = "the same slip-angle sine at two speeds and up to a frequency where the amplitude falls"
+    order = 94
+
+    def starts(self, data: object) -> list[dict[str, float]]:
+        """Two lags."""
+        return [{"lag": lag} for lag in (0.02, 0.1)]
+
+    def outputs(self, state: State, data: object, p: Parameters) -> None:
+        """Filter the forces."""
+        if p["lag"] <= 0.0:
+            return
+        gain = 1.0 - np.exp(-data.step / p["lag"])  # type: ignore[attr-defined]
+        for name in ("fx", "fy"):
+            if name in state.forces:
+                state.forces[name] = first_order(state.forces[name], gain, data.start)  # type: ignore[attr-defined]

@@ -1,0 +1,81 @@
+"""Non-uniformity: a force that comes back once a wheel turn."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+
+_FORCE = ("cosine_y", "sine_y", "cosine_x", "sine_x")
+_WOBBLE = ("angle_cosine", "angle_sine", "load_cosine", "load_sine")
+
+
+class Nonuniformity(Effect):
+    """A harmonic of the wheel's rotation: a force of its own, or a wobble of slip angle and load."""
+
+    name = "nonuniformity"
+    title = "non-uniformity (once a wheel turn)"
+    equation = (
+        "d(phi)/dt = v / radius; either F += cosine cos(phi) + sine sin(phi), or slip angle += angle_cosine "
+        "cos(phi) + angle_sine sin(phi) and load *= 1 + load_cosine cos(phi) + load_sine sin(phi)"
+    )
+    source = "SAE J332: lateral and radial force variation, first harmonic"
+    needs_time = True
+    parameters = (
+        Parameter("cosine_y", "N", -3000.0, 3000.0, 1.0, output="fy"),
+        Parameter("sine_y", "N", -3000.0, 3000.0, 1.0, output="fy"),
+        Parameter("cosine_x", "N", -3000.0, 3000.0, 1.0, output="fx"),
+        Parameter("sine_x", "N", -3000.0, 3000.0, 1.0, output="fx"),
+        Parameter("angle_cosine", "rad", -0.05, 0.05, 1e-4),
+        Parameter("angle_sine", "rad", -0.05, 0.05, 1e-4),
+        Parameter("load_cosine", "1", -0.3, 0.3, 1e-3),
+        Parameter("load_sine", "1", -0.3, 0.3, 1e-3),
+        Parameter("radius", "m", 0.01, 2.0, 1e-5),
+    )
+    looks_like = {"time_delay": "a delay needs slip that changes"}
+    experiment = "straight rolling at two steady speeds: the frequency must follow the speed"
+    order = 15
+
+    def absent(self, data: object) -> str | None:
+        """Ask for speed and for enough samples a turn."""
+        missing = super().absent(data)
+        if missing is None and not data.has("speed"):  # type: ignore[attr-defined]
+            missing = "speed is not recorded"
+        if missing is None and not data.turns_resolved:  # type: ignore[attr-defined]
+            missing = "fewer than three samples a wheel turn"
+        return missing
+
+    def starts(self, data: object) -> list[dict[str, float]]:
+        """From the rolling radius at which the residual has most power, in both forms."""
+        out = []
+        for radius in data.rolling_radii():  # type: ignore[attr-defined]
+            base = {**self.zeros(data), "radius": radius}
+            out += [base, {**base, "angle_cosine": 1e-9}]
+        return out
+
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """Return one form's parameters; the radius is found by the scan."""
+        return _WOBBLE if start["angle_cosine"] else _FORCE
+
+    def inputs(self, state: State, data: object, p: Parameters) -> None:
+        """Wobble slip angle and load."""
+        if not any(p[n] for n in _WOBBLE):
+            return
+        c, s = self._turn(data, p)
+        state.slip_angle = state.slip_angle + p["angle_cosine"] * c + p["angle_sine"] * s
+        state.normal_load = state.normal_load * (1.0 + p["load_cosine"] * c + p["load_sine"] * s)
+
+    def outputs(self, state: State, data: object, p: Parameters) -> None:
+        """Add the harmonic."""
+        if not any(p[n] for n in _FORCE):
+            return
+        c, s = self._turn(data, p)
+        for axis in "xy":
+            if f"f{axis}" in state.forces:
+                wave = p[f"cosine_{axis}"] * c + p[f"sine_{axis}"] * s
+                state.forces[f"f{axis}"] = state.forces[f"f{axis}"] + wave
+
+    @staticmethod
+    def _turn(data: object, p: Parameters) -> tuple[np.ndarray, np.ndarray]:
+        phase = data.distance / p["radius"]  # type: ignore[attr-defined]
+        return np.cos(phase), np.sin(phase)

@@ -1,0 +1,56 @@
+"""Conicity and ply steer: side force while rolling straight."""
+
+from __future__ import annotations
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+
+
+class PlysteerConicity(Effect):
+    """A side force without slip that comes from how the tire is built."""
+
+    name = "plysteer_conicity"
+    title = "conicity or ply steer"
+    equation = "slip angle += ply_steer; and either Fy += conicity Fz, or camber += pseudo_camber where the model answers to camber"
+    source = "SAE J1106; Pacejka, 3rd ed., 4.2.1: ply steer as equivalent slip angle, conicity as equivalent camber"
+    own_inputs = True
+    parameters = (
+        Parameter("conicity", "1", -0.15, 0.15, 0.001, output="fy"),
+        Parameter("pseudo_camber", "rad", -0.2, 0.2, 0.001, output="fy"),
+        Parameter("ply_steer", "rad", -0.05, 0.05, 0.0005, output="fy"),
+    )
+    looks_like = {
+        "force_offset": "an offset of the sensor does not change with load",
+        "slip_angle_offset": "an offset of slip angle is ply steer to the eye: turn the tire round",
+        "camber_offset": "an offset of camber is conicity to the eye: turn the tire on its rim",
+    }
+    experiment = "straight rolling at three loads, then with the tire turned on its rim"
+    order = 12
+    needed = ("conicity", "pseudo_camber")
+
+    def starts(self, data: object) -> list[dict[str, float]]:
+        """As a force, and as camber where the model knows camber."""
+        zero = self.zeros(data)
+        out = [zero]
+        if data.knows_camber:  # type: ignore[attr-defined]
+            out.append({**zero, "pseudo_camber": 1e-6})
+        return out
+
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """Return the parameters of one of the two forms."""
+        return ("pseudo_camber" if start["pseudo_camber"] else "conicity", "ply_steer")
+
+    def inputs(self, state: State, data: object, p: Parameters) -> None:
+        """Shift slip angle and camber."""
+        state.slip_angle = state.slip_angle + p["ply_steer"]
+        state.camber = state.camber + p["pseudo_camber"]
+
+    def tire(self, state: State, data: object, p: Parameters) -> None:
+        """Add the side force."""
+        state.added_y = state.added_y + p["conicity"] * state.normal_load
+
+    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+        """PVY1 and PHY1; an equivalent camber has no place."""
+        if p["pseudo_camber"]:
+            return {}
+        c = tire.coefficients  # type: ignore[attr-defined]
+        return {"PVY1": c.get("PVY1", 0.0) + p["conicity"], "PHY1": c.get("PHY1", 0.0) + p["ply_steer"]}

@@ -1,0 +1,68 @@
+"""Filters and states that several effects use."""
+
+from __future__ import annotations
+
+import numpy as np
+
+try:
+    from numba import njit
+except ImportError:  # pragma: no cover - numba is a dependency; this keeps the file importable without
+
+    def njit(*_args: object, **_kwargs: object):  # type: ignore[no-redef]
+        return lambda function: function
+
+
+@njit(cache=True)
+def first_order(signal: np.ndarray, gain: np.ndarray, start: np.ndarray) -> np.ndarray:
+    """Follow ``signal`` with a first-order lag whose step is ``gain``; begin anew where ``start``.
+
+    Parameters
+    ----------
+    signal : ndarray, shape (n,)
+    gain : ndarray, shape (n,)
+        ``1 - exp(-dt / lag)`` of the step that ends at each sample.
+    start : ndarray of bool, shape (n,)
+        True at the first sample of each uninterrupted piece.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Piecewise-linear input, exact at the samples up to second order in the step.
+    """
+    out = np.empty_like(signal)
+    previous = 0.0
+    for i in range(signal.size):
+        if start[i]:
+            previous = signal[i]
+        else:
+            g = gain[i]
+            middle = signal[i] if g > 0.999 else _ramp(signal[i - 1], signal[i], g)
+            previous = previous + g * (middle - previous)
+        out[i] = previous
+    return out
+
+
+@njit(cache=True)
+def _ramp(before: float, now: float, gain: float) -> float:
+    """Constant input that has the same effect over one step as a ramp from before to now."""
+    step = -np.log(1.0 - gain) if gain > 1e-9 else 1e-9
+    share = 1.0 / gain - 1.0 / step if gain > 1e-6 else 0.5
+    return now - (now - before) * (1.0 - share)
+
+
+def delayed(time: np.ndarray, signal: np.ndarray, delay: float, start: np.ndarray) -> np.ndarray:
+    """Return ``signal(time - delay)`` by linear interpolation, held at the ends of each piece."""
+    firsts = np.flatnonzero(start)
+    if firsts.size <= 1:
+        return np.interp(time - delay, time, signal)
+    out = np.empty_like(signal)
+    ends = np.append(firsts[1:], time.size)
+    for first, last in zip(firsts, ends, strict=True):
+        piece = slice(first, last)
+        out[piece] = np.interp(time[piece] - delay, time[piece], signal[piece])
+    return out
+
+
+def safe_log1p(x: np.ndarray | float) -> np.ndarray | float:
+    """Return ``log(1 + x)`` with ``1 + x`` kept above 0.05."""
+    return np.log(np.maximum(1.0 + np.asarray(x), 0.05))

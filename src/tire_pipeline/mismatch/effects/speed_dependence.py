@@ -1,0 +1,32 @@
+"""Speed: friction falls with sliding speed."""
+
+from __future__ import annotations
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.shared import safe_log1p
+
+
+class SpeedDependence(Effect):
+    """The model is right at one speed and wrong at others."""
+
+    name = "speed_dependence"
+    title = "speed"
+    equation = "d = (v - v0) / v0; friction *= 1 + friction d; stiffness *= 1 + stiffness d"
+    source = "MF 6.1: LMUV (mu / (1 + LMUV Vs / V0)); Savkoor 1966 on friction and sliding speed"
+    channels = ("speed",)
+    parameters = (
+        Parameter("friction", "1", -0.5, 0.5, 0.01),
+        Parameter("stiffness", "1", -0.5, 0.5, 0.01),
+    )
+    looks_like = {
+        "temperature": "temperature lags behind a change of speed",
+        "relaxation_length": "relaxation needs slip that changes",
+    }
+    experiment = "the same sweep at three speeds, with pauses to cool"
+    order = 40
+
+    def tire(self, state: State, data: object, p: Parameters) -> None:
+        """Scale friction and stiffness with speed."""
+        d = data.speed_excess  # type: ignore[attr-defined]
+        state.log_friction = state.log_friction + safe_log1p(p["friction"] * d)
+        state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * d)

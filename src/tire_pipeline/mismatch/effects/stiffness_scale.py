@@ -1,0 +1,33 @@
+"""Slip stiffness higher or lower by one factor everywhere."""
+
+from __future__ import annotations
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.shared import safe_log1p
+
+
+class StiffnessScale(Effect):
+    """The slope at zero slip moves; the peak stays where it is high and moves along the slip axis."""
+
+    name = "stiffness_scale"
+    title = "another slip stiffness"
+    equation = "F = F0(k slip), k = 1 + stiffness; the peak stays"
+    source = "Pacejka, Tire and Vehicle Dynamics, 3rd ed., similarity method (4.2.1); LKX, LKY"
+    own_inputs = True
+    parameters = (Parameter("stiffness", "1", -0.7, 1.5, 0.01),)
+    looks_like = {
+        "compliance": "compliance costs more stiffness where the tire is stiff (large load)",
+        "force_gain": "a gain also moves the peak",
+        "unit_error": "a wrong unit is an exact ratio",
+    }
+    experiment = "small-slip sweeps at three loads, and one sweep to full sliding"
+    order = 40
+
+    def tire(self, state: State, data: object, p: Parameters) -> None:
+        """Scale both slip stiffnesses."""
+        state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"])
+
+    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+        """LKX and LKY."""
+        c = tire.coefficients  # type: ignore[attr-defined]
+        return {n: c.get(n, 1.0) * (1.0 + p["stiffness"]) for n in ("LKX", "LKY")}

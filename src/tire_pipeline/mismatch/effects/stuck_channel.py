@@ -1,0 +1,75 @@
+"""A channel that stands still while it should not."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
+
+_CHANNELS = (
+    "fy",
+    "fx",
+    "mz",
+    "slip_angle",
+    "slip_ratio",
+    "camber",
+    "normal_load",
+    "speed",
+    "pressure",
+    "tread_temperature",
+)
+
+
+class StuckChannel(Effect):
+    """A live channel repeats one value exactly for a long time."""
+
+    name = "stuck_channel"
+    kind = "artefact"
+    title = "a stuck channel"
+    equation = "x recorded (t) = x(t_stuck) for a while"
+    source = "bus or acquisition fault"
+    looks_like = {"clipping": "clipping is at an end of the range"}
+    experiment = "repeat the recording"
+
+    def absent(self, data: object) -> str | None:
+        """Never a candidate of the fit: it is found in the channel itself."""
+        return "found in the channel itself, not by a fit"
+
+    def detect(self, channels: Mapping[str, Array], simulate: object) -> list[Finding]:
+        """Find long runs of one value in channels that otherwise change all the time."""
+        found = []
+        for name in _CHANNELS:
+            if name not in channels:
+                continue
+            bad, value = _stuck(channels[name])
+            if bad is None:
+                continue
+            text = f"{name} repeats {value:.6g} exactly for {int(bad.sum())} samples"
+            parameters = {"value": (value, 0.0, "as recorded")}
+            found.append(Finding(self.name, name, text, parameters, {}, bad))
+        return found
+
+
+def _stuck(x: Array) -> tuple[Array | None, float]:
+    """Runs of at least 25 equal samples, where a run is usually one or two samples long."""
+    n = x.size
+    if n < 60:
+        return None, 0.0
+    changes = np.flatnonzero(np.diff(x) != 0.0)
+    starts = np.r_[0, changes + 1]
+    lengths = np.diff(np.r_[starts, n])
+    usual = np.quantile(lengths, 0.9)
+    long = lengths >= max(25, 20.0 * usual)
+    if not long.any() or (starts.size - long.sum()) < 0.3 * n / max(usual, 1.0) * 0.2:
+        return None, 0.0
+    low, high = np.nanmin(x), np.nanmax(x)
+    bad = np.zeros(n, bool)
+    value = float("nan")
+    for first, length in zip(starts[long], lengths[long], strict=True):
+        if x[first] in (low, high) and length < 0.05 * n and (x == x[first]).sum() > length:
+            continue  # comes back to the end of its range: clipping
+        bad[first : first + length] = True
+        value = float(x[first])
+    return (bad, value) if bad.any() else (None, 0.0)

@@ -1,0 +1,39 @@
+"""Another surface from a moment on."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.shared import safe_log1p
+
+
+class SurfaceChange(Effect):
+    """Friction changes at one moment and stays."""
+
+    name = "surface_change"
+    title = "another surface from a moment on"
+    equation = "friction *= 1 + friction H(t - moment)"
+    source = "a step of LMUX = LMUY in time"
+    needs_time = True
+    parameters = (
+        Parameter("friction", "1", -0.8, 1.0, 0.01),
+        Parameter("moment", "s", -1e12, 1e12, 0.05),
+    )
+    looks_like = {
+        "friction_scale": "a friction factor holds from the start",
+        "temperature": "temperature changes gradually",
+        "wear": "wear changes gradually",
+    }
+    experiment = "drive back onto the first surface"
+    order = 40
+
+    def starts(self, data: object) -> list[dict[str, float]]:
+        """Try moments over the whole recording."""
+        first, last = data.time[0], data.time[-1]  # type: ignore[attr-defined]
+        return [{"friction": 0.0, "moment": float(m)} for m in np.linspace(first, last, 26)[1:-1]]
+
+    def tire(self, state: State, data: object, p: Parameters) -> None:
+        """Step the friction, over 0.2 s so that the moment can be refined."""
+        ramp = np.clip((data.time - p["moment"]) / 0.2 + 0.5, 0.0, 1.0)  # type: ignore[attr-defined]
+        state.log_friction = state.log_friction + safe_log1p(p["friction"] * ramp)

@@ -1,0 +1,75 @@
+"""Tread temperature: friction has an optimum, stiffness falls as the rubber warms."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.shared import safe_log1p
+
+
+class Temperature(Effect):
+    """Friction and stiffness follow the tread temperature, measured or integrated."""
+
+    name = "temperature"
+    title = "tread temperature"
+    equation = (
+        "d = (T - reference) / 50 degC; friction *= 1 + friction d - curvature d^2; stiffness *= 1 + stiffness d. "
+        "Without a temperature channel d is the state of lag dh/dt = (P - h) / lag, P friction power, "
+        "over its 90% quantile in the recording"
+    )
+    source = "Sorniotti 2009, SAE 2009-01-0441; Mizuno et al. 2005, VSD 43 (suppl.): temperature in the Magic Formula"
+    parameters = (
+        Parameter("friction", "1", -0.8, 0.8, 0.01),
+        Parameter("curvature", "1", -0.8, 0.8, 0.01),
+        Parameter("stiffness", "1", -1.0, 1.0, 0.01),
+        Parameter("reference", "degC or 1", -1.0, 200.0, 0.5),
+        Parameter("lag", "s", 2.0, 400.0, 0.2),
+    )
+    looks_like = {
+        "wear": "wear never goes back; temperature does, when the tire rests",
+        "sensor_drift": "drift is there at zero slip too",
+        "surface_change": "a surface change is sudden",
+        "friction_scale": "a friction factor does not change over time",
+    }
+    experiment = "repeat the first sweep after cooling: temperature comes back, wear does not"
+    order = 40
+
+    def absent(self, data: object) -> str | None:
+        """Ask for a temperature channel, or for time to integrate one."""
+        if data.varies("tread_temperature"):  # type: ignore[attr-defined]
+            return None
+        if data.has("tread_temperature"):  # type: ignore[attr-defined]
+            return "the tread temperature does not vary"
+        if data.time is None:  # type: ignore[attr-defined]
+            return "neither tread temperature nor time is recorded"
+        if data.power is None:  # type: ignore[attr-defined]
+            return "no speed, so that friction power is not known"
+        return None
+
+    def starts(self, data: object) -> list[dict[str, float]]:
+        """Several references (where the model is right), and several lags if there is no channel."""
+        zero = {"friction": 0.0, "curvature": 0.0, "stiffness": 0.0}
+        if data.varies("tread_temperature"):  # type: ignore[attr-defined]
+            t = data.smooth("tread_temperature")  # type: ignore[attr-defined]
+            points = np.quantile(t, [0.02, 0.5, 0.95])
+            return [{**zero, "reference": float(v), "lag": 10.0} for v in points]
+        lags = [8.0, 20.0, 50.0]
+        return [{**zero, "reference": r, "lag": lag} for lag in lags for r in (0.0, 0.5)]
+
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """Parameters that this recording lets float."""
+        names = ["friction", "curvature", "stiffness", "reference"]
+        if not data.has("tread_temperature"):  # type: ignore[attr-defined]
+            names.append("lag")
+        return tuple(names)
+
+    def tire(self, state: State, data: object, p: Parameters) -> None:
+        """Scale friction and stiffness."""
+        if data.has("tread_temperature"):  # type: ignore[attr-defined]
+            d = (data.smooth("tread_temperature") - p["reference"]) / 50.0  # type: ignore[attr-defined]
+        else:
+            d = data.heat(p["lag"]) - p["reference"]  # type: ignore[attr-defined]
+        change = p["friction"] * d - p["curvature"] * d**2
+        state.log_friction = state.log_friction + safe_log1p(change)
+        state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * d)

@@ -1,0 +1,30 @@
+"""Turn slip: path curvature (spin) makes side force."""
+
+from __future__ import annotations
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.shared import safe_log1p
+
+
+class TurnSlip(Effect):
+    """Side force from path curvature, as in parking or in tight low-speed turns."""
+
+    name = "turn_slip"
+    title = "turn slip (path curvature)"
+    equation = "slip_angle += shift turn_slip (m); friction *= 1 - friction_loss |turn_slip| R0"
+    source = "Pacejka, 3rd ed., 4.3.3 (PHYP, PDYP of MF 6.1)"
+    channels = ("turn_slip",)
+    parameters = (
+        Parameter("shift", "m", -2.0, 2.0, 0.005),
+        Parameter("friction_loss", "1", -3.0, 3.0, 0.02),
+    )
+    looks_like = {"camber": "camber acts on a straight path too"}
+    experiment = "the same slip angles on paths of two radii"
+    order = 40
+
+    def tire(self, state: State, data: object, p: Parameters) -> None:
+        """Shift the slip angle, lower the friction."""
+        spin = data.get("turn_slip")  # type: ignore[attr-defined]
+        state.slip_angle = state.slip_angle + p["shift"] * spin
+        loss = safe_log1p(-p["friction_loss"] * abs(spin) * data.radius)  # type: ignore[attr-defined]
+        state.log_friction = state.log_friction + loss

@@ -1,0 +1,143 @@
+"""A channel in another unit than it says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
+
+_DEG = 180.0 / np.pi
+_LBF = 4.4482216152605
+_PSI = 6.894757293168
+_FORCE = {_LBF: "pound-force for newton", 1e3: "kN for N", 9.80665: "kgf for N"}
+_FACTORS: dict[str, dict[float, str]] = {
+    "slip_angle": {_DEG: "degree for radian"},
+    "camber": {_DEG: "degree for radian"},
+    "slip_ratio": {100.0: "percent for 1"},
+    "normal_load": _FORCE,
+    "fx": _FORCE,
+    "fy": _FORCE,
+}
+_PRESSURE = {
+    1.0 / _PSI: "psi for kPa",
+    1.0 / (1e3 * _PSI): "psi for Pa",
+    1e-3: "kPa for Pa",
+    1e-5: "bar for Pa",
+    _PSI: "kPa for psi",
+}
+Simulate = Callable[[Mapping[str, Array]], dict[str, Array]]
+
+
+class UnitError(Effect):
+    """A channel is wrong by exactly 57.3, 4.448, 6.895, 9.81, 3.6, 100 or 1000."""
+
+    name = "unit_error"
+    kind = "artefact"
+    title = "a channel in the wrong unit"
+    equation = "x recorded = ratio x, ratio one of 57.30, 4.448, 6.895, 9.807, 3.6, 100, 1000 or its inverse"
+    source = "SI units, their definitions"
+    looks_like = {"force_gain": "a gain need not be an exact ratio"}
+    experiment = "look at the channel's unit in the acquisition"
+
+    def absent(self, data: object) -> str | None:
+        """Never a candidate of the fit: exact ratios are tried before."""
+        return "exact ratios are tried before the fit"
+
+    def detect(self, channels: Mapping[str, Array], simulate: Simulate) -> list[Finding]:  # type: ignore[override]
+        """Try the exact ratios: forces must fit far better, or the channel must be impossible as it is."""
+        found = _pressure(channels)
+        trials = [
+            (name, factor, text if power > 0 else f"the inverse of {text}")
+            for name, factors in _FACTORS.items()
+            if name in channels
+            for base, text in factors.items()
+            for power in (1, -1)
+            for factor in (base**power,)
+        ]
+        best = best_repair(channels, simulate, [({n: 1.0 / f}, (n, f, t)) for n, f, t in trials])
+        both = best_repair(
+            channels,
+            simulate,
+            [
+                ({"fx": 1.0 / f**k, "fy": 1.0 / f**k}, ("fx, fy", f**k, t))
+                for f, t in _FORCE.items()
+                for k in (1, -1)
+                if "fx" in channels and "fy" in channels
+            ],
+        )
+        if both is not None and (best is None or both[0] < 0.7 * best[0]):
+            best = both
+        if best is not None:
+            factors, (name, factor, text) = best[1], best[2]
+            repaired = {n: channels[n] * f for n, f in factors.items()}
+            parameters = {"ratio": (float(factor), 0.0, "1")}
+            found.append(
+                Finding(self.name, name, f"{name} is wrong by {factor:.5g} ({text})", parameters, repaired)
+            )
+        return found
+
+
+def _pressure(channels: Mapping[str, Array]) -> list[Finding]:
+    """Pressure outside of 0.5 to 15 bar that one ratio brings to where tires are."""
+    if "pressure" not in channels:
+        return []
+    median = float(np.nanmedian(channels["pressure"]))
+    if not np.isfinite(median) or median <= 0.0 or 6e4 < median < 1.2e6:
+        return []
+    nominal = float(channels.get("_nominal_pressure", np.array([2.3e5]))[0])
+    options = [(abs(np.log(median / f / nominal)), f, t) for f, t in _PRESSURE.items()]
+    distance, factor, text = min(options)
+    if distance > np.log(4.0):
+        return []
+    repaired = {"pressure": channels["pressure"] / factor}
+    parameters = {"ratio": (float(factor), 0.0, "1")}
+    return [
+        Finding(
+            UnitError.name, "pressure", f"pressure is wrong by {factor:.5g} ({text})", parameters, repaired
+        )
+    ]
+
+
+def best_repair(
+    channels: Mapping[str, Array],
+    simulate: Simulate,
+    trials: list[tuple[dict[str, float], tuple]],
+) -> tuple[float, dict[str, float], tuple] | None:
+    """Return the trial that makes model and recording agree, if the recording as it is does not.
+
+    Parameters
+    ----------
+    channels : mapping of ndarray
+    simulate : callable
+        The model on given channels.
+    trials : list of (factors, label)
+        Factors by channel.
+
+    Returns
+    -------
+    tuple or None
+        Unexplained share of the forces' squares, factors, label. The share must be below 0.15 and a
+        fifth of what it is without the repair.
+    """
+    before = misfit(channels, simulate, {})
+    scored = [(misfit(channels, simulate, factors), factors, label) for factors, label in trials]
+    if not scored:
+        return None
+    best = min(scored, key=lambda s: s[0])
+    return best if before > 0.3 and best[0] < 0.15 and best[0] < 0.2 * before else None
+
+
+def misfit(channels: Mapping[str, Array], simulate: Simulate, factors: Mapping[str, float]) -> float:
+    """Return the unexplained share of the forces' squares, the worse of the moving outputs."""
+    changed = {**channels, **{n: channels[n] * f for n, f in factors.items()}}
+    predicted = simulate(changed)
+    shares = []
+    sizes = {n: np.nanmean(changed[n] ** 2) for n in ("fx", "fy") if n in changed}
+    largest = max([*(np.nanmean(p**2) for p in predicted.values()), *sizes.values()])
+    for name, size in sizes.items():
+        error = np.nanmean((changed[name] - predicted[name]) ** 2)
+        reference = max(min(size, np.nanmean(predicted[name] ** 2)), 1e-2 * largest)
+        shares.append(error / reference)
+    return float(max(shares)) if shares else np.inf

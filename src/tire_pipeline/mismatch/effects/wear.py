@@ -1,0 +1,42 @@
+"""Wear: friction and stiffness change with the friction work done, for good."""
+
+from __future__ import annotations
+
+from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.shared import safe_log1p
+
+
+class Wear(Effect):
+    """A change that grows with friction work and does not go back."""
+
+    name = "wear"
+    title = "wear"
+    equation = (
+        "w = friction work so far / all of it; friction *= 1 + friction w; stiffness *= 1 + stiffness w"
+    )
+    source = "Archard's law with friction power; Grosch 2008, Rubber Chem. Technol. 81"
+    needs_time = True
+    parameters = (
+        Parameter("friction", "1", -0.5, 0.3, 0.01),
+        Parameter("stiffness", "1", -0.3, 0.8, 0.01),
+    )
+    looks_like = {
+        "temperature": "temperature goes back when the tire rests",
+        "sensor_drift": "drift is there at zero slip too",
+        "surface_change": "a surface change is sudden",
+    }
+    experiment = "repeat the first sweep at the end, after cooling"
+    order = 40
+
+    def absent(self, data: object) -> str | None:
+        """Ask for speed besides."""
+        missing = super().absent(data)
+        if missing is None and data.power is None:  # type: ignore[attr-defined]
+            missing = "no speed, so that friction work is not known"
+        return missing
+
+    def tire(self, state: State, data: object, p: Parameters) -> None:
+        """Scale friction and stiffness with the work done."""
+        w = data.work  # type: ignore[attr-defined]
+        state.log_friction = state.log_friction + safe_log1p(p["friction"] * w)
+        state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * w)

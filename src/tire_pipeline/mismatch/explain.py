@@ -1,0 +1,225 @@
+"""From a tire model and a recording to a report."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch import search as searching
+from tire_pipeline.mismatch.ambiguity import experiment, rivals
+from tire_pipeline.mismatch.checks import Prepared, prepare
+from tire_pipeline.mismatch.confidence import confidence
+from tire_pipeline.mismatch.corrected import CorrectedModel
+from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects.base import Finding
+from tire_pipeline.mismatch.locate import locate, when, where
+from tire_pipeline.mismatch.proof import prove
+from tire_pipeline.mismatch.refit import residual
+from tire_pipeline.mismatch.remainder import remainder
+from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFit, Remainder
+from tire_pipeline.mismatch.search import Search
+from tire_pipeline.mismatch.simulate import simulate
+from tire_pipeline.mismatch.thinning import thinned
+from tire_pipeline.mismatch.words import summary
+from tire_pipeline.progress import track
+
+Array = np.ndarray
+
+
+def explain_mismatch(tire: Any, recording: pd.DataFrame) -> MismatchReport:
+    """Say where a simulation and a recording differ, what the model left out, and prove it.
+
+    Parameters
+    ----------
+    tire : TireModel or None
+        The model. None if the recording has a column ``simulated_fy`` (or ``simulated_fx``), the
+        output of another simulator.
+    recording : pandas.DataFrame
+        Canonical columns in SI: ``time`` s, ``slip_angle`` rad, ``slip_ratio``, ``camber`` rad,
+        ``normal_load`` N, ``speed`` m/s, ``pressure`` Pa, ``tread_temperature`` degC, ``fx fy`` N.
+        Without ``time`` the rows are steady points.
+
+    Returns
+    -------
+    MismatchReport
+
+    Raises
+    ------
+    RecordingError
+        If the recording cannot be used; the message says why and what to do.
+
+    Notes
+    -----
+    Method and limits: ``docs/mismatch.md``.
+    """
+    state: dict[str, Any] = {}
+    steps = (
+        ("check", lambda: state.update(prepared=prepare(tire, recording))),
+        ("noise", lambda: state.update(search=searching.begin(thinned(state["prepared"].data)))),
+        ("search", lambda: searching.run(state["search"])),
+        ("report", lambda: state.update(report=_report(state["prepared"], state["search"]))),
+    )
+    for _, step in track(steps, "explaining the mismatch"):
+        step()
+    return state["report"]
+
+
+def _report(prepared: Prepared, search: Search) -> MismatchReport:
+    data = search.data
+    fit = prove(search)
+    left = remainder(search)
+    before = {o: data.recorded[o] - data.base[o] for o in data.outputs}
+    effects = [_exact(f, prepared) for f in prepared.findings]
+    experiments = []
+    for i in range(len(search.fit.names)):
+        effect, text = _found(search, i, left, data)
+        effects.append(effect)
+        if text:
+            experiments.append(text)
+    verdict = _verdict(effects, left)
+    located = locate(data, before, search.noise, search.block) if verdict != "agrees" else []
+    if verdict == "unexplained" and not experiments:
+        experiments.append(
+            "Record the same sweeps again, and once more with one channel changed at a time: what repeats is "
+            "the tire or the rig, and what follows a channel has found its cause."
+        )
+    following = " ".join(experiments)
+    outputs = tuple(prepared.data.outputs)
+    reference: dict[str, Any] = {"scales": data.scales}
+    if "pressure" in data.present:
+        reference["pressure_nominal"] = data.pressure_nominal
+    if "speed" in data.present:
+        reference["speed_nominal"] = data.speed_nominal
+    corrected = CorrectedModel(data.tire, tuple(search.fit.changes), reference, outputs)
+    return MismatchReport(
+        verdict=verdict,
+        effects=effects,
+        fit=fit,
+        next_experiment=following,
+        corrected=corrected,
+        summary=summary(verdict, effects, fit, located, left, following),
+        located=located,
+        remainder=left,
+        notes=prepared.notes,
+        candidates=_candidates(search),
+        series=_series(search),
+    )
+
+
+def _exact(finding: Finding, prepared: Prepared) -> EffectReport:
+    effect = catalogue()[finding.name]
+    spans: list[tuple[float, float]] = []
+    if prepared.data.time is not None:
+        spans = [(float(prepared.data.time[0]), float(prepared.data.time[-1]))]
+    if finding.span is not None:
+        spans = [finding.span]
+    return EffectReport(
+        name=finding.name,
+        kind=effect.kind,
+        title=f"{effect.title} ({finding.text})",
+        alternatives=(),
+        confidence=finding.evidence,
+        output=finding.channel,
+        where={},
+        when=spans,
+        share=float("nan"),
+        equation=effect.equation,
+        source=effect.source,
+        parameters=finding.parameters,
+        evidence={"found": finding.text},
+    )
+
+
+def _found(search: Search, index: int, left: Remainder, data: Data) -> tuple[EffectReport, str]:
+    name, values = search.fit.changes[index]
+    effect, gate = catalogue()[name], search.gates[index]
+    near = rivals(search, index)
+    possible = [r.name for r in near if r.possible]
+    whole = simulate(data, search.fit.changes)
+    without = simulate(data, [c for j, c in enumerate(search.fit.changes) if j != index])
+    part = {o: whole[o] - without[o] for o in data.outputs}
+    output = max(data.outputs, key=lambda o: float(np.mean(part[o] ** 2)))
+    units = {p.name: p.unit for p in effect.parameters}
+    errors = {
+        n: float(np.sqrt(max(search.fit.covariance[k, k], 0.0) * search.inflation))
+        for k, (i, n) in enumerate(search.fit.labels)
+        if i == index
+    }
+    parameters = {
+        n: (float(v), errors.get(n, 0.0), units[n]) for n, v in values.items() if n in search.fit.free[index]
+    }
+    evidence = {
+        "gain_nats": gate.gain,
+        "gain_with_loose_coefficients": gate.loose,
+        "gain_with_frozen_coefficients": gate.frozen,
+        "wilcoxon_p": gate.p_value,
+        "sweeps": gate.blocks,
+        "nearest_rival": near[0].name if near else "",
+        "nearest_rival_apart": near[0].apart if near else 1.0,
+    }
+    report = EffectReport(
+        name=name,
+        kind=effect.kind,
+        title=effect.title,
+        alternatives=tuple(possible),
+        confidence=confidence(search, index, near, left),
+        output=output,
+        where=where(part[output], data),
+        when=when(part[output], data, search.noise[output].floor),
+        share=gate.share,
+        equation=effect.equation,
+        source=effect.source,
+        parameters=parameters,
+        evidence=evidence,
+    )
+    return report, experiment(name, possible) if possible else ""
+
+
+def _verdict(effects: list[EffectReport], left: Remainder) -> str:
+    if not effects:
+        return "unexplained" if left.significant else "agrees"
+    if left.significant:
+        return "partly explained"
+    return "ambiguous" if any(e.alternatives for e in effects) else "explained"
+
+
+def _candidates(search: Search) -> list[dict[str, Any]]:
+    taken = dict(zip(search.fit.names, search.gates, strict=True)) if search.gates else {}
+    rows = []
+    for name, effect in catalogue().items():
+        row: dict[str, Any] = {"name": name, "kind": effect.kind, "accepted": name in taken}
+        if name in search.absent:
+            row |= {"gain": None, "why": search.absent[name]}
+        else:
+            gain = taken[name].gain if name in taken else search.screened.get(name)
+            row |= {
+                "gain": gain,
+                "why": "" if name in taken else search.refused.get(name, "does not pay for itself"),
+            }
+        rows.append(row)
+    return sorted(rows, key=lambda r: (not r["accepted"], -(r["gain"] if r["gain"] is not None else -1e9)))
+
+
+def _series(search: Search) -> dict[str, Any]:
+    """Arrays for the page's figures, at most 4000 samples."""
+    data = search.data
+    step = max(1, data.size // 4000)
+    after = residual(data, search.fit.changes)
+    out: dict[str, Any] = {
+        "time": None if data.time is None else data.time[::step],
+        "normal_load": data.get("normal_load")[::step],
+        "slip_angle": data.get("slip_angle")[::step],
+        "slip_ratio": data.get("slip_ratio")[::step],
+    }
+    for o in data.outputs:
+        out[f"before_{o}"] = (data.recorded[o] - data.base[o])[::step]
+        out[f"after_{o}"] = after[o][::step]
+        out[f"floor_{o}"] = search.noise[o].floor
+    return out
+
+
+__all__ = ["OutputFit", "RecordingError", "explain_mismatch"]

@@ -1,0 +1,116 @@
+"""Figures of the report: where and when the recording leaves the model, before and after."""
+
+from __future__ import annotations
+
+import io
+import re
+from typing import Any
+
+import matplotlib
+import numpy as np
+from markupsafe import Markup
+from matplotlib.figure import Figure
+
+from tire_pipeline.mismatch.report import MismatchReport
+
+_BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
+_STYLE = {
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.alpha": 0.25,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "mismatch",
+}
+
+
+def svg(figure: Figure) -> Markup:
+    """Return a figure as inline SVG without an XML header."""
+    buffer = io.StringIO()
+    with matplotlib.rc_context(_STYLE):
+        figure.savefig(buffer, format="svg", metadata={"Date": None})
+    text = buffer.getvalue()
+    text = text[text.index("<svg") :]
+    text = re.sub(r'width="[^"]+pt" height="[^"]+pt"', 'class="figure"', text, count=1)
+    return Markup(text)
+
+
+def time_line(report: MismatchReport, output: str) -> Figure:
+    """Draw recorded minus simulated force over time, before and after, effects' windows shaded."""
+    s = report.series
+    with matplotlib.rc_context(_STYLE):
+        figure = Figure(figsize=(9.0, 2.9), layout="constrained")
+        axes = figure.subplots()
+        x = s["time"] if s["time"] is not None else np.arange(s[f"before_{output}"].size)
+        for number, effect in enumerate(e for e in report.effects if e.output == output):
+            for k, (a, b) in enumerate(effect.when):
+                axes.axvspan(
+                    a,
+                    b,
+                    ymin=0.95 - 0.05 * number,
+                    ymax=1.0 - 0.05 * number,
+                    color=f"C{number + 2}",
+                    lw=0,
+                    label=effect.name if k == 0 else None,
+                )
+        floor = s[f"floor_{output}"]
+        axes.axhspan(-floor, floor, color="#BBBBBB", alpha=0.6, lw=0, label="noise (1 sigma)")
+        axes.plot(x, s[f"before_{output}"], color=_BEFORE, lw=0.5, label="before", rasterized=True)
+        if report.corrected.changes:
+            axes.plot(x, s[f"after_{output}"], color=_AFTER, lw=0.5, label="after", rasterized=True)
+        axes.set_xlabel("time (s)" if s["time"] is not None else "point")
+        axes.set_ylabel(f"{output.capitalize()} recorded - simulated (N)")
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, 1.18), ncol=6, frameon=False)
+    return figure
+
+
+def operating_map(report: MismatchReport, output: str) -> Figure:
+    """Draw the mean difference over slip and load, before and after, on one colour scale."""
+    s = report.series
+    slip = s["slip_angle"] if output == "fy" else s["slip_ratio"]
+    factor, unit = (57.29578, "slip angle (deg)") if output == "fy" else (1.0, "slip ratio")
+    load = s["normal_load"] / 1e3
+    kinds = ["before"] + (["after"] if report.corrected.changes else [])
+    x_edges = np.linspace(slip.min() * factor, slip.max() * factor + 1e-9, 25)
+    y_edges = np.linspace(load.min(), load.max() + 1e-9, 9)
+    count, *_ = np.histogram2d(slip * factor, load, [x_edges, y_edges])
+    maps = []
+    for kind in kinds:
+        total, *_ = np.histogram2d(slip * factor, load, [x_edges, y_edges], weights=s[f"{kind}_{output}"])
+        maps.append(np.where(count >= 3, total / np.maximum(count, 1), np.nan))
+    limit = max(float(np.nanmax(np.abs(maps[0]))), s[f"floor_{output}"])
+    with matplotlib.rc_context(_STYLE):
+        figure = Figure(figsize=(4.6 * len(kinds), 2.9), layout="constrained")
+        axes = np.atleast_1d(figure.subplots(1, len(kinds), sharey=True))
+        for ax, kind, values in zip(axes, kinds, maps, strict=True):
+            mesh = ax.pcolormesh(
+                x_edges, y_edges, values.T, cmap="RdBu_r", vmin=-limit, vmax=limit, rasterized=True
+            )
+            ax.set_title(kind)
+            ax.set_xlabel(unit)
+            ax.grid(False)
+        axes[0].set_ylabel("normal load (kN)")
+        figure.colorbar(mesh, ax=axes, label=f"mean {output.capitalize()} recorded - simulated (N)")
+    return figure
+
+
+def drawings(report: MismatchReport) -> list[dict[str, Any]]:
+    """Return the figures of a report as inline SVG with captions, the outputs that differ most first."""
+    order = sorted(report.fit, key=lambda o: -report.fit[o].rms_before / max(report.fit[o].noise_floor, 1e-9))
+    out = []
+    for o in order:
+        name = o.capitalize()
+        out.append(
+            {
+                "svg": svg(operating_map(report, o)),
+                "caption": f"{name} over slip and load: mean of recorded minus simulated force.",
+            }
+        )
+        out.append(
+            {
+                "svg": svg(time_line(report, o)),
+                "caption": f"{name} over time. The bars at the top say when each effect is above the noise.",
+            }
+        )
+    return out

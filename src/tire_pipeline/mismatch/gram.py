@@ -1,0 +1,225 @@
+"""Generalised least squares by sweeps: everything the search asks is answered from sums of products.
+
+Per output the whitened residual is ``r = E x + N c + noise`` with effects' columns E, nuisance
+columns N, prior ``c ~ N(0, diag(scale^2))`` and unit white noise. Sums over each sweep are kept, so
+that leaving sweeps out costs nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+
+from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.noise import Noise
+
+Array = np.ndarray
+
+
+@dataclass
+class Sums:
+    """Sums of products of effects' columns and residual over each sweep, one entry per output.
+
+    Parameters
+    ----------
+    ne, nr : dict of ndarray, shapes (blocks, q, k), (blocks, q)
+        Nuisance times effects, nuisance times residual.
+    ee, er, rr : ndarray, shapes (blocks, k, k), (blocks, k), (blocks,)
+        Sums over outputs.
+    """
+
+    ne: dict[str, Array]
+    nr: dict[str, Array]
+    ee: Array
+    er: Array
+    rr: Array
+
+    def take(self, columns: Array) -> Sums:
+        """Return the sums of some of the effects' columns."""
+        return Sums(
+            {o: a[:, :, columns] for o, a in self.ne.items()},
+            self.nr,
+            self.ee[:, columns][:, :, columns],
+            self.er[:, columns],
+            self.rr,
+        )
+
+
+class System:
+    """Noise, nuisance columns and sweeps of one recording.
+
+    Parameters
+    ----------
+    data : Data
+    noise : dict of Noise
+    block : ndarray of int, shape (n,)
+        Sweep of each sample.
+    columns : dict of ndarray, shape (n, q)
+        Nuisance columns, N.
+    scale : dict of ndarray, shape (q,)
+        Prior standard deviation of their coefficients.
+    """
+
+    def __init__(
+        self,
+        data: Data,
+        noise: dict[str, Noise],
+        block: Array,
+        columns: dict[str, Array],
+        scale: dict[str, Array],
+    ) -> None:
+        self.data, self.noise, self.block = data, noise, block
+        self.count = int(block.max()) + 1
+        self._order = np.argsort(block, kind="stable")
+        self._edges = np.searchsorted(block[self._order], np.arange(self.count + 1))
+        self.white = {o: noise[o].whiten(columns[o], data.start)[self._order] for o in data.outputs}
+        self._gram = {o: self._by_block(w, w) for o, w in self.white.items()}
+        self.scale = scale
+        self._factor()
+
+    def rescaled(self, scale: dict[str, Array]) -> System:
+        """Return the same system with other prior standard deviations."""
+        other = object.__new__(System)
+        other.__dict__.update(self.__dict__)
+        other.scale = scale
+        other._factor()
+        return other
+
+    def extended(self, columns: dict[str, Array], scale: dict[str, Array]) -> System:
+        """Return the system with further nuisance columns."""
+        other = object.__new__(System)
+        other.__dict__.update(self.__dict__)
+        other.white, other._gram = {}, {}
+        for o in self.data.outputs:
+            w = self.noise[o].whiten(columns[o], self.data.start)[self._order]
+            cross = self._by_block(self.white[o], w)
+            own = self._by_block(w, w)
+            other.white[o] = np.hstack([self.white[o], w])
+            top = np.concatenate([self._gram[o], cross], axis=2)
+            bottom = np.concatenate([cross.transpose(0, 2, 1), own], axis=2)
+            other._gram[o] = np.concatenate([top, bottom], axis=1)
+        other.scale = {o: np.concatenate([self.scale[o], scale[o]]) for o in scale}
+        other._factor()
+        return other
+
+    def _by_block(self, a: Array, b: Array) -> Array:
+        out = np.empty((self.count, a.shape[1], b.shape[1]))
+        for k in range(self.count):
+            piece = slice(self._edges[k], self._edges[k + 1])
+            out[k] = a[piece].T @ b[piece]
+        return out
+
+    def _factor(self) -> None:
+        self._chol, self._without = {}, {}
+        for o, g in self._gram.items():
+            s = self.scale[o]
+            total = g.sum(axis=0) * s[:, None] * s[None, :]
+            self._chol[o] = cho_factor(total + np.eye(s.size))
+
+    def _leave_out(self, o: str) -> Array:
+        """Inverse matrices with each sweep left out, shape (blocks, q, q)."""
+        if o not in self._without:
+            s = self.scale[o]
+            total = self._gram[o].sum(axis=0)
+            a = (total[None] - self._gram[o]) * s[None, :, None] * s[None, None, :] + np.eye(s.size)
+            self._without[o] = np.linalg.inv(a)
+        return self._without[o]
+
+    def whiten(self, x: dict[str, Array]) -> dict[str, Array]:
+        """Return whitened arrays in the order of sweeps."""
+        return {o: self.noise[o].whiten(x[o], self.data.start)[self._order] for o in x}
+
+    def sums(self, residual: dict[str, Array], columns: dict[str, Array] | None = None) -> Sums:
+        """Return the sums for a residual and effects' columns, both in N."""
+        r = self.whiten(residual)
+        k = 0 if columns is None else next(iter(columns.values())).shape[1]
+        e = {o: np.zeros((x.size, 0)) for o, x in r.items()} if columns is None else self.whiten(columns)
+        ne, nr = {}, {}
+        ee, er, rr = np.zeros((self.count, k, k)), np.zeros((self.count, k)), np.zeros(self.count)
+        for o, x in r.items():
+            both = np.column_stack([e[o], x])
+            cross = self._by_block(self.white[o], both)
+            own = self._by_block(both, both)
+            ne[o], nr[o] = cross[:, :, :k], cross[:, :, k]
+            ee += own[:, :k, :k]
+            er += own[:, :k, k]
+            rr += own[:, k, k]
+        return Sums(ne, nr, ee, er, rr)
+
+    def reduce(self, sums: Sums) -> tuple[Array, Array, float]:
+        """Return S, s, J: information and score of the effects given the nuisance, and the misfit left.
+
+        ``J = r' V^-1 r`` with V the covariance of noise and nuisance; ``x = S^-1 s``.
+        """
+        ee, er, rr = sums.ee.sum(axis=0), sums.er.sum(axis=0), float(sums.rr.sum())
+        for o in sums.nr:
+            s = self.scale[o]
+            ne = sums.ne[o].sum(axis=0) * s[:, None]
+            nr = sums.nr[o].sum(axis=0) * s
+            solved = cho_solve(self._chol[o], np.column_stack([ne, nr]))
+            ee = ee - ne.T @ solved[:, :-1]
+            er = er - ne.T @ solved[:, -1]
+            rr -= float(nr @ solved[:, -1])
+        return 0.5 * (ee + ee.T), er, rr
+
+    def log_determinant(self) -> float:
+        """Log determinant of the prior-weighted nuisance, for the marginal likelihood."""
+        return float(sum(2.0 * np.log(np.diag(c[0])).sum() for c in self._chol.values()))
+
+    def held_out(self, sums: Sums, limit: Array | None = None) -> Array:
+        """Return the whitened squared error of each sweep, predicted from all the others.
+
+        Parameters
+        ----------
+        sums : Sums
+        limit : ndarray, optional
+            Small ridge on the effects' columns.
+        """
+        k = sums.er.shape[1]
+        ee = sums.ee.sum(axis=0)[None] - sums.ee
+        er = sums.er.sum(axis=0)[None] - sums.er
+        kept = {}
+        for o in sums.nr:
+            s = self.scale[o]
+            ne = (sums.ne[o].sum(axis=0)[None] - sums.ne[o]) * s[None, :, None]
+            nr = (sums.nr[o].sum(axis=0)[None] - sums.nr[o]) * s[None, :]
+            inverse = self._leave_out(o)
+            a_ne = inverse @ ne
+            a_nr = (inverse @ nr[:, :, None])[:, :, 0]
+            ee = ee - ne.transpose(0, 2, 1) @ a_ne
+            er = er - (ne.transpose(0, 2, 1) @ a_nr[:, :, None])[:, :, 0]
+            kept[o] = (a_ne, a_nr)
+        x = np.zeros((self.count, k))
+        if k:
+            ridge = 1e-9 * np.trace(ee, axis1=1, axis2=2)[:, None, None] / k + 1e-12
+            x = np.linalg.solve(ee + ridge * np.eye(k), er[:, :, None])[:, :, 0]
+        error = sums.rr.copy()
+        error += -2.0 * (sums.er * x).sum(axis=1) + np.einsum("bi,bij,bj->b", x, sums.ee, x)
+        for o, (a_ne, a_nr) in kept.items():
+            s = self.scale[o]
+            c = (a_nr - (a_ne @ x[:, :, None])[:, :, 0]) * s[None, :]
+            error += -2.0 * (sums.nr[o] * c).sum(axis=1) + np.einsum("bi,bij,bj->b", c, self._gram[o], c)
+            error += 2.0 * np.einsum("bq,bqk,bk->b", c, sums.ne[o], x)
+        return error
+
+    def left(self, residual: dict[str, Array], columns: dict[str, Array] | None = None) -> dict[str, Array]:
+        """Return the whitened residual after nuisance and effects, in the order of time."""
+        sums = self.sums(residual, columns)
+        info, score, _ = self.reduce(sums)
+        x = np.linalg.lstsq(info, score, rcond=1e-12)[0] if score.size else score
+        r = self.whiten(residual)
+        e = {} if columns is None else self.whiten(columns)
+        out = {}
+        for o, w in r.items():
+            s = self.scale[o]
+            rest = sums.nr[o].sum(axis=0) - sums.ne[o].sum(axis=0) @ x
+            c = cho_solve(self._chol[o], rest * s) * s
+            left = w - self.white[o] @ c
+            if columns is not None:
+                left = left - e[o] @ x
+            back = np.empty_like(left)
+            back[self._order] = left
+            out[o] = back
+        return out

@@ -1,0 +1,162 @@
+"""Where and when the recording leaves the model: over time and over the operating axes, at many scales."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.ndimage import uniform_filter1d
+
+from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.noise import Noise
+
+Array = np.ndarray
+AXES = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure", "tread_temperature")
+
+
+@dataclass(frozen=True)
+class Located:
+    """One stretch of an axis in which recorded and simulated force differ.
+
+    Parameters
+    ----------
+    output, axis : str
+        ``axis`` is ``"time"`` or a channel.
+    low, high : float
+        SI.
+    mean : float
+        Mean of recorded minus simulated force in the direction of the simulated one, N (of the
+        plain difference if ``signed`` is False).
+    share : float
+        The same over the mean size of the simulated force.
+    p_value : float
+        Largest statistic over all axes, stretches and scales under flips of whole sweeps.
+    """
+
+    output: str
+    axis: str
+    low: float
+    high: float
+    mean: float
+    share: float
+    p_value: float
+    along_force: bool
+
+
+def locate(
+    data: Data,
+    residual: dict[str, Array],
+    noise: dict[str, Noise],
+    block: Array,
+    *,
+    flips: int = 199,
+    seed: int = 0,
+) -> list[Located]:
+    """Find where a residual is not noise.
+
+    Parameters
+    ----------
+    data : Data
+    residual : dict of ndarray
+        Recorded minus simulated, N.
+    noise : dict of Noise
+    block : ndarray of int
+        Sweep of each sample; signs are flipped by whole sweeps.
+    flips : int
+        Number of random flips.
+
+    Returns
+    -------
+    list of Located
+        The most telling stretch of each axis and output with p at most 0.05, smallest p first.
+    """
+    rng = np.random.default_rng(seed)
+    count = int(block.max()) + 1
+    signs = np.vstack([np.ones(count), rng.choice([-1.0, 1.0], size=(flips, count))])
+    out: list[Located] = []
+    for o, r in residual.items():
+        force = data.base[o]
+        largest = float(np.quantile(np.abs(force), 0.99))
+        direction = np.sign(force) * np.minimum(np.abs(force) / (0.05 * largest + 1e-12), 1.0)
+        for along, x in ((True, r * direction), (False, r)):
+            out += _axes(data, o, x / noise[o].sigma, x, block, signs, along)
+    out.sort(key=lambda f: (f.p_value, -abs(f.mean)))
+    return out
+
+
+def _axes(
+    data: Data, output: str, scaled: Array, plain: Array, block: Array, signs: Array, along: bool
+) -> list[Located]:
+    """Test all stretches of all axes; the largest statistic of each flip gives the p-values."""
+    tests: list[tuple[str, float, float, Array]] = []
+    for axis in ("time", *AXES):
+        if axis == "time":
+            if data.time is None:
+                continue
+            values = data.time
+        elif data.varies(axis):
+            values = data.smooth(axis)
+        else:
+            continue
+        edges = np.quantile(values, np.linspace(0.0, 1.0, 17))
+        for width in (1, 2, 4, 8):
+            for k in range(0, 17 - width, max(1, width // 2)):
+                low, high = float(edges[k]), float(edges[k + width])
+                if high > low:
+                    tests.append((axis, low, high, (values >= low) & (values <= high)))
+    count = signs.shape[1]
+    sums = np.array([np.bincount(block, scaled * m, count) for *_, m in tests])
+    size = np.sqrt((sums**2).sum(axis=1)) + 1e-12
+    statistics = np.abs(signs @ sums.T) / size[None, :]
+    enough = np.array([(s != 0.0).sum() >= 5 for s in sums])
+    statistics[:, ~enough] = 0.0
+    top = statistics.max(axis=1)
+    found = []
+    for axis in dict.fromkeys(t[0] for t in tests):
+        own = [i for i, t in enumerate(tests) if t[0] == axis]
+        best = max(own, key=lambda i: statistics[0, i])
+        p = float((1 + (top[1:] >= statistics[0, best]).sum()) / signs.shape[0])
+        if p > 0.05:
+            continue
+        _, low, high, mask = tests[best]
+        mean = float(plain[mask].mean())
+        force = float(np.abs(data.base[output][mask]).mean())
+        found.append(Located(output, axis, low, high, mean, mean / max(force, 1e-9), p, along))
+    return found
+
+
+def when(part: Array, data: Data, floor: float) -> list[tuple[float, float]]:
+    """Return the stretches of time in which an effect's RMS over 1 s is above the noise floor, s.
+
+    Stretches nearer than 2 s are joined, and those under half a second left out.
+    """
+    if data.time is None:
+        return []
+    width = max(int(round(1.0 / max(float(np.median(data.step)), 1e-9))), 1)
+    local = np.sqrt(np.maximum(uniform_filter1d(part**2, width), 0.0))
+    above = np.flatnonzero(local > floor)
+    if above.size == 0:
+        return []
+    breaks = np.flatnonzero(np.diff(data.time[above]) > 2.0)
+    starts, ends = above[np.r_[0, breaks + 1]], above[np.r_[breaks, above.size - 1]]
+    pairs = [(float(data.time[a]), float(data.time[b])) for a, b in zip(starts, ends, strict=True)]
+    return [(a, b) for a, b in pairs if b - a >= 0.5]
+
+
+def where(part: Array, data: Data) -> dict[str, tuple[float, float]]:
+    """Return for each recorded axis the interval that holds the central 90% of an effect's energy."""
+    energy = part**2
+    total = float(energy.sum())
+    out: dict[str, tuple[float, float]] = {}
+    if total <= 0.0:
+        return out
+    for axis in AXES:
+        if not data.has(axis):
+            continue
+        values = data.get(axis)
+        order = np.argsort(values, kind="stable")
+        share = np.cumsum(energy[order]) / total
+        low, high = np.searchsorted(share, [0.05, 0.95])
+        last = values.size - 1
+        out[axis] = (float(values[order[min(low, last)]]), float(values[order[min(high, last)]]))
+    return out

@@ -1,0 +1,164 @@
+"""Noise of the force channels: size from second differences, colour from their growth with lag."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq, nnls
+
+from tire_pipeline.mismatch.data import Data
+
+Array = np.ndarray
+_MEDIAN_OF_CHI2 = 0.4549
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Noise of one output: first-order autoregression with a size that changes with the slopes.
+
+    Parameters
+    ----------
+    sigma : ndarray, shape (n,)
+        Standard deviation at each sample, N.
+    rho : float
+        Correlation of neighbouring samples.
+    """
+
+    sigma: Array
+    rho: float
+
+    @property
+    def floor(self) -> float:
+        """Root mean square of the noise, N."""
+        return float(np.sqrt(np.mean(self.sigma**2)))
+
+    def whiten(self, x: Array, start: Array) -> Array:
+        """Return ``x`` (n,) or (n, k) with unit white noise where the model of the noise holds."""
+        scaled = x / (self.sigma if x.ndim == 1 else self.sigma[:, None])
+        if self.rho <= 0.0:
+            return scaled
+        out = scaled.copy()
+        inner = ~start[1:]
+        factor = 1.0 / np.sqrt(1.0 - self.rho**2)
+        out[1:][inner] = (scaled[1:][inner] - self.rho * scaled[:-1][inner]) * factor
+        return out
+
+
+def estimate_noise(data: Data, residual: dict[str, Array]) -> dict[str, Noise]:
+    """Estimate the noise of each output from second differences of what the model leaves.
+
+    Parameters
+    ----------
+    data : Data
+    residual : dict of ndarray
+        Recorded minus simulated, N.
+
+    Returns
+    -------
+    dict of Noise
+        The variance is ``s0^2 + (dF/d slip angle)^2 sa^2 + (dF/d slip ratio)^2 sk^2``: noise of the
+        slip channels comes through the slopes of the model. Known standard deviations
+        (``fy_std``, ``slip_angle_std``) are added.
+    """
+    slopes = {n: data.slope(n, h) for n, h in (("slip_angle", 2e-3), ("slip_ratio", 2e-3))}
+    out = {}
+    for name, r in residual.items():
+        parts = [np.ones(data.size), slopes["slip_angle"][name] ** 2, slopes["slip_ratio"][name] ** 2]
+        largest = float(np.quantile(np.abs(data.recorded[name]), 0.999))
+        if data.time is None or data.size < 200:
+            sigma, rho = _points(data, r, largest), 0.0
+        else:
+            sigma, rho = _series(data, r, parts)
+        sigma = np.maximum(sigma, 1e-4 * largest + 1e-9)
+        known = _known(data, name, slopes["slip_angle"][name])
+        out[name] = Noise(np.sqrt(sigma**2 + known**2), rho)
+    return out
+
+
+def _series(data: Data, r: Array, parts: list[Array]) -> tuple[Array, float]:
+    """Size by non-negative least squares on block medians of squared second differences; colour by lag 2."""
+    lag1, ok1 = _second_difference(r, data.start, 1)
+    lag2, ok2 = _second_difference(r, data.start, 2)
+    length = 50
+    count = max(r.size // length, 4)
+    block = np.minimum(np.arange(r.size) // length, count - 1)
+    d1 = _block_median(lag1**2, ok1, block, count) / _MEDIAN_OF_CHI2
+    d2 = _block_median(lag2**2, ok2, block, count) / _MEDIAN_OF_CHI2
+    means = np.column_stack([_block_mean(p, block, count) for p in parts])
+    good = np.isfinite(d1) & np.isfinite(d2) & (d1 > 0.0)
+    if good.sum() < 4:
+        return np.full(r.size, max(float(np.std(np.diff(r))) / np.sqrt(2.0), 1e-9)), 0.0
+    ratio = np.median(d2[good] / d1[good])
+    rho = correlation_from_ratio(float(ratio))
+    per_variance = 6.0 - 8.0 * rho + 2.0 * rho**2
+    weight = np.ones(good.sum())
+    scale = means[good].max(axis=0)
+    scale[scale <= 0.0] = 1.0
+    a, b = means[good] / scale, d1[good] / per_variance
+    for _ in range(8):
+        x, _ = nnls(a * weight[:, None], b * weight)
+        fit = np.maximum(a @ x, 1e-12 * b.max() + 1e-30)
+        weight = 1.0 / fit / (1.0 + np.maximum(b / fit - 1.0, 0.0) ** 2)
+    variance = np.column_stack(parts) / scale @ x
+    floor = 0.02 * float(np.median(b))
+    return np.sqrt(np.maximum(variance, floor)), rho
+
+
+def _second_difference(x: Array, start: Array, lag: int) -> tuple[Array, Array]:
+    d = x[: -2 * lag] - 2.0 * x[lag:-lag] + x[2 * lag :]
+    piece = np.cumsum(start)
+    return d, piece[2 * lag :] == piece[: -2 * lag]
+
+
+def _block_median(values: Array, ok: Array, block: Array, count: int) -> Array:
+    out = np.full(count, np.nan)
+    order = block[: values.size]
+    edges = np.searchsorted(order, np.arange(count + 1))
+    for k in range(count):
+        piece = values[edges[k] : edges[k + 1]][ok[edges[k] : edges[k + 1]]]
+        if piece.size >= 10:
+            out[k] = np.median(piece)
+    return out
+
+
+def _block_mean(values: Array, block: Array, count: int) -> Array:
+    return np.bincount(block, values, count) / np.maximum(np.bincount(block, minlength=count), 1)
+
+
+def correlation_from_ratio(ratio: float) -> float:
+    """Correlation of neighbours from the ratio of squared second differences at lags 2 and 1."""
+
+    def excess(rho: float) -> float:
+        return (6.0 - 8.0 * rho**2 + 2.0 * rho**4) / (6.0 - 8.0 * rho + 2.0 * rho**2) - ratio
+
+    if ratio <= 1.0:
+        return 0.0
+    return 0.95 if excess(0.95) < 0.0 else float(brentq(excess, 0.0, 0.95))
+
+
+def _points(data: Data, r: Array, largest: float) -> Array:
+    """Scatter between nearest neighbours of the operating space; at least 0.3% of the largest force."""
+    names = ("slip_angle", "slip_ratio", "camber", "normal_load")
+    x = np.column_stack([data.get(n) / max(float(np.ptp(data.get(n))), 1e-9) for n in names])
+    distance = ((x[:, None, :] - x[None, :, :]) ** 2).sum(axis=2) if r.size <= 3000 else None
+    if distance is None:
+        return np.full(r.size, max(0.003 * largest, float(np.std(np.diff(r))) / np.sqrt(2.0)))
+    np.fill_diagonal(distance, np.inf)
+    nearest = np.argmin(distance, axis=1)
+    close = distance[np.arange(r.size), nearest] < 1e-4
+    repeats = (r - r[nearest])[close]
+    sigma = 0.003 * largest
+    if repeats.size >= 8:
+        sigma = max(sigma, float(np.median(np.abs(repeats))) / 0.6745 / np.sqrt(2.0))
+    return np.full(r.size, sigma)
+
+
+def _known(data: Data, name: str, slope: Array) -> Array:
+    """Standard deviations that the recording states itself (inverse models, differentiation), N."""
+    variance = np.zeros(data.size)
+    if f"{name}_std" in data.channels:
+        variance = variance + np.nan_to_num(data.get(f"{name}_std")) ** 2
+    if "slip_angle_std" in data.channels:
+        variance = variance + (slope * np.nan_to_num(data.get("slip_angle_std"))) ** 2
+    return np.sqrt(variance)

@@ -1,0 +1,66 @@
+"""The report as one HTML page without any outside reference."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import jinja2
+
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.figures import drawings
+from tire_pipeline.mismatch.report import MismatchReport
+from tire_pipeline.mismatch.words import interval
+
+
+def render(report: MismatchReport) -> str:
+    """Return the page.
+
+    Parameters
+    ----------
+    report : MismatchReport
+    """
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("tire_pipeline.mismatch"),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    environment.filters["number"] = number
+    return environment.get_template("report.html").render(
+        report=report,
+        drawings=drawings(report),
+        effects=[_effect(e) for e in report.effects],
+        located=[
+            (f.output, interval(f.axis, f.low, f.high), f.mean, f.share, f.p_value)
+            for f in report.located[:8]
+        ],
+        candidates=[_candidate(c) for c in report.candidates],
+    )
+
+
+def number(value: Any, digits: int = 3) -> str:
+    """Return a number with few digits, a dash for nothing."""
+    if value is None or (isinstance(value, float) and not math.isfinite(value)):
+        return "–"
+    if isinstance(value, float):
+        return f"{value:,.0f}" if abs(value) >= 10**digits else f"{value:.{digits}g}"
+    return str(value)
+
+
+def _effect(effect: Any) -> dict[str, Any]:
+    looks = catalogue()[effect.name].looks_like
+    return {
+        "it": effect,
+        "where": [interval(a, low, high) for a, (low, high) in effect.where.items()],
+        "when": [f"{a:.1f} to {b:.1f} s" for a, b in effect.when[:12]],
+        "more": max(0, len(effect.when) - 12),
+        "looks": [
+            (n, looks.get(n) or catalogue()[n].looks_like.get(effect.name, "")) for n in effect.alternatives
+        ],
+    }
+
+
+def _candidate(row: dict[str, Any]) -> dict[str, Any]:
+    return {**row, "title": catalogue()[row["name"]].title}

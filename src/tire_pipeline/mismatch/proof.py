@@ -1,0 +1,121 @@
+"""The proof: the model locked, errors on sweeps and on one condition that the fit did not see."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.refit import residual
+from tire_pipeline.mismatch.report import OutputFit
+from tire_pipeline.mismatch.search import Search
+
+Array = np.ndarray
+
+
+def prove(search: Search, *, resamples: int = 400, seed: int = 0) -> dict[str, OutputFit]:
+    """Return for each output the error with parameters fitted without the sweep in question.
+
+    The parameters move by one Gauss-Newton step from the full fit when a sweep is left out (the
+    jackknife of a least-squares fit); the effects themselves are locked.
+    """
+    data, fit = search.data, search.fit
+    before = {o: data.recorded[o] - data.base[o] for o in data.outputs}
+    after = residual(data, fit.changes)
+    if fit.labels and fit.sums is not None:
+        after = _jackknife(search, after)
+    rng = np.random.default_rng(seed)
+    name, rows = held_out_condition(data)
+    condition = _condition(search, rows) if rows is not None else None
+    out = {}
+    for o in data.outputs:
+        b = _by_sweep(before[o], search.block, search.system.count)
+        a = _by_sweep(after[o], search.block, search.system.count)
+        n = np.bincount(search.block, minlength=search.system.count)
+        draws = []
+        for _ in range(resamples):
+            pick = rng.integers(n.size, size=n.size)
+            draws.append(np.sqrt(a[pick].sum() / max(n[pick].sum(), 1)))
+        floor = search.noise[o].floor
+        rms_b, rms_a = float(np.sqrt(b.sum() / n.sum())), float(np.sqrt(a.sum() / n.sum()))
+        above = rms_b**2 - floor**2
+        low, high = np.quantile(draws, [0.025, 0.975])
+        out[o] = OutputFit(
+            noise_floor=floor,
+            rms_before=rms_b,
+            rms_after=rms_a,
+            rms_after_low=float(low),
+            rms_after_high=float(high),
+            recovered=float(np.clip((rms_b**2 - rms_a**2) / above, -1.0, 1.0))
+            if above > 0.05 * floor**2
+            else float("nan"),
+            held_out_condition=name,
+            rms_condition_before=float("nan")
+            if rows is None
+            else float(np.sqrt(np.mean(before[o][rows] ** 2))),
+            rms_condition_after=float("nan")
+            if condition is None
+            else float(np.sqrt(np.mean(condition[o] ** 2))),
+        )
+    return out
+
+
+def _by_sweep(x: Array, block: Array, count: int) -> Array:
+    return np.bincount(block, x**2, count)
+
+
+def _solve(info: Array, score: Array) -> Array:
+    size = np.sqrt(np.maximum(np.diag(info), 1e-300))
+    m = info / size[:, None] / size[None, :] + 1e-6 * np.eye(size.size)
+    return np.linalg.solve(m, score / size) / size
+
+
+def _without(search: Search, left_out: Array) -> Array:
+    """Return the change of the parameters when some sweeps (bool, by number) are left out."""
+    sums = search.fit.sums
+    kept = ~left_out
+    info, score = sums.ee[kept].sum(axis=0), sums.er[kept].sum(axis=0)
+    return _solve(info, score)
+
+
+def _jackknife(search: Search, after: dict[str, Array]) -> dict[str, Array]:
+    """Return residuals with each sweep predicted by parameters fitted without it (no nuisance here)."""
+    columns = search.fit.columns
+    out = {o: r.copy() for o, r in after.items()}
+    base = _without(search, np.zeros(search.system.count, bool))
+    for k in range(search.system.count):
+        left = np.zeros(search.system.count, bool)
+        left[k] = True
+        delta = _without(search, left) - base
+        rows = search.block == k
+        for o in out:
+            out[o][rows] = after[o][rows] - columns[o][rows] @ delta
+    return out
+
+
+def held_out_condition(data: Data) -> tuple[str, Array | None]:
+    """Return the condition to leave out as a whole: the highest load, else the largest slip."""
+    for name, unit in (("normal_load", "N"), ("slip_angle", "rad"), ("slip_ratio", "1")):
+        if data.varies(name):
+            x = np.abs(data.get(name))
+            limit = float(np.quantile(x, 0.8))
+            rows = x > limit
+            if 0.02 < rows.mean() < 0.6:
+                return f"|{name}| above {limit:.4g} {unit}", rows
+    return "", None
+
+
+def _condition(search: Search, rows: Array) -> dict[str, Array] | None:
+    """Return residuals in the condition with parameters fitted to the sweeps that do not enter it."""
+    if not search.fit.labels:
+        return {o: r[rows] for o, r in residual(search.data, search.fit.changes).items()}
+    count = search.system.count
+    touched = np.bincount(search.block, rows.astype(float), count) > 0
+    after = residual(search.data, search.fit.changes)
+    if touched.mean() > 0.7:
+        inside = np.bincount(search.block, rows.astype(float), count)
+        size = np.bincount(search.block, minlength=count)
+        touched = inside / np.maximum(size, 1) > 0.5
+    if touched.all() or not touched.any():
+        return None
+    delta = _without(search, touched) - _without(search, np.zeros(count, bool))
+    return {o: after[o][rows] - search.fit.columns[o][rows] @ delta for o in after}

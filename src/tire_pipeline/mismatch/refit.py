@@ -1,0 +1,201 @@
+"""Joint refit: Gauss-Newton on the effects' own equations, coefficients and flexible form marginalised."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tire_pipeline.mismatch.candidates import Variant, derivatives
+from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.gram import Sums, System
+from tire_pipeline.mismatch.simulate import Change, simulate
+
+Array = np.ndarray
+
+
+@dataclass
+class Fit:
+    """Effects with fitted parameters.
+
+    Parameters
+    ----------
+    changes : list of (name, parameters)
+    free : list of tuple of str
+        Parameters of each effect that float.
+    objective : float
+        ``r' V^-1 r``.
+    covariance : ndarray
+        Of the floating parameters, in the order of ``labels``, for unit white noise.
+    labels : list of (index of effect, parameter)
+    columns : dict of ndarray, shape (n, k)
+        Derivatives at the fit.
+    sums : Sums
+        Of the residual at the fit and these columns.
+    """
+
+    changes: list[Change]
+    free: list[tuple[str, ...]]
+    objective: float = np.inf
+    covariance: Array = field(default_factory=lambda: np.zeros((0, 0)))
+    labels: list[tuple[int, str]] = field(default_factory=list)
+    columns: dict[str, Array] = field(default_factory=dict)
+    sums: Sums | None = None
+    at_bound: bool = False
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the effects."""
+        return [name for name, _ in self.changes]
+
+    @property
+    def parameters(self) -> int:
+        """Number of parameters that float, discrete choices of a scan included."""
+        extra = sum(1 for name, _ in self.changes if name in {"nonuniformity"})
+        return sum(len(f) for f in self.free) + extra
+
+
+def residual(data: Data, changes: Sequence[Change]) -> dict[str, Array]:
+    """Recorded minus simulated, N."""
+    f = simulate(data, changes)
+    return {o: data.recorded[o] - f[o] for o in data.outputs}
+
+
+def objective(system: System, changes: Sequence[Change]) -> float:
+    """Return ``r' V^-1 r`` of a set of effects with given parameters."""
+    return system.reduce(system.sums(residual(system.data, changes)))[2]
+
+
+def refit(
+    system: System, variants: Sequence[Variant], *, steps: int = 5, start: Sequence[Change] | None = None
+) -> Fit:
+    """Fit the parameters of some effects together.
+
+    Parameters
+    ----------
+    system : System
+    variants : sequence of Variant
+        The effects, each with its start and its floating parameters.
+    steps : int
+        Most Gauss-Newton steps.
+    start : sequence of (name, parameters), optional
+        Where to start instead.
+    """
+    changes: list[Change] = (
+        [(v.name, dict(v.start)) for v in variants] if start is None else [(n, dict(p)) for n, p in start]
+    )
+    free = [tuple(v.free) for v in variants]
+    best = objective(system, changes)
+    for _ in range(steps):
+        changes, best, progress = _step(system, changes, free, best)
+        moved = _scan(system, changes, free, best)
+        if moved is not None:
+            changes, gained = moved
+            progress = max(progress, best - gained)
+            best = gained
+        if progress < 0.05 + 1e-4 * best:
+            break
+    return finish(system, changes, free, best)
+
+
+def finish(system: System, changes: list[Change], free: list[tuple[str, ...]], best: float) -> Fit:
+    """Linearise at the parameters reached: covariance, columns, sums."""
+    labels, columns = _columns(system.data, changes, free)
+    sums = system.sums(residual(system.data, changes), columns)
+    info, _, _ = system.reduce(sums)
+    return Fit(
+        changes=changes,
+        free=free,
+        objective=best,
+        covariance=_inverse(info),
+        labels=labels,
+        columns=columns,
+        sums=sums,
+        at_bound=_at_bound(changes, free),
+    )
+
+
+def _columns(
+    data: Data, changes: list[Change], free: list[tuple[str, ...]]
+) -> tuple[list[tuple[int, str]], dict[str, Array]]:
+    labels: list[tuple[int, str]] = []
+    parts: list[dict[str, Array]] = []
+    for i in range(len(changes)):
+        for name, column in derivatives(data, changes, i, free[i]):
+            labels.append((i, name))
+            parts.append(column)
+    if not parts:
+        return [], {o: np.zeros((data.size, 0)) for o in data.outputs}
+    return labels, {o: np.column_stack([p[o] for p in parts]) for o in data.outputs}
+
+
+def _step(
+    system: System, changes: list[Change], free: list[tuple[str, ...]], best: float
+) -> tuple[list[Change], float, float]:
+    """Make one Gauss-Newton step, halved until it helps."""
+    labels, columns = _columns(system.data, changes, free)
+    if not labels:
+        return changes, best, 0.0
+    info, score, _ = system.reduce(system.sums(residual(system.data, changes), columns))
+    size = np.sqrt(np.maximum(np.diag(info), 1e-300))
+    scaled = info / size[:, None] / size[None, :] + 1e-6 * np.eye(size.size)
+    delta = np.linalg.solve(scaled, score / size) / size
+    for share in (1.0, 0.5, 0.2, 0.05):
+        trial = _moved(changes, labels, share * delta)
+        value = objective(system, trial)
+        if value < best:
+            return trial, value, best - value
+    return changes, best, 0.0
+
+
+def _moved(changes: list[Change], labels: list[tuple[int, str]], delta: Array) -> list[Change]:
+    out = [(n, dict(p)) for n, p in changes]
+    for (i, name), d in zip(labels, delta, strict=True):
+        parameter = next(p for p in catalogue()[out[i][0]].parameters if p.name == name)
+        values = out[i][1]
+        width = parameter.high - parameter.low
+        values[name] = float(np.clip(values[name] + np.clip(d, -width, width), parameter.low, parameter.high))
+    return out
+
+
+def _scan(
+    system: System, changes: list[Change], free: list[tuple[str, ...]], best: float
+) -> tuple[list[Change], float] | None:
+    """Search along parameters whose effect is too far from linear: the moment of a surface change."""
+    found = None
+    for i, (name, values) in enumerate(changes):
+        if name != "surface_change" or "moment" not in free[i]:
+            continue
+        time = system.data.time
+        width = (time[-1] - time[0]) / 50.0
+        while width > 0.05:
+            for sign in (1.0, -1.0):
+                trial = [(n, dict(p)) for n, p in changes]
+                trial[i][1]["moment"] = float(np.clip(values["moment"] + sign * width, time[0], time[-1]))
+                value = objective(system, trial)
+                if value < best:
+                    changes, best, values = trial, value, trial[i][1]
+                    found = (changes, best)
+                    break
+            width *= 0.5
+    return found
+
+
+def _inverse(info: Array) -> Array:
+    if info.size == 0:
+        return np.zeros((0, 0))
+    size = np.sqrt(np.maximum(np.diag(info), 1e-300))
+    scaled = info / size[:, None] / size[None, :]
+    return np.linalg.pinv(scaled, rcond=1e-10, hermitian=True) / size[:, None] / size[None, :]
+
+
+def _at_bound(changes: list[Change], free: list[tuple[str, ...]]) -> bool:
+    for (name, values), names in zip(changes, free, strict=True):
+        for p in catalogue()[name].parameters:
+            if p.name not in names or p.name in {"fy", "fx"} and name == "clipping":
+                continue
+            if values[p.name] != p.zero and (values[p.name] <= p.low or values[p.name] >= p.high):
+                return True
+    return False

@@ -1,0 +1,90 @@
+"""What is left above the noise after the effects: where it lives, how large it is, and a form without a name."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+
+from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.locate import locate
+from tire_pipeline.mismatch.refit import residual
+from tire_pipeline.mismatch.report import Remainder
+from tire_pipeline.mismatch.search import Search
+
+Array = np.ndarray
+
+
+def remainder(search: Search) -> Remainder:
+    """Measure what neither the effects nor a misfit of the usual size explains."""
+    data, fit = search.data, search.fit
+    left = search.system.left(residual(data, fit.changes), fit.columns if fit.labels else None)
+    statistic = excess(search, left)
+    size = {}
+    for o in data.outputs:
+        rms = float(np.sqrt(np.mean(residual(data, fit.changes)[o] ** 2)))
+        size[o] = float(np.sqrt(max(rms**2 - search.noise[o].floor ** 2, 0.0)))
+    significant = statistic > settings.REMAINDER_LIMIT
+    plain = {o: left[o] * search.noise[o].sigma for o in data.outputs}
+    located = locate(data, plain, search.noise, search.block) if significant else []
+    form = sparse_form(search) if significant else ""
+    return Remainder(size, located, form, bool(significant), statistic)
+
+
+def excess(search: Search, left: dict[str, Array]) -> float:
+    """Return how much power whitened residuals have beyond white noise, worst of outputs and scales.
+
+    At each scale the samples are summed over windows; the mean square of the sums over that of
+    white noise of the same (robust) size is 1 for noise.
+    """
+    worst = 1.0
+    for white in left.values():
+        size = float(np.median(white**2) / 0.4549)
+        x = white / np.sqrt(max(size, 1e-12))
+        worst = max(worst, float(np.mean(np.minimum(x**2, 25.0))))
+        for width in (5, 12, 25, 60):
+            n = x.size // width
+            if n < 30:
+                continue
+            sums = x[: n * width].reshape(n, width).sum(axis=1) / np.sqrt(width)
+            worst = max(worst, float(np.mean(np.minimum(sums**2, 25.0))))
+    return worst
+
+
+def sparse_form(search: Search) -> str:
+    """Return a sparse equation (PySINDy's sequentially thresholded least squares) for the remainder."""
+    import pysindy
+
+    data, fit = search.data, search.fit
+    rest = residual(data, fit.changes)
+    names = [n for n in ("slip_angle", "slip_ratio", "camber", "normal_load", "speed") if data.varies(n)]
+    columns, labels = [], []
+    for n in names:
+        x = data.smooth(n)
+        scale = float(np.max(np.abs(x))) or 1.0
+        columns.append(x / scale)
+        labels.append(f"({n}/{scale:.3g})")
+        if data.time is not None and n in ("slip_angle", "slip_ratio", "normal_load"):
+            rate = np.gradient(x, data.time)
+            size = float(np.quantile(np.abs(rate), 0.99)) or 1.0
+            columns.append(np.clip(rate / size, -1.5, 1.5))
+            labels.append(f"(d{n}/dt/{size:.3g})")
+    if not columns:
+        return ""
+    step = max(1, data.size // 4000)
+    x = np.column_stack(columns)[::step]
+    lines = []
+    for o in data.outputs:
+        y = rest[o][::step]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            library = pysindy.PolynomialLibrary(degree=2)
+            features = np.asarray(library.fit_transform(x))
+            optimizer = pysindy.STLSQ(threshold=0.25 * float(np.std(y)), alpha=1e-3)
+            optimizer.fit(features, y[:, None])
+        terms = library.get_feature_names(labels)
+        found = np.ravel(optimizer.coef_)
+        text = " ".join(f"{c:+.3g} {t}" for c, t in zip(found, terms, strict=True) if c != 0.0)
+        if text:
+            lines.append(f"{o} left = {text} N")
+    return "; ".join(lines)

@@ -1,0 +1,35 @@
+"""Thresholds of the search, and how each was got.
+
+Set on tuning cases (seeds 0 to 899 of the project's rig simulator) and on reasoning, never on the
+cases of a published proof.
+"""
+
+from __future__ import annotations
+
+COEFFICIENT_SHARE = 0.0008
+"""How far the model may be off along each direction of its coefficients, RMS over largest force."""
+
+LOOSE = 12.0
+"""Factor on COEFFICIENT_SHARE in the check that effects with other drivers survive a refit."""
+
+MISFIT_SHARES = (0.001, 0.002, 0.0035, 0.005, 0.007, 0.01)
+"""Sizes of the flexible form that are tried, over the largest force; the likeliest is taken."""
+
+LEAST_GAIN = 8.0
+"""Least improvement of the Bayes information criterion (in nats, effective sample size) for an effect."""
+
+LEAST_SHARE = 0.02
+"""Least share of the held-out mismatch that an effect must remove (issue, item 5)."""
+
+LEVEL = 0.05
+"""Level of the Wilcoxon test over sweeps, Holm-corrected."""
+
+SHAPE_SHARE = 0.15
+"""How wrong the form of an accepted effect may be, as a share of it, before a second one is believed."""
+"""How many effects are put in at most: MOST_EFFECTS."""
+
+MOST_EFFECTS = 3
+AMBIGUITY_SHARE = 0.04
+AMBIGUITY_NATS = 5.0
+AMBIGUITY_LOST = 0.5
+REMAINDER_LIMIT = 1.6

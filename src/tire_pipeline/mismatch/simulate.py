@@ -1,0 +1,113 @@
+"""The model with effects put in: channels -> slips at the tire -> forces -> what is recorded."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tire_pipeline.mismatch.effects import State, catalogue
+
+Array = np.ndarray
+Change = tuple[str, Mapping[str, float]]
+
+
+def plain_forces(
+    tire: Any,
+    *,
+    slip_angle: Array,
+    slip_ratio: Array,
+    camber: Array,
+    normal_load: Array,
+    speed: Array | None = None,
+    pressure: Array | None = None,
+) -> dict[str, Array]:
+    """Return the model's fx and fy in N at points that may lie outside of its ranges.
+
+    Parameters
+    ----------
+    tire : TireModel
+    slip_angle, slip_ratio, camber, normal_load, speed, pressure : ndarray, shape (n,)
+        rad, 1, rad, N, m/s, Pa.
+    """
+    more = {}
+    if speed is not None:
+        more["speed"] = speed
+    if pressure is not None:
+        more["pressure"] = pressure
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # trial repairs make angles that look like degrees
+        out = tire.forces(
+            slip_angle=slip_angle,
+            slip_ratio=slip_ratio,
+            camber=camber,
+            normal_load=normal_load,
+            limits="ignore",
+            outputs=("fx", "fy"),
+            **more,
+        )
+    return {"fx": np.asarray(out.fx, float), "fy": np.asarray(out.fy, float)}
+
+
+def simulate(data: Any, changes: Sequence[Change] = ()) -> dict[str, Array]:
+    """Simulate the recording with effects put in.
+
+    Parameters
+    ----------
+    data : Data
+        The prepared recording; it holds the tire.
+    changes : sequence of (name, parameters)
+        Effects and their parameters.
+
+    Returns
+    -------
+    dict of ndarray
+        One array for each of ``data.outputs``, N.
+    """
+    effects = [(catalogue()[name], p) for name, p in changes]
+    effects.sort(key=lambda e: e[0].order)
+    zero = np.zeros(data.size)
+    state = State(
+        slip_angle=data.get("slip_angle"),
+        slip_ratio=data.get("slip_ratio"),
+        camber=data.get("camber"),
+        normal_load=data.get("normal_load"),
+        log_friction=zero,
+        log_friction_y=zero,
+        log_stiffness=zero,
+        log_stiffness_y=zero,
+    )
+    for effect, p in effects:
+        effect.inputs(state, data, p)
+    data.relax(state, {name for name, _ in changes})
+    for effect, p in effects:
+        effect.tire(state, data, p)
+    state.forces = _tire(data, state)
+    for effect, p in effects:
+        effect.outputs(state, data, p)
+    return {name: state.forces[name] for name in data.outputs}
+
+
+def _tire(data: Any, state: State) -> dict[str, Array]:
+    """Evaluate the tire by similarity: friction m and stiffness k turn F(s) into m F(s k / m)."""
+    tire = data.tire.replace(**state.coefficients) if state.coefficients else data.tire
+    m_x, m_y = state.log_friction, state.log_friction + state.log_friction_y
+    ratio_y = np.exp(state.log_stiffness + state.log_stiffness_y - m_y)
+    ratio_x = np.exp(state.log_stiffness - m_x)
+    forces = plain_forces(
+        tire,
+        slip_angle=state.slip_angle * ratio_y,
+        slip_ratio=state.slip_ratio * ratio_x,
+        camber=state.camber,
+        normal_load=state.normal_load,
+        speed=data.model_speed,
+        pressure=data.model_pressure,
+    )
+    fx = forces["fx"] * np.exp(m_x)
+    fy = (forces["fy"] + state.added_y) * np.exp(m_y)
+    if data.beside is not None:
+        fx = fx + data.beside.get("fx", 0.0)
+        fy = fy + data.beside.get("fy", 0.0)
+    return {"fx": fx, "fy": fy}

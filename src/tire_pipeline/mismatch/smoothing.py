@@ -1,0 +1,103 @@
+"""Sensor noise off the model's inputs: local polynomials as wide as the signal allows.
+
+Noise of a slip channel goes through the model into the residual and, worse, into the columns of
+dynamic effects: a delay of the wrong sign would explain some of it (errors in variables). Each
+sample takes the widest window whose estimate agrees with all narrower ones (intersection of
+confidence intervals: Katkovnik 1999, IEEE Trans. Signal Processing 47).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.signal import savgol_coeffs
+
+from tire_pipeline.mismatch.noise import correlation_from_ratio
+
+Array = np.ndarray
+_WINDOWS = (9, 15, 25, 35)
+_WIDTH = 1.3
+_ORDER = 4
+
+
+def denoise(x: Array, start: Array) -> Array:
+    """Return the channel without its sensor noise.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,)
+    start : ndarray of bool, shape (n,)
+        First samples of uninterrupted pieces.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Unchanged where pieces are shorter than the narrowest window, or if the channel has no
+        noise (a set point, or a channel held at a slower rate).
+    """
+    d = x[2:] - 2.0 * x[1:-1] + x[:-2]
+    usable = ~(start[2:] | start[1:-1])
+    d = d[usable]
+    if d.size < 50 or np.mean(d == 0.0) > 0.3:
+        return x
+    rho = _colour(x, start)
+    per_variance = 6.0 - 8.0 * rho + 2.0 * rho**2
+    sigma = _quiet(np.abs(d)) / 0.6745 / np.sqrt(per_variance)
+    if sigma < 1e-12 or sigma < 2e-6 * float(np.ptp(x)):
+        return x
+    firsts = np.flatnonzero(start)
+    ends = np.append(firsts[1:], x.size)
+    out = x.copy()
+    for first, last in zip(firsts, ends, strict=True):
+        if last - first > 2 * _WINDOWS[0]:
+            out[first:last] = _piece(x[first:last], sigma, rho)
+    return out
+
+
+def _quiet(size: Array) -> float:
+    """Lower quartile over blocks of 50 samples of the median: where the signal itself is calm."""
+    count = size.size // 50
+    if count < 4:
+        return float(np.median(size))
+    return float(np.quantile(np.median(size[: 50 * count].reshape(count, 50), axis=1), 0.25))
+
+
+def _piece(x: Array, sigma: float, rho: float) -> Array:
+    n = x.size
+    low = np.full(n, -np.inf)
+    high = np.full(n, np.inf)
+    out = x.copy()
+    alive = np.ones(n, bool)
+    for window in (1, *_WINDOWS):
+        if window > n // 2:
+            break
+        value, spread = _polynomial(x, window, rho)
+        half = _WIDTH * sigma * spread
+        low = np.where(alive, np.maximum(low, value - half), low)
+        high = np.where(alive, np.minimum(high, value + half), high)
+        alive &= low <= high
+        out = np.where(alive, value, out)
+    return out
+
+
+def _polynomial(x: Array, window: int, rho: float) -> tuple[Array, float]:
+    """Return local polynomial values (fourth order) and their standard deviation for noise of unit variance."""
+    if window == 1:
+        return x, 1.0
+    c = savgol_coeffs(window, _ORDER)
+    half = window // 2
+    padded = np.concatenate([2.0 * x[0] - x[half:0:-1], x, 2.0 * x[-1] - x[-2 : -half - 2 : -1]])
+    value = np.convolve(padded, c[::-1], mode="valid")
+    lag = np.abs(np.subtract.outer(np.arange(window), np.arange(window)))
+    spread = float(np.sqrt(max(c @ (rho**lag) @ c, 1e-12)))
+    return value, spread
+
+
+def _colour(x: Array, start: Array) -> float:
+    """Correlation of neighbours, from second differences at lags 1 and 2."""
+    piece = np.cumsum(start)
+    sizes = []
+    for lag in (1, 2):
+        d = x[: -2 * lag] - 2.0 * x[lag:-lag] + x[2 * lag :]
+        ok = piece[2 * lag :] == piece[: -2 * lag]
+        sizes.append(_quiet(np.abs(d[ok])) ** 2 if ok.any() else 0.0)
+    return correlation_from_ratio(sizes[1] / sizes[0]) if sizes[0] > 0.0 else 0.0
