@@ -82,7 +82,7 @@ def test_a_decimal_comma_is_named():
         (tir_text(more="[SCALING_COEFFICIENTS]\nLMUY = 0"), "LMUY", 27),
         (tir_text(units="LENGTH = 'furlong'"), "LENGTH", 4),
         (tir_text(units="FORCE = 4.448"), "FORCE", 4),
-        (tir_text(units="LENGTH = km", more="[DIMENSION]\nWIDTH = 1e307"), "WIDTH", None),
+        (tir_text(units="FORCE = kN", more="[X]\nFNOMIN = 1e307"), "FNOMIN", None),
     ],
 )
 def test_values_that_make_no_sense(text: str, key: str, line: int | None):

@@ -71,6 +71,7 @@ def test_contradicting_labels_are_reported():
     tire = read(tir_text(model="PROPERTY_FILE_FORMAT = 'PAC2002'\nFITTYP = 61"))
     assert tire.version == "PAC2002"
     assert "FITTYP says 6.1, which contradicts PAC2002" in tire.metadata["warnings"]
+    assert read(tir_text(model="FITTYP = 61")).metadata["warnings"] == ()
     tire = read(tir_text(more="PKY4 = 1.9"))
     assert "read as 5.2, but the file has keys that only 6.1 has" in tire.metadata["warnings"]
 
@@ -302,6 +303,8 @@ def test_missing_units_are_reported():
         ),
         ("[SLIP_ANGLE_RANGE]\nALPMAX = -1\nALPMIN = 1", "", "ALPMIN is larger than ALPMAX"),
         ("[DIMENSION]\nRIM_RADIUS = 0.4", "", "RIM_RADIUS is not smaller than UNLOADED_RADIUS"),
+        ("[DIMENSION]\nWIDTH = wide", "", "WIDTH = 'wide' is not a number (line 20)"),
+        ("[DIMENSION]\nWIDTH = 1e999", "", "WIDTH = '1e999' is out of range (line 20)"),
         ("[X]\nthis is no line of a tir file", "", "1 lines are nothing known"),
     ],
 )

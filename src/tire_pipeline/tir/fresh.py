@@ -9,7 +9,7 @@ from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula.coefficients import check_values
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.tir.escaping import comment_lines, quoted
-from tire_pipeline.tir.keys import NEVER_COEFFICIENTS, names_coefficient, section_name
+from tire_pipeline.tir.keys import DIMENSION, NEVER_COEFFICIENTS, names_coefficient, section_name
 from tire_pipeline.tir.layout import LAYOUT, describe, home_section
 from tire_pipeline.tir.values import format_number
 from tire_pipeline.tir.version import VERSION_FITTYP
@@ -66,6 +66,8 @@ def metadata_entries(metadata: Mapping[str, object]) -> dict[tuple[str, str], st
         if match is None or not isinstance(value, str | int | float):
             continue
         section = section_name(match[1])
+        if isinstance(value, str) and match[2] in DIMENSION:
+            continue
         if section not in NEVER_COEFFICIENTS and not names_coefficient(section, match[2]):
             found[section, match[2]] = value
     return found

@@ -166,14 +166,19 @@ def _read_entries(scan: Scan, file: TirFile, reading: Reading) -> None:
         factor = factors[dimension] if dimension else 1.0
         number = parse_number(text)
         if number is None:
-            if section in FORCE_SECTIONS or dimension:
+            if is_coefficient and (section in FORCE_SECTIONS or dimension):
                 raise _not_a_number(entry, file)
+            if dimension:
+                reading.warnings.append(f"{key} = {text[:40]!r} is not a number (line {entry.line})")
             metadata[f"{section}.{key}"] = text
             origin[f"{section}.{key}"] = (entry, 1.0)
             continue
         value = number if factor == 1.0 else number * factor
         if not math.isfinite(value):
-            raise _not_a_number(entry, file)
+            if is_coefficient:
+                raise _not_a_number(entry, file)
+            reading.warnings.append(f"{key} = {text[:40]!r} is out of range (line {entry.line})")
+            continue
         if name in origin and not _replaces(entry, origin[name], value, name, reading):
             continue
         if is_coefficient:

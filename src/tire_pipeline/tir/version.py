@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Collection
 
 from tire_pipeline.errors import TirVersionError
-from tire_pipeline.magic_formula.coefficients import family_of
-from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.tir.values import parse_number
 
 FITTYP_VERSIONS = {
@@ -145,7 +142,7 @@ def detect_version(
     if by_format == "PAC2002":
         version = by_format
     else:
-        version = by_fittyp or by_format or by_comment or by_keys
+        version = by_fittyp or by_format or by_comment or by_keys or "5.2"
     if version == "5.0" and by_comment == "5.1":
         version = by_comment
     if by_fittyp is None and by_format is None:
@@ -160,28 +157,9 @@ def detect_version(
     ):
         if other is not None and not _alike(other, version):
             warnings.append(f"{name} says {other}, which contradicts {version}")
-    if _family(by_keys) != _family(version):
+    if by_keys is not None and _family(by_keys) != _family(version):
         warnings.append(f"read as {version}, but the file has keys that only {by_keys} has")
     return version, warnings
-
-
-def as_version(model: TireModel, version: str) -> TireModel:
-    """Return the model as another version of the same family of equations, or converted by ``magic_formula``.
-
-    Raises
-    ------
-    TirVersionError
-        The version is not known, or there is no way from the model's version to it.
-    """
-    if version == model.version:
-        return model
-    if family_of(version) == model.family:
-        return dataclasses.replace(model, version=version)
-    raise TirVersionError(
-        f"a model of version {model.version} cannot be written as {version}",
-        path=model.path,
-        todo=f"write it as {model.version}",
-    )
 
 
 def _from_fittyp(fittyp: str, path: str | None, line: int | None) -> str:
@@ -233,12 +211,12 @@ def _from_comment(text: str | None) -> str | None:
     return None
 
 
-def _from_keys(keys: Collection[str]) -> str:
+def _from_keys(keys: Collection[str]) -> str | None:
     if not _ONLY_PAC2002.isdisjoint(keys):
         return "PAC2002"
     if not _ONLY_62.isdisjoint(keys):
         return "6.2"
-    return "5.2" if _ONLY_6.isdisjoint(keys) else "6.1"
+    return None if _ONLY_6.isdisjoint(keys) else "6.1"
 
 
 def _family(version: str) -> int:

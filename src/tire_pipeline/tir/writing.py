@@ -7,13 +7,13 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from tire_pipeline.errors import TirError
+from tire_pipeline.magic_formula.convert import to_version
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.tir.atomic import write_bytes
 from tire_pipeline.tir.document import TirFile
 from tire_pipeline.tir.edits import edited_source
 from tire_pipeline.tir.fresh import fresh_text
 from tire_pipeline.tir.sidecar import sidecar_path, write_sidecar
-from tire_pipeline.tir.version import as_version
 
 
 def write_tir(
@@ -39,7 +39,7 @@ def write_tir(
     comments : str or sequence of str, optional
         Comment lines to add at the top. Control characters, brackets and ``$`` in them are replaced.
     version : str, optional
-        Write it as another version.
+        Write it as another version (:func:`tire_pipeline.magic_formula.convert.to_version`).
     overwrite : bool
         Replace a file that is there, be it the model's own source.
     complete : bool, optional
@@ -62,7 +62,7 @@ def write_tir(
     """
     target = Path(path)
     if version is not None:
-        model = as_version(model, version)
+        model = to_version(model, version)
     sidecar = model.metadata.get("sidecar")
     beside = sidecar_path(target)
     if beside.exists() and not overwrite:

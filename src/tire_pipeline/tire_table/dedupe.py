@@ -62,7 +62,7 @@ def dedupe_and_filter(
     _mark_empty(table, list(features), reason, detail)
     _mark_small(table, minimum_per_category, reason, detail)
     dropped = reason != ""
-    report = table.loc[dropped, ["file", "category"]].assign(reason=reason, detail=detail)
+    report = table.loc[dropped, ["file", "category"]].assign(reason=reason[dropped], detail=detail[dropped])
     return table[~dropped].reset_index(drop=True), report.reset_index(drop=True)
 
 

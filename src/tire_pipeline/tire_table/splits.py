@@ -7,7 +7,6 @@ import warnings
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
-from sklearn.model_selection import StratifiedGroupKFold, StratifiedShuffleSplit
 
 from tire_pipeline.errors import DomainError
 
@@ -36,6 +35,8 @@ def random_split(categories: npt.ArrayLike, *, seed: int, test_share: float = 0.
     DomainError
         A category has a single row, or a side would have fewer rows than there are categories.
     """
+    from sklearn.model_selection import StratifiedShuffleSplit  # slow to import
+
     labels = np.asarray(categories)
     split = StratifiedShuffleSplit(n_splits=1, test_size=test_share, random_state=seed)
     try:
@@ -72,6 +73,8 @@ def split_by_tire(
     DomainError
         There are fewer tires than parts (1 / ``test_share``).
     """
+    from sklearn.model_selection import StratifiedGroupKFold  # slow to import
+
     labels, groups = np.asarray(categories), np.asarray(tires)
     parts = round(1.0 / test_share)
     count = len(np.unique(groups))
