@@ -263,21 +263,27 @@ def function_source(name: str, output: Symbol) -> tuple[str, list[str]]:
 
 def kernel_source(name: str, count: int) -> str:
     """Return the source of the loop over points that stores the columns asked for."""
-    stores = "\n".join(f"            w[{k} * BLOCK + i] = g[{k}]" for k in range(count))
+    inputs = ("alpha", "kappa", "gamma", "fz", "speed", "dpi")
+    takes = "\n".join(f"            w[{k} * BLOCK + i] = {x}[start + i]" for k, x in enumerate(inputs))
+    point = ", ".join(f"w[{k} * BLOCK + i]" for k in range(len(inputs)))
+    stores = "\n".join(f"            w[{k + len(inputs)} * BLOCK + i] = g[{k}]" for k in range(count))
     return f'''
 def loop_{name}(c, alpha, kappa, gamma, fz, speed, dpi, rows, out):
     """Store the gradient of {name}; ``rows`` has the row of ``out`` for each coefficient, or -1."""
     p = unpack(c)
-    w = np.empty({count} * BLOCK)
+    w = np.empty({count + len(inputs)} * BLOCK)
     for start in range(0, out.shape[1], BLOCK):
         m = min(BLOCK, out.shape[1] - start)
         for i in range(m):
-            j = start + i
-            g = {name}(p, alpha[j], kappa[j], gamma[j], fz[j], speed[j], dpi[j])
+{takes}
+        for i in range(m):
+            g = {name}(p, {point})
 {stores}
         for k in range({count}):
-            if rows[k] >= 0:
-                out[rows[k], start : start + m] = w[k * BLOCK : k * BLOCK + m]
+            row = rows[k]
+            if row >= 0:
+                for i in range(m):
+                    out[row, start + i] = w[(k + {len(inputs)}) * BLOCK + i]
 '''
 
 

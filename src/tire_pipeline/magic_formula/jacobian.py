@@ -62,8 +62,8 @@ def jacobian(
 
     Notes
     -----
-    Analytic: the equations are differentiated backwards once (:mod:`.derive`). At a kink (a bound, a magnitude,
-    a sign) it is the derivative of one side.
+    Analytic: the equations are differentiated backwards once (:mod:`.derive`). At a kink (a bound, a
+    magnitude, a sign) it is the derivative of one side.
     """
     given = (slip_angle, slip_ratio, camber, normal_load)
     given += (model.value("LONGVL") if speed is None else speed,)
