@@ -165,3 +165,17 @@ def test_camber_alone_pushes_and_longer_contact_is_stiffer():
     only_length = replace(constants, pressure_stiffness=0.0)
     forces = [rolled(only_length, t, E_PRESSURE=1.0)[0, 1] for t in (soft, hard)]
     assert forces[0] > 1.05 * forces[1]
+
+
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("spring", [0.05, 0.3, 1.5])
+def test_a_braked_sliding_tire_on_springs_does_not_chatter(seed, spring):
+    """It once jumped between two states when all bristles slid: the springs saw no stiffness."""
+    constants = tire(seed)
+    ramp = -0.2 * np.sin(np.pi * np.arange(500) / 500)
+    table = rows(constants, 500, ALPHA=0.05, KAPPA=ramp)
+    steady = rolled(constants, table)[50:, :2]
+    rolling = rolled(constants, table, E_RELAXATION=spring)[50:, :2]
+    assert np.abs(rolling - steady).max() < 0.06 * np.abs(steady).max()
+    # no jumping back and forth from sample to sample
+    assert np.abs(np.diff(rolling, n=2, axis=0)).max() < 0.02 * np.abs(steady).max()

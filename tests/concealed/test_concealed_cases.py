@@ -294,3 +294,19 @@ def test_answers_survive_sealing_and_a_changed_one_is_noticed(made):
     json.loads(data)
     with pytest.raises(DomainError, match="SHA-256"):
         unseal(data.replace(b"nothing", b"single!"), sha256)
+
+
+def test_the_rig_never_jumps_the_slip_angle():
+    rng = np.random.default_rng(2)
+    for seed in range(10):
+        plan = draw_plan(
+            np.random.default_rng(seed),
+            ("combined_slip", "relaxation_length"),
+            ambiguous=None,
+            nominal_load=4000.0,
+            speed=16.0,
+            pressure=2.2e5,
+        )
+        for held_out in (False, True):
+            frame, _ = make_schedule(plan, rng, rate=50.0, held_out=held_out)
+            assert np.abs(np.diff(frame["slip_angle"])).max() / 0.02 < 0.8

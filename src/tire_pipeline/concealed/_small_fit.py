@@ -83,6 +83,6 @@ def small_fit(
             return np.concatenate(pair)
 
         start = [p.get(n, _START[n]) for n in names]
-        result = least_squares(residual, start, x_scale=np.maximum(np.abs(start), 0.3))
+        result = least_squares(residual, start, x_scale=np.maximum(np.abs(start), 0.3), max_nfev=30)
         p.update(dict(zip(names, map(float, result.x), strict=True)))
     return {**_START, **p}

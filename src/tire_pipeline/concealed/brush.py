@@ -121,19 +121,26 @@ def _contact(c, e, fz, speed, pressure, temperature, wear, memory, rates, time):
 
 @njit(cache=True)
 def _hold(tx, ty, limit_x, limit_y, coupling):
-    """Bristle shear held within the friction limit; returns it and whether it slides."""
+    """Bristle shear held within the friction limit, whether it slides, and what of its stiffness
+    is left along x and y: a bristle that slides forwards still resists a push sideways only by
+    the turn of its friction force."""
     rx = tx / limit_x
     ry = ty / limit_y
     nx = rx * rx + coupling * ry * ry
     ny = coupling * rx * rx + ry * ry
     slides = False
+    left_x = left_y = 1.0
     if nx > 1.0:
-        tx /= math.sqrt(nx)
+        root = math.sqrt(nx)
+        tx /= root
+        left_x = coupling * ry * ry / (nx * root)
         slides = True
     if ny > 1.0:
-        ty /= math.sqrt(ny)
+        root = math.sqrt(ny)
+        ty /= root
+        left_y = coupling * rx * rx / (ny * root)
         slides = True
-    return tx, ty, slides
+    return tx, ty, slides, left_x, left_y
 
 
 @njit(cache=True)
@@ -178,7 +185,7 @@ def _march(c, e, fz, contact, sx, sy, spin, speed, profile):
         ux += sx * way
         uy += (sy + spin * xi * a) * way
         grip = (mu_slide if sliding else mu) * q0 * profile[j]
-        tx, ty, sliding = _hold(kx * ux, ky * uy, grip * c[MU_RATIO_X], grip, coupling)
+        tx, ty, sliding, _, _ = _hold(kx * ux, ky * uy, grip * c[MU_RATIO_X], grip, coupling)
         ux = tx / kx
         uy = ty / ky
         fx += tx * dx
@@ -267,7 +274,7 @@ def _step(c, e, load, contact, slips, twist, speed, profile, u, slides, carcass)
     mu_slide = mu * (1.0 - c[SLIDE_DROP] * (1.0 - math.exp(-slip / c[SLIDE_SLIP])))
     q0 = load / (2.0 * a)
     fx = fy = mz = 0.0
-    stuck = 0
+    stiff_x = stiff_y = 0.0
     for j in range(n - 1, -1, -1):
         xi = 1.0 - (2.0 * j + 1.0) / n
         ux = u[j - 1, 0] if j > 0 else 0.0
@@ -277,18 +284,19 @@ def _step(c, e, load, contact, slips, twist, speed, profile, u, slides, carcass)
         ux += part * (sx * dx - carcass[2])
         uy += part * ((sy - twist + spin * xi * a) * dx - carcass[3])
         grip = (mu_slide if slid else mu) * q0 * profile[j]
-        tx, ty, slid = _hold(kx * ux, ky * uy, grip * c[MU_RATIO_X], grip, coupling)
+        tx, ty, slid, left_x, left_y = _hold(kx * ux, ky * uy, grip * c[MU_RATIO_X], grip, coupling)
         u[j, 0] = tx / kx
         u[j, 1] = ty / ky
         slides[j] = slid
-        stuck += 0 if slid else 1
+        stiff_x += kx * dx * left_x
+        stiff_y += ky * dx * left_y
         fx += tx * dx
         fy += ty * dx
         mz += ty * xi * a * dx
     spring_x = c[CARCASS_X] / e[E_RELAXATION]
     spring_y = c[CARCASS_Y] / e[E_RELAXATION]
-    carcass[2] = (fx - spring_x * carcass[0]) / (spring_x + kx * dx * stuck)
-    carcass[3] = (fy - spring_y * carcass[1]) / (spring_y + ky * dx * stuck)
+    carcass[2] = (fx - spring_x * carcass[0]) / (spring_x + stiff_x)
+    carcass[3] = (fy - spring_y * carcass[1]) / (spring_y + stiff_y)
     carcass[0] += carcass[2]
     carcass[1] += carcass[3]
     return fx, fy, mz

@@ -120,7 +120,7 @@ def draw_constants(rng: np.random.Generator) -> TireConstants:
         wear_stiffness=float(rng.uniform(0.2, 1.2)),
         pressure_length=float(rng.uniform(0.5, 1.0)),
         pressure_stiffness=float(rng.uniform(0.0, 0.5)),
-        plysteer=float(rng.choice([-1.0, 1.0])) * float(rng.uniform(0.0, 0.003)),
+        plysteer=float(rng.choice([-1.0, 1.0])) * float(rng.uniform(0.0, 0.001)),
         conicity=float(rng.choice([-1.0, 1.0])) * float(rng.uniform(0.02, 0.05)),
         runout_angle=float(rng.uniform(0.005, 0.01)),
         runout_load=float(rng.uniform(0.0, 0.05)),

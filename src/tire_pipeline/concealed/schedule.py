@@ -245,9 +245,14 @@ def _brake(rig: _Rig, rng: np.random.Generator, angles: tuple[float, ...]) -> No
     seconds = float(rng.uniform(4.0, 7.0))
     t = np.arange(round(seconds / rig.dt)) * rig.dt / seconds
     ramp = -depth * (4.0 * np.abs(((t - 0.25) % 1.0) - 0.5) - 1.0)
+    edge = np.linspace(0.0, 1.0, round(1.0 / rig.dt))
     for angle in angles:
-        for load in pair:
-            rig.run("brake", seconds, slip_ratio=ramp, slip_angle=angle, normal_load=load)
+        for place, load in enumerate(pair):
+            into = edge if place == 0 and angle else edge[:0]
+            out = edge[::-1] if place == len(pair) - 1 and angle else edge[:0]
+            steer = angle * np.concatenate([into, np.ones(len(ramp)), out])
+            slip = np.concatenate([0.0 * into, ramp, 0.0 * out])
+            rig.run("brake", len(slip) * rig.dt, slip_ratio=slip, slip_angle=steer, normal_load=load)
 
 
 def _turn(rig: _Rig, rng: np.random.Generator, curvatures: tuple[float, ...]) -> None:
