@@ -176,6 +176,10 @@ def test_a_braked_sliding_tire_on_springs_does_not_chatter(seed, spring):
     table = rows(constants, 500, ALPHA=0.05, KAPPA=ramp)
     steady = rolled(constants, table)[50:, :2]
     rolling = rolled(constants, table, E_RELAXATION=spring)[50:, :2]
-    assert np.abs(rolling - steady).max() < 0.06 * np.abs(steady).max()
+    # no further from the steady tire than the distance that the springs take to stretch
+    slope = rolled(constants, rows(constants, 1, KAPPA=-1e-3))[0, 0] / -1e-3
+    seconds = (spring * slope / constants.carcass_x + 0.2) / constants.nominal_speed
+    lag = seconds * np.abs(np.diff(steady, axis=0)).max() / DT
+    assert np.abs(rolling - steady).max() < lag + 0.02 * np.abs(steady).max()
     # no jumping back and forth from sample to sample
     assert np.abs(np.diff(rolling, n=2, axis=0)).max() < 0.02 * np.abs(steady).max()
