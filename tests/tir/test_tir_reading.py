@@ -172,6 +172,11 @@ def test_section_aliases(section: str, standard: str):
     assert parse_tir(f"[{section}] $ x\nA = 1".encode()).sections == [standard]
 
 
+def test_section_names_hold_nothing_that_does_not_print():
+    file = parse_tir(("$ comment\n" * 20 + "[C\x1bD\u202e]\nX = 1").encode())
+    assert file.sections == ["C?D?"]
+
+
 def test_key_aliases_give_way_to_the_standard_key():
     more = "[TIRE_CONDITIONS]\nIP = 250000\nIP_NOM = 220000"
     got = read(tir_text(model="FITTYP = 61", more=more)).coefficients

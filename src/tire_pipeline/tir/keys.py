@@ -131,7 +131,7 @@ def names_coefficient(section: str, key: str) -> bool:
 
 
 def section_name(raw: str) -> str:
-    """Return a section's standard name: capitals, underscores, aliases resolved.
+    """Return a section's standard name: capitals, underscores, aliases resolved, nothing that does not print.
 
     Examples
     --------
@@ -139,4 +139,6 @@ def section_name(raw: str) -> str:
     'TURNSLIP_COEFFICIENTS'
     """
     name = "_".join(raw.upper().split())
+    if not name.isprintable():
+        name = "".join(each if each.isprintable() else "?" for each in name)
     return SECTION_ALIASES.get(name, name)
