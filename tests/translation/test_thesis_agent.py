@@ -157,6 +157,29 @@ def test_flat_adam_is_torchs_adam():
     torch.testing.assert_close(made[0], made[1], rtol=1e-4, atol=1e-5)
 
 
+@pytest.mark.parametrize("entropy_weight", [0.0, 0.05])
+def test_compiled_update_is_that_of_stable_baselines3(binned, forest, entropy_weight):
+    from stable_baselines3 import PPO
+
+    from tire_pipeline.translation.thesis.bin_policy import BinPolicy
+    from tire_pipeline.translation.thesis.compiled_update import CompiledPPO
+    from tire_pipeline.translation.thesis.flat_adam import FlatAdam
+
+    rules = Rules(11, 10, target=2)
+    trained, start = [], None
+    for cls in (CompiledPPO, PPO):
+        optimizer = {"optimizer_class": FlatAdam} if cls is CompiledPPO else {}
+        env = BatchEnv(binned, forest, rules, n_envs=4, seed=0)
+        options = {"n_steps": 90, "ent_coef": entropy_weight, "seed": 3, "learning_rate": 3e-3}
+        model = cls(BinPolicy, env, policy_kwargs=optimizer, **options)
+        start = model.policy.weights.detach().clone()
+        # one roll-out of 360 rows: ten epochs of five full minibatches and one of 40
+        model.learn(360)
+        trained.append(model.policy.weights.detach())
+    assert (trained[1] - start).abs().max() > 0.05
+    torch.testing.assert_close(trained[0], trained[1], rtol=0, atol=2e-4)
+
+
 def test_bin_policy_draws_actions_as_often_as_they_are_probable(binned, forest):
     rules = Rules(11, 10, target=2)
     model = make_model(BatchEnv(binned, forest, rules, n_envs=4, seed=0), algorithm="A2C", seed=3)

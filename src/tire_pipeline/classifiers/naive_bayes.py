@@ -1,4 +1,9 @@
-"""Gaussian naive Bayes with an uninformative prior (thesis, 4.4.1)."""
+"""Gaussian naive Bayes (thesis, 4.4.1).
+
+The thesis says "an uninformative prior was used". That SMOTE lowers its accuracy from 0.801 to 0.765
+(Table 5.6) tells that it means scikit-learn's default, no prior given: the classes' shares of the training
+rows, which SMOTE makes equal. With equal priors given, SMOTE would change next to nothing.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +18,7 @@ _ARRAYS = ("theta_", "var_", "class_prior_")
 
 
 class NaiveBayes:
-    """scikit-learn's GaussianNB; every class has the same prior probability.
+    """scikit-learn's GaussianNB, with its default priors.
 
     Parameters
     ----------
@@ -32,9 +37,8 @@ class NaiveBayes:
         """Estimate mean and variance of every feature in every class."""
         from sklearn.naive_bayes import GaussianNB
 
-        n_classes = len(np.unique(labels))
-        bayes = GaussianNB(priors=np.full(n_classes, 1 / n_classes))
-        pipeline = with_smote(bayes, labels, smote=self.smote, seed=seed).fit(features, labels)
+        pipeline = with_smote(GaussianNB(), labels, smote=self.smote, seed=seed)
+        pipeline.fit(features, labels)
         self._fitted = pipeline.named_steps["estimator"]
         self.classes_ = np.asarray(self._fitted.classes_).astype(str)
         return self

@@ -40,11 +40,11 @@ class BinPolicy(ActorCriticPolicy):
         super()._build(lr_schedule)
         self.optimizer_class, self.optimizer_kwargs = wanted, options
         space: Any = self.observation_space
-        self._n_bins = int(space.nvec[0])
-        self._n_actions = int(self.action_space.n)  # type: ignore[attr-defined]
+        self.n_bins = int(space.nvec[0])
+        self.n_actions = int(self.action_space.n)  # type: ignore[attr-defined]
         self._shapes = [
-            *net_shapes(len(space.nvec), self._n_bins, self._n_actions),
-            *net_shapes(len(space.nvec), self._n_bins, 1),
+            *net_shapes(len(space.nvec), self.n_bins, self.n_actions),
+            *net_shapes(len(space.nvec), self.n_bins, 1),
         ]
         own = dict(self.named_parameters())
         parts = [own[name].detach().t().reshape(-1) for name in _NAMES]
@@ -96,12 +96,12 @@ class BinPolicy(ActorCriticPolicy):
         """Log probabilities, probabilities, values (m, 1) and hidden layers (4, m, 64)."""
         states = obs.numpy()
         m = len(states)
-        logs = np.empty((m, self._n_actions), dtype=np.float32)
+        logs = np.empty((m, self.n_actions), dtype=np.float32)
         shares = np.empty_like(logs)
         values = np.empty((m, 1), dtype=np.float32)
         hidden = np.empty((4, m, HIDDEN), dtype=np.float32)
         flat = self.weights.detach().numpy()
-        nets_forward(flat, states, self._n_bins, hidden, logs, shares, values)
+        nets_forward(flat, states, self.n_bins, hidden, logs, shares, values)
         return logs, shares, values, hidden
 
 
@@ -126,7 +126,7 @@ class _Evaluate(torch.autograd.Function):
         flat = policy.weights.detach().numpy()
         gradient = np.zeros_like(flat)
         nets_backward(
-            flat, states, policy._n_bins, hidden, logs, shares, numbers, entropy,
+            flat, states, policy.n_bins, hidden, logs, shares, numbers, entropy,
             d_value, d_log, d_entropy, gradient,
         )  # fmt: skip
         return torch.from_numpy(gradient), None, None, None

@@ -33,10 +33,10 @@ class FlatAdam(torch.optim.Optimizer):
     ) -> None:
         super().__init__(params, {"lr": lr, "betas": betas, "eps": eps})
         (self._only,) = self.param_groups[0]["params"]
-        self._values = self._only.detach().numpy()
-        self._first = np.zeros_like(self._values)
-        self._second = np.zeros_like(self._values)
-        self._taken = 0
+        self.values = self._only.detach().numpy()
+        self.first = np.zeros_like(self.values)
+        self.second = np.zeros_like(self.values)
+        self.taken = 0
 
     def zero_grad(self, set_to_none: bool = True) -> None:
         """Forget the gradient."""
@@ -44,15 +44,15 @@ class FlatAdam(torch.optim.Optimizer):
 
     def step(self, closure: Callable[[], float] | None = None) -> Any:  # type: ignore[override]
         """Take one step along the gradient."""
-        self._taken += 1
+        self.taken += 1
         group = self.param_groups[0]
         adam(
-            self._values,
+            self.values,
             self._only.grad.numpy(),
-            self._first,
-            self._second,
+            self.first,
+            self.second,
             group["lr"],
             *group["betas"],
             group["eps"],
-            self._taken,
+            self.taken,
         )

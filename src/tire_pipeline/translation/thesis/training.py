@@ -82,16 +82,19 @@ def make_model(env: object, *, algorithm: str, seed: int, n_steps: int = N_STEPS
     import stable_baselines3
 
     from tire_pipeline.translation.thesis.bin_policy import BinPolicy
+    from tire_pipeline.translation.thesis.compiled_update import CompiledPPO
     from tire_pipeline.translation.thesis.flat_adam import FlatAdam
 
     if algorithm not in ALGORITHMS:
         raise DomainError(
             f"there is no algorithm {algorithm!r}", todo=f"choose one of {', '.join(ALGORITHMS)}"
         )
+    cls: object = stable_baselines3.A2C
     options: dict[str, object] = {}
     if algorithm == "PPO":  # the same Adam; eps is stable-baselines3's default
         options["policy_kwargs"] = {"optimizer_class": FlatAdam, "optimizer_kwargs": {"eps": 1e-5}}
-    made: object = getattr(stable_baselines3, algorithm)(
+        cls = CompiledPPO
+    made: object = cls(  # type: ignore[operator]
         BinPolicy, env, n_steps=n_steps, seed=seed, device="cpu", verbose=0, **options
     )
     return made

@@ -23,6 +23,7 @@ from tire_pipeline.translation.thesis.policy import GreedyPolicy
 from tire_pipeline.translation.thesis.real_states import real_states
 from tire_pipeline.translation.thesis.roll_out import RollOut, roll_out
 from tire_pipeline.translation.thesis.rules import MAX_STEPS, PATIENCE, Rules
+from tire_pipeline.translation.thesis.training import N_ENVS, N_STEPS, train_agent
 
 
 class AgentTranslator:
@@ -39,6 +40,10 @@ class AgentTranslator:
         Training steps; see ``training.TOTAL_STEPS``.
     representation_options : mapping, optional
         For the constructor of a representation given by name.
+    bins : Binning, optional
+        Fitted on features of the same representation; instead of ``n_bins`` of equal width.
+    n_steps, n_envs : int
+        Steps of each environment between two updates, and environments.
     smote : bool
         For the forest.
     patience, max_steps : int
@@ -61,14 +66,20 @@ class AgentTranslator:
         total_steps: int | None = None,
         *,
         representation_options: Mapping[str, Any] | None = None,
+        bins: Binning | None = None,
+        n_steps: int = N_STEPS,
+        n_envs: int = N_ENVS,
         smote: bool = True,
         patience: int = PATIENCE,
         max_steps: int = MAX_STEPS,
     ) -> None:
         self.algorithm = algorithm
         self.reward = reward
-        self.n_bins = n_bins
+        self.n_bins = n_bins if bins is None else bins.n_bins
+        self._bins = bins
         self.total_steps = total_steps
+        self.n_steps = n_steps
+        self.n_envs = n_envs
         self.smote = smote
         self.patience = patience
         self.max_steps = max_steps
@@ -86,7 +97,6 @@ class AgentTranslator:
         target: str,
         seed: int,
         classifier: RandomForest | None = None,
-        bins: Binning | None = None,
     ) -> Self:
         """Fit the representation, the bins, the forest and the agent.
 
@@ -98,16 +108,13 @@ class AgentTranslator:
         seed : int
         classifier : RandomForest, optional
             Trained on the bins of the same representation; trained here if not given.
-        bins : Binning, optional
-            Of the same representation; fitted here, with equal width, if not given.
         """
-        from tire_pipeline.translation.thesis.training import train_agent
-
         check_target(training, target)
         representation = self._given or make_representation(self._wanted, **self._options)
         if self._given is None:
             representation.fit(training, seed=seed)
         features = representation.encode(training)
+        bins = self._bins
         if bins is None:
             bins = Binning.fit(features, self.n_bins, names=representation.feature_names)
         starts = bins.transform(features)
@@ -136,6 +143,8 @@ class AgentTranslator:
             algorithm=self.algorithm,
             total_steps=self.total_steps,
             seed=seed,
+            n_steps=self.n_steps,
+            n_envs=self.n_envs,
         )
         self._parts = (representation, bins, classifier.forest, rules)
         self.policy, self.learning_curve = agent.policy, agent.learning_curve
@@ -187,7 +196,7 @@ class AgentTranslator:
             algorithm=str(state["algorithm"]),
             reward=str(state["reward"]),
             representation=representation,
-            n_bins=bins.n_bins,
+            bins=bins,
             patience=rules.patience,
             max_steps=rules.max_steps,
         )
