@@ -13,6 +13,7 @@ from typing import Any
 from kedro.framework.hooks import hook_impl
 from kedro.io.core import AbstractVersionedDataset
 
+from tire_pipeline.datasets.text_folder import TextFolderDataset
 from tire_pipeline.errors import DomainError
 
 LOG = logging.getLogger(__name__)
@@ -124,6 +125,14 @@ class FolderHooks:
                 where=str(data),
                 todo="make it writable, or set `data` in conf/local/globals.yml",
             ) from error
+
+    @hook_impl
+    def before_pipeline_run(self, pipeline: Any, catalog: Any) -> None:
+        """Refuse to write into folders of the user before anything is written at all."""
+        for name in sorted(pipeline.all_outputs()):
+            dataset = catalog.get(name) if name in catalog else None
+            if isinstance(dataset, TextFolderDataset):
+                dataset.check()
 
     @hook_impl
     def on_node_error(self, error: Exception, node: Any) -> None:

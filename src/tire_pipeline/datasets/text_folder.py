@@ -43,8 +43,8 @@ class TextFolderDataset(AbstractDataset[Mapping[str, str | bytes], dict[str, byt
         files = sorted(p for p in folder.rglob(f"*{self._suffix}") if p.is_file())
         return {str(p.relative_to(folder).as_posix()): p.read_bytes() for p in files if p.name != MARKER}
 
-    def save(self, data: Mapping[str, str | bytes]) -> None:
-        """Write all files, or none."""
+    def check(self) -> None:
+        """Refuse, before any work is done, a folder that belongs to the user."""
         folder = Path(self._path)
         if _belongs_to_user(folder):
             raise DomainError(
@@ -52,6 +52,11 @@ class TextFolderDataset(AbstractDataset[Mapping[str, str | bytes], dict[str, byt
                 where=str(folder),
                 todo="move them elsewhere (or set another folder); they are never overwritten",
             )
+
+    def save(self, data: Mapping[str, str | bytes]) -> None:
+        """Write all files, or none."""
+        self.check()
+        folder = Path(self._path)
         with replaced_folder(folder) as temporary:
             for name, text in track(data.items(), f"writing {folder.name}", total=len(data)):
                 target = temporary / _inside(name)

@@ -1,0 +1,62 @@
+"""Runs of the small environment, each in a data folder of its own."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+Run = Callable[..., subprocess.CompletedProcess[str]]
+
+
+def small_conf(folder: Path) -> Path:
+    """A copy of the configuration whose small environment keeps its data in ``folder``."""
+    conf = folder / "conf"
+    shutil.copytree(ROOT / "conf", conf)
+    data = folder / "data"
+    (conf / "small" / "globals.yml").write_text(f"data: {data}\ntir_folder: {data}/01_raw/tir\n")
+    return conf
+
+
+def kedro(folder: Path, *arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    """``kedro run --env small`` with the data in ``folder``, as a user would start it."""
+    conf = folder / "conf"
+    if not conf.exists():
+        small_conf(folder)
+    command = [sys.executable, "-m", "kedro", "run", "--env", "small", "--conf-source", str(conf)]
+    return subprocess.run(
+        [*command, *arguments],
+        cwd=ROOT,
+        env={**os.environ, "OMP_NUM_THREADS": "1", **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=600,
+    )
+
+
+@pytest.fixture(scope="session")
+def small_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of one whole small run: fleet, then the eight pipelines."""
+    folder = tmp_path_factory.mktemp("small_run")
+    made = kedro(folder, "--pipeline", "make_fleet")
+    assert made.returncode == 0, made.stdout + made.stderr
+    done = kedro(folder)
+    assert done.returncode == 0, done.stdout + done.stderr
+    (folder / "stdout.txt").write_text(done.stdout)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def small_fleet(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a small fleet, nothing run on it yet."""
+    folder = tmp_path_factory.mktemp("small_fleet")
+    made = kedro(folder, "--pipeline", "make_fleet")
+    assert made.returncode == 0, made.stdout + made.stderr
+    return folder

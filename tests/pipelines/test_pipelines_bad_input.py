@@ -1,0 +1,123 @@
+"""What can go wrong: one clear line, an exit code, and nothing that a later run would trust."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from conftest_kedro import ROOT, kedro, small_conf
+
+pytestmark = pytest.mark.slow
+INGEST = ("--pipelines", "ingest_tir,dedupe_filter")
+
+
+def _one_line(done: subprocess.CompletedProcess[str]) -> str:
+    assert done.returncode != 0, done.stdout
+    lines = [line for line in done.stderr.splitlines() if line.startswith("error: ")]
+    assert len(lines) == 1, done.stdout + done.stderr
+    assert "Traceback" not in done.stdout + done.stderr
+    return lines[0]
+
+
+def _folder(tmp_path: Path, fleet: Path, *categories: str) -> Path:
+    for name in categories:
+        shutil.copytree(fleet / "data/01_raw/tir" / name, tmp_path / "data/01_raw/tir" / name)
+    return tmp_path
+
+
+def _versions(folder: Path) -> list[Path]:
+    data = folder / "data"
+    return [p for p in data.rglob("*") if p.is_file() and "01_raw" not in p.parts]
+
+
+def test_an_empty_folder(tmp_path):
+    line = _one_line(kedro(tmp_path))
+    assert "there are no .tir files" in line
+    assert "make_fleet" in line
+    assert _versions(tmp_path) == []
+
+
+def test_one_category_only(tmp_path, small_fleet):
+    line = _one_line(kedro(_folder(tmp_path, small_fleet, "D"), *INGEST))
+    assert "two categories are needed" in line
+    assert "node 'keep_usable' failed" in line
+    assert _versions(tmp_path) == []
+
+
+def test_no_target_category(tmp_path, small_fleet):
+    line = _one_line(kedro(_folder(tmp_path, small_fleet, "A", "B"), *INGEST))
+    assert "'D' has no usable files" in line
+    assert "set target_category" in line
+
+
+def test_a_wrong_parameter_is_named_with_what_is_allowed(tmp_path):
+    line = _one_line(kedro(tmp_path, "--params", "bin.method=equal_with"))
+    assert "method" in line
+    assert "equal_width" in line
+    assert "equal_frequency" in line
+
+
+def test_a_misspelt_parameter_is_named(tmp_path):
+    assert "binz" in _one_line(kedro(tmp_path, "--params", "bin.binz=3"))
+
+
+def test_a_binary_file_is_set_aside_and_the_run_goes_on(tmp_path, small_fleet):
+    folder = _folder(tmp_path, small_fleet, "A", "B", "D", "E")
+    (folder / "data/01_raw/tir/A/bad.tir").write_bytes(bytes(range(256)) * 20)
+    done = kedro(folder, *INGEST)
+    assert done.returncode == 0, done.stdout + done.stderr
+    report = next((folder / "data/02_intermediate/ingest_report.csv").rglob("*.csv")).read_text()
+    assert [line for line in report.splitlines() if line.startswith("A/bad.tir,A,set aside")]
+
+
+def test_files_of_the_user_stay_as_they_are(tmp_path, small_fleet):
+    folder = _folder(tmp_path, small_fleet, "A", "D")
+    files = {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in folder.rglob("*.tir")}
+    kedro(folder, *INGEST)
+    refused = kedro(folder, "--pipeline", "make_fleet")
+    assert "never overwritten" in _one_line(refused)
+    assert {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in folder.rglob("*.tir")} == files
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="needs root to mount a small disk")
+def test_a_full_disk_leaves_nothing_behind(tmp_path, small_fleet):
+    small_conf(tmp_path)
+    folder = _folder(tmp_path, small_fleet, "A", "D")
+    disk = folder / "data" / "02_intermediate"
+    disk.mkdir()
+    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=48k", "tmpfs", disk], check=False)
+    if mounted.returncode != 0:
+        pytest.skip("no right to mount a small disk here")
+    try:
+        line = _one_line(kedro(folder, *INGEST))
+        assert "disk is full" in line
+        assert [p for p in disk.rglob("*") if p.is_file()] == []
+    finally:
+        subprocess.run(["umount", disk], check=True)
+
+
+def test_a_killed_run_is_taken_back_by_the_next(tmp_path, small_fleet):
+    conf = small_conf(tmp_path)
+    folder = _folder(tmp_path, small_fleet, "A", "B", "D", "E")
+    command = [sys.executable, "-m", "kedro", "run", "--env", "small", "--conf-source", str(conf)]
+    running = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    written = folder / "data" / "04_feature"
+    for _ in range(1200):
+        if list(written.rglob("features.parquet/*/*")):
+            break
+        time.sleep(0.05)
+    running.send_signal(signal.SIGKILL)
+    running.wait()
+    left = {p.parent.name for p in written.rglob("features.parquet") if p.is_file()}
+    assert len(left) == 1
+    done = kedro(folder, "--pipelines", "ingest_tir")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "was killed" in done.stdout
+    assert [p for p in _versions(folder) if left & set(p.parts)] == []
+    assert list((folder / "data/.runs").glob("*.json")) == []

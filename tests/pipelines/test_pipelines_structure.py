@@ -1,0 +1,84 @@
+"""What the registry, the catalog and the lineage graph promise."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from kedro.framework.project import pipelines
+from kedro.framework.session import KedroSession
+from kedro.framework.startup import bootstrap_project
+
+ROOT = Path(__file__).resolve().parents[2]
+EIGHT = [
+    "ingest_tir",
+    "dedupe_filter",
+    "normalize",
+    "represent",
+    "bin",
+    "train_classifier",
+    "train_agent",
+    "evaluate",
+]
+
+
+@pytest.fixture(scope="module")
+def catalog():
+    bootstrap_project(ROOT)
+    with KedroSession.create(project_path=ROOT) as session:
+        return session.load_context().catalog
+
+
+def _datasets(pipeline) -> set[str]:
+    return {
+        name
+        for name in pipeline.all_inputs() | pipeline.all_outputs()
+        if not name.startswith(("params:", "parameters"))
+    }
+
+
+def test_the_names_that_users_type_are_registered(catalog):
+    assert {*EIGHT, "make_fleet", "__default__"} <= set(pipelines)
+
+
+def test_the_default_is_the_eight(catalog):
+    default = {node.name for node in pipelines["__default__"].nodes}
+    assert default == {node.name for name in EIGHT for node in pipelines[name].nodes}
+
+
+def test_every_dataset_is_in_the_catalog_with_layer_and_description(catalog):
+    for name in sorted({d for p in pipelines.values() for d in _datasets(p)}):
+        assert name in catalog, name
+        metadata = catalog.get(name).metadata
+        assert metadata["kedro-viz"]["layer"][:2].isdigit(), name
+        assert len(metadata["description"]) > 15, name
+
+
+def test_everything_between_the_eight_is_versioned(catalog):
+    default = pipelines["__default__"]
+    between = _datasets(default) - default.inputs() - default.outputs()
+    for name in sorted(between):
+        assert catalog.get(name)._version is not None, name
+
+
+def test_only_the_judging_node_reads_the_truth(catalog):
+    readers = {
+        node.name
+        for pipeline in pipelines.values()
+        for node in pipeline.nodes
+        if {"evaluation_truth", "fleet_truth_files"} & set(node.inputs)
+    }
+    assert readers == {"judge"}
+
+
+def test_nothing_that_judging_makes_comes_back_into_what_is_judged(catalog):
+    default = pipelines["__default__"]
+    after = default.from_nodes("judge")
+    assert {node.name for node in after.nodes} == {"judge", "draw_force_curves", "build_report"}
+
+
+def test_the_data_may_not_hold_pickles(catalog):
+    for name in sorted({d for p in pipelines.values() for d in _datasets(p)}):
+        kind = f"{type(catalog.get(name)).__module__}.{type(catalog.get(name)).__name__}".lower()
+        assert "pickle" not in kind, name
+        assert "joblib" not in kind, name
