@@ -66,6 +66,7 @@ def make_fleet(settings: FleetSettings | None = None) -> Fleet:
         second=second,
         tires=plan.tires,
         files=origin,
+        evaluation=_evaluation_table(plan),
         regimes={name: asdict(regime) for name, regime in regimes_of(plan, settings).items()},
         settings=asdict(settings),
         curves={name: true_curves(plan.tires.loc[plan.tires["role"] == name]) for name in EVALUATION_SETS},
@@ -138,3 +139,12 @@ def _evaluation_files(
         if row.category != settings.target:
             inputs[path] = text
     return inputs, first, second
+
+
+def _evaluation_table(plan: Plan) -> pd.DataFrame:
+    """Which protocol each evaluation file was measured by."""
+    chosen = plan.measurements[plan.measurements["role"].isin(EVALUATION_SETS)]
+    table = chosen.rename(columns={"role": "set"})
+    table["file"] = table["set"] + "/" + table["category"] + "/" + table["tire"] + ".tir"
+    columns = ["file", "set", "category", "tire", "protocol", "repeat"]
+    return table[columns].reset_index(drop=True)

@@ -32,7 +32,7 @@ FEATURES: tuple[str, ...] = (
 )
 MISSING_FEATURES: tuple[str, ...] = ("PEY2", "PHY2", "PVY2", "PVY1", "PHY1", "PKY2")
 PRESSURES = (0.92, 0.96, 1.04, 1.08)
-WEARS = (0.2, 0.4, 0.6)
+WEARS = (0.15, 0.3, 0.45)
 EVALUATION_SETS: tuple[str, ...] = ("four", "tuning", "hidden")
 
 
@@ -161,9 +161,9 @@ def _variants(
             sort = rng.random()
             if sort < 0.35:
                 row["pressure"] = float(rng.choice(PRESSURES))
-            elif sort < 0.55:
+            elif sort < 0.5:
                 row["wear"] = float(rng.choice(WEARS))
-            elif sort < 0.75:
+            elif sort < 0.76:
                 row["same_data"] = first_of[tire]
                 row["weight_twist"] = float(rng.choice([-0.2, -0.1, 0.1, 0.2]))
                 row["weight_twist"] += float(rng.normal(0.0, 0.02))

@@ -27,6 +27,8 @@ class Truth:
     files : pandas.DataFrame
         For each training file: ``file``, ``file_role`` (kept, copy, missing, tiny), ``tire``,
         ``pressure``, ``wear``, ``protocol`` ...
+    evaluation : pandas.DataFrame
+        For each evaluation file: ``file``, ``set``, ``category``, ``tire``, ``protocol``, ``repeat``.
     regimes : dict
         Every regime in force, by ``category/protocol``.
     settings : dict
@@ -39,6 +41,7 @@ class Truth:
     second: dict[str, str]
     tires: pd.DataFrame
     files: pd.DataFrame
+    evaluation: pd.DataFrame
     regimes: dict[str, dict[str, float]]
     settings: dict[str, object]
     curves: dict[str, dict[str, np.ndarray]] = field(default_factory=dict)

@@ -89,6 +89,7 @@ def truth_files(fleet: Fleet) -> dict[str, bytes]:
     files |= _bytes({f"second/{path}": text for path, text in truth.second.items()})
     files["tires.parquet"] = _parquet(truth.tires.reset_index())
     files["files.parquet"] = _parquet(truth.files)
+    files["evaluation.parquet"] = _parquet(truth.evaluation)
     files["regimes.json"] = json.dumps(truth.regimes, indent=1, sort_keys=True).encode()
     files["settings.json"] = json.dumps(truth.settings, indent=1, sort_keys=True).encode()
     for name, curves in truth.curves.items():
