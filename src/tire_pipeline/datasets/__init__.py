@@ -1,6 +1,7 @@
-"""Kedro datasets: tire property files, folders of them, model states, pages."""
+"""Kedro datasets: tire property files and recordings, folders of them, model states, pages."""
 
 from tire_pipeline.datasets.html_page import HtmlPageDataset
+from tire_pipeline.datasets.recording_folder import RecordingFolderDataset
 from tire_pipeline.datasets.state import StateDataset
 from tire_pipeline.datasets.text_folder import TextFolderDataset
 from tire_pipeline.datasets.tir_file import TirDataset
@@ -8,6 +9,7 @@ from tire_pipeline.datasets.tir_folder import TirFolderDataset
 
 __all__ = [
     "HtmlPageDataset",
+    "RecordingFolderDataset",
     "StateDataset",
     "TextFolderDataset",
     "TirDataset",

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from joblib import Parallel, delayed
 from matplotlib.figure import Figure
 from pydantic import Field
 
@@ -15,7 +16,8 @@ from tire_pipeline.progress import track
 from tire_pipeline.reporting import new_figure
 
 SPLITS = ("random", "by_tire")
-NAMES = ("random_forest", "ann", "naive_bayes")
+NAMES = ("ann", "random_forest", "naive_bayes")
+PROCESSES = 2
 _NOT_FEATURES = ["file", "category", "tire_id"]
 
 
@@ -85,16 +87,19 @@ def score_classifiers(
     DataFrame
         ``features, classifier, split, smote, accuracy, accuracy_std, f1, f1_std, trainings``.
     """
-    seeds = range(seed, seed + parameters.trainings)
     values, labels = _arrays(features)
-    rows = []
-    for name, split in track([(n, s) for n in NAMES for s in SPLITS], "training classifiers"):
+    seeds = range(seed, seed + parameters.trainings)
+
+    def score(name: str, split: str) -> dict[str, Any]:
         train, test = split_rows(features, splits, split)
-        result = evaluate_classifier(
-            name, values, labels, train, test, seeds=seeds, **parameters.options(name)
-        )
-        rows.append(_score_row("as they are", name, split, parameters, result))
-    return pd.DataFrame(rows)
+        options = parameters.options(name)
+        result = evaluate_classifier(name, values, labels, train, test, seeds=seeds, **options)
+        return _score_row("as they are", name, split, parameters, result)
+
+    pairs = [(name, split) for name in NAMES for split in SPLITS]
+    parallel = Parallel(n_jobs=PROCESSES, return_as="generator")
+    rows = parallel(delayed(score)(*pair) for pair in pairs)
+    return pd.DataFrame(list(track(rows, "training classifiers", total=len(pairs))))
 
 
 def train_forest(
