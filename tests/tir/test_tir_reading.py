@@ -64,6 +64,33 @@ def test_a_version_comment_helps_where_no_label_does():
     assert read(text).version == "6.1"
 
 
+def test_a_label_of_the_model_section_is_followed():
+    other = "[SOFTWARE]\nFITTYP = 99"
+    assert read(tir_text(more=other)).version == "5.2"
+    assert read(other.replace("99", "61") + "\n" + tir_text(model="")).version == "6.1"
+
+
+def test_two_units_of_one_quantity():
+    tire = read(tir_text(units="LENGTH = mm\nLENGTH = meter"))
+    assert tire.coefficients["UNLOADED_RADIUS"] == 0.32
+    assert "two units of LENGTH (lines 4 and 5): the last is taken" in tire.metadata["warnings"]
+
+
+def test_a_side_that_is_neither():
+    tire = read(tir_text(model="FITTYP = 52\nTYRESIDE = 'top'"))
+    assert "TYRESIDE = 'top' is neither LEFT nor RIGHT" in tire.metadata["warnings"]
+
+
+def test_a_version_comment_outside_of_a_comment_is_none():
+    assert read("TIRE_VERSION = 'MF-Tyre 6.1'\n" + tir_text(model="")).version == "5.2"
+
+
+def test_another_model_beside_a_known_fittyp():
+    tire = read(tir_text(model="FITTYP = 61\nPROPERTY_FILE_FORMAT = 'FTIRE'"))
+    assert tire.version == "6.1"
+    assert "PROPERTY_FILE_FORMAT = 'FTIRE' contradicts FITTYP, which is followed" in tire.metadata["warnings"]
+
+
 def test_contradicting_labels_are_reported():
     tire = read(tir_text(model="PROPERTY_FILE_FORMAT = 'MF_61'\nFITTYP = 52"))
     assert tire.version == "5.2"

@@ -236,7 +236,7 @@ def test_hostile_comments(text: str, source: bool, tmp_path):
 @settings(max_examples=300, deadline=None)
 @given(st.text(max_size=300))
 def test_any_comment_and_any_text_value(text: str):
-    metadata = {"MODEL.NAME": text, "DIMENSION.WIDTH": 0.2, f"X.{text}": 1.0, text: text}
+    metadata = {f"X.{text}": 1.0, text: text, "MODEL.NAME": text, "DIMENSION.WIDTH": 0.2}
     tire = TireModel.from_coefficients(fresh().coefficients, metadata=metadata)
     again = read_tir(tir_bytes(tire, comments=text, complete=False))
     assert again.coefficients == tire.coefficients

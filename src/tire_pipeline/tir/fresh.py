@@ -16,7 +16,7 @@ from tire_pipeline.tir.version import VERSION_FITTYP
 
 _NAME = re.compile(r"([A-Z][A-Z0-9_ ]*)\.([A-Z_][A-Z0-9_.\-]*)").fullmatch
 _RULE = 76
-_LABELS = ("MODEL.FITTYP", "MODEL.PROPERTY_FILE_FORMAT")
+_LABELS = ("FITTYP", "PROPERTY_FILE_FORMAT")
 NOT_GIVEN = "not given: this stands in"
 
 
@@ -62,8 +62,8 @@ def metadata_entries(metadata: Mapping[str, object]) -> dict[tuple[str, str], st
     """
     found: dict[tuple[str, str], str | float] = {}
     for name, value in metadata.items():
-        match = _NAME(name) if name not in _LABELS else None
-        if match is None or not isinstance(value, str | int | float):
+        match = _NAME(name)
+        if match is None or match[2] in _LABELS or not isinstance(value, str | int | float):
             continue
         section = section_name(match[1])
         if isinstance(value, str) and match[2] in DIMENSION:

@@ -221,7 +221,10 @@ def _drop_what_is_not_modelled(reading: Reading) -> None:
 def _read_version(scan: Scan, file: TirFile, reading: Reading) -> None:
     labels: dict[str, Entry] = {}
     for entry in scan.entries:
-        if entry.key in ("FITTYP", "PROPERTY_FILE_FORMAT") and entry.value:
+        if entry.key not in ("FITTYP", "PROPERTY_FILE_FORMAT") or not entry.value:
+            continue
+        present = labels.get(entry.key)
+        if present is None or present.section != "MODEL" or entry.section == "MODEL":
             labels[entry.key] = entry
     fittyp, file_format = labels.get("FITTYP"), labels.get("PROPERTY_FILE_FORMAT")
     reading.version, warnings = detect_version(

@@ -77,13 +77,16 @@ def from_models(models: Iterable[tuple[str, str, TireModel]]) -> pd.DataFrame:
         rows.append(row)
         numbers.extend(values.values())
     columns = _column_order(groups)
-    table = pd.DataFrame(texts, columns=["file", "category", "version"], dtype="str")
-    if table["file"].duplicated().any():
-        twice = table.loc[table["file"].duplicated(), "file"].iloc[0]
+    names = pd.DataFrame(texts, columns=["file", "category", "version"], dtype="str")
+    if names["file"].duplicated().any():
+        twice = names.loc[names["file"].duplicated(), "file"].iloc[0]
         raise DomainError("a file stands twice among the models", where=twice, todo="give each path once")
-    matrix = _matrix(groups, columns, len(texts))
-    table = pd.concat([table, pd.DataFrame(matrix, columns=columns, copy=False)], axis=1)
+    table = pd.DataFrame(_matrix(groups, columns, len(texts)), columns=columns, copy=False)
+    for place, name in enumerate(names.columns):
+        table.insert(place, name, names[name])
     table["tire_id"] = physical_tire_ids(table)
+    if table["file"].is_monotonic_increasing:
+        return table
     return table.sort_values("file", ignore_index=True)
 
 
