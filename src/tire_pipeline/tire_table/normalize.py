@@ -13,7 +13,7 @@ from tire_pipeline.magic_formula.nominal_load import changed_coefficients
 _NOT_ZERO_BY_DEFAULT = {"QSY7": 1.0}
 
 
-def normalize_table(table: pd.DataFrame, nominal_load: float) -> pd.DataFrame:
+def normalize_table(table: pd.DataFrame, nominal_load: npt.ArrayLike) -> pd.DataFrame:
     """Write the same forces with one nominal load, all rows at once.
 
     The rules are those of :func:`tire_pipeline.magic_formula.nominal_load.changed_coefficients`. A
@@ -24,8 +24,8 @@ def normalize_table(table: pd.DataFrame, nominal_load: float) -> pd.DataFrame:
     ----------
     table : DataFrame
         A tire table; not changed.
-    nominal_load : float
-        N.
+    nominal_load : float or array_like, shape (rows,)
+        N; an array gives every row its own, for example to bring each back to where it came from.
 
     Returns
     -------
@@ -38,8 +38,10 @@ def normalize_table(table: pd.DataFrame, nominal_load: float) -> pd.DataFrame:
     DomainError
         ``nominal_load`` or some ``FNOMIN`` is not positive, or a coefficient leaves the range of numbers.
     """
-    if not (np.isfinite(nominal_load) and nominal_load > 0):
-        raise DomainError(f"a nominal load of {nominal_load} N", todo="give a positive one")
+    wanted = np.broadcast_to(np.asarray(nominal_load, dtype=float), len(table))
+    wrong = wanted[~(np.isfinite(wanted) & (wanted > 0))]
+    if wrong.size:
+        raise DomainError(f"a nominal load of {wrong[0]} N", todo="give a positive one")
     present = table["FNOMIN"].to_numpy(dtype=float)
     if not np.all(present > 0):
         file = table.loc[~(present > 0), "file"].iloc[0]
@@ -48,8 +50,8 @@ def normalize_table(table: pd.DataFrame, nominal_load: float) -> pd.DataFrame:
     families = table["version"].map({version: family_of(version) for version in table["version"].unique()})
     for family in sorted(families.unique()):
         rows = (families == family).to_numpy()
-        for name, values in _changed(table, rows, nominal_load, int(family)).items():
-            _check(name, values, table.loc[rows, "file"], nominal_load)
+        for name, values in _changed(table, rows, wanted[rows], int(family)).items():
+            _check(name, values, table.loc[rows, "file"], wanted[rows])
             if name not in result.columns:
                 result[name] = np.nan
             old = result[name].to_numpy(dtype=float, copy=True)
@@ -60,7 +62,7 @@ def normalize_table(table: pd.DataFrame, nominal_load: float) -> pd.DataFrame:
 
 
 def _changed(
-    table: pd.DataFrame, rows: npt.NDArray[np.bool_], nominal_load: float, family: int
+    table: pd.DataFrame, rows: npt.NDArray[np.bool_], nominal_load: npt.NDArray[np.float64], family: int
 ) -> dict[str, npt.NDArray[np.float64]]:
     numbers = table.loc[rows].select_dtypes("number")
     columns = {
@@ -71,11 +73,13 @@ def _changed(
         return changed_coefficients(columns, nominal_load, family)
 
 
-def _check(name: str, values: npt.NDArray[np.float64], files: pd.Series, nominal_load: float) -> None:
+def _check(
+    name: str, values: npt.NDArray[np.float64], files: pd.Series, nominal_load: npt.NDArray[np.float64]
+) -> None:
     finite = np.isfinite(values)
     if not finite.all():
         raise DomainError(
-            f"{name} has no finite value at a nominal load of {nominal_load:g} N",
+            f"{name} has no finite value at a nominal load of {nominal_load[~finite][0]:g} N",
             where=str(files[~finite].iloc[0]),
             todo="drop this file, or choose a nominal load nearer to its own",
         )
