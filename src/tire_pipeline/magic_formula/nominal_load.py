@@ -55,15 +55,15 @@ PRODUCTS = (("PDXP1", "PDXP2"), ("PDYP1", "PDYP2"), ("PECP1", "PECP2"))
 """Groups p1 (1 + p2 dfz)."""
 
 
-def changed_coefficients(coefficients: Mapping[str, Any], new: float, family: int = 5) -> dict[str, Any]:
+def changed_coefficients(coefficients: Mapping[str, Any], new: Any, family: int = 5) -> dict[str, Any]:
     """Return the coefficients that change when the nominal load becomes ``new``, ``FNOMIN`` among them.
 
     Parameters
     ----------
     coefficients : mapping of str to float or ndarray
         By ``.tir`` name; arrays (one value a tire) work as well. What is missing counts as 0.
-    new : float
-        The new nominal load (N).
+    new : float or ndarray
+        The new nominal load (N); an array with the coefficients' shape gives every tire its own.
     family : {5, 6}
         5: equations of MF 5.2; 6: of MF 6.1 and 6.2 (they differ in the rolling resistance).
 
@@ -83,7 +83,7 @@ def changed_coefficients(coefficients: Mapping[str, Any], new: float, family: in
     K_y = p Fz0 sin(2 arctan(Fz / (q Fz0))) keeps its values with p / r and q / r; forces over Fz0
     (``SSZ2``, ``QSX``, ``QSY2``) take a factor r.
     """
-    if not (np.isfinite(new) and new > 0):
+    if not np.all(np.isfinite(new) & (np.asarray(new) > 0)):
         raise TirValueError(
             f"the new nominal load {new!r} must be positive", key="FNOMIN", todo="give newtons"
         )
