@@ -1,0 +1,57 @@
+import numpy as np
+import pytest
+
+from tire_pipeline.classifiers.experiments import (
+    accuracy_by_bins,
+    accuracy_by_latent_features,
+    class_distribution,
+)
+from tire_pipeline.tire_table import random_split, split_by_tire
+from tire_pipeline.translation.thesis.grid import CELLS, Cell, judge_cell, train_cell
+
+
+@pytest.fixture(scope="module")
+def splits(table):
+    labels = table["category"].to_numpy()
+    return {
+        "random": random_split(labels, seed=0),
+        "by_tire": split_by_tire(labels, table["tire_id"].to_numpy(), seed=0),
+    }
+
+
+def test_grid_has_48_cells_with_names_of_their_own():
+    assert len(CELLS) == len({cell.name for cell in CELLS}) == 48
+    assert all(cell.name.isidentifier() for cell in CELLS)
+
+
+@pytest.mark.parametrize("representation", ["coefficients", "power_series"])
+def test_one_cell_is_trained_and_judged(table, representation):
+    cell = Cell("A2C", "maximize_reward", representation, 10)
+    trained = train_cell(table, cell, target="A", seed=0, total_steps=2_000)
+    sources = table[table["category"] == "B"].head(6)
+    reference = table[table["category"] == "A"].head(6)
+    judged = judge_cell(trained["state"], sources, reference)
+    metrics = judged["metrics"]
+    assert set(metrics["decoding"]) == {"tire", "curves"}
+    assert np.isfinite(metrics["ratio"]).all()
+    assert metrics["improved"].between(0, 1).all()
+    assert len(judged["tires"]) == 6
+    assert len(judged["actions"]) == 2 * (11 if representation == "coefficients" else 12)
+    assert len(trained["learning_curve"]) > 0
+    if representation == "coefficients":  # both decodings are the same curves here
+        forces = metrics[metrics["metric"] == "forces"].set_index("decoding")["ratio"]
+        assert forces["tire"] == pytest.approx(forces["curves"], rel=1e-6)
+
+
+def test_experiments_give_every_cell(table, splits):
+    bins = accuracy_by_bins(
+        table, splits, representations=("coefficients", "key_attributes"), bins=(2, 10), seeds=(0,)
+    )
+    assert len(bins) == 2 * 2 * 2
+    random = bins[(bins["split"] == "random") & (bins["representation"] == "coefficients")]
+    assert random["accuracy"].iloc[1] > random["accuracy"].iloc[0]
+    latent = accuracy_by_latent_features(table, splits, counts=(1, 2), seeds=(0,), epochs=2)
+    assert list(latent["features"]) == [1, 2, 1, 2]
+    counts = class_distribution(np.zeros((len(table), 1)), table["category"], splits)
+    assert counts.groupby("split")["all"].sum().eq(len(table)).all()
+    assert counts.groupby("split")["training_smote"].nunique().eq(1).all()
