@@ -3360,4 +3360,3 @@ def loop_mz(c, alpha, kappa, gamma, fz, speed, dpi, rows, out):
             if row >= 0:
                 for i in range(m):
                     out[row, start + i] = w[(k + 6) * BLOCK + i]
-

@@ -1,0 +1,84 @@
+"""What a recording can tell, and so which coefficients it leaves open."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from tire_pipeline.magic_formula.fitting import stages
+
+MIN_LOAD_SPREAD = 0.1
+"""Spread of loads, over the nominal one, from which they count as different."""
+MIN_CAMBER = np.deg2rad(0.4)
+MIN_PRESSURE_SPREAD = 0.03
+MIN_SPEED_SPREAD = 0.1
+MIN_SLIP = 0.01
+
+
+def open_coefficients(
+    names: tuple[str, ...], points: Mapping[str, np.ndarray], nominal_load: float
+) -> dict[str, list[str]]:
+    """Return the coefficients of a stage that its points cannot determine, by the reason.
+
+    Parameters
+    ----------
+    names : tuple of str
+    points : mapping of str to ndarray
+        The stage's points, by canonical column.
+    nominal_load : float
+
+    Returns
+    -------
+    dict of str to list of str
+        Reason, as in "no camber sweeps", -> names.
+    """
+    load, camber = points["normal_load"], points["camber"]
+    tilted = np.abs(camber) > MIN_CAMBER
+    loads_differ = _spread(load) > MIN_LOAD_SPREAD * nominal_load
+    rules = [
+        (not tilted.any(), "no camber sweeps", stages.CAMBER | stages.CAMBER_AND_LOAD),
+        (not loads_differ, "one load only", stages.LOAD | stages.LOAD_SQUARED | stages.CAMBER_AND_LOAD),
+        (_levels(load, nominal_load) < 3, "fewer than three loads", stages.LOAD_SQUARED),
+        (
+            tilted.any() and _spread(load[tilted]) <= MIN_LOAD_SPREAD * nominal_load,
+            "one load only at camber",
+            stages.CAMBER_AND_LOAD,
+        ),
+        (_one_sided(points["slip_angle"]), "slip angles of one sign only", stages.ONE_SIDED_SLIP),
+        (_one_sided(points["slip_ratio"]), "slip ratios of one sign only", stages.ONE_SIDED_RATIO),
+        (
+            _spread(points["pressure"]) <= MIN_PRESSURE_SPREAD * max(np.median(points["pressure"]), 1.0),
+            "one pressure only",
+            stages.PRESSURE,
+        ),
+        (
+            _spread(points["speed"]) <= MIN_SPEED_SPREAD * max(np.median(points["speed"]), 1.0),
+            "one speed only",
+            stages.SPEED,
+        ),
+    ]
+    found: dict[str, list[str]] = {}
+    left = list(names)
+    for applies, reason, concerned in rules:
+        if applies:
+            hit = [name for name in left if name in concerned]
+            if hit:
+                found[reason] = hit
+                left = [name for name in left if name not in concerned]
+    return found
+
+
+def _spread(x: np.ndarray) -> float:
+    if x.size < 2:
+        return 0.0
+    low, high = np.quantile(x, [0.02, 0.98])
+    return float(high - low)
+
+
+def _levels(load: np.ndarray, nominal_load: float) -> int:
+    return len(np.unique(np.round(load / (2 * MIN_LOAD_SPREAD * nominal_load))))
+
+
+def _one_sided(slip: np.ndarray) -> bool:
+    return not ((slip > MIN_SLIP).any() and (slip < -MIN_SLIP).any())

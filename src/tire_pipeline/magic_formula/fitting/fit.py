@@ -1,0 +1,330 @@
+"""From a recording to a tire model, stage by stage."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.magic_formula.coefficients import INDEX, family_of
+from tire_pipeline.magic_formula.fitting import stages
+from tire_pipeline.magic_formula.fitting.coverage import open_coefficients
+from tire_pipeline.magic_formula.fitting.result import FitResult
+from tire_pipeline.magic_formula.fitting.solve import Problem, StageFit, solve
+from tire_pipeline.magic_formula.fitting.stages import STAGES, Stage
+from tire_pipeline.magic_formula.fitting.statistics import relative_rms, residual_table
+from tire_pipeline.magic_formula.model import TireModel
+
+_INPUTS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
+_MOST_POINTS = 20_000
+_FEWEST_POINTS = 10
+_MOST_REMOVED = 12
+_POINTS_OF = {
+    "lateral": "pure lateral slip",
+    "longitudinal": "pure longitudinal slip",
+    "combined": "combined slip",
+    "all": "points",
+}
+
+
+def fit_magic_formula(
+    recording: pd.DataFrame,
+    version: str = "5.2",
+    start: TireModel | None = None,
+    *,
+    nominal_load: float | None = None,
+    unloaded_radius: float | None = None,
+    starts: int = 4,
+    loss: str = "soft_l1",
+    seed: int = 0,
+) -> FitResult:
+    """Fit a Magic Formula tire model to measurements.
+
+    Parameters
+    ----------
+    recording : DataFrame
+        Columns by canonical name in SI units: ``normal_load``, some of ``slip_angle``, ``slip_ratio``,
+        ``camber``, ``speed``, ``pressure``, and some of ``fx``, ``fy``, ``mx``, ``my``, ``mz``. What is
+        missing of the former is taken as 0 (speed and pressure as their nominal values); what is missing of
+        the latter is not fitted. Steady state: transients have to be left out before.
+    version : str
+        The version to fit.
+    start : TireModel, optional
+        Where to start from; what the data cannot determine keeps its values. Else typical values, and zero.
+    nominal_load : float, optional
+        ``FNOMIN`` (N); that of ``start``, or the median load to two digits.
+    unloaded_radius : float, optional
+        ``UNLOADED_RADIUS`` (m); that of ``start``, or the recording's (TYDEX ``OVALLDIA``), or 0.3.
+    starts : int
+        Number of starting points of each stage; the best result is kept.
+    loss : str
+        A robust loss of :func:`scipy.optimize.least_squares`, or "linear".
+    seed : int
+        For the starting points.
+
+    Returns
+    -------
+    FitResult
+        ``.model`` is the TireModel; ``.forces(...)`` is the model's.
+
+    Raises
+    ------
+    RecordingError
+        If there is no load, no force or moment, or there are fewer than ten points.
+
+    Notes
+    -----
+    The stages: Fy, Fx and Mz at pure slip, then at combined slip, Mx, My (thesis, Appendix A, and Pacejka's
+    appendix on the estimation of parameters). The model reproduces the recording's own signs: data in which a
+    positive slip angle gives a positive Fy give a positive PKY1, and a note.
+    """
+    family = family_of(version)
+    points, forces = _columns(recording, start)
+    base, notes = _base(recording, version, start, points, nominal_load, unloaded_radius)
+    nominal = base["FNOMIN"]
+    points["speed"] = _filled(points["speed"], base["LONGVL"])
+    points["pressure"] = _filled(points["pressure"], base.get("NOMPRES", 0.0))
+    model = TireModel.from_coefficients(base, version)
+    rng = np.random.default_rng(seed)
+    errors: dict[str, float] = {}
+    undetermined: list[str] = []
+    for stage in STAGES:
+        names = stage.over(family)
+        kept = "their start values" if start is not None else "0"
+        if stage.output not in forces:
+            undetermined.append(f"no {stage.output} measured: {', '.join(names)} kept at {kept}")
+            continue
+        chosen = _choose(stage, points, forces[stage.output])
+        if chosen.size < max(_FEWEST_POINTS, len(names)):
+            why = "no" if chosen.size == 0 else f"only {chosen.size} points of"
+            undetermined.append(f"{why} {_POINTS_OF[stage.points]}: {', '.join(names)} kept at {kept}")
+            continue
+        if chosen.size > _MOST_POINTS:
+            chosen = np.sort(rng.choice(chosen, _MOST_POINTS, replace=False))
+        here = {name: x[chosen] for name, x in points.items()}
+        if stage.points in ("lateral", "longitudinal"):
+            here["slip_ratio" if stage.points == "lateral" else "slip_angle"] *= 0.0
+        left_out = open_coefficients(names, here, nominal)
+        closed = {name for group in left_out.values() for name in group}
+        active = [name for name in names if name not in closed]
+        values, fit, removed = _fit_stage(
+            stage, model, active, here, forces[stage.output][chosen], starts, loss, rng, start is not None
+        )
+        model = model.replace(**values)
+        errors.update(zip(values, fit.errors.tolist(), strict=True))
+        undetermined += [f"{reason}: {', '.join(group)} kept at {kept}" for reason, group in left_out.items()]
+        if removed:
+            undetermined.append(
+                f"{stage.title} does not depend on them enough: {', '.join(removed)} kept at {kept}"
+            )
+        if fit.at_bound:
+            notes.append(f"{stage.title}: {', '.join(fit.at_bound)} at the bound")
+    if model.coefficients.get("PKY1", -1.0) > 0 and "fy" in forces:
+        notes.append(
+            "a positive slip angle gives a positive Fy: the data are not in ISO axes, nor is the model"
+        )
+    table = residual_table(model, points, forces)
+    return FitResult(model, errors, table, undetermined, notes, relative_rms(model, points, forces))
+
+
+def _columns(
+    recording: pd.DataFrame, start: TireModel | None
+) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    if "normal_load" not in recording:
+        raise RecordingError("there is no normal_load", todo="name the load's column normal_load, in newtons")
+    wanted = [name for name in ("fx", "fy", "mx", "my", "mz") if name in recording]
+    if not wanted:
+        raise RecordingError("there is no force or moment to fit", todo="name them fx, fy, mx, my, mz")
+    load = recording["normal_load"].to_numpy(dtype=float)
+    good = np.isfinite(load) & (load > 0)
+    points = {}
+    for name in _INPUTS:
+        missing = np.nan if name in ("speed", "pressure") else 0.0
+        column = recording[name].to_numpy(dtype=float) if name in recording else np.full(load.size, missing)
+        if name in recording:
+            good &= np.isfinite(column)
+        points[name] = column
+    if int(good.sum()) < _FEWEST_POINTS:
+        raise RecordingError(
+            f"only {int(good.sum())} points have a positive load and finite slips",
+            todo=f"give at least {_FEWEST_POINTS}",
+        )
+    forces = {name: recording[name].to_numpy(dtype=float)[good] for name in wanted}
+    kept = {
+        name: value
+        for name, value in forces.items()
+        if np.isfinite(value).any() and np.nanmax(np.abs(value)) > 0
+    }
+    return {name: x[good].copy() for name, x in points.items()}, kept
+
+
+def _base(
+    recording: pd.DataFrame,
+    version: str,
+    start: TireModel | None,
+    points: Mapping[str, np.ndarray],
+    nominal_load: float | None,
+    unloaded_radius: float | None,
+) -> tuple[dict[str, float], list[str]]:
+    """Return the coefficients that are known before any fit, and what was assumed."""
+    notes: list[str] = []
+    base: dict[str, float] = {}
+    if start is not None:
+        begin = start.to_version(version)
+        begin = begin if nominal_load is None else begin.nominal_load_changed(nominal_load)
+        base.update(begin.coefficients)
+    median = float(np.median(points["normal_load"]))
+    if nominal_load is None:
+        nominal_load = base.get("FNOMIN", float(f"{median:.2g}"))
+        if start is None:
+            notes.append(f"FNOMIN = {nominal_load:g} N is the median load to two digits")
+    base["FNOMIN"] = float(nominal_load)
+    if unloaded_radius is None and "UNLOADED_RADIUS" not in base:
+        unloaded_radius = _radius_of(recording)
+        if unloaded_radius is None:
+            unloaded_radius = 0.3
+            notes.append("UNLOADED_RADIUS = 0.3 m is assumed; the moments' coefficients are relative to it")
+    if unloaded_radius is not None:
+        base["UNLOADED_RADIUS"] = float(unloaded_radius)
+    base.setdefault("LONGVL", _median(points["speed"], 16.7))
+    if family_of(version) == 6:
+        base.setdefault("NOMPRES", _median(points["pressure"], 220_000.0))
+        base.setdefault("INFLPRES", base["NOMPRES"])
+    return base, notes
+
+
+def _radius_of(recording: pd.DataFrame) -> float | None:
+    constants = recording.attrs.get("constants", {})
+    entry = constants.get("OVALLDIA") if isinstance(constants, Mapping) else None
+    if not isinstance(entry, Mapping) or not isinstance(entry.get("value"), int | float):
+        return None
+    factor = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "inch": 0.0254}.get(str(entry.get("unit")))
+    return None if factor is None else 0.5 * factor * float(entry["value"])
+
+
+def _median(x: np.ndarray, otherwise: float) -> float:
+    finite = x[np.isfinite(x)]
+    return float(np.median(finite)) if finite.size else otherwise
+
+
+def _filled(x: np.ndarray, value: float) -> np.ndarray:
+    return np.where(np.isfinite(x), x, value)
+
+
+def _choose(stage: Stage, points: Mapping[str, np.ndarray], measured: np.ndarray) -> np.ndarray:
+    rolling = np.abs(points["slip_ratio"]) <= stages.PURE_SLIP_RATIO
+    straight = np.abs(points["slip_angle"]) <= stages.PURE_SLIP_ANGLE
+    which = np.isfinite(measured)
+    if stage.points == "lateral":
+        which &= rolling
+    elif stage.points == "longitudinal":
+        which &= straight
+        if not (which & ~rolling).any():
+            which &= False
+    elif stage.points == "combined":
+        which &= ~rolling & ~straight
+    return np.flatnonzero(which)
+
+
+def _fit_stage(
+    stage: Stage,
+    model: TireModel,
+    active: list[str],
+    here: Mapping[str, np.ndarray],
+    measured: np.ndarray,
+    starts: int,
+    loss: str,
+    rng: np.random.Generator,
+    from_start: bool,
+) -> tuple[dict[str, float], StageFit, list[str]]:
+    """Fit a stage; drop, one by one, the coefficients that the data leave open."""
+    first = _first_values(stage, model, active, here, measured, from_start)
+    vector = model.packed.copy()
+    for name in active:
+        vector[INDEX[name]] = first[name]
+    rows = [np.ascontiguousarray(here[name]) for name in _INPUTS]
+    removed: list[str] = []
+    number = starts
+    while True:
+        names = [name for name in active if name not in removed]
+        bounds = _bounds(names, first)
+        problem = Problem(vector, model.family, stage.output, names, rows, measured)
+        fit = solve(problem, bounds, _starting_points(names, first, bounds, number, rng), loss)
+        if not fit.open or len(removed) >= _MOST_REMOVED or len(names) == 1:
+            break
+        ranges = (bounds[1] - bounds[0])[[names.index(name) for name in fit.open]]
+        sizes = np.nan_to_num(fit.errors[[names.index(name) for name in fit.open]] / ranges, nan=np.inf)
+        worst = fit.open[int(np.argmax(sizes))]
+        removed.append(worst)
+        vector[INDEX[worst]] = first[worst] = _kept_value(worst, model, from_start)
+        first.update({n: float(v) for n, v in zip(names, fit.values, strict=True) if n != worst})
+        number = 1
+    return dict(zip(names, fit.values.tolist(), strict=True)), fit, removed
+
+
+def _kept_value(name: str, model: TireModel, from_start: bool) -> float:
+    if from_start and name in model.coefficients:
+        return model.coefficients[name]
+    return 0.0
+
+
+def _bound_of(name: str) -> tuple[float, float, float]:
+    return stages.BOUNDS.get(name, stages.PRESSURE_BOUNDS)
+
+
+def _bounds(names: list[str], first: Mapping[str, float]) -> tuple[np.ndarray, np.ndarray]:
+    low = np.array([min(_bound_of(n)[0], first[n] - abs(first[n])) for n in names])
+    high = np.array([max(_bound_of(n)[1], first[n] + abs(first[n])) for n in names])
+    for i, name in enumerate(names):
+        if name == "PKY1":
+            low[i], high[i] = (low[i], -0.5) if first[name] < 0 else (0.5, high[i])
+        elif name in ("PEY1", "PEX1", "QEZ1", "REX1", "REY1"):
+            high[i] = 1.0
+    return low, high
+
+
+def _first_values(
+    stage: Stage,
+    model: TireModel,
+    active: list[str],
+    here: Mapping[str, np.ndarray],
+    measured: np.ndarray,
+    from_start: bool,
+) -> dict[str, float]:
+    """Return where to start: the start model's values, or what the data show at a glance."""
+    first = {name: _bound_of(name)[2] for name in active}
+    if from_start:
+        first.update({n: model.coefficients[n] for n in active if n in model.coefficients})
+        return first
+    load = here["normal_load"]
+    slip = here["slip_ratio" if stage.output == "fx" else "slip_angle"]
+    if stage.title.endswith("pure slip") and stage.output in ("fx", "fy"):
+        friction = float(np.quantile(np.abs(measured) / load, 0.98))
+        letter = stage.output[1].upper()
+        first[f"PD{letter}1"] = min(max(1.05 * friction, 0.05), 3.5)
+        small = np.abs(slip) < max(0.03, float(np.quantile(np.abs(slip), 0.2)))
+        normalised = measured[small] / load[small]
+        slope = float(np.polyfit(slip[small], normalised, 1)[0]) if np.ptp(slip[small]) > 0 else 0.0
+        if stage.output == "fy" and slope != 0:
+            first["PKY1"] = float(np.clip(1.6 * slope, -190, 190))
+        elif slope > 1:
+            first["PKX1"] = min(slope, 190.0)
+    return first
+
+
+def _starting_points(
+    names: list[str],
+    first: Mapping[str, float],
+    bounds: tuple[np.ndarray, np.ndarray],
+    number: int,
+    rng: np.random.Generator,
+) -> list[np.ndarray]:
+    begin = np.array([first[name] for name in names])
+    low, high = bounds
+    points = [begin]
+    for _ in range(number - 1):
+        shift = rng.normal(0.0, 0.3, len(names)) * np.maximum(np.abs(begin), 0.02 * (high - low))
+        points.append(np.clip(begin + shift, low, high))
+    return points
