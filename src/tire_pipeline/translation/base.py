@@ -12,6 +12,9 @@ from tire_pipeline.errors import DomainError
 
 TRANSLATORS: dict[str, tuple[str, str]] = {
     "agent": ("tire_pipeline.translation.thesis.translator", "AgentTranslator"),
+    "no_change": ("tire_pipeline.translation.no_change", "NoChange"),
+    "mixed_model": ("tire_pipeline.translation.curve_translator", "MixedModel"),
+    "paired_mixed_model": ("tire_pipeline.translation.curve_translator", "PairedMixedModel"),
 }
 """Name of a translator -> module and class; imported only when asked for.
 

@@ -1,0 +1,152 @@
+"""From features back to a tire: the least change of coefficients that gives the curves asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.translation.curve_features import GROUPS, Group
+from tire_pipeline.translation.physics import curvature_excess
+from tire_pipeline.translation.pure_slip import columns
+
+_STEPS = 6
+_PULL = 0.003  # weight of "stay at the source's coefficients" against one feature, both in their spreads
+_CURVATURE = 30.0  # weight of a curvature factor above 1
+_POOR = 1.0  # root mean square in units, above which a second start is tried
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What the coefficients of n tires shall give.
+
+    Attributes
+    ----------
+    features : dict of ndarray
+        By group, (n, d).
+    unit : dict of float
+        By group: what counts as one unit of a feature.
+    spread : dict of float
+        By coefficient: what counts as one unit of change.
+    typical : dict of float
+        By coefficient: a second point to start from.
+    bounds : dict of (float, float)
+        By coefficient; a source outside of them may stay where it is.
+    locked : dict of ndarray of bool
+        By coefficient, (n,): which tires keep it.
+    """
+
+    features: dict[str, np.ndarray]
+    unit: dict[str, float]
+    spread: dict[str, float]
+    typical: dict[str, float]
+    bounds: dict[str, tuple[float, float]]
+    locked: dict[str, np.ndarray]
+
+
+def decode(table: pd.DataFrame, wish: Wish) -> pd.DataFrame:
+    """Change every tire's coefficients so that it has the features asked for.
+
+    Parameters
+    ----------
+    table : DataFrame
+        n source tires.
+    wish : Wish
+
+    Returns
+    -------
+    DataFrame
+        A copy of ``table`` with other p and q coefficients.
+
+    Notes
+    -----
+    Damped Gauss-Newton steps on all tires at once, derivatives by differences; a step that does not lower
+    a tire's cost is not taken, so that no tire ends further from its wish than it began.
+    """
+    decoded = table.copy()
+    for group in GROUPS:
+        if group.name in wish.features:
+            decoded[list(group.coefficients)] = _Solver(decoded, group, wish).solve()
+    return decoded
+
+
+class _Solver:
+    """Least squares of one output's features over its coefficients."""
+
+    def __init__(self, table: pd.DataFrame, group: Group, wish: Wish) -> None:
+        self.group, self.names = group, group.coefficients
+        self.fixed = columns(table)
+        self.wanted, self.unit = wish.features[group.name], wish.unit[group.name]
+        self.spread = np.array([wish.spread[name] for name in self.names])
+        self.source = np.concatenate([self.fixed[name] for name in self.names], axis=1)
+        self.typical = np.array([wish.typical[name] for name in self.names])
+        limits = np.array([wish.bounds[name] for name in self.names])
+        self.low = np.minimum(limits[:, 0], self.source)
+        self.high = np.maximum(limits[:, 1], self.source)
+        for k, name in enumerate(self.names):
+            rows = wish.locked.get(name)
+            if rows is not None:
+                self.low[rows, k] = self.high[rows, k] = self.source[rows, k]
+
+    def solve(self) -> np.ndarray:
+        rows = np.arange(len(self.source))
+        best, cost = self._descend(rows, self.source.copy())
+        gap = self._residual(best, rows)[:, : self.wanted.shape[1]]
+        poor = np.flatnonzero((gap**2).mean(axis=1) > _POOR**2)
+        if poor.size:
+            start = np.clip(
+                np.broadcast_to(self.typical, (poor.size, self.typical.size)), self.low[poor], self.high[poor]
+            )
+            again, new_cost = self._descend(poor, start.copy())
+            better = new_cost < cost[poor]
+            best[poor[better]] = again[better]
+        return best
+
+    def _residual(self, values: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        p = {name: column[rows] for name, column in self.fixed.items()}
+        p.update({name: values[:, [k]] for k, name in enumerate(self.names)})
+        gap = (self.group.of(p) - self.wanted[rows]) / self.unit
+        gap = np.where(np.isfinite(gap), gap, 1e6)
+        return np.concatenate([gap, _CURVATURE * curvature_excess(self.group.name, p)], axis=1)
+
+    def _cost(self, gap: np.ndarray, values: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        moved = (values - self.source[rows]) / self.spread
+        return (gap**2).sum(axis=1) + _PULL * (moved**2).sum(axis=1)
+
+    def _jacobian(self, values: np.ndarray, gap: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        jacobian = np.empty((*gap.shape, self.spread.size))
+        for k, spread in enumerate(self.spread):
+            moved = values.copy()
+            moved[:, k] += 1e-4 * spread
+            jacobian[:, :, k] = (self._residual(moved, rows) - gap) / 1e-4
+        return jacobian
+
+    def _descend(self, rows: np.ndarray, best: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        low, high = self.low[rows], self.high[rows]
+        gap = self._residual(best, rows)
+        cost = self._cost(gap, best, rows)
+        damping = np.full(len(rows), 1e-3)
+        live = np.arange(len(rows))
+        for _ in range(_STEPS):
+            at, now = rows[live], best[live]
+            jacobian = self._jacobian(now, gap[live], at)
+            free = (low[live] < high[live]).astype(float)
+            jacobian *= free[:, None, :]
+            normal = jacobian.transpose(0, 2, 1) @ jacobian
+            right = -(jacobian.transpose(0, 2, 1) @ gap[live][:, :, None])[:, :, 0]
+            right -= _PULL * free * (now - self.source[at]) / self.spread
+            normal[:, *np.diag_indices(self.spread.size)] += (_PULL + damping[live])[:, None]
+            step = np.linalg.solve(normal, right[:, :, None])[:, :, 0]
+            trial = np.clip(now + step * self.spread, low[live], high[live])
+            new_gap = self._residual(trial, at)
+            new_cost = self._cost(new_gap, trial, at)
+            better = new_cost < cost[live]
+            gained = np.where(better, 1.0 - new_cost / np.maximum(cost[live], 1e-12), 1.0)
+            taken = live[better]
+            best[taken], gap[taken], cost[taken] = trial[better], new_gap[better], new_cost[better]
+            damping[live] = np.where(better, damping[live] / 10.0, damping[live] * 50.0)
+            live = live[(gained > 0.01) & (damping[live] < 1e4)]
+            if live.size == 0:
+                break
+        return best, cost

@@ -1,0 +1,73 @@
+"""How far a file is from what the training data can speak for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+import pandas as pd
+from scipy.spatial import cKDTree
+
+from tire_pipeline.translation.curve_mixed import CurveMixedModel, Prediction
+
+_EDGE = 0.995  # share of the training data inside the edge
+
+
+@dataclass(frozen=True)
+class TrainingReach:
+    """What the training data covers.
+
+    Attributes
+    ----------
+    metadata : ndarray, shape (m, d)
+        Standardised metadata of the target's training tires.
+    gap : float
+        Distance to the nearest other tire that all but 0.5% of these keep.
+    surprise : float
+        Root mean square surprise of curves that all but 0.5% of the training files keep.
+    """
+
+    metadata: np.ndarray
+    gap: float
+    surprise: float
+
+    @classmethod
+    def fit(cls, model: CurveMixedModel, training: pd.DataFrame, target: str) -> Self:
+        """Learn from the training table."""
+        own = training.loc[training["category"].astype(str) == target]
+        points = np.unique(model.metadata.regressors(own), axis=0)
+        gap = 1.0
+        if points.shape[1] and len(points) > 2:
+            nearest = cKDTree(points).query(points, k=2)[0][:, 1]
+            gap = float(max(np.quantile(nearest, _EDGE), 1e-3))
+        found = model.predict(training, target)
+        return cls(points, gap, float(np.quantile(_size(found), _EDGE)))
+
+    def distance(self, model: CurveMixedModel, table: pd.DataFrame, found: Prediction) -> np.ndarray:
+        """Give the distance of every file, (n,): 1 is the edge of the training data.
+
+        The larger of: metadata to the target's nearest tire, and how unlike the curves are to what is
+        expected of such a tire in its category.
+        """
+        curves = _size(found) / self.surprise
+        if not self.metadata.shape[1]:
+            return curves
+        nearest = cKDTree(self.metadata).query(model.metadata.regressors(table))[0] / self.gap
+        return np.maximum(curves, nearest)
+
+    def to_state(self) -> dict[str, Any]:
+        """Give arrays and numbers that bring it back."""
+        return {"reach_metadata": self.metadata, "reach_gap": self.gap, "reach_surprise": self.surprise}
+
+    @classmethod
+    def from_state(cls, state: Mapping[str, Any]) -> Self:
+        """Bring back what :meth:`to_state` gave."""
+        return cls(
+            np.asarray(state["reach_metadata"]), float(state["reach_gap"]), float(state["reach_surprise"])
+        )
+
+
+def _size(found: Prediction) -> np.ndarray:
+    return np.sqrt((found.surprise**2).mean(axis=1))

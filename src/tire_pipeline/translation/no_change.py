@@ -1,0 +1,37 @@
+"""Doing nothing: what every translator has to beat."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar, Self
+
+import pandas as pd
+
+from tire_pipeline.translation.base import check_target
+
+
+class NoChange:
+    """Gives every tire back as it came."""
+
+    name: ClassVar[str] = "no_change"
+
+    def fit(self, training: pd.DataFrame, *, target: str, seed: int = 0) -> Self:
+        """Check the target; there is nothing to learn."""
+        check_target(training, target)
+        self.target = target
+        return self
+
+    def translate(self, source: pd.DataFrame) -> pd.DataFrame:
+        """Give a copy."""
+        return source.copy()
+
+    def to_state(self) -> dict[str, Any]:
+        """Give the target."""
+        return {"translator": self.name, "target": self.target}
+
+    @classmethod
+    def from_state(cls, state: Mapping[str, Any]) -> Self:
+        """Bring back what :meth:`to_state` gave."""
+        translator = cls()
+        translator.target = str(state["target"])
+        return translator

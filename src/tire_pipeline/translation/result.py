@@ -1,0 +1,165 @@
+"""What a translation gives an engineer beside the translated tires."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+import pandas as pd
+
+VERSION = "1"
+"""Version of the translators, written into every translated file."""
+
+TRANSLATED = "translated"
+UNBIASED = "already unbiased"
+REFUSED = "refused"
+
+
+@dataclass(frozen=True)
+class Band:
+    """A curve and the band in which the target's own measurement is expected with 90% probability.
+
+    Attributes
+    ----------
+    slip : ndarray, shape (s,)
+        Slip angle (rad), or slip ratio for ``fx``.
+    normal_load : ndarray, shape (l,)
+        N.
+    middle, low, high : ndarray, shape (n, l, s)
+        N, or N m for ``mz``.
+    """
+
+    slip: np.ndarray
+    normal_load: np.ndarray
+    middle: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+
+
+@dataclass(frozen=True)
+class TranslationResult:
+    """A translation.
+
+    Attributes
+    ----------
+    table : DataFrame
+        The translated tires: rows, columns, index and metadata of the source table, other p and q
+        coefficients. A file that was refused or is already unbiased stands there unchanged.
+    report : DataFrame
+        One row a file, same index: ``file``, ``source``, ``source_probability`` (1 if the category was given),
+        ``target``, ``verdict``, ``reason``, ``distance`` (1: at the edge of the training data),
+        ``expected_ratio`` (expected squared error of the curves over that of the unchanged file),
+        ``harm_probability`` and ``changes`` (what moved and why, in words).
+    bands : dict of str to Band
+        ``fy``, ``fx``, ``mz``; empty if the translator gives none.
+    coefficients : DataFrame
+        One row a file and coefficient that moved: ``file``, ``coefficient``, ``from``, ``to``.
+    method : str
+        The translator's name.
+    """
+
+    table: pd.DataFrame
+    report: pd.DataFrame
+    bands: Mapping[str, Band] = field(default_factory=dict)
+    coefficients: pd.DataFrame = field(default_factory=pd.DataFrame)
+    method: str = ""
+
+
+def moved_coefficients(
+    source: pd.DataFrame, translated: pd.DataFrame, names: tuple[str, ...]
+) -> pd.DataFrame:
+    """List the coefficients that differ.
+
+    Parameters
+    ----------
+    source, translated : DataFrame
+        n tires, row by row the same.
+    names : tuple of str
+        Coefficients to compare.
+
+    Returns
+    -------
+    DataFrame
+        ``file``, ``coefficient``, ``from``, ``to``; one row a coefficient that moved.
+    """
+    found = []
+    files = source["file"] if "file" in source else pd.Series(source.index.astype(str), index=source.index)
+    for name in names:
+        if name not in source or name not in translated:
+            continue
+        before, after = source[name].to_numpy(float), translated[name].to_numpy(float)
+        rows = np.flatnonzero(~((before == after) | (np.isnan(before) & np.isnan(after))))
+        found.append(
+            pd.DataFrame(
+                {
+                    "file": files.to_numpy()[rows],
+                    "coefficient": name,
+                    "from": before[rows],
+                    "to": after[rows],
+                }
+            )
+        )
+    return pd.concat(found, ignore_index=True) if found else pd.DataFrame()
+
+
+def translation_hash(row: Mapping[str, object], names: tuple[str, ...]) -> str:
+    """Hash of a translated tire's coefficients: tells whether a file was changed after its translation."""
+    values = np.array([float(row.get(name, np.nan)) for name in names])  # type: ignore[arg-type]
+    return hashlib.sha256(values.tobytes()).hexdigest()[:16]
+
+
+def comment_lines(result: TranslationResult, row: int, names: tuple[str, ...]) -> list[str]:
+    """Comment lines for a translated ``.tir`` file.
+
+    Parameters
+    ----------
+    result : TranslationResult
+    row : int
+        Position of the file in the result.
+    names : tuple of str
+        Coefficients that the hash covers, in this order.
+
+    Returns
+    -------
+    list of str
+        For ``tir.write_tir(model, path, comments=...)``.
+    """
+    said = result.report.iloc[row]
+    lines = [
+        f"translated by tire_pipeline: {said['source']} -> {said['target']}",
+        f"source file: {said['file']}",
+        f"source category: {said['source']} (probability {said['source_probability']:.2f})",
+        f"method: {result.method}, version {VERSION}",
+        f"verdict: {said['verdict']}: {said['reason']}",
+        f"distance to the training data: {said['distance']:.2f} (1 is its edge)",
+        f"hash: {translation_hash(result.table.iloc[row].to_dict(), names)}",
+    ]
+    return [*lines, *(str(said["changes"]).split("; ") if said["changes"] else [])]
+
+
+def write_translated(model, result: TranslationResult, row: int, names: tuple[str, ...]):  # type: ignore[no-untyped-def]
+    """Give the source's model the translated coefficients, and the comment lines that belong to it.
+
+    Parameters
+    ----------
+    model : TireModel
+        The source file's model at the nominal load of the table (its ``FNOMIN`` is the table's).
+    result : TranslationResult
+    row : int
+        Position of the file in the result.
+    names : tuple of str
+        The p and q coefficients.
+
+    Returns
+    -------
+    model : TireModel
+    comments : list of str
+        Write both with ``tir.write_tir(model, path, comments=comments)``.
+    """
+    values = result.table.iloc[row]
+    known = {name: float(values[name]) for name in names if name in values and np.isfinite(values[name])}
+    if "FNOMIN" in values:
+        known["FNOMIN"] = float(values["FNOMIN"])
+    return model.replace(**known), comment_lines(result, row, names)
