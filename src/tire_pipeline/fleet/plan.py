@@ -31,8 +31,8 @@ FEATURES: tuple[str, ...] = (
     "PVY2",
 )
 MISSING_FEATURES: tuple[str, ...] = ("PEY2", "PHY2", "PVY2", "PVY1", "PHY1", "PKY2")
-PRESSURES = (0.92, 0.96, 1.04, 1.08)
-WEARS = (0.15, 0.3, 0.45)
+PRESSURES = (0.94, 0.97, 1.03, 1.06)
+WEARS = (0.1, 0.2, 0.3)
 EVALUATION_SETS: tuple[str, ...] = ("four", "tuning", "hidden")
 
 
@@ -165,7 +165,7 @@ def _variants(
                 row["wear"] = float(rng.choice(WEARS))
             elif sort < 0.76:
                 row["same_data"] = first_of[tire]
-                row["weight_twist"] = float(rng.choice([-0.2, -0.1, 0.1, 0.2]))
+                row["weight_twist"] = float(rng.choice([-0.15, -0.1, 0.1, 0.15]))
                 row["weight_twist"] += float(rng.normal(0.0, 0.02))
         rows.append(row)
     return rows

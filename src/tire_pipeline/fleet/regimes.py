@@ -85,8 +85,8 @@ REGIMES: dict[str, Regime] = {
     ),
     # External steel drum with a coarse coating: short contact, soft side force, cold tires.
     "B": Regime(
-        adhesion=0.93,
-        hysteresis=0.95,
+        adhesion=0.90,
+        hysteresis=0.93,
         curvature_radius=0.62,
         rig_compliance=2.0e-7,
         speed=22.0,
@@ -124,7 +124,7 @@ REGIMES: dict[str, Regime] = {
     "E": Regime(
         adhesion=0.94,
         hysteresis=0.96,
-        both_directions=0.5,
+        both_directions=0.35,
         sweep_rate=0.1,
         speed=19.0,
         preheat=44.0,
