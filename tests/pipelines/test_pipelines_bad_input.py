@@ -46,7 +46,7 @@ def test_an_empty_folder(tmp_path):
 def test_one_category_only(tmp_path, small_fleet):
     line = _one_line(kedro(_folder(tmp_path, small_fleet, "D"), *INGEST))
     assert "two categories are needed" in line
-    assert "node 'keep_usable' failed" in line
+    assert "node 'files.keep_usable' failed" in line
     assert _versions(tmp_path) == []
 
 

@@ -63,7 +63,7 @@ def test_everything_between_the_eight_is_versioned(catalog):
 
 def test_only_the_judging_node_reads_the_truth(catalog):
     readers = {
-        node.name
+        node.short_name
         for pipeline in pipelines.values()
         for node in pipeline.nodes
         if {"evaluation_truth", "fleet_truth_files"} & set(node.inputs)
@@ -73,8 +73,8 @@ def test_only_the_judging_node_reads_the_truth(catalog):
 
 def test_nothing_that_judging_makes_comes_back_into_what_is_judged(catalog):
     default = pipelines["__default__"]
-    after = default.from_nodes("judge")
-    assert {node.name for node in after.nodes} == {"judge", "draw_force_curves", "build_report"}
+    after = default.from_nodes("evaluation.judge")
+    assert {node.short_name for node in after.nodes} == {"judge", "draw_force_curves", "build_report"}
 
 
 def test_the_data_may_not_hold_pickles(catalog):

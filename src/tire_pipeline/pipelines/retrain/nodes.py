@@ -1,0 +1,197 @@
+"""New files -> candidate -> released, if it is not worse on the held-out tires."""
+
+from __future__ import annotations
+
+import datetime
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from pydantic import Field
+
+from tire_pipeline.classifiers.random_forest import RandomForest
+from tire_pipeline.pipelines.bin.nodes import BinParameters
+from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
+from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.pipelines.represent.nodes import RepresentParameters, unfitted
+from tire_pipeline.pipelines.train_classifier.nodes import TrainClassifierParameters
+from tire_pipeline.retraining import (
+    CategoryModel,
+    Judged,
+    Shelf,
+    Store,
+    compare_models,
+    drift_of_features,
+    held_out_rows,
+    ingest,
+    judge,
+    not_worse,
+    settled_difference,
+    train_model,
+)
+from tire_pipeline.retraining.compare import CANDIDATE, RELEASED, balanced_accuracy
+from tire_pipeline.retraining.release import UNCHANGED, check_split
+from tire_pipeline.retraining.scan import check_removed
+
+
+class RetrainParameters(Parameters):
+    """Parameters of ``retrain``.
+
+    Attributes
+    ----------
+    settle_seconds : float
+        A file that changed less than this long ago is still growing.
+    most_wait_seconds : float
+        How long a run waits for growing files before it leaves them to the next.
+    rehash_all : bool
+        Read all files, whatever their size and dates.
+    most_removed_share : float
+        Stop if more of the known files are gone.
+    held_out_share : float
+        Of the physical tires.
+    split_seed : int
+        Which tires are held out.
+    """
+
+    settle_seconds: float = Field(5.0, ge=0.0)
+    most_wait_seconds: float = Field(60.0, ge=0.0)
+    rehash_all: bool = False
+    most_removed_share: float = Field(0.5, ge=0.0, le=1.0)
+    held_out_share: float = Field(0.2, gt=0.0, lt=1.0)
+    split_seed: int = 0
+
+    @property
+    def split(self) -> str:
+        """Names the held-out tires."""
+        return f"share {self.held_out_share:g}, seed {self.split_seed}"
+
+
+def read_new_files(
+    ingested: Store, tir_folder: Path, parameters: RetrainParameters
+) -> tuple[Store, pd.DataFrame, pd.DataFrame]:
+    """Read new and changed files, and none of the others.
+
+    Parameters
+    ----------
+    ingested : Store
+        As the last run left it.
+    tir_folder : Path
+    parameters : RetrainParameters
+
+    Returns
+    -------
+    store : Store
+        Stored at once, whatever happens later in the run.
+    table : DataFrame
+        Its tire table.
+    report : DataFrame
+        ``file, category, status, reason`` of all files that are not simply as before.
+    """
+    found = settled_difference(
+        tir_folder,
+        ingested.manifest,
+        settle_seconds=parameters.settle_seconds,
+        most_wait_seconds=parameters.most_wait_seconds,
+        rehash_all=parameters.rehash_all,
+    )
+    check_removed(found, ingested.manifest, parameters.most_removed_share, str(tir_folder))
+    store, report = ingest(ingested, tir_folder, found)
+    return store, store.table, report
+
+
+def hold_out(
+    normalized: pd.DataFrame, tire_table: pd.DataFrame, parameters: RetrainParameters
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Training tires at one nominal load, and held-out tires as they were read."""
+    held = held_out_rows(tire_table, share=parameters.held_out_share, seed=parameters.split_seed)
+    return normalized[~held].reset_index(drop=True), tire_table[held].reset_index(drop=True)
+
+
+def train_candidate(
+    training: pd.DataFrame,
+    normalize: NormalizeParameters,
+    represent: RepresentParameters,
+    bins: BinParameters,
+    train_classifier: TrainClassifierParameters,
+    seed: int,
+) -> CategoryModel:
+    """Represent, bin and train the forest on the training tires."""
+    return train_model(
+        training,
+        unfitted(represent),
+        RandomForest(**train_classifier.options("random_forest")),
+        nominal_load=normalize.nominal_load,
+        bins=bins.bins,
+        method=bins.method,
+        seed=seed,
+    )
+
+
+def compare(
+    candidate: CategoryModel, shelf: Shelf, held_out: pd.DataFrame, parameters: RetrainParameters
+) -> pd.DataFrame:
+    """Judge candidate and released model on the same held-out tires."""
+    check_split(shelf.release, parameters.split)
+    return compare_models(candidate, shelf.model, held_out)
+
+
+def measure_drift(
+    candidate: CategoryModel, normalized: pd.DataFrame, store: Store, shelf: Shelf
+) -> pd.DataFrame:
+    """Drift of the files that came since the last candidate was judged, per category and feature."""
+    since = shelf.release.judged.sequence if shelf.release.judged else store.manifest.sequence
+    incoming = normalized["file"].isin(store.manifest.read_after(since)).to_numpy()
+    names = list(candidate.representation.feature_names)
+    features = pd.DataFrame(candidate.representation.encode(normalized), columns=names)
+    return drift_of_features(features, normalized["category"].to_numpy(dtype=str), np.asarray(incoming))
+
+
+def decide(
+    candidate: CategoryModel,
+    shelf: Shelf,
+    comparison: pd.DataFrame,
+    store: Store,
+    parameters: RetrainParameters,
+    *settings: Any,
+) -> tuple[Shelf, dict[str, Any]]:
+    """Release the candidate if it is not worse.
+
+    Parameters
+    ----------
+    candidate : CategoryModel
+    shelf : Shelf
+    comparison : DataFrame
+        From :func:`compare`.
+    store : Store
+    parameters : RetrainParameters
+    *settings
+        All other parameters that shaped the candidate.
+
+    Returns
+    -------
+    shelf : Shelf
+    outcome : dict
+        ``event, model, reason`` and both balanced accuracies.
+    """
+    figures = {name: balanced_accuracy(comparison, name) for name in (CANDIDATE, RELEASED)}
+    judged = Judged(
+        digest=store.manifest.digest,
+        settings=_digest(parameters.split, *settings),
+        sequence=store.manifest.sequence,
+        split=parameters.split,
+    )
+    now = datetime.datetime.now(datetime.UTC).isoformat(timespec="milliseconds")
+    name = now.replace(":", ".").replace("+00.00", "Z")
+    release = judge(shelf.release, name, judged, better=not_worse(comparison), time=now, figures=figures)
+    if release is shelf.release:
+        reason = "these files and parameters were judged before"
+        return shelf, {"event": UNCHANGED, "model": release.current, "reason": reason, **figures}
+    return Shelf(release, candidate), dict(release.last_event)
+
+
+def _digest(*settings: Any) -> str:
+    plain = [each.model_dump() if isinstance(each, Parameters) else each for each in settings]
+    return hashlib.sha256(json.dumps(plain, sort_keys=True, default=str).encode()).hexdigest()

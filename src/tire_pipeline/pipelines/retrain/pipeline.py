@@ -1,0 +1,101 @@
+"""New files -> table -> candidate -> comparison -> release."""
+
+from kedro.pipeline import Node, Pipeline
+
+from tire_pipeline.pipelines.dedupe_filter import create_pipeline as dedupe_filter
+from tire_pipeline.pipelines.normalize import create_pipeline as normalize
+from tire_pipeline.pipelines.retrain.nodes import (
+    compare,
+    decide,
+    hold_out,
+    measure_drift,
+    read_new_files,
+    train_candidate,
+)
+from tire_pipeline.pipelines.retrain.report import build_retraining_report
+
+_SHAPE = [
+    "params:normalize",
+    "params:represent",
+    "params:bin",
+    "params:train_classifier",
+    "params:seed",
+]
+
+
+def create_pipeline(**_: object) -> Pipeline:
+    """Retrain on what has arrived; the steps from table to table are those of the other pipelines."""
+    reading = [
+        Node(
+            read_new_files,
+            inputs=["ingested", "tir_folder", "params:retrain"],
+            outputs=["ingested_updated", "ingested_table", "retraining_files"],
+            name="read_new_files",
+        )
+    ]
+    cleaning = Pipeline(
+        [dedupe_filter(), normalize()],
+        inputs={"tire_table_raw": "ingested_table"},
+        outputs={
+            "tire_table": "retraining_table",
+            "filter_report": "retraining_filter_report",
+            "normalized_table": "retraining_normalized_table",
+        },
+        prefix_datasets_with_namespace=False,
+    )
+    return Pipeline([*reading, cleaning, *_judging()])
+
+
+def _judging() -> list[Node]:
+    return [
+        Node(
+            hold_out,
+            inputs=["retraining_normalized_table", "retraining_table", "params:retrain"],
+            outputs=["training_tires", "held_out_tires"],
+            name="hold_out",
+        ),
+        Node(
+            train_candidate,
+            inputs=["training_tires", *_SHAPE],
+            outputs="candidate_model",
+            name="train_candidate",
+        ),
+        Node(
+            compare,
+            inputs=["candidate_model", "released_model", "held_out_tires", "params:retrain"],
+            outputs="retraining_comparison",
+            name="compare",
+        ),
+        Node(
+            measure_drift,
+            inputs=["candidate_model", "retraining_normalized_table", "ingested_updated", "released_model"],
+            outputs="retraining_drift",
+            name="measure_drift",
+        ),
+        Node(
+            decide,
+            inputs=[
+                "candidate_model",
+                "released_model",
+                "retraining_comparison",
+                "ingested_updated",
+                "params:retrain",
+                *_SHAPE,
+                "params:dedupe_filter",
+            ],
+            outputs=["released_model_updated", "retraining_outcome"],
+            name="decide",
+        ),
+        Node(
+            build_retraining_report,
+            inputs=[
+                "retraining_files",
+                "retraining_drift",
+                "retraining_comparison",
+                "retraining_outcome",
+                "released_model_updated",
+            ],
+            outputs="retraining_report",
+            name="build_retraining_report",
+        ),
+    ]

@@ -1,0 +1,34 @@
+"""Retraining when files arrive: what is new, what has drifted, whether the new model may replace the old."""
+
+from tire_pipeline.retraining.compare import BALANCED, compare_models, not_worse
+from tire_pipeline.retraining.drift import drift_of_features
+from tire_pipeline.retraining.held_out import held_out_rows
+from tire_pipeline.retraining.ingest import Store, ingest
+from tire_pipeline.retraining.manifest import Entry, Manifest
+from tire_pipeline.retraining.model import CategoryModel, train_model
+from tire_pipeline.retraining.release import Judged, Release, Shelf, judge, roll_back
+from tire_pipeline.retraining.scan import Difference, Look, difference, look_at, settled_difference
+
+__all__ = [
+    "BALANCED",
+    "CategoryModel",
+    "Difference",
+    "Entry",
+    "Judged",
+    "Look",
+    "Manifest",
+    "Release",
+    "Shelf",
+    "Store",
+    "compare_models",
+    "difference",
+    "drift_of_features",
+    "held_out_rows",
+    "ingest",
+    "judge",
+    "look_at",
+    "not_worse",
+    "roll_back",
+    "settled_difference",
+    "train_model",
+]

@@ -1,0 +1,148 @@
+"""New and changed files into the stored table, and nothing else read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import pandas as pd
+
+from tire_pipeline.errors import TirePipelineError
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.progress import track
+from tire_pipeline.retraining.manifest import Entry, Manifest
+from tire_pipeline.retraining.scan import Difference, fingerprint
+from tire_pipeline.tir import read_tir
+from tire_pipeline.tire_table import from_models, physical_tire_ids
+
+COLUMNS = ["file", "category", "status", "reason"]
+READ, PENDING, GROWING, REMOVED = "read", "pending", "growing", "removed"
+
+
+@dataclass(frozen=True)
+class Store:
+    """The table of all files read so far, and the manifest that says what it holds.
+
+    Attributes
+    ----------
+    manifest : Manifest
+    table : DataFrame
+        A tire table, sorted by ``file``.
+    """
+
+    manifest: Manifest = field(default_factory=Manifest)
+    table: pd.DataFrame = field(default_factory=lambda: from_models([]))
+
+
+def ingest(
+    store: Store,
+    folder: str | Path,
+    found: Difference,
+    read: Callable[[str | Path], TireModel] = read_tir,
+) -> tuple[Store, pd.DataFrame]:
+    """Read what is new, drop what is gone, keep all the rest as it is.
+
+    A file that cannot be read is pending: an earlier reading of it stays in the table, and it is tried again
+    when its content changes. A file whose content changes while it is read counts as growing.
+
+    Parameters
+    ----------
+    store : Store
+    folder : path
+    found : Difference
+        Of this folder against the store's manifest.
+    read : callable
+        Reads one file.
+
+    Returns
+    -------
+    Store
+        With the next sequence number if the table changed.
+    report : DataFrame
+        ``file, category, status, reason``: one row a file that is new, changed, removed, growing or still
+        pending.
+    """
+    number = store.manifest.sequence + 1
+    removed = set(found.removed)
+    files = {name: entry for name, entry in store.manifest.files.items() if name not in removed}
+    for name, look in found.touched.items():
+        files[name] = replace(files[name], size=look.size, mtime_ns=look.mtime_ns, ctime_ns=look.ctime_ns)
+    rows = [_row(name, REMOVED, "") for name in found.removed]
+    rows += [_row(name, GROWING, "changed too lately; left for the next run") for name in found.growing]
+    new = from_models(_models(Path(folder), {**found.added, **found.changed}, files, rows, number, read))
+    reported = {row["file"] for row in rows}
+    rows += [_row(n, PENDING, e.reason) for n, e in files.items() if e.pending and n not in reported]
+    report = pd.DataFrame(rows, columns=COLUMNS, dtype="str").sort_values("file", ignore_index=True)
+    gone = [name for name in found.removed if store.manifest.files[name].row_sha256]
+    if not len(new) and not gone:
+        return Store(replace(store.manifest, files=files), store.table), report
+    table = merged(store.table, new, gone)
+    return Store(replace(store.manifest, sequence=number, files=files), table), report
+
+
+def merged(old: pd.DataFrame, new: pd.DataFrame, gone: list[str]) -> pd.DataFrame:
+    """Rows of ``old`` that are neither replaced nor gone, and ``new``: as if all had been read at once."""
+    kept = old[~old["file"].isin({*new["file"], *gone})]
+    parts = [part for part in (kept, new) if len(part)]
+    if not parts:
+        return from_models([])
+    if len(parts) == 1:
+        table = parts[0].dropna(axis=1, how="all")
+    else:
+        table = pd.concat(parts, ignore_index=True).dropna(axis=1, how="all")
+    order = from_models([]).columns.tolist()
+    table = table.reindex(columns=_ordered([*table.columns, *order]))
+    table["tire_id"] = physical_tire_ids(table)
+    return table.sort_values("file", ignore_index=True)
+
+
+def _ordered(names: list[str]) -> list[str]:
+    from tire_pipeline.tire_table.from_models import ALWAYS, KNOWN_COEFFICIENTS
+
+    present = set(names)
+    first = ["file", "category", "version"]
+    numbers = [name for name in KNOWN_COEFFICIENTS if name in present]
+    return [*first, *numbers, *(name for name in ALWAYS if name not in numbers), "tire_id"]
+
+
+def _models(
+    folder: Path,
+    wanted: Mapping[str, tuple[object, str]],
+    files: dict[str, Entry],
+    rows: list[dict[str, str]],
+    number: int,
+    read: Callable[[str | Path], TireModel],
+) -> Iterator[tuple[str, str, TireModel]]:
+    for name, (look, digest) in track(wanted.items(), "reading new .tir files", total=len(wanted)):
+        before = files.get(name)
+        entry = Entry(
+            digest,
+            before.row_sha256 if before else "",
+            look.size,  # type: ignore[attr-defined]
+            look.mtime_ns,  # type: ignore[attr-defined]
+            look.ctime_ns,  # type: ignore[attr-defined]
+            before.sequence if before else number,
+        )
+        try:
+            tire = read(folder / name)
+        except (TirePipelineError, OSError) as error:
+            files[name] = replace(entry, reason=str(error))
+            stays = "; an earlier reading stays" if entry.row_sha256 else ""
+            rows.append(_row(name, PENDING, f"{error}{stays}"))
+            continue
+        if fingerprint(folder / name) != digest:
+            rows.append(_row(name, GROWING, "changed while it was read; left for the next run"))
+            continue
+        files[name] = replace(entry, row_sha256=digest, sequence=number)
+        rows.append(_row(name, READ, ""))
+        yield name, category_of(name), tire
+
+
+def category_of(name: str) -> str:
+    """The first folder of a file's path."""
+    return name.split("/", 1)[0] if "/" in name else ""
+
+
+def _row(name: str, status: str, reason: str) -> dict[str, str]:
+    return {"file": name, "category": category_of(name), "status": status, "reason": reason}

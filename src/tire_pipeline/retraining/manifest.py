@@ -1,0 +1,107 @@
+"""Which content of which file is in the table: hashes, not names and not dates."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import astuple, dataclass, field
+
+from tire_pipeline.errors import DomainError
+
+FORMAT = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One file as it was last looked at.
+
+    Attributes
+    ----------
+    sha256 : str
+        Of the content, together with its sidecar's.
+    row_sha256 : str
+        Of the content that the table's row was read from; empty if the table has no row of this file.
+    size, mtime_ns, ctime_ns : int
+        If all three are as before, the content is taken as unchanged and not read.
+    sequence : int
+        The store's sequence number when the row was read.
+    reason : str
+        Why the present content could not be read.
+    """
+
+    sha256: str
+    row_sha256: str
+    size: int
+    mtime_ns: int
+    ctime_ns: int
+    sequence: int
+    reason: str = ""
+
+    @property
+    def pending(self) -> bool:
+        """The present content could not be read; it is tried again when it changes."""
+        return self.row_sha256 != self.sha256
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """All files that were looked at.
+
+    Attributes
+    ----------
+    sequence : int
+        Grows by one with every change of the table.
+    files : mapping
+        Path relative to the folder -> :class:`Entry`.
+    revision : int
+        Grows by one each time it is stored; tells two runs at once apart.
+    """
+
+    sequence: int = 0
+    files: Mapping[str, Entry] = field(default_factory=dict)
+    revision: int = 0
+
+    @property
+    def digest(self) -> str:
+        """One hash for the table's content: equal if and only if the same contents were read."""
+        total = hashlib.sha256()
+        for name in sorted(self.files):
+            if self.files[name].row_sha256:
+                total.update(f"{name}\0{self.files[name].row_sha256}\n".encode())
+        return total.hexdigest()
+
+    def read_after(self, sequence: int) -> list[str]:
+        """Files whose rows were read after the store had this sequence number."""
+        return sorted(
+            name for name, entry in self.files.items() if entry.row_sha256 and entry.sequence > sequence
+        )
+
+    def to_json(self, **more: object) -> bytes:
+        """Bytes of the manifest; ``more`` goes beside it."""
+        files = {name: astuple(self.files[name]) for name in sorted(self.files)}
+        numbers = {"format": FORMAT, "sequence": self.sequence, "revision": self.revision}
+        content = {**numbers, **more, "files": files}
+        return json.dumps(content, separators=(",", ":")).encode()
+
+    @classmethod
+    def from_json(cls, content: bytes, where: str = "manifest") -> tuple[Manifest, dict[str, object]]:
+        """What :meth:`to_json` wrote, and what went beside it.
+
+        Raises
+        ------
+        DomainError
+            It is damaged.
+        """
+        try:
+            data = json.loads(content)
+            if data.pop("format") != FORMAT:
+                raise ValueError("format")
+            files = {str(name): Entry(*values) for name, values in data.pop("files").items()}
+            return cls(int(data.pop("sequence")), files, int(data.pop("revision"))), data
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise DomainError(
+                "the manifest of files is damaged",
+                where=where,
+                todo="delete its folder: the next run reads all files again",
+            ) from error

@@ -1,0 +1,194 @@
+"""The record of what was released, refused and taken back."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from typing import Any
+
+from tire_pipeline.errors import DomainError
+from tire_pipeline.retraining.model import CategoryModel
+
+KEPT_MODELS = 20
+KEPT_EVENTS = 1000
+RELEASED, REFUSED, ROLLED_BACK, UNCHANGED = "released", "refused", "rolled back", "unchanged"
+
+
+@dataclass(frozen=True)
+class Judged:
+    """What a candidate was trained on and judged by.
+
+    Attributes
+    ----------
+    digest : str
+        Of the contents of all files (:attr:`Manifest.digest`).
+    settings : str
+        Hash of the parameters.
+    sequence : int
+        The store's sequence number.
+    split : str
+        Names the held-out tires: share and seed.
+    """
+
+    digest: str
+    settings: str
+    sequence: int
+    split: str
+
+
+@dataclass(frozen=True)
+class Release:
+    """Which model is in use, which were before it, and what happened.
+
+    Attributes
+    ----------
+    revision : int
+        Grows by one with every event; two runs at once are told apart by it.
+    models : tuple of str
+        Released models, oldest first; the last is in use.
+    splits : mapping
+        Model -> which tires were held out from it.
+    judged : Judged or None
+        The last candidate.
+    history : tuple of dict
+        One an event: ``revision, time, event, model, reason`` and figures.
+    """
+
+    revision: int = 0
+    models: tuple[str, ...] = ()
+    splits: Mapping[str, str] = field(default_factory=dict)
+    judged: Judged | None = None
+    history: tuple[Mapping[str, Any], ...] = ()
+
+    @property
+    def current(self) -> str | None:
+        """The model in use."""
+        return self.models[-1] if self.models else None
+
+    @property
+    def last_event(self) -> Mapping[str, Any]:
+        """What happened last."""
+        return self.history[-1] if self.history else {}
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return asdict(self)
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Release:
+        """What :meth:`to_dict` gave."""
+        judged = data["judged"]
+        return cls(
+            revision=int(data["revision"]),
+            models=tuple(data["models"]),
+            splits=dict(data["splits"]),
+            judged=Judged(**judged) if judged else None,
+            history=tuple(data["history"]),
+        )
+
+    def _with(self, event: Mapping[str, Any], **changes: Any) -> Release:
+        number = self.revision + 1
+        history = [*self.history, {"revision": number, **event}][-KEPT_EVENTS:]
+        return replace(self, revision=number, history=tuple(history), **changes)
+
+
+@dataclass(frozen=True)
+class Shelf:
+    """The record and the model in use (or the one that shall be).
+
+    Attributes
+    ----------
+    release : Release
+    model : CategoryModel or None
+        None if there is none, or if it is stored already.
+    """
+
+    release: Release = field(default_factory=Release)
+    model: CategoryModel | None = None
+
+
+def judge(
+    release: Release,
+    model: str,
+    judged: Judged,
+    *,
+    better: bool,
+    time: str,
+    figures: Mapping[str, float | None],
+) -> Release:
+    """Release a candidate if it is not worse, refuse it otherwise; never judge the same thing twice.
+
+    Parameters
+    ----------
+    release : Release
+    model : str
+        Name of the candidate.
+    judged : Judged
+        What it was trained on. If that is what was judged last, nothing happens: so a run that was killed
+        after its release changes nothing when it is repeated, and a model that was rolled back does not
+        return until files or parameters change.
+    better : bool
+        Whether the candidate is at least as good as the released model.
+    time : str
+    figures : mapping
+        For the history.
+
+    Returns
+    -------
+    Release
+        The same object if nothing happened.
+    """
+    before = release.judged
+    if before is not None and (before.digest, before.settings) == (judged.digest, judged.settings):
+        return release
+    event = {"time": time, "model": model, **figures}
+    if not better:
+        reason = "worse than the released model on the held-out tires"
+        return release._with({**event, "event": REFUSED, "reason": reason}, judged=judged)
+    reason = "not worse than the released model on the held-out tires" if release.models else "the first"
+    models = (*release.models, model)[-KEPT_MODELS:]
+    splits = {name: ({**release.splits, model: judged.split})[name] for name in models}
+    event = {**event, "event": RELEASED, "reason": reason}
+    return release._with(event, judged=judged, models=models, splits=splits)
+
+
+def roll_back(release: Release, *, time: str) -> Release:
+    """Put the model before the present one back.
+
+    Raises
+    ------
+    DomainError
+        There is none.
+    """
+    if len(release.models) < 2:
+        have = f"only {release.models[0]} was released" if release.models else "no model was released yet"
+        raise DomainError(
+            f"there is no earlier model to go back to: {have}", todo="run `kedro run --pipeline retrain`"
+        )
+    models = release.models[:-1]
+    reason = f"{release.models[-1]} was taken back by hand"
+    event = {"time": time, "event": ROLLED_BACK, "model": models[-1], "reason": reason}
+    return release._with(event, models=models, splits={name: release.splits[name] for name in models})
+
+
+def check_split(release: Release, split: str) -> None:
+    """Refuse to compare models that other tires were held out from.
+
+    Raises
+    ------
+    DomainError
+        The released model may have been trained on tires that are held out now.
+    """
+    current = release.current
+    if current is not None and release.splits[current] != split:
+        raise DomainError(
+            f"the released model had other tires held out ({release.splits[current]}, now {split})",
+            where="retrain",
+            todo="set retrain.held_out_share and retrain.split_seed back, or move the folder of released "
+            "models away to begin anew",
+        )
+
+
+def history_rows(release: Release, most: int = 20) -> Sequence[Mapping[str, Any]]:
+    """The last events, newest first."""
+    return list(reversed(release.history))[:most]
