@@ -1,5 +1,6 @@
 """Kedro datasets: tire property files and recordings, folders of them, model states, pages."""
 
+from tire_pipeline.datasets.computed_folder import ComputedFolderDataset
 from tire_pipeline.datasets.folder import FolderDataset
 from tire_pipeline.datasets.html_page import HtmlPageDataset
 from tire_pipeline.datasets.ingest_store import IngestStoreDataset
@@ -11,6 +12,7 @@ from tire_pipeline.datasets.tir_file import TirDataset
 from tire_pipeline.datasets.tir_folder import TirFolderDataset
 
 __all__ = [
+    "ComputedFolderDataset",
     "FolderDataset",
     "HtmlPageDataset",
     "IngestStoreDataset",

@@ -1,0 +1,100 @@
+"""A folder of files that are computed one by one; what is there already is not computed again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from joblib import Parallel, delayed
+from kedro.io.core import AbstractDataset
+
+from tire_pipeline.datasets._atomic import replaced_file
+from tire_pipeline.datasets.text_folder import _inside
+from tire_pipeline.progress import track
+
+Compute = Callable[[], bytes]
+
+
+class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Compute]]):
+    """Saves ``{name: function that gives bytes}``: each file whole, several at a time, resumable.
+
+    A file that exists is right, because its name must say all that it depends on (seed, settings,
+    version of the code): put :func:`source_hash` into them. So a long computation that was interrupted, or
+    killed, goes on where it stopped. Files of other names are left alone on saving and on loading: only
+    those of the last save are loaded.
+
+    Parameters
+    ----------
+    path : str
+        The folder.
+    processes : int
+        How many files are computed at the same time.
+    metadata : dict, optional
+        For kedro-viz.
+    """
+
+    _INDEX = "index.txt"
+
+    def __init__(self, *, path: str, processes: int = 2, metadata: dict[str, Any] | None = None) -> None:
+        self._path = path
+        self._processes = processes
+        self.metadata = metadata
+
+    def save(self, data: Mapping[str, Compute]) -> None:
+        """Compute and write what is not there yet."""
+        folder = Path(self._path)
+        paths = {name: folder / _inside(name) for name in data}
+        (folder / self._INDEX).unlink(missing_ok=True)
+        missing = [name for name, path in paths.items() if not path.exists()]
+        work = (delayed(_write)(data[name], paths[name]) for name in missing)
+        done = Parallel(n_jobs=self._processes, return_as="generator_unordered")(work)
+        what = f"computing {folder.name}"
+        if len(missing) < len(data):
+            what += f" ({len(data) - len(missing)} of {len(data)} are there already)"
+        for _ in track(done, what, total=len(missing)):
+            pass
+        with replaced_file(folder / self._INDEX) as temporary:
+            temporary.write_text("\n".join(data), encoding="utf-8")
+
+    def load(self) -> dict[str, Compute]:
+        """Name to the function that reads the file, for the files of the last save."""
+        folder = Path(self._path)
+        names = (folder / self._INDEX).read_text(encoding="utf-8").splitlines()
+        return {name: (folder / _inside(name)).read_bytes for name in names}
+
+    def _exists(self) -> bool:
+        return (Path(self._path) / self._INDEX).exists()
+
+    def _describe(self) -> dict[str, Any]:
+        return {"path": self._path, "processes": self._processes}
+
+
+def source_hash(*packages: str) -> str:
+    """A hash of the source of parts of this project: results of other code are not taken for this code's.
+
+    Parameters
+    ----------
+    *packages : str
+        Folders below ``tire_pipeline``.
+    """
+    import hashlib
+
+    root = Path(__file__).resolve().parents[1]
+    total = hashlib.sha256()
+    for path in _sources(root, packages):
+        total.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes())
+    return total.hexdigest()[:12]
+
+
+def _sources(root: Path, packages: tuple[str, ...]) -> Iterator[Path]:
+    for package in packages:
+        for path in sorted((root / package).rglob("*")):
+            if path.is_file() and path.suffix in (".py", ".json", ".html"):
+                yield path
+
+
+def _write(compute: Compute, path: Path) -> None:
+    content = compute()
+    with replaced_file(path) as temporary:
+        temporary.write_bytes(content)

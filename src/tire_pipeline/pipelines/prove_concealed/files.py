@@ -1,0 +1,113 @@
+"""One case, shown or explained, as the bytes of one file."""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+from collections.abc import Callable
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.concealed import make_case
+from tire_pipeline.concealed.baselines import BASELINES
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.tir import read_tir, tir_bytes
+
+FORCES = ["fx", "fy", "mx", "my", "mz"]
+Read = Callable[[], bytes]
+
+
+def made_case(seed: int, kind: str) -> bytes:
+    """Make a case: ``model.tir``, ``recording``, ``held_out`` and ``answer.json``."""
+    case, answer = make_case(seed, kind)
+    return pack(
+        {
+            "model.tir": tir_bytes(case.tire),
+            "recording.parquet": _parquet(case.recording),
+            "held_out.parquet": _parquet(case.held_out),
+            "answer.json": json.dumps(answer.to_dict()).encode(),
+            "case_id": case.case_id.encode(),
+        }
+    )
+
+
+def shown_part(read: Read) -> bytes:
+    """What a user would have; of the held-out run only the inputs, to predict it."""
+    made = unpack(read())
+    held_out = pd.read_parquet(io.BytesIO(made["held_out.parquet"]))
+    inputs = held_out.drop(columns=[name for name in FORCES if name in held_out])
+    shown = {name: made[name] for name in ("model.tir", "recording.parquet", "case_id")}
+    return pack({**shown, "inputs.parquet": _parquet(inputs)})
+
+
+def held_out_part(read: Read) -> bytes:
+    """The held-out run, forces and all, and the model."""
+    made = unpack(read())
+    return pack({name: made[name] for name in ("model.tir", "held_out.parquet", "case_id")})
+
+
+def explained(read: Read, method: str) -> bytes:
+    """Explain one case with the model locked, then predict its held-out inputs.
+
+    Parameters
+    ----------
+    read : callable
+        Gives the bytes of :func:`shown_part`.
+    method : str
+        ``explain_mismatch`` or a name of ``BASELINES``.
+    """
+    shown = unpack(read())
+    tire = read_tir(shown["model.tir"])
+    recording = pd.read_parquet(io.BytesIO(shown["recording.parquet"]))
+    inputs = pd.read_parquet(io.BytesIO(shown["inputs.parquet"]))
+    prediction = pd.DataFrame(index=inputs.index)
+    try:
+        if method == "explain_mismatch":
+            report = explain_mismatch(tire, recording)
+            prediction = report.corrected.predict(inputs)
+        else:
+            report = BASELINES[method](tire, recording)
+            prediction = report.predict(inputs)
+        answer = report.to_dict()
+    except RecordingError as error:
+        answer = {"verdict": "refused", "effects": [], "fit": {}, "problem": str(error)}
+    kept = {key: answer.get(key) for key in ("verdict", "effects", "fit", "problem", "next_experiment")}
+    return pack(
+        {
+            "report.json": json.dumps(kept, default=_plain).encode(),
+            "prediction.parquet": _parquet(prediction),
+            "case_id": shown["case_id"],
+        }
+    )
+
+
+def pack(members: dict[str, bytes]) -> bytes:
+    """Files as one ZIP."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+    return buffer.getvalue()
+
+
+def unpack(content: bytes) -> dict[str, bytes]:
+    """The files of one ZIP."""
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def _parquet(frame: pd.DataFrame) -> bytes:
+    buffer = io.BytesIO()
+    frame.to_parquet(buffer)
+    return buffer.getvalue()
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    return str(value)

@@ -1,0 +1,142 @@
+"""Cases with concealed effects -> explanations -> scores against the sealed answers."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any, Literal
+
+import pandas as pd
+from pydantic import Field
+
+from tire_pipeline.concealed import Answer, Case, case_plan, held_out_errors, score, seal, unseal
+from tire_pipeline.datasets.computed_folder import source_hash
+from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.pipelines.prove_concealed import files
+from tire_pipeline.progress import track
+from tire_pipeline.tir import read_tir
+
+Folder = Mapping[str, Callable[[], bytes]]
+METHOD = "explain_mismatch"
+
+
+class ProveConcealedParameters(Parameters):
+    """Parameters of ``prove_concealed``.
+
+    Attributes
+    ----------
+    cases : int
+    seed : int
+        Of the published proof; used once, after all thresholds were fixed on other seeds.
+    baselines : list of str
+        What else is tried on the same cases.
+    """
+
+    cases: int = Field(400, ge=1)
+    seed: int = Field(ge=10_000)
+    baselines: list[Literal["bic_stepwise", "pysindy", "gaussian_process"]] = [
+        "bic_stepwise",
+        "pysindy",
+        "gaussian_process",
+    ]
+
+
+def make_cases(parameters: ProveConcealedParameters) -> dict[str, Callable[[], bytes]]:
+    """Say how each case is made; the dataset makes those that are not there."""
+    code = source_hash("concealed", "magic_formula")
+    return {
+        f"{code}/{seed:010d}_{kind}.zip": partial(files.made_case, seed, kind)
+        for seed, kind in case_plan(parameters.cases, parameters.seed)
+    }
+
+
+def part_cases(
+    made: Folder,
+) -> tuple[dict[str, Callable[[], bytes]], dict[str, Callable[[], bytes]], dict[str, Any]]:
+    """Part what is shown, what is held out, and the answers, which are sealed by a hash.
+
+    The names of the shown files are numbers only: the kind of a case does not reach who explains it.
+    """
+    shown, held_out, answers = {}, {}, []
+    for name, read in track(made.items(), "sealing the answers", total=len(made)):
+        code, rest = name.split("/")
+        number = rest.split("_")[0]
+        shown[f"{code}/{number}.zip"] = partial(files.shown_part, read)
+        held_out[f"{code}/{number}.zip"] = partial(files.held_out_part, read)
+        answers.append(Answer.from_dict(json.loads(files.unpack(read())["answer.json"])))
+    data, sha256 = seal(answers)
+    return shown, held_out, {"sha256": sha256, "answers": data.decode()}
+
+
+def explain_cases(shown: Folder) -> dict[str, Callable[[], bytes]]:
+    """Explain every case; neither answers nor held-out forces are at hand here."""
+    code = source_hash("mismatch", "magic_formula", "tir")
+    return {f"{code}/{name}": partial(files.explained, read, METHOD) for name, read in shown.items()}
+
+
+def explain_by_baselines(
+    shown: Folder, parameters: ProveConcealedParameters
+) -> dict[str, Callable[[], bytes]]:
+    """The same cases by the baselines."""
+    code = source_hash("concealed/baselines", "magic_formula", "tir")
+    return {
+        f"{code}/{method}/{name}": partial(files.explained, read, method)
+        for method in parameters.baselines
+        for name, read in shown.items()
+    }
+
+
+def score_proof(
+    explained: Folder, by_baselines: Folder, held_out: Folder, sealed: dict[str, Any]
+) -> tuple[pd.DataFrame, pd.DataFrame, dict[str, Any]]:
+    """Score all methods against the sealed answers.
+
+    Parameters
+    ----------
+    explained, by_baselines : mapping
+        Files of :func:`files.explained`.
+    held_out : mapping
+        Files of :func:`files.held_out_part`.
+    sealed : dict
+        ``sha256`` and ``answers``.
+
+    Returns
+    -------
+    scores : DataFrame
+        ``method, name, value, low, high, n, target, met``.
+    misses : DataFrame
+        Every case that ``explain_mismatch`` did not answer rightly, and why.
+    details : dict
+        Scores by strength and by effect, and the hash of the answers.
+    """
+    answers = unseal(sealed["answers"].encode(), sealed["sha256"])
+    truth = {files.unpack(read())["case_id"].decode(): read for read in held_out.values()}
+    methods: dict[str, dict[str, Callable[[], bytes]]] = {METHOD: dict(explained)}
+    for name, read in by_baselines.items():
+        methods.setdefault(name.split("/")[1], {})[name] = read
+    tables, details, misses = [], {"sha256": sealed["sha256"]}, pd.DataFrame()
+    for method, folder in methods.items():
+        reports, errors = {}, {}
+        for read in track(folder.values(), f"scoring {method}", total=len(folder)):
+            content = files.unpack(read())
+            case_id = content["case_id"].decode()
+            reports[case_id] = json.loads(content["report.json"])
+            errors[case_id] = _errors(content, truth[case_id])
+        result = score(reports, answers, held_out=errors)
+        tables.append(pd.DataFrame(result["scores"]).assign(method=method))
+        details[method] = {key: result[key] for key in ("n", "by_strength", "by_effect")}
+        if method == METHOD:
+            misses = pd.DataFrame(result["misses"])
+    scores = pd.concat(tables, ignore_index=True)
+    return scores[["method", *[c for c in scores.columns if c != "method"]]], misses, details
+
+
+def _errors(content: dict[str, bytes], read: Callable[[], bytes]) -> dict[str, dict[str, float]]:
+    """Held-out errors before and after, of a prediction that was made without seeing them."""
+    sealed = files.unpack(read())
+    held_out = pd.read_parquet(io.BytesIO(sealed["held_out.parquet"]))
+    prediction = pd.read_parquet(io.BytesIO(content["prediction.parquet"]))
+    case = Case(sealed["case_id"].decode(), read_tir(sealed["model.tir"]), held_out.head(0), held_out)
+    return held_out_errors(case, lambda _: prediction)
