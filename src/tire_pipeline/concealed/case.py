@@ -236,7 +236,9 @@ def _set_up(rng: np.random.Generator, choice: Choice, settings: CaseSettings) ->
         largest={f: float(clean[f].abs().max()) for f in FORCES},
     )
     largest = max(world.largest.values())
-    tire = fit_clean(world, plan, noise=0.002 * largest, rng=rng)
+    tire, poor = fit_clean(world, plan, noise=0.002 * largest, rng=rng)
+    if poor > 2.0 * settings.misfit[1] * largest:
+        raise _Unfit
     left = residual(tire, clean)
     misfit = rms(left)
     if not settings.misfit[0] <= misfit / largest <= settings.misfit[1]:

@@ -7,10 +7,10 @@ import warnings
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.concealed._small_fit import small_fit
 from tire_pipeline.concealed.rig import FORCES, World
 from tire_pipeline.concealed.schedule import CHANNELS, Plan
 from tire_pipeline.magic_formula import DegreesWarning, TireModel
+from tire_pipeline.magic_formula.fitting import fit_magic_formula
 
 
 def clean_schedule(world: World, plan: Plan) -> pd.DataFrame:
@@ -40,7 +40,7 @@ def clean_schedule(world: World, plan: Plan) -> pd.DataFrame:
     return frame[["time", *CHANNELS]]
 
 
-def fit_clean(world: World, plan: Plan, *, noise: float, rng: np.random.Generator) -> TireModel:
+def fit_clean(world: World, plan: Plan, *, noise: float, rng: np.random.Generator) -> tuple[TireModel, float]:
     """Fit MF 5.2 to a clean run: no effect, steady, new tire at its reference temperature.
 
     Parameters
@@ -53,25 +53,24 @@ def fit_clean(world: World, plan: Plan, *, noise: float, rng: np.random.Generato
 
     Returns
     -------
-    TireModel
+    tire : TireModel
+    misfit : float
+        RMS of what the fit leaves of the clean run, N.
     """
     frame = world.run(clean_schedule(world, plan), {})
-    inputs = {c: frame[c].to_numpy() for c in ("slip_angle", "slip_ratio", "camber", "normal_load")}
-    fx, fy = (frame[f].to_numpy() + noise * rng.standard_normal(len(frame)) for f in FORCES)
-    p = small_fit(plan.nominal_load, inputs, fx, fy)
-    p |= {
-        "UNLOADED_RADIUS": round(world.constants.radius, 4),
-        "LONGVL": plan.speed,
-        "ALPMIN": -1.5 * plan.amplitude,
-        "ALPMAX": 1.5 * plan.amplitude,
-        "KPUMIN": -0.3,
-        "KPUMAX": 0.3,
-        "CAMMIN": -0.2,
-        "CAMMAX": 0.2,
-        "FZMIN": 0.1 * plan.nominal_load,
-        "FZMAX": 2.0 * plan.nominal_load,
-    }
-    return TireModel.from_coefficients(p, version="5.2")
+    frame = frame[["slip_angle", "slip_ratio", "camber", "normal_load", *FORCES]].copy()
+    for force in FORCES:
+        frame[force] += noise * rng.standard_normal(len(frame))
+    fitted = fit_magic_formula(
+        frame,
+        "5.2",
+        nominal_load=plan.nominal_load,
+        unloaded_radius=round(world.constants.radius, 4),
+        starts=2,
+        loss="linear",
+    )
+    tire = fitted.model.replace(LONGVL=plan.speed)
+    return tire, rms(residual(tire, frame))
 
 
 def model_forces(tire: TireModel, frame: pd.DataFrame) -> np.ndarray:
