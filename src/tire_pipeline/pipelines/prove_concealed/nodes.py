@@ -30,17 +30,17 @@ class ProveConcealedParameters(Parameters):
     cases : int
     seed : int
         Of the published proof; used once, after all thresholds were fixed on other seeds.
-    baselines : list of str
+    baselines : tuple of str
         What else is tried on the same cases.
     """
 
     cases: int = Field(400, ge=1)
     seed: int = Field(ge=10_000)
-    baselines: list[Literal["bic_stepwise", "pysindy", "gaussian_process"]] = [
+    baselines: tuple[Literal["bic_stepwise", "pysindy", "gaussian_process"], ...] = (
         "bic_stepwise",
         "pysindy",
         "gaussian_process",
-    ]
+    )
 
 
 def make_cases(parameters: ProveConcealedParameters) -> dict[str, Callable[[], bytes]]:
