@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
+from threadpoolctl import threadpool_limits
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.coefficients import INDEX, family_of
@@ -109,9 +110,10 @@ def fit_magic_formula(
         left_out = open_coefficients(names, here, nominal)
         closed = {name for group in left_out.values() for name in group}
         active = [name for name in names if name not in closed]
-        values, fit, removed = _fit_stage(
-            stage, model, active, here, forces[stage.output][chosen], starts, loss, rng, start is not None
-        )
+        with threadpool_limits(1):  # many small problems: threads in each only get in each other's way
+            values, fit, removed = _fit_stage(
+                stage, model, active, here, forces[stage.output][chosen], starts, loss, rng, start is not None
+            )
         model = model.replace(**values)
         errors.update(zip(values, fit.errors.tolist(), strict=True))
         undetermined += [f"{reason}: {', '.join(group)} kept at {kept}" for reason, group in left_out.items()]

@@ -103,15 +103,23 @@ BOUNDS: dict[str, tuple[float, float, float]] = {
     "QSX1": (-1.0, 1.0, 0.0),
     "QSX2": (-10.0, 10.0, 0.0),
     "QSX3": (-2.0, 2.0, 0.0),
+    "QSX4": (-40.0, 40.0, 1.0),
+    "QSX5": (-4.0, 4.0, 0.5),
+    "QSX6": (0.0, 6.0, 1.0),
+    "QSX7": (-4.0, 4.0, 0.0),
+    "QSX8": (-15.0, 15.0, 1.0),
+    "QSX9": (-5.0, 5.0, 0.1),
+    "QSX10": (-5.0, 5.0, 0.1),
+    "QSX11": (-6.0, 6.0, 1.0),
     "QSX12": (-50.0, 50.0, 0.0),
-    "QSX13": (-2.0, 2.0, 0.0),
-    "QSX14": (-20.0, 20.0, 0.0),
     "QSY1": (-0.1, 0.1, 0.01),
     "QSY2": (-2.0, 2.0, 0.0),
     "QSY3": (-0.1, 0.1, 0.0),
     "QSY4": (-0.01, 0.01, 0.0),
     "QSY5": (-5.0, 5.0, 0.0),
     "QSY6": (-5.0, 5.0, 0.0),
+    "QSY7": (0.0, 2.5, 1.0),
+    "QSY8": (-2.5, 2.5, 0.0),
 }
 """Coefficient -> lower bound, upper bound, start. Pressure coefficients: -3 to 3 from 0."""
 
@@ -246,7 +254,13 @@ STAGES: tuple[Stage, ...] = (
         ("RBY4",),
     ),
     Stage("Mz at combined slip", "mz", "combined", _names("SSZ1 SSZ2 SSZ3 SSZ4")),
-    Stage("Mx", "mx", "all", _names("QSX1 QSX2 QSX3"), _names("QSX12 QSX14")),
-    Stage("My", "my", "all", _names("QSY1 QSY2 QSY3 QSY4"), _names("QSY5 QSY6")),
+    Stage(
+        "Mx",
+        "mx",
+        "all",
+        _names("QSX1 QSX2 QSX3"),
+        _names("QSX4 QSX5 QSX6 QSX7 QSX8 QSX9 QSX10 QSX11 QSX12 PPMX1"),
+    ),
+    Stage("My", "my", "all", _names("QSY1 QSY2 QSY3 QSY4"), _names("QSY5 QSY6 QSY7 QSY8")),
 )
 """In the order in which a fit goes through them."""
