@@ -28,7 +28,10 @@ def test_it_ends_well_and_says_where_the_results_are(small_run):
 def test_translated_files_are_valid_and_name_their_source(small_run):
     folder = small_run / "data" / "07_model_output" / "tir"
     files = sorted(folder.rglob("*.tir"))
-    assert len(files) == (4 + 10) * 4
+    sources = small_run / "data" / "01_raw" / "evaluation"
+    judged = {p.relative_to(sources) for s in ("four", "hidden") for p in (sources / s).rglob("*.tir")}
+    assert {p.relative_to(folder) for p in files} == judged
+    assert len([p for p in judged if p.parts[0] == "four"]) == 4 * 4
     for file in files[:8]:
         tire = read_tir(file)
         source = read_tir(small_run / "data" / "01_raw" / "evaluation" / file.relative_to(folder))
