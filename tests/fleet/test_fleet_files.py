@@ -8,8 +8,8 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.fleet import FEATURES, make_fleet, read_truth_tables, write_fleet
-from tire_pipeline.fleet.settings import FOUR_TIRE_CATEGORIES, MANUFACTURERS
+from tire_pipeline.fleet import FEATURES, FleetSettings, make_fleet, read_truth_tables, write_fleet
+from tire_pipeline.fleet.settings import FOUR_TIRE_CATEGORIES, MANUFACTURERS, file_counts
 from tire_pipeline.fleet.tires import COMPOUNDS
 from tire_pipeline.tir import read_tir
 
@@ -169,3 +169,31 @@ def test_truth_tables_come_back(written, small_fleet) -> None:
     pd.testing.assert_frame_equal(files, small_fleet.truth.files, check_dtype=False)
     curves = np.load(written["truth"] / "curves_hidden.npz")
     assert curves["fy"].shape == (4, 3, 100)
+
+
+def _through_the_filter(models: dict, small_features=FEATURES):
+    from tire_pipeline.tire_table import dedupe_and_filter, from_models
+
+    table = from_models((path, path.split("/")[0], model) for path, model in models.items())
+    return table, dedupe_and_filter(table, features=list(small_features))
+
+
+def test_filter_leaves_the_kept_files(models, small_fleet) -> None:
+    table, (remaining, _) = _through_the_filter(models)
+    origin = small_fleet.truth.files.set_index("file")
+    assert remaining["category"].value_counts().to_dict() == file_counts(400).kept
+    tire = origin.loc[table["file"], "tire"].to_numpy()
+    pairs = pd.DataFrame({"tire": tire, "tire_id": table["tire_id"].to_numpy()})
+    assert (pairs.groupby("tire")["tire_id"].nunique() == 1).all()
+    assert (pairs.groupby("tire_id")["tire"].nunique() == 1).all()
+
+
+@pytest.mark.long
+def test_full_fleet_leaves_2061_files(tmp_path) -> None:
+    fleet = make_fleet(FleetSettings(hidden_tires=1, tuning_tires=1))
+    folder = write_fleet(fleet, tmp_path)["tir"]
+    models = {str(p.relative_to(folder)): read_tir(p) for p in sorted(folder.rglob("*.tir"))}
+    assert len(models) == 3648
+    remaining = _through_the_filter(models)[1][0]
+    assert len(remaining) == 2061
+    assert remaining["category"].value_counts().to_dict() == file_counts(3648).kept
