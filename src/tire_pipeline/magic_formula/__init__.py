@@ -1,23 +1,47 @@
 """The Magic Formula engine: tire models, their forces, and what is done with their coefficients."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 from tire_pipeline.magic_formula.axes import AXES
 from tire_pipeline.magic_formula.batch import forces_batch, model_of, pack, pack_matrix
 from tire_pipeline.magic_formula.coefficients import COEFFICIENT_NAMES
+from tire_pipeline.magic_formula.convert import conversion_notes, to_version
 from tire_pipeline.magic_formula.forces import TireForces
 from tire_pipeline.magic_formula.inputs import DegreesWarning, TireRangeWarning
 from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.nominal_load import changed_coefficients, nominal_load_changed
 from tire_pipeline.magic_formula.numpy_form import OUTPUTS
+
+if TYPE_CHECKING:
+    from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula
 
 __all__ = [
     "AXES",
     "COEFFICIENT_NAMES",
     "OUTPUTS",
     "DegreesWarning",
+    "FitResult",
     "TireForces",
     "TireModel",
     "TireRangeWarning",
+    "changed_coefficients",
+    "conversion_notes",
+    "fit_magic_formula",
     "forces_batch",
     "model_of",
+    "nominal_load_changed",
     "pack",
     "pack_matrix",
+    "to_version",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import the fitter, and with it SciPy's optimizers, only when it is asked for."""
+    if name in ("FitResult", "fit_magic_formula"):
+        from tire_pipeline.magic_formula import fitting
+
+        return getattr(fitting, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
