@@ -1,4 +1,5 @@
 import numpy as np
+import pandas as pd
 import pytest
 
 from tire_pipeline.classifiers.experiments import (
@@ -8,6 +9,11 @@ from tire_pipeline.classifiers.experiments import (
 )
 from tire_pipeline.tire_table import random_split, split_by_tire
 from tire_pipeline.translation.thesis.grid import CELLS, Cell, judge_cell, train_cell
+from tire_pipeline.translation.thesis.tables import (
+    better_than_nothing,
+    collect_cells,
+    thesis_table,
+)
 
 
 @pytest.fixture(scope="module")
@@ -55,3 +61,27 @@ def test_experiments_give_every_cell(table, splits):
     counts = class_distribution(np.zeros((len(table), 1)), table["category"], splits)
     assert counts.groupby("split")["all"].sum().eq(len(table)).all()
     assert counts.groupby("split")["training_smote"].nunique().eq(1).all()
+
+
+def test_tables_of_the_thesis_from_judged_cells():
+    def metrics(ratio):
+        names = ["forces", "cornering_stiffness", "peak_friction", "mean"]
+        ratios = [ratio, 2.0, 3.0, (ratio + 5) / 3]
+        return pd.DataFrame(
+            {"metric": names, "ratio": ratios, "improved": 0.25, "worst": 9.0, "files": 16}
+        ).assign(decoding="tire")
+
+    first, second = CELLS[0], CELLS[-1]
+    judged = {first.name: [metrics(0.5), metrics(0.7)], second.name: [metrics(1.5), metrics(0.9)]}
+    collected = collect_cells(judged)
+    assert len(collected) == 16
+    table = thesis_table(collected, reward=first.reward, n_bins=first.n_bins)
+    row = table.loc[(first.representation, first.algorithm)]
+    assert row["forces"] == pytest.approx(0.6)
+    assert row["forces_std"] == pytest.approx(0.1)
+    assert len(table) == 1
+    improved = thesis_table(collected, reward=second.reward, n_bins=second.n_bins, value="improved")
+    assert improved.iloc[0]["mean"] == 0.25
+    better = better_than_nothing(collected)
+    assert better[["algorithm", "metric"]].to_numpy().tolist() == [[first.algorithm, "forces"]]
+    assert better["seeds_below_1"].item() == 1.0

@@ -15,7 +15,7 @@ import numpy as np
 try:
     from numba import njit
 except ImportError:  # numba is a dependency; this keeps a broken one from stopping the pipeline
-    njit = None
+    njit = None  # type: ignore[assignment]
 
 _ARRAYS = ("feature", "threshold", "left", "right", "value", "roots")
 
@@ -61,7 +61,7 @@ class CompiledForest:
         if njit is None:
             return self.sums_without_numba(rows)
         out = np.zeros((len(rows), self.value.shape[1]))
-        add_leaves(rows, *self.arrays(), out)
+        add_leaves(rows, *self.arrays(), out)  # type: ignore[call-arg]
         return out
 
     def sums_without_numba(self, features: np.ndarray) -> np.ndarray:

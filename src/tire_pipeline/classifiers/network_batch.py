@@ -123,8 +123,10 @@ class _Networks:
         total = sum(a * b + b for a, b in shapes)
         self.flat = torch.zeros(len(seeds), total)
         self.gradient = torch.zeros(len(seeds), total)
-        self.weights, self.biases = [], []
-        self.weight_gradients, self.bias_gradients = [], []
+        self.weights: list[torch.Tensor] = []
+        self.biases: list[torch.Tensor] = []
+        self.weight_gradients: list[torch.Tensor] = []
+        self.bias_gradients: list[torch.Tensor] = []
         start = 0
         for a, b in shapes:
             stop = start + a * b

@@ -99,7 +99,7 @@ class BatchEnv(VecEnv):
         self.taken += n
         done = ended | cut
         infos: list[dict[str, Any]] = [{} for _ in range(n)]
-        for index in done.nonzero()[0]:
+        for index in done.nonzero()[0].tolist():
             length, reward = int(self._steps[index]), float(self._returns[index])
             self.episodes.append((self.taken, reward, length))
             infos[index] = {

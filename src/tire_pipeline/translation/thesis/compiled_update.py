@@ -47,7 +47,7 @@ class CompiledPPO(PPO):
         for _ in range(self.n_epochs):
             # all rows in the random order in which PPO.train would take them batch by batch
             rows = next(self.rollout_buffer.get(None))
-            optimizer.taken = _epoch(
+            optimizer.taken = _epoch(  # type: ignore[call-arg]
                 optimizer.values,
                 optimizer.first,
                 optimizer.second,

@@ -46,7 +46,7 @@ class FlatAdam(torch.optim.Optimizer):
         """Take one step along the gradient."""
         self.taken += 1
         group = self.param_groups[0]
-        adam(
+        adam(  # type: ignore[call-arg]
             self.values,
             self._only.grad.numpy(),
             self.first,
