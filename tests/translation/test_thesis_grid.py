@@ -7,6 +7,7 @@ from tire_pipeline.classifiers.experiments import (
     accuracy_by_latent_features,
     class_distribution,
 )
+from tire_pipeline.representations import make_representation
 from tire_pipeline.tire_table import random_split, split_by_tire
 from tire_pipeline.translation.thesis.grid import CELLS, Cell, judge_cell, train_cell
 from tire_pipeline.translation.thesis.tables import (
@@ -33,7 +34,8 @@ def test_grid_has_48_cells_with_names_of_their_own():
 @pytest.mark.parametrize("representation", ["coefficients", "power_series"])
 def test_one_cell_is_trained_and_judged(table, representation):
     cell = Cell("A2C", "maximize_reward", representation, 10)
-    trained = train_cell(table, cell, target="A", seed=0, total_steps=2_000)
+    given = make_representation(representation).fit(table) if representation != "coefficients" else None
+    trained = train_cell(table, cell, target="A", seed=0, total_steps=2_000, representation=given)
     sources = table[table["category"] == "B"].head(6)
     reference = table[table["category"] == "A"].head(6)
     judged = judge_cell(trained["state"], sources, reference)

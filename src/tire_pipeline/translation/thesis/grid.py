@@ -11,7 +11,12 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.representations.base import CURVE_LOADS, CURVE_SLIP_ANGLES, REPRESENTATIONS
+from tire_pipeline.representations.base import (
+    CURVE_LOADS,
+    CURVE_SLIP_ANGLES,
+    REPRESENTATIONS,
+    Representation,
+)
 from tire_pipeline.translation.thesis.rules import REWARDS
 from tire_pipeline.translation.thesis.training import ALGORITHMS
 from tire_pipeline.translation.thesis.translator import AgentTranslator
@@ -47,9 +52,22 @@ def train_cell(
     target: str,
     seed: int,
     total_steps: int | None = None,
-    representation_options: Mapping[str, Any] | None = None,
+    representation: Representation | None = None,
 ) -> dict[str, Any]:
     """Train the agent of one cell.
+
+    Parameters
+    ----------
+    training : DataFrame
+        Tire table at one nominal load.
+    cell : Cell
+    target : str
+    seed : int
+    total_steps : int, optional
+        ``training.TOTAL_STEPS`` if not given.
+    representation : Representation, optional
+        Of the cell's name and fitted on ``training``, so that an autoencoder is trained once for all
+        its cells, or another form is used; fitted here if not given.
 
     Returns
     -------
@@ -61,10 +79,9 @@ def train_cell(
     translator = AgentTranslator(
         algorithm=cell.algorithm,
         reward=cell.reward,
-        representation=cell.representation,
+        representation=cell.representation if representation is None else representation,
         n_bins=cell.n_bins,
         total_steps=total_steps,
-        representation_options=representation_options,
     ).fit(training, target=target, seed=seed)
     return {
         "state": translator.to_state(),
