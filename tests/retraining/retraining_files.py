@@ -1,0 +1,58 @@
+"""Small .tir files for the retraining tests: two actors that measure the same tires with another bias."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+
+import numpy as np
+
+BIAS = {"A": 0.10, "B": -0.10, "D": 0.0}
+HEAD = """[UNITS]
+LENGTH = 'meter'
+FORCE = 'newton'
+ANGLE = 'radians'
+MASS = 'kg'
+TIME = 'second'
+[MODEL]
+FITTYP = 6
+[DIMENSION]
+UNLOADED_RADIUS = {radius}
+WIDTH = {width}
+ASPECT_RATIO = 0.55
+RIM_RADIUS = 0.2032
+[INERTIA]
+MASS = {mass}
+[VERTICAL]
+FNOMIN = 4000
+"""
+LATERAL = {"PCY1": 1.3, "PDY1": 0.95, "PDY2": -0.2, "PEY1": -0.7, "PEY2": -0.5, "PKY1": -20.0, "PKY2": 2.0}
+LATERAL |= {"PHY1": 0.003, "PHY2": 0.001, "PVY1": 0.02, "PVY2": -0.01}
+
+
+def tir_text(tire: int, actor: str = "D", shift: float = 0.0) -> str:
+    """One actor's file of one physical tire; ``shift`` moves all coefficients."""
+    own = np.random.default_rng(tire)
+    size = {"radius": round(0.3 + 0.0001 * (tire % 400), 4), "width": 0.2 + 0.001 * (tire // 400)}
+    scale = 1.0 + 0.02 * own.standard_normal(len(LATERAL)) + BIAS[actor] + shift
+    values = dict(zip(LATERAL, np.array(list(LATERAL.values())) * scale, strict=True))
+    lines = [f"{name} = {value:.9g}" for name, value in values.items()]
+    return HEAD.format(**size, mass=9.0) + "[LATERAL_COEFFICIENTS]\n" + "\n".join(lines) + "\n"
+
+
+def put(folder: Path, name: str, text: str | bytes, *, age: float = 3600.0) -> Path:
+    """Write a file whose last change seems ``age`` seconds ago."""
+    path = folder / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    then = time.time() - age
+    os.utime(path, (then, then))
+    return path
+
+
+def put_fleet(folder: Path, tires: range, actors: str = "ABD", shift: float = 0.0) -> None:
+    """All actors' files of some tires."""
+    for tire in tires:
+        for actor in actors:
+            put(folder, f"{actor}/T{tire:04d}.tir", tir_text(tire, actor, shift))

@@ -1,0 +1,184 @@
+"""What is stored is the old state or the new one, whatever happens in between."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+from kedro.io import DatasetError
+from retraining_files import put, put_fleet, tir_text
+
+from tire_pipeline.classifiers.random_forest import RandomForest
+from tire_pipeline.datasets import FolderDataset, IngestStoreDataset, ReleaseDataset
+from tire_pipeline.representations import make_representation
+from tire_pipeline.retraining import Judged, Manifest, Shelf, Store, difference, ingest, judge, roll_back
+from tire_pipeline.retraining import train_model as train
+
+REPLACE = os.replace
+
+
+def _ingested(dataset, folder):
+    store = dataset.load()
+    return ingest(store, folder, difference(folder, store.manifest))[0]
+
+
+@pytest.fixture
+def dataset(tmp_path):
+    return IngestStoreDataset(path=str(tmp_path / "ingested"))
+
+
+@pytest.fixture
+def files(tmp_path):
+    put(tmp_path / "tir", "A/1.tir", tir_text(1))
+    return tmp_path / "tir"
+
+
+class _Killed(BaseException):
+    """Stands for the end of the process at one place."""
+
+
+def _killed_at_step(monkeypatch, step: int) -> None:
+    """End at the step-th renaming: just before it, so that all before it has happened."""
+    steps = iter(range(100))
+
+    def rename(source, target):
+        if next(steps) == step:
+            raise _Killed
+        return REPLACE(source, target)
+
+    monkeypatch.setattr(os, "replace", rename)
+
+
+def test_it_is_empty_at_first_and_comes_back(dataset, files):
+    assert dataset.load().table.empty
+    store = _ingested(dataset, files)
+    dataset.save(store)
+    again = dataset.load()
+    pd.testing.assert_frame_equal(again.table, store.table)
+    assert again.manifest == replace(store.manifest, revision=1)
+
+
+@pytest.mark.parametrize("step", [0, 1])
+def test_killed_while_saving_leaves_the_old_state_and_the_next_run_ends_right(
+    dataset, files, monkeypatch, step
+):
+    dataset.save(_ingested(dataset, files))
+    before = dataset.load()
+    put(files, "A/2.tir", tir_text(2))
+    _killed_at_step(monkeypatch, step)
+    with pytest.raises(_Killed):
+        dataset.save(_ingested(dataset, files))
+    monkeypatch.setattr(os, "replace", REPLACE)
+    assert dataset.load().manifest == before.manifest
+    pd.testing.assert_frame_equal(dataset.load().table, before.table)
+    dataset.save(_ingested(dataset, files))
+    assert dataset.load().table["file"].tolist() == ["A/1.tir", "A/2.tir"]
+    left = sorted(p.name for p in (files.parent / "ingested").iterdir())
+    assert [name for name in left if name.startswith("table")] == ["table-000002-2.parquet"]
+
+
+def test_two_runs_at_once_do_not_overwrite_each_other(dataset, files):
+    first = _ingested(dataset, files)
+    put(files, "A/2.tir", tir_text(2))
+    second = _ingested(dataset, files)
+    dataset.save(first)
+    with pytest.raises(DatasetError, match="another run has stored revision 1"):
+        dataset.save(second)
+    assert dataset.load().table["file"].tolist() == ["A/1.tir"]
+
+
+@pytest.mark.parametrize("name", ["manifest.json", "table-000001-1.parquet"])
+def test_a_damaged_part_is_named_with_what_to_do(dataset, files, name):
+    dataset.save(_ingested(dataset, files))
+    path = files.parent / "ingested" / name
+    path.write_bytes(path.read_bytes()[:-30])
+    with pytest.raises(DatasetError, match=f"{name}.*damaged.*the next run reads all files again"):
+        dataset.load()
+
+
+def test_a_manifest_cannot_point_outside_of_its_folder(dataset, files, tmp_path):
+    dataset.save(_ingested(dataset, files))
+    path = files.parent / "ingested" / "manifest.json"
+    content = json.loads(path.read_text())
+    content["table"]["name"] = "../table-1.parquet"
+    path.write_text(json.dumps(content))
+    with pytest.raises(DatasetError, match="damaged"):
+        dataset.load()
+
+
+def test_files_of_the_user_are_never_written(tmp_path):
+    with pytest.raises(Exception, match="never changed"):
+        FolderDataset(path=str(tmp_path)).save(tmp_path)
+    with pytest.raises(Exception, match="not there"):
+        FolderDataset(path=str(tmp_path / "absent")).load()
+
+
+# released models
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("fleet")
+    put_fleet(folder, range(15), "AB")
+    tires = ingest(Store(), folder, difference(folder, Manifest()))[0].table
+    representation = make_representation("coefficients")
+    return train(tires, representation, RandomForest(3, 3), nominal_load=4000.0, seed=1)
+
+
+@pytest.fixture
+def shelf(tmp_path):
+    return ReleaseDataset(path=str(tmp_path / "released"))
+
+
+def _next(shelf: Shelf, name: str, model) -> Shelf:
+    judged = Judged(digest=name, settings="s", sequence=1, split="x")
+    return Shelf(judge(shelf.release, name, judged, better=True, time="t", figures={}), model)
+
+
+def test_release_and_roll_back(shelf, model):
+    assert shelf.load() == Shelf()
+    shelf.save(_next(shelf.load(), "m1", model))
+    shelf.save(_next(shelf.load(), "m2", model))
+    assert shelf.load().release.current == "m2"
+    shelf.save(Shelf(roll_back(shelf.load().release, time="t")))
+    back = shelf.load()
+    assert back.release.current == "m1"
+    np.testing.assert_array_equal(back.model.bins.edges, model.bins.edges)
+
+
+@pytest.mark.parametrize("step", [0, 1])
+def test_killed_while_releasing_leaves_the_old_model_in_use(shelf, model, monkeypatch, step):
+    shelf.save(_next(shelf.load(), "m1", model))
+    after = _next(shelf.load(), "m2", model)
+    _killed_at_step(monkeypatch, step)
+    with pytest.raises(_Killed):
+        shelf.save(after)
+    monkeypatch.setattr(os, "replace", REPLACE)
+    assert shelf.load().release.current == "m1"
+    shelf.save(after)
+    assert shelf.load().release.current == "m2"
+
+
+def test_two_releases_at_once(shelf, model):
+    first, second = _next(shelf.load(), "m1", model), _next(shelf.load(), "m2", model)
+    shelf.save(first)
+    with pytest.raises(DatasetError, match="another run"):
+        shelf.save(second)
+
+
+def test_a_tampered_model_or_record_is_not_loaded(shelf, model, tmp_path):
+    shelf.save(_next(shelf.load(), "m1", model))
+    path = tmp_path / "released/models/m1.npz"
+    content = bytearray(path.read_bytes())
+    content[len(content) // 2] ^= 1
+    path.write_bytes(content)
+    with pytest.raises(DatasetError, match="not loaded"):
+        shelf.load()
+    record = tmp_path / "released/record.json"
+    record.write_text(record.read_text().replace('"m1"', '"../../m1"'))
+    with pytest.raises(DatasetError, match="damaged"):
+        shelf.load()
