@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.magic_formula import TireForces, TireModel
 from tire_pipeline.magic_formula.coefficients import COEFFICIENT_NAMES
 
 # What a table must hold, without NaN, for each group of curves.
-NEEDED: tuple[str, ...] = "FNOMIN PCY1 PDY1 PDY2 PEY1 PEY2 PKY1 PKY2 PHY1 PHY2 PVY1 PVY2".split()  # noqa: SIM905
+NEEDED: tuple[str, ...] = ("FNOMIN", "PCY1", "PDY1", "PDY2", "PEY1", "PEY2", "PKY1", "PKY2")
+NEEDED += ("PHY1", "PHY2", "PVY1", "PVY2")
 
 
 def _linspace(low: float, high: float, count: int) -> np.ndarray:
@@ -138,7 +140,7 @@ def _model(record: Mapping[str, float], version: str) -> TireModel:
 def _tire_curves(tire: TireModel, grid: EvaluationGrid, lateral_only: bool) -> dict[str, np.ndarray]:
     """All curves of one tire."""
 
-    def forces(outputs: list[str], **points: np.ndarray | float):  # type: ignore[no-untyped-def]
+    def forces(outputs: list[str], **points: Any) -> TireForces:
         return tire.forces(limits="ignore", outputs=outputs, **points)
 
     loads, angles, axis = grid.loads[:, None], grid.slip_angles, grid.load_axis

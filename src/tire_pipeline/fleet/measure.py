@@ -29,7 +29,8 @@ def regimes_of(plan: Plan, settings: FleetSettings) -> dict[str, Regime]:
     dict of str to Regime
     """
     names = plan.measurements["regime"].drop_duplicates()
-    return {name: regime_of(*name.split("/"), settings.bias_size) for name in names}
+    split = {name: name.split("/") for name in names}
+    return {name: regime_of(own[0], own[1], settings.bias_size) for name, own in split.items()}
 
 
 def measure_all(plan: Plan, settings: FleetSettings, rng: np.random.Generator) -> pd.DataFrame:

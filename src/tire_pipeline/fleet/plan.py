@@ -165,8 +165,8 @@ def _variants(
                 row["wear"] = float(rng.choice(WEARS))
             elif sort < 0.76:
                 row["same_data"] = first_of[tire]
-                row["weight_twist"] = float(rng.choice([-0.15, -0.1, 0.1, 0.15]))
-                row["weight_twist"] += float(rng.normal(0.0, 0.02))
+                twist = float(rng.choice([-0.15, -0.1, 0.1, 0.15]))
+                row["weight_twist"] = twist + float(rng.normal(0.0, 0.02))
         rows.append(row)
     return rows
 
