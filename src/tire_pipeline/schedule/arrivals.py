@@ -1,0 +1,46 @@
+"""What has arrived since the last run, by the catalog's own folders and the retraining's own rules."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Protocol
+
+from kedro.framework.session import KedroSession
+from kedro.framework.startup import bootstrap_project
+
+from tire_pipeline.datasets import FolderDataset, IngestStoreDataset
+from tire_pipeline.pipelines.retrain.nodes import RetrainParameters
+from tire_pipeline.retraining import Difference, difference
+
+
+class Session(Protocol):
+    """What is needed to open the catalog."""
+
+    env: str | None
+    conf_source: str | None
+    parameters: dict[str, Any]
+
+
+def new_files_of(root: Path, config: Session) -> Difference:
+    """Compare the folder with the manifest; hashes only what looks different.
+
+    Parameters
+    ----------
+    root : Path
+        Of the project.
+    config
+        Environment and parameters, as for the run.
+    """
+    bootstrap_project(root)
+    with KedroSession.create(
+        project_path=root,
+        env=config.env,
+        conf_source=config.conf_source,
+        runtime_params=dict(config.parameters),
+    ) as session:
+        context = session.load_context()
+        parameters = RetrainParameters(**context.config_loader["parameters"]["retrain"])
+        folder, store = context.catalog.get("tir_folder"), context.catalog.get("ingested")
+    if not (isinstance(folder, FolderDataset) and isinstance(store, IngestStoreDataset)):
+        raise TypeError("the catalog's `tir_folder` and `ingested` have other types")
+    return difference(folder.load(), store.manifest(), settle_seconds=parameters.settle_seconds)

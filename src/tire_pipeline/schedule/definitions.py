@@ -1,0 +1,92 @@
+"""What Dagster runs: the retraining when files have arrived and every night. Kedro does the work."""
+
+# No `from __future__ import annotations`: Dagster reads the annotations when the module is loaded.
+import os
+from pathlib import Path
+from typing import Any
+
+import dagster as dg
+from kedro.framework.session import KedroSession
+from kedro.framework.startup import bootstrap_project
+from pydantic import Field
+
+from tire_pipeline.schedule.arrivals import new_files_of
+
+ROOT = Path(os.environ.get("TIRE_PIPELINE_ROOT", Path.cwd()))
+JOB = "retraining"
+UNDERWAY = [
+    dg.DagsterRunStatus.QUEUED,
+    dg.DagsterRunStatus.NOT_STARTED,
+    dg.DagsterRunStatus.STARTING,
+    dg.DagsterRunStatus.STARTED,
+]
+
+
+class KedroRun(dg.Config):
+    """Which environment and parameters a run takes.
+
+    Attributes
+    ----------
+    env : str or None
+        For example ``small``.
+    conf_source : str or None
+        Folder of the configuration, if not ``conf``.
+    parameters : dict
+        As behind ``--params``.
+    """
+
+    env: str | None = os.environ.get("KEDRO_ENV")
+    conf_source: str | None = os.environ.get("TIRE_PIPELINE_CONF")
+    parameters: dict[str, Any] = Field(default_factory=dict)
+
+
+def kedro_run(config: KedroRun, pipeline: str, parameters: dict[str, Any] | None = None) -> None:
+    """Run one registered pipeline, as ``kedro run --pipeline`` does."""
+    bootstrap_project(ROOT)
+    with KedroSession.create(
+        project_path=ROOT,
+        env=config.env,
+        conf_source=config.conf_source,
+        runtime_params={**config.parameters, **(parameters or {})},
+    ) as session:
+        session.run(pipeline_names=[pipeline])
+
+
+@dg.op(retry_policy=dg.RetryPolicy(max_retries=2, delay=60))
+def retrain(config: KedroRun) -> None:
+    """Read what is new, train a candidate, release it if it is not worse."""
+    kedro_run(config, "retrain")
+
+
+@dg.job(name=JOB)
+def retraining() -> None:
+    """New files -> candidate -> comparison -> release."""
+    retrain()
+
+
+@dg.sensor(job=retraining, minimum_interval_seconds=30, default_status=dg.DefaultSensorStatus.RUNNING)
+def arrivals(context: dg.SensorEvaluationContext) -> dg.SensorResult | dg.SkipReason:
+    """One run for all that has arrived, once it has stopped growing and no other run is underway."""
+    if context.instance.get_runs(filters=dg.RunsFilter(job_name=JOB, statuses=UNDERWAY), limit=1):
+        return dg.SkipReason("a run is underway; what arrives meanwhile is for the next")
+    found = new_files_of(ROOT, KedroRun())
+    if found.growing:
+        return dg.SkipReason(f"{len(found.growing)} files still grow, {found.growing[0]} for one")
+    if not found:
+        return dg.SkipReason("nothing new")
+    failed = [dg.DagsterRunStatus.FAILURE, dg.DagsterRunStatus.CANCELED]
+    tag = {"tire_pipeline/difference": found.key}
+    before = len(context.instance.get_runs(filters=dg.RunsFilter(tags=tag, statuses=failed), limit=3))
+    return dg.SensorResult([dg.RunRequest(run_key=f"{found.key}-{before}", tags=tag)])
+
+
+nightly = dg.ScheduleDefinition(
+    job=retraining, cron_schedule="0 3 * * *", default_status=dg.DefaultScheduleStatus.RUNNING
+)
+
+definitions = dg.Definitions(
+    jobs=[retraining],
+    sensors=[arrivals],
+    schedules=[nightly],
+    executor=dg.multiprocess_executor.configured({"max_concurrent": 2}),
+)
