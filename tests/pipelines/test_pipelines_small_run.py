@@ -47,7 +47,7 @@ def test_the_reported_figures_are_those_of_the_table(small_run):
     for accuracy in forest["accuracy"]:
         assert f"{accuracy:.1%}" in page
     summary = pd.read_csv(_latest(small_run, "07_model_output", "evaluation_summary.csv"))
-    assert set(summary["translator"]) == {"agent", "no change", "floor"}
+    assert set(summary["translator"]) == {"agent", "no change", "oracle", "floor"}
     assert (summary.loc[summary["translator"] == "no change", "ratio"] == 1.0).all()
 
 

@@ -11,9 +11,11 @@ from tire_pipeline.evaluation import evaluate_translations
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.pipelines.evaluate.translate import UNJUDGED
 from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
+from tire_pipeline.representations.coefficients import DATASETS
 from tire_pipeline.tire_table import from_models, normalize_table
 
 Files = Mapping[str, Callable[[], TireModel]]
+BIASED = DATASETS["full"]
 _COLUMNS = ["set", "translator", "metric", "ratio", "improved", "worst", "files"]
 
 
@@ -23,7 +25,7 @@ def judge(
     normalize: NormalizeParameters,
     target_category: str,
 ) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
-    """Errors of the agent's translations, beside no change and the floor.
+    """Errors of the agent's translations, beside no change, an oracle and the floor.
 
     Parameters
     ----------
@@ -39,7 +41,8 @@ def judge(
     per_file : DataFrame
         ``set, file`` and errors after and before.
     summary : DataFrame
-        ``set, translator, metric, ratio, improved, worst, files``; translators are agent, no change, floor.
+        ``set, translator, metric, ratio, improved, worst, files``; translators are agent, no change,
+        oracle (:func:`shifted_by_truth`) and floor.
     references : DataFrame
         The target's measurements of the tires of the first set, for figures.
 
@@ -55,12 +58,17 @@ def judge(
         before, after = (part[part["state"] == state].reset_index(drop=True) for state in ("before", "after"))
         tires = before["tire"]
         first, second = (
-            _measured(evaluation_truth, f"{again}/{name}/{target_category}", tires, normalize.nominal_load)
+            measured(evaluation_truth, f"{again}/{name}/{target_category}", tires, normalize.nominal_load)
             for again in ("first", "second")
         )
         judged = {
             translator: evaluate_translations(table, before, first)
-            for translator, table in (("agent", after), ("no change", before), ("floor", second))
+            for translator, table in (
+                ("agent", after),
+                ("no change", before),
+                ("oracle", shifted_by_truth(before, first)),
+                ("floor", second),
+            )
         }
         for translator, result in judged.items():
             rows = result.summary.reset_index(names="metric")
@@ -77,7 +85,8 @@ def judge(
     )
 
 
-def _measured(truth: Files, folder: str, tires: pd.Series, nominal_load: float) -> pd.DataFrame:
+def measured(truth: Files, folder: str, tires: pd.Series, nominal_load: float) -> pd.DataFrame:
+    """The target's measurements in one folder of the truth, row by row those of ``tires``."""
     names = [f"{folder}/{tire}.tir" for tire in dict.fromkeys(tires)]
     absent = [name for name in names if name not in truth]
     if absent:
