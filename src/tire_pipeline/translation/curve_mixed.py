@@ -30,8 +30,14 @@ GUESS = {
 }
 """Where the search for the variances begins, in units of a score's own variance."""
 
-TIRE_CATEGORY_SHARE = 0.4
-"""Variance of what one tire does in one category alone, over that of the noise, if no tire tells."""
+TIRE_CATEGORY_SHARE = {"shape": 2.0, "aligning": 2.0}
+"""Variance of what one tire does in one category alone, over that of the noise, if no tire tells, by part.
+The shape of a curve depends on what else was fitted; stiffness and friction hardly do."""
+
+_OTHER_SHARE = 0.5
+_POOLED = ("category", "category_metadata", "category_kind")
+_POOLED_WIDTH = 1.0
+_WIDTH = 3.0
 
 KIND_SCORES = {
     "cornering stiffness": 1,
@@ -60,6 +66,8 @@ class Prediction:
         Of the target's file about ``target``, its noise included.
     surprise : ndarray
         Source's score less its expectation, over the standard deviation of that.
+    expected : ndarray
+        What the target would measure of such a tire, from the metadata alone.
     """
 
     source: np.ndarray
@@ -68,6 +76,7 @@ class Prediction:
     target: np.ndarray
     variance: np.ndarray
     surprise: np.ndarray
+    expected: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -87,6 +96,8 @@ class CurveMixedModel:
         Standard deviation of each score over the training cells.
     fitted : tuple of Fitted
         One a score.
+    spread : ndarray, shape (categories, p)
+        How much more than the average a category spreads what is the tires' own.
     """
 
     space: CurveSpace
@@ -96,6 +107,7 @@ class CurveMixedModel:
     kinds: np.ndarray
     scale: np.ndarray
     fitted: tuple[Fitted, ...]
+    spread: np.ndarray
 
     def regressors(self, table: pd.DataFrame, category: np.ndarray) -> np.ndarray:
         """Rows of the design without tire effects, if ``category`` had measured, (n, m)."""
@@ -121,12 +133,16 @@ class CurveMixedModel:
         source, _ = self.space.encode(table)
         here = self.regressors(table, table["category"].to_numpy(dtype=str))
         there = self.regressors(table, np.full(len(table), target))
+        place = {name: k for k, name in enumerate(self.categories)}
+        spread = self.spread[[place[name] for name in table["category"].astype(str)]]
         same = (table["category"].to_numpy(dtype=str) == target).astype(float)
         found = [
-            _predict_score(fitted, column / scale, here, there, same, trust)
-            for fitted, column, scale in zip(self.fitted, source.T, self.scale, strict=True)
+            _predict_score(fitted, column / scale, here, there, same, trust, (mine, theirs))
+            for fitted, column, scale, mine, theirs in zip(
+                self.fitted, source.T, self.scale, spread.T, self.spread[place[target]], strict=True
+            )
         ]
-        shift, shift_variance, aim, variance, surprise = (
+        shift, shift_variance, aim, variance, surprise, expected = (
             np.stack(part, axis=1) for part in zip(*found, strict=True)
         )
         return Prediction(
@@ -136,6 +152,7 @@ class CurveMixedModel:
             aim * self.scale,
             variance * self.scale**2,
             surprise,
+            expected * self.scale,
         )
 
     def to_state(self) -> dict[str, Any]:
@@ -148,6 +165,7 @@ class CurveMixedModel:
             "pairs": bool(self.pairs),
             "kinds": self.kinds,
             "scale": self.scale,
+            "spread": self.spread,
             "variance_names": np.array(names, dtype=str),
             "variances": np.array([[f.variances[name] for name in names] for f in self.fitted]),
             "weights": np.stack([f.mean for f in self.fitted]),
@@ -172,22 +190,30 @@ class CurveMixedModel:
             np.asarray(state["kinds"]),
             np.asarray(state["scale"]),
             fitted,
+            np.asarray(state["spread"]),
         )
 
 
 def _predict_score(
-    fitted: Fitted, source: np.ndarray, here: np.ndarray, there: np.ndarray, same: np.ndarray, trust: float
+    fitted: Fitted,
+    source: np.ndarray,
+    here: np.ndarray,
+    there: np.ndarray,
+    same: np.ndarray,
+    trust: float,
+    spread: tuple[np.ndarray, float],
 ) -> tuple[np.ndarray, ...]:
-    """Shift, its variance, prediction, its variance, surprise; all in units of the score's deviation."""
+    """Shift, its variance, prediction, its variance, surprise, expectation; all in units of the score's deviation."""
     count = here.shape[1]
     weights, covariance = fitted.mean[:count], fitted.covariance[:count, :count]
     at_source, at_target = here @ weights, there @ weights
     own = fitted.variances["tire"]
     once = fitted.variances["tire_category"] + fitted.variances["noise"]
     to_here, to_there = here @ covariance, there @ covariance
-    source_variance = (to_here * here).sum(1) + own + once
-    target_variance = (to_there * there).sum(1) + own + once
-    together = (to_here * there).sum(1) + own + same * fitted.variances["tire_category"]
+    mine, theirs = spread
+    source_variance = (to_here * here).sum(1) + mine**2 * own + once
+    target_variance = (to_there * there).sum(1) + theirs**2 * own + once
+    together = (to_here * there).sum(1) + mine * theirs * own + same * fitted.variances["tire_category"]
     apart = there - here
     shift = at_target - at_source
     shift_variance = ((apart @ covariance) * apart).sum(1)
@@ -195,7 +221,7 @@ def _predict_score(
     residual = source - at_source
     target = at_target + slope * residual
     variance = target_variance - 2.0 * slope * together + slope**2 * source_variance
-    return shift, shift_variance, target, variance, residual / np.sqrt(source_variance)
+    return shift, shift_variance, target, variance, residual / np.sqrt(source_variance), at_target
 
 
 def _blocks(
@@ -254,22 +280,86 @@ def fit_curve_mixed_model(training: pd.DataFrame, *, pairs: bool, kinds: int = 3
         turn = _kinds(rows, cells, metadata, categories, tires, scale, space, kinds)
     blocks = _blocks(metadata, turn, rows, rows["category"].to_numpy(dtype=str), categories)
     design = Design(blocks, tires, cells.files)
-    fitted = tuple(_fit_score(design, cells, space, scale, k) for k in range(scale.size))
-    return CurveMixedModel(space, metadata, categories, bool(tires.shape[1]), turn, scale, fitted)
+    fitted = _fit_scores(design, cells, space, scale)
+    spread = _spread_by_category(design, cells, space, scale, fitted)
+    return CurveMixedModel(space, metadata, categories, bool(tires.shape[1]), turn, scale, fitted, spread)
 
 
-def _fit_score(design: Design, cells: Cells, space: CurveSpace, scale: np.ndarray, k: int) -> Fitted:
+def _alone_share(space: CurveSpace, k: int) -> float:
+    part = next(name for name, place in space.slices.items() if place.start <= k < place.stop)
+    return next((share for word, share in TIRE_CATEGORY_SHARE.items() if word in part), _OTHER_SHARE)
+
+
+def _fit_scores(
+    design: Design, cells: Cells, space: CurveSpace, scale: np.ndarray
+) -> tuple[Fitted, ...]:
+    """Fit every score twice: the second time the size of the bias is expected as it was found in all of them.
+
+    Six categories tell little about the variance of their effects on one score; all scores together do.
+    """
+    first = [_fit_score(design, cells, space, scale, k, GUESS) for k in range(scale.size)]
+    noise = space.noise / scale**2
+    common = {
+        name: float(np.exp(np.mean([np.log(f.variances[name] / n) for f, n in zip(first, noise, strict=True)])))
+        for name in _POOLED
+        if name in first[0].variances
+    }
+    return tuple(
+        _fit_score(
+            design, cells, space, scale, k, {**GUESS, **{name: common[name] * noise[k] for name in common}}, tuple(common)
+        )
+        for k in range(scale.size)
+    )
+
+
+def _fit_score(
+    design: Design,
+    cells: Cells,
+    space: CurveSpace,
+    scale: np.ndarray,
+    k: int,
+    guess: dict[str, float],
+    pooled: tuple[str, ...] = (),
+) -> Fitted:
     noise = float(space.noise[k] / scale[k] ** 2)
-    alone = TIRE_CATEGORY_SHARE * noise
-    guess = {**GUESS, "tire_category": alone}
+    alone = _alone_share(space, k) * noise
+    guess = {**guess, "tire_category": alone}
     estimated = design.tire.shape[1] >= 4
     return fit_mixed_effects(
         design,
         cells.scores[:, k] / scale[k],
         noise=noise,
         guess=guess,
+        width={name: _POOLED_WIDTH if name in pooled else _WIDTH for name in guess},
         tire_category=None if estimated else alone,
     )
+
+
+def _spread_by_category(
+    design: Design, cells: Cells, space: CurveSpace, scale: np.ndarray, fitted: tuple[Fitted, ...]
+) -> np.ndarray:
+    """How much more or less than the average a category spreads what is the tires' own, (categories, p).
+
+    From the residuals' variance by category; its logarithm shrinks towards 0 by its own uncertainty.
+    """
+    x = np.concatenate(list(design.blocks.values()), axis=1)
+    actor = design.blocks["category"].astype(bool)
+    out = np.ones((actor.shape[1], scale.size))
+    for k, one in enumerate(fitted):
+        own = one.variances["tire"]
+        rest = one.variances["tire_category"] + one.variances["noise"] / design.files
+        gap = cells.scores[:, k] / scale[k] - x @ one.mean[: x.shape[1]]
+        gap = np.clip(gap, -3.0 * np.sqrt(own + rest), 3.0 * np.sqrt(own + rest))
+        logs, doubts = np.zeros(len(out)), np.ones(len(out))
+        for c in range(len(out)):
+            rows = actor[:, c]
+            excess = (gap[rows] ** 2 - rest[rows]).mean() / own
+            logs[c] = 0.5 * np.log(np.clip(excess, 0.1, 10.0))
+            doubts[c] = 0.5 / rows.sum() * np.mean((own + rest[rows]) ** 2) / own**2
+        logs -= np.average(logs, weights=1.0 / doubts)
+        between = max(0.0, float(np.mean(logs**2 - doubts)))
+        out[:, k] = np.exp(logs * between / (between + doubts))
+    return out
 
 
 def _kinds(
@@ -290,7 +380,7 @@ def _kinds(
     weights = []
     for part, first in KIND_SCORES.items():
         start = space.slices[part].start
-        weights += [_fit_score(design, cells, space, scale, start + k).mean[own] for k in range(first)]
+        weights += [_fit_score(design, cells, space, scale, start + k, GUESS).mean[own] for k in range(first)]
     x = np.concatenate([metadata.regressors(rows), metadata.size_indicators(rows)], axis=1)
     predicted = x @ np.stack(weights, axis=1)
     _, size, axes = np.linalg.svd(predicted - predicted.mean(axis=0), full_matrices=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -36,6 +37,12 @@ FARTHEST = 1.5
 
 LEAST_GAIN = 0.05
 """A file whose expected squared error would shrink by less than this share is already unbiased."""
+
+CAUTION = 0.5
+"""Weight of a move's variance against its square in :func:`cautious`."""
+
+ODD_TORQUE = 2.5
+"""Root mean square surprise of the aligning torque beyond which its fit has failed."""
 
 _JUDGED = tuple(name for name, part in PARTS.items() if part.group in ("lateral", "longitudinal"))
 VERSIONS = ("5.0", "5.1", "5.2", "PAC2002")
@@ -88,7 +95,8 @@ class MixedModel:
 
     def predict(self, source: pd.DataFrame) -> Prediction:
         """Predict the target's scores of every source file; other translators replace this."""
-        return self.model.predict(source, self.target, trust=self.trust)
+        found = cautious(self.model, self.model.predict(source, self.target, trust=self.trust))
+        return without_failed_fits(self.model, found)
 
     def translate(self, source: pd.DataFrame) -> pd.DataFrame:
         """Give the translated tires: same rows, columns, index and metadata."""
@@ -182,6 +190,7 @@ class MixedModel:
         space = self.model.space
         source_features = encode(rows)
         _, rest = space.encode(rows)
+        rest["aligning torque"][failed_fits(self.model, found)] = 0.0
         wanted = space.features(found.target, rest)
         locked = {}
         for group, names in SYMMETRY.items():
@@ -270,6 +279,45 @@ class PairedMixedModel(MixedModel):
 
     name: ClassVar[str] = "paired_mixed_model"
     uses_pairs: ClassVar[bool] = True
+
+
+def cautious(model: CurveMixedModel, found: Prediction) -> Prediction:
+    """Shorten the move of each part by how uncertain it is: positive-part shrinkage (Stein) towards no change.
+
+    The shrinkage of the mixed model rests on variances that six categories tell little about; this one takes
+    each file's move and the variance of its estimate.
+
+    Parameters
+    ----------
+    model : CurveMixedModel
+    found : Prediction
+
+    Returns
+    -------
+    Prediction
+        With another ``target``.
+    """
+    target = found.target.copy()
+    for place in model.space.slices.values():
+        size = (found.shift[:, place] ** 2).sum(axis=1)
+        doubt = found.shift_variance[:, place].sum(axis=1)
+        share = CAUTION * doubt / np.maximum(size + CAUTION * doubt, 1e-12)
+        target[:, place] -= share[:, None] * found.shift[:, place]
+    return replace(found, target=target)
+
+
+def failed_fits(model: CurveMixedModel, found: Prediction) -> np.ndarray:
+    """Tell whose aligning torque is unlike any tire's: a fit that failed, not a bias, (n,)."""
+    place = model.space.slices["aligning torque"]
+    return np.sqrt((found.surprise[:, place] ** 2).mean(axis=1)) > ODD_TORQUE
+
+
+def without_failed_fits(model: CurveMixedModel, found: Prediction) -> Prediction:
+    """Where the aligning torque's fit failed, take what the target would measure of such a tire instead."""
+    failed, place = failed_fits(model, found), model.space.slices["aligning torque"]
+    target = found.target.copy()
+    target[failed, place] = found.expected[failed, place]
+    return replace(found, target=target)
 
 
 def expected_gain(model: CurveMixedModel, found: Prediction) -> tuple[np.ndarray, np.ndarray]:

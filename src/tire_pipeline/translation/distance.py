@@ -43,7 +43,7 @@ class TrainingReach:
             nearest = cKDTree(points).query(points, k=2)[0][:, 1]
             gap = float(max(np.quantile(nearest, _EDGE), 1e-3))
         found = model.predict(training, target)
-        return cls(points, gap, float(np.quantile(_size(found), _EDGE)))
+        return cls(points, gap, float(np.quantile(_size(model, found), _EDGE)))
 
     def distance(self, model: CurveMixedModel, table: pd.DataFrame, found: Prediction) -> np.ndarray:
         """Give the distance of every file, (n,): 1 is the edge of the training data.
@@ -51,7 +51,7 @@ class TrainingReach:
         The larger of: metadata to the target's nearest tire, and how unlike the curves are to what is
         expected of such a tire in its category.
         """
-        curves = _size(found) / self.surprise
+        curves = _size(model, found) / self.surprise
         if not self.metadata.shape[1]:
             return curves
         nearest = cKDTree(self.metadata).query(model.metadata.regressors(table))[0] / self.gap
@@ -69,5 +69,8 @@ class TrainingReach:
         )
 
 
-def _size(found: Prediction) -> np.ndarray:
-    return np.sqrt((found.surprise**2).mean(axis=1))
+def _size(model: CurveMixedModel, found: Prediction) -> np.ndarray:
+    """Root mean square surprise of the forces; a torque that was fitted badly is no other tire."""
+    kept = np.ones(found.surprise.shape[1], dtype=bool)
+    kept[model.space.slices["aligning torque"]] = False
+    return np.sqrt((found.surprise[:, kept] ** 2).mean(axis=1))

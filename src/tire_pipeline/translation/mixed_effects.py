@@ -9,6 +9,7 @@ data does not support gets a variance near zero, and so its effect shrinks to no
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +17,6 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.optimize import minimize
 
 _FLAT = 100.0
-_WIDTH = 3.0  # standard deviation of the weak prior on the logarithm of a variance
 _LOW, _HIGH = np.log(1e-6), np.log(50.0)
 
 
@@ -112,6 +112,7 @@ def fit_mixed_effects(
     *,
     noise: float,
     guess: dict[str, float],
+    width: Mapping[str, float] | float = 3.0,
     tire_category: float | None = None,
 ) -> Fitted:
     """Find the variances, then the weights.
@@ -124,7 +125,9 @@ def fit_mixed_effects(
     noise : float
         Variance of one file's measurement noise, from repeats.
     guess : dict of float
-        Expected variance by block, and ``tire`` and ``tire_category``: centre of a weak prior.
+        Expected variance by block, and ``tire`` and ``tire_category``: centre of a prior.
+    width : float or dict of float
+        Standard deviation of that prior on the logarithm of a variance.
     tire_category : float, optional
         Variance of what one tire does in one category only; without it, it is estimated, which takes tires
         that several categories measured.
@@ -142,10 +145,12 @@ def fit_mixed_effects(
         centre[-1] = np.log(tire_category)
         bounds[-1] = (centre[-1], centre[-1])
 
+    widths = np.array([width if isinstance(width, float) else width[name] for name in names])
+
     def objective(logs: np.ndarray) -> tuple[float, np.ndarray]:
         value, slope = marginal.value_and_gradient(logs)
-        apart = (logs - centre) / _WIDTH
-        return value + 0.5 * float(apart @ apart), slope + apart / _WIDTH
+        apart = (logs - centre) / widths
+        return value + 0.5 * float(apart @ apart), slope + apart / widths
 
     found = minimize(
         objective, centre, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": 40, "ftol": 1e-7}
