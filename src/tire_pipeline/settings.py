@@ -1,8 +1,9 @@
 """Kedro settings: which hooks run, and where configuration lies."""
 
 from tire_pipeline.hooks import FolderHooks, RunLedgerHooks, SignpostHooks
+from tire_pipeline.pipelines.reproduce_thesis.chosen_grid import ThesisGridHooks
 
-HOOKS = (FolderHooks(), RunLedgerHooks(), SignpostHooks())
+HOOKS = (FolderHooks(), RunLedgerHooks(), SignpostHooks(), ThesisGridHooks())
 
 # kedro-telemetry comes along with kedro-viz; it stays silent.
 DISABLE_HOOKS_FOR_PLUGINS = ("kedro-telemetry",)
