@@ -85,6 +85,22 @@ def judge(
     )
 
 
+def shifted_by_truth(before: pd.DataFrame, first: pd.DataFrame) -> pd.DataFrame:
+    """What one constant shift a category could reach at best: the mean difference, taken from the truth.
+
+    Parameters
+    ----------
+    before, first : DataFrame
+        Sources and the target's measurements of the same tires, row by row, at one nominal load.
+    """
+    names = [c for c in BIASED if c in before.columns and c in first.columns]
+    difference = first[names].fillna(0.0) - before[names].fillna(0.0)
+    shift = difference.groupby(before["category"]).transform("mean")
+    shifted = before.copy()
+    shifted[names] = before[names] + shift
+    return shifted
+
+
 def measured(truth: Files, folder: str, tires: pd.Series, nominal_load: float) -> pd.DataFrame:
     """The target's measurements in one folder of the truth, row by row those of ``tires``."""
     names = [f"{folder}/{tire}.tir" for tire in dict.fromkeys(tires)]
