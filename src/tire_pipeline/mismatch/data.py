@@ -216,6 +216,25 @@ class Data:
         """Lateral force of the model, N."""
         return self.all_base["fy"]
 
+    def turned_by_force(self, slip_angle: Array, steer: float) -> Array:
+        """Return ``slip_angle - steer Fy`` with the force Fy that the model then gives.
+
+        The recorded force would bring its own noise into the slip angle.
+        """
+        force, turned = self.base_fy, slip_angle
+        for _ in range(4):
+            turned = slip_angle - steer * force
+            force = plain_forces(
+                self.tire,
+                slip_angle=turned,
+                slip_ratio=self.get("slip_ratio"),
+                camber=self.get("camber"),
+                normal_load=self.get("normal_load"),
+                speed=self.model_speed,
+                pressure=self.model_pressure,
+            )["fy"]
+        return turned
+
     def slope(self, name: str, step: float) -> dict[str, Array]:
         """Return d force / d channel of the model by central differences."""
         key = f"slope {name}"

@@ -134,8 +134,11 @@ class System:
     def sums(self, residual: dict[str, Array], columns: dict[str, Array] | None = None) -> Sums:
         """Return the sums for a residual and effects' columns, both in N."""
         r = self.whiten(residual)
-        k = 0 if columns is None else next(iter(columns.values())).shape[1]
         e = {o: np.zeros((x.size, 0)) for o, x in r.items()} if columns is None else self.whiten(columns)
+        return self._sums(r, e)
+
+    def _sums(self, r: dict[str, Array], e: dict[str, Array]) -> Sums:
+        k = next(iter(e.values())).shape[1]
         ne, nr = {}, {}
         ee, er, rr = np.zeros((self.count, k, k)), np.zeros((self.count, k)), np.zeros(self.count)
         for o, x in r.items():
@@ -168,15 +171,33 @@ class System:
         """Log determinant of the prior-weighted nuisance, for the marginal likelihood."""
         return float(sum(2.0 * np.log(np.diag(c[0])).sum() for c in self._chol.values()))
 
-    def held_out(self, sums: Sums, limit: Array | None = None) -> Array:
+    def held_out(
+        self,
+        residual: dict[str, Array],
+        columns: dict[str, Array] | None = None,
+        shown: Array | None = None,
+    ) -> tuple[Array, Array]:
         """Return the whitened squared error of each sweep, predicted from all the others.
 
         Parameters
         ----------
-        sums : Sums
-        limit : ndarray, optional
-            Small ridge on the effects' columns.
+        residual : dict of ndarray, shape (n,)
+            N.
+        columns : dict of ndarray, shape (n, k), optional
+            Effects' columns.
+        shown : ndarray of int, optional
+            Sweeps for the second result.
+
+        Returns
+        -------
+        errors : ndarray, shape (blocks,)
+        pieces : ndarray
+            The errors of the sweeps of ``shown``, cut into equal pieces so that there are 24 or
+            more of them; each is predicted without its whole sweep.
         """
+        r = self.whiten(residual)
+        e = {o: np.zeros((x.size, 0)) for o, x in r.items()} if columns is None else self.whiten(columns)
+        sums = self._sums(r, e)
         k = sums.er.shape[1]
         ee = sums.ee.sum(axis=0)[None] - sums.ee
         er = sums.er.sum(axis=0)[None] - sums.er
@@ -193,16 +214,24 @@ class System:
             kept[o] = (a_ne, a_nr)
         x = np.zeros((self.count, k))
         if k:
-            ridge = 1e-9 * np.trace(ee, axis1=1, axis2=2)[:, None, None] / k + 1e-12
-            x = np.linalg.solve(ee + ridge * np.eye(k), er[:, :, None])[:, :, 0]
-        error = sums.rr.copy()
-        error += -2.0 * (sums.er * x).sum(axis=1) + np.einsum("bi,bij,bj->b", x, sums.ee, x)
-        for o, (a_ne, a_nr) in kept.items():
-            s = self.scale[o]
-            c = (a_nr - (a_ne @ x[:, :, None])[:, :, 0]) * s[None, :]
-            error += -2.0 * (sums.nr[o] * c).sum(axis=1) + np.einsum("bi,bij,bj->b", c, self._gram[o], c)
-            error += 2.0 * np.einsum("bq,bqk,bk->b", c, sums.ne[o], x)
-        return error
+            size = np.sqrt(np.maximum(np.einsum("bii->bi", ee), 1e-300))
+            scaled = ee / size[:, :, None] / size[:, None, :] + 1e-7 * np.eye(k)
+            x = np.linalg.solve(scaled, (er / size)[:, :, None])[:, :, 0] / size
+        pieces = [] if shown is None else [max(1, int(np.ceil(24 / max(len(shown), 1))))] * len(shown)
+        cut: list[float] = []
+        errors = np.zeros(self.count)
+        chosen = {} if shown is None else dict(zip(shown.tolist(), pieces, strict=True))
+        for b in range(self.count):
+            rows = slice(self._edges[b], self._edges[b + 1])
+            parts = np.zeros(chosen.get(b, 1))
+            for o, (a_ne, a_nr) in kept.items():
+                c = (a_nr[b] - a_ne[b] @ x[b]) * self.scale[o]
+                error = (r[o][rows] - self.white[o][rows] @ c - e[o][rows] @ x[b]) ** 2
+                parts += [float(piece.sum()) for piece in np.array_split(error, parts.size)]
+            errors[b] = parts.sum()
+            if b in chosen:
+                cut += parts.tolist()
+        return errors, np.array(cut)
 
     def left(self, residual: dict[str, Array], columns: dict[str, Array] | None = None) -> dict[str, Array]:
         """Return the whitened residual after nuisance and effects, in the order of time."""

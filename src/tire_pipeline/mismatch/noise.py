@@ -4,28 +4,35 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from functools import cached_property
+
 import numpy as np
-from scipy.optimize import brentq, nnls
+from scipy.linalg import solve_toeplitz
+from scipy.optimize import nnls
+from scipy.signal import lfilter
 
 from tire_pipeline.mismatch.data import Data
 
 Array = np.ndarray
 _MEDIAN_OF_CHI2 = 0.4549
+_ORDER = 12
+_LAGS = (1, 2, 3, 4, 6, 8, 11)
 
 
 @dataclass(frozen=True)
 class Noise:
-    """Noise of one output: first-order autoregression with a size that changes with the slopes.
+    """Noise of one output: white and coloured part, with a size that changes with the slopes.
 
     Parameters
     ----------
     sigma : ndarray, shape (n,)
         Standard deviation at each sample, N.
-    rho : float
-        Correlation of neighbouring samples.
+    share, rho : float
+        Coloured share of the variance, and its correlation from one sample to the next.
     """
 
     sigma: Array
+    share: float
     rho: float
 
     @property
@@ -33,15 +40,27 @@ class Noise:
         """Root mean square of the noise, N."""
         return float(np.sqrt(np.mean(self.sigma**2)))
 
+    @cached_property
+    def _filter(self) -> tuple[Array, float]:
+        """Prediction-error filter of the noise and the size of its error."""
+        if self.share <= 0.0 or self.rho <= 0.0:
+            return np.ones(1), 1.0
+        c = self.share * self.rho ** np.arange(_ORDER + 1)
+        c[0] = 1.0
+        a = solve_toeplitz(c[:_ORDER], c[1:])
+        return np.r_[1.0, -a], float(np.sqrt(max(1.0 - a @ c[1:], 1e-6)))
+
     def whiten(self, x: Array, start: Array) -> Array:
         """Return ``x`` (n,) or (n, k) with unit white noise where the model of the noise holds."""
         scaled = x / (self.sigma if x.ndim == 1 else self.sigma[:, None])
-        if self.rho <= 0.0:
+        taps, size = self._filter
+        if taps.size == 1:
             return scaled
-        out = scaled.copy()
-        inner = ~start[1:]
-        factor = 1.0 / np.sqrt(1.0 - self.rho**2)
-        out[1:][inner] = (scaled[1:][inner] - self.rho * scaled[:-1][inner]) * factor
+        out = lfilter(taps, [1.0], scaled, axis=0) / size
+        firsts = np.flatnonzero(start)
+        heads = (firsts[:, None] + np.arange(_ORDER)[None, :]).ravel()
+        heads = heads[heads < x.shape[0]]
+        out[heads] = 0.0 if firsts.size * _ORDER < 0.05 * x.shape[0] else scaled[heads]
         return out
 
 
@@ -67,31 +86,32 @@ def estimate_noise(data: Data, residual: dict[str, Array]) -> dict[str, Noise]:
         parts = [np.ones(data.size), slopes["slip_angle"][name] ** 2, slopes["slip_ratio"][name] ** 2]
         largest = float(np.quantile(np.abs(data.recorded[name]), 0.999))
         if data.time is None or data.size < 200:
-            sigma, rho = _points(data, r, largest), 0.0
+            sigma, share, rho = _points(data, r, largest), 0.0, 0.0
         else:
-            sigma, rho = _series(data, r, parts)
+            sigma, share, rho = _series(data, r, parts)
         sigma = np.maximum(sigma, 1e-4 * largest + 1e-9)
         known = _known(data, name, slopes["slip_angle"][name])
-        out[name] = Noise(np.sqrt(sigma**2 + known**2), rho)
+        out[name] = Noise(np.sqrt(sigma**2 + known**2), share, rho)
     return out
 
 
-def _series(data: Data, r: Array, parts: list[Array]) -> tuple[Array, float]:
-    """Size by non-negative least squares on block medians of squared second differences; colour by lag 2."""
-    lag1, ok1 = _second_difference(r, data.start, 1)
-    lag2, ok2 = _second_difference(r, data.start, 2)
+def _series(data: Data, r: Array, parts: list[Array]) -> tuple[Array, float, float]:
+    """Size by non-negative least squares on block medians of squared second differences; colour by their lag."""
     length = 50
     count = max(r.size // length, 4)
     block = np.minimum(np.arange(r.size) // length, count - 1)
-    d1 = _block_median(lag1**2, ok1, block, count) / _MEDIAN_OF_CHI2
-    d2 = _block_median(lag2**2, ok2, block, count) / _MEDIAN_OF_CHI2
+    sizes = []
+    for lag in _LAGS:
+        d, ok = _second_difference(r, data.start, lag)
+        sizes.append(_block_median(d**2, ok, block, count) / _MEDIAN_OF_CHI2)
+    d1 = sizes[0]
     means = np.column_stack([_block_mean(p, block, count) for p in parts])
-    good = np.isfinite(d1) & np.isfinite(d2) & (d1 > 0.0)
+    good = np.all(np.isfinite(sizes), axis=0) & (d1 > 0.0)
     if good.sum() < 4:
-        return np.full(r.size, max(float(np.std(np.diff(r))) / np.sqrt(2.0), 1e-9)), 0.0
-    ratio = np.median(d2[good] / d1[good])
-    rho = correlation_from_ratio(float(ratio))
-    per_variance = 6.0 - 8.0 * rho + 2.0 * rho**2
+        return np.full(r.size, max(float(np.std(np.diff(r))) / np.sqrt(2.0), 1e-9)), 0.0, 0.0
+    growth = np.array([np.quantile(s[good] / d1[good], 0.4) for s in sizes])
+    share, rho = _colour(growth)
+    per_variance = _expected(share, rho, 1)
     weight = np.ones(good.sum())
     scale = means[good].max(axis=0)
     scale[scale <= 0.0] = 1.0
@@ -102,7 +122,24 @@ def _series(data: Data, r: Array, parts: list[Array]) -> tuple[Array, float]:
         weight = 1.0 / fit / (1.0 + np.maximum(b / fit - 1.0, 0.0) ** 2)
     variance = np.column_stack(parts) / scale @ x
     floor = 0.02 * float(np.median(b))
-    return np.sqrt(np.maximum(variance, floor)), rho
+    return np.sqrt(np.maximum(variance, floor)), share, rho
+
+
+def _expected(share: float, rho: float, lag: int) -> float:
+    """Mean square of the second difference at a lag, for noise of unit variance."""
+    return 6.0 - 8.0 * share * rho**lag + 2.0 * share * rho ** (2 * lag)
+
+
+def _colour(growth: Array) -> tuple[float, float]:
+    """Coloured share and correlation that let second differences grow with lag as they do."""
+    best = (np.inf, 0.0, 0.0)
+    weight = 1.0 / np.array(_LAGS) ** 0.5
+    for rho in (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.93):
+        for share in np.linspace(0.0, 1.0, 21):
+            model = np.array([_expected(share, rho, k) for k in _LAGS])
+            error = float(np.sum(weight * (np.log(growth) - np.log(model / model[0])) ** 2))
+            best = min(best, (error, float(share), rho))
+    return best[1], best[2]
 
 
 def _second_difference(x: Array, start: Array, lag: int) -> tuple[Array, Array]:
@@ -124,17 +161,6 @@ def _block_median(values: Array, ok: Array, block: Array, count: int) -> Array:
 
 def _block_mean(values: Array, block: Array, count: int) -> Array:
     return np.bincount(block, values, count) / np.maximum(np.bincount(block, minlength=count), 1)
-
-
-def correlation_from_ratio(ratio: float) -> float:
-    """Correlation of neighbours from the ratio of squared second differences at lags 2 and 1."""
-
-    def excess(rho: float) -> float:
-        return (6.0 - 8.0 * rho**2 + 2.0 * rho**4) / (6.0 - 8.0 * rho + 2.0 * rho**2) - ratio
-
-    if ratio <= 1.0:
-        return 0.0
-    return 0.95 if excess(0.95) < 0.0 else float(brentq(excess, 0.0, 0.95))
 
 
 def _points(data: Data, r: Array, largest: float) -> Array:

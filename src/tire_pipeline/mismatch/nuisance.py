@@ -27,8 +27,9 @@ _COEFFICIENTS = {
         "REX1 REX2 RHX1"
     ).split(),
 }
-_LENGTHS = {"slip": 0.22, "normal_load": 0.9, "camber": 0.8}
-_MOST_POINTS = 90
+_POINTS = ("slip_angle", "slip_ratio", "camber", "normal_load")
+_LENGTHS = {"slip": 0.25, "normal_load": 0.8, "camber": 0.9}
+_MOST_POINTS = 130
 
 
 @dataclass(frozen=True)
@@ -49,57 +50,91 @@ class Nuisance:
     flexible: dict[str, Array]
 
 
-def make_nuisance(data: Data, tangents: dict[str, Array]) -> Nuisance:
+def make_nuisance(data: Data) -> Nuisance:
     """Build the columns.
+
+    The flexible form is made orthogonal to the coefficients' Jacobian over an even grid of the
+    recorded ranges, such as a fitter would have used, and not over the recording itself: what a fit
+    left there may still look like a change of coefficients here.
 
     Parameters
     ----------
     data : Data
-    tangents : dict of ndarray, shape (n, k)
-        Columns of the effects in own inputs, to which the flexible form is made orthogonal.
     """
+    grid = _grid(data)
     coefficients, flexible = {}, {}
     for name in data.outputs:
         largest = largest_force(data, name)
-        c = _orthonormal(_jacobian(data, name))
-        b = _gaussian_process(data, name)
-        spanned = _orthonormal(np.hstack([c, tangents[name]]))
-        b = b - spanned @ (spanned.T @ b) / data.size
-        coefficients[name] = c * largest
+        here = {n: data.get(n) for n in _POINTS}
+        jacobian, basis = _jacobian(data, name, here), _orthonormal(_jacobian(data, name, here))
+        b, b_grid = _gaussian_process(data, name, here, grid)
+        c = np.hstack([jacobian, _shifts(data, name, here)])
+        c_grid = np.hstack([_jacobian(data, name, grid), _shifts(data, name, grid)])
+        b = b - c @ _solve(c_grid, b_grid)
+        coefficients[name] = basis * largest
         flexible[name] = b * largest
     return Nuisance(coefficients, flexible)
 
 
+def _solve(a: Array, b: Array) -> Array:
+    """Least squares, columns of ``a`` scaled, small directions left out."""
+    size = np.sqrt((a**2).sum(axis=0))
+    size[size <= 0.0] = 1.0
+    return np.linalg.lstsq(a / size, b, rcond=1e-3)[0] / size[:, None]
+
+
+def _grid(data: Data) -> dict[str, Array]:
+    """Even points over the recorded ranges: pure slip, slip with camber, combined slip, at five loads."""
+    low, high = np.quantile(data.get("normal_load"), [0.005, 0.995])
+    loads = np.linspace(low, high, 5) if data.varies("normal_load") else np.array([0.5 * (low + high)])
+    a = _range(data, "slip_angle", 31)
+    k = _range(data, "slip_ratio", 21)
+    rows = [(x, 0.0, 0.0, f) for f in loads for x in a]
+    rows += [(0.0, x, 0.0, f) for f in loads for x in k]
+    if data.varies("camber") and data.knows_camber:
+        g = float(np.quantile(np.abs(data.get("camber")), 0.99))
+        rows += [(x, 0.0, c * g, f) for f in loads for c in (-1.0, -0.5, 0.5, 1.0) for x in a[::2]]
+    if data.has_combined:
+        rows += [(s, x, 0.0, f) for f in loads for s in (-0.08, -0.04, 0.04, 0.08) for x in k[::2]]
+    points = np.array(rows)
+    return dict(zip(_POINTS, points.T, strict=True))
+
+
+def _range(data: Data, name: str, count: int) -> Array:
+    if not data.varies(name):
+        return np.zeros(1)
+    top = float(np.quantile(np.abs(data.get(name)), 0.999))
+    return np.linspace(-top, top, count)
+
+
+def _shifts(data: Data, name: str, at: dict[str, Array]) -> Array:
+    """Constant, load and slope: a fit would have found a shift of the curve even if the file has none."""
+    slip, h = ("slip_angle", 2e-3) if name == "fy" else ("slip_ratio", 2e-3)
+    up, down = (plain_forces(data.tire, **{**at, slip: at[slip] + s * h})[name] for s in (1.0, -1.0))
+    load = at["normal_load"]
+    return np.column_stack([np.full(load.size, data.load_nominal), load, up - down])
+
+
 def largest_force(data: Data, name: str) -> float:
-    """Return the largest force of the recording, N: 99.5% quantile, of either output if one is at rest."""
+    """Return the largest force of the simulation, N: 99.5% quantile, of the other output if this one rests."""
     sizes = {n: float(np.quantile(np.abs(data.base[n]), 0.995)) for n in data.outputs}
-    recorded = {n: float(np.quantile(np.abs(data.recorded[n]), 0.995)) for n in data.outputs}
-    own = min(max(sizes[name], 1e-9), max(recorded[name], 1e-9))
-    return max(own, 0.05 * max(max(sizes.values()), 1e-9))
+    top = max(max(sizes.values()), 1e-9)
+    return sizes[name] if sizes[name] > 0.3 * top else 0.3 * top
 
 
-def _jacobian(data: Data, name: str) -> Array:
+def _jacobian(data: Data, name: str, at: dict[str, Array]) -> Array:
     """d force / d coefficient for the coefficients that the file has and that matter here."""
     c = data.tire.coefficients
     missing = getattr(data.tire, "defaulted", {})
     columns = []
-    args = {n: data.get(n) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
     for key in _COEFFICIENTS[name]:
         value = float(c.get(key, 0.0))
         if value == 0.0 or key in missing:
             continue
         h = 1e-4 * max(abs(value), 0.05)
-        up, down = (
-            plain_forces(
-                data.tire.replace(**{key: value + s * h}),
-                speed=data.model_speed,
-                pressure=data.model_pressure,
-                **args,
-            )[name]
-            for s in (1.0, -1.0)
-        )
+        up, down = (plain_forces(data.tire.replace(**{key: value + s * h}), **at)[name] for s in (1.0, -1.0))
         columns.append((up - down) / (2.0 * h) * max(abs(value), 0.05))
-    return np.column_stack(columns) if columns else np.zeros((data.size, 0))
+    return np.column_stack(columns) if columns else np.zeros((at["normal_load"].size, 0))
 
 
 def _orthonormal(columns: Array) -> Array:
@@ -115,22 +150,20 @@ def _orthonormal(columns: Array) -> Array:
     return (columns[:, keep] / size[keep]) @ (vectors[:, good] / np.sqrt(values[good]))
 
 
-def _coordinates(data: Data, name: str) -> Array:
+def _coordinates(data: Data, at: dict[str, Array]) -> Array:
     """Own inputs, each divided by the length over which the misfit may change."""
     parts = []
     for slip, force in (("slip_angle", "fy"), ("slip_ratio", "fx")):
-        x = data.get(slip)
-        if not data.varies(slip):
-            continue
-        half = _slip_at_half(data, force)
-        parts.append(2.0 / np.pi * np.arctan(x / half) / _LENGTHS["slip"])
-    load = data.get("normal_load")
+        if data.varies(slip):
+            half = _slip_at_half(data, force)
+            parts.append(2.0 / np.pi * np.arctan(at[slip] / half) / _LENGTHS["slip"])
     if data.varies("normal_load"):
-        low, high = np.quantile(load, [0.005, 0.995])
-        parts.append((load - 0.5 * (low + high)) / (0.5 * (high - low)) / _LENGTHS["normal_load"])
+        low, high = np.quantile(data.get("normal_load"), [0.005, 0.995])
+        load = (at["normal_load"] - 0.5 * (low + high)) / (0.5 * (high - low))
+        parts.append(load / _LENGTHS["normal_load"])
     if data.varies("camber") and data.knows_camber:
-        parts.append(data.get("camber") / np.quantile(np.abs(data.get("camber")), 0.99) / _LENGTHS["camber"])
-    return np.column_stack(parts) if parts else np.zeros((data.size, 1))
+        parts.append(at["camber"] / np.quantile(np.abs(data.get("camber")), 0.99) / _LENGTHS["camber"])
+    return np.column_stack(parts) if parts else np.zeros((at["normal_load"].size, 1))
 
 
 def _slip_at_half(data: Data, force: str) -> float:
@@ -149,18 +182,23 @@ def _slip_at_half(data: Data, force: str) -> float:
     return float(np.clip(f.max() / k, 0.005, 0.3))
 
 
-def _gaussian_process(data: Data, name: str) -> Array:
-    """Nystrom features of a squared-exponential kernel at inducing points spread over the data."""
-    x = _coordinates(data, name)
+def _gaussian_process(
+    data: Data, name: str, here: dict[str, Array], grid: dict[str, Array]
+) -> tuple[Array, Array]:
+    """Nystrom features of a squared-exponential kernel at inducing points spread over data and grid."""
+    x, y = _coordinates(data, here), _coordinates(data, grid)
     pick = np.random.default_rng(0).permutation(data.size)[:3000]
-    centres = _spread(x[pick], 0.8, _MOST_POINTS)
+    centres = _spread(np.vstack([x[pick], y]), 0.85, _MOST_POINTS)
     kernel = _kernel(centres, centres) + 1e-6 * np.eye(len(centres))
     values, vectors = np.linalg.eigh(kernel)
-    good = values > 1e-4 * values.max()
-    features = _kernel(x, centres) @ (vectors[:, good] / np.sqrt(values[good]))
-    load = data.get("normal_load")
-    size = 0.25 + 0.75 * np.clip(load / np.quantile(load, 0.99), 0.0, 1.2)
-    return features * size[:, None]
+    good = values > 1e-3 * values.max()
+    to_features = vectors[:, good] / np.sqrt(values[good])
+    top = np.quantile(data.get("normal_load"), 0.99)
+
+    def features(at: Array, load: Array) -> Array:
+        return _kernel(at, centres) @ to_features * (0.25 + 0.75 * np.clip(load / top, 0.0, 1.2))[:, None]
+
+    return features(x, here["normal_load"]), features(y, grid["normal_load"])
 
 
 def _kernel(a: Array, b: Array) -> Array:

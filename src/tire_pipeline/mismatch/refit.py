@@ -196,6 +196,10 @@ def _at_bound(changes: list[Change], free: list[tuple[str, ...]]) -> bool:
         for p in catalogue()[name].parameters:
             if p.name not in names or p.name in {"fy", "fx"} and name == "clipping":
                 continue
-            if values[p.name] != p.zero and (values[p.name] <= p.low or values[p.name] >= p.high):
+            if p.low == p.zero or name == "combined_slip":
+                reached = values[p.name] >= p.high
+            else:
+                reached = values[p.name] <= p.low or values[p.name] >= p.high
+            if values[p.name] != p.zero and reached:
                 return True
     return False

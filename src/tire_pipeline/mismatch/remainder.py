@@ -19,7 +19,7 @@ def remainder(search: Search) -> Remainder:
     """Measure what neither the effects nor a misfit of the usual size explains."""
     data, fit = search.data, search.fit
     left = search.system.left(residual(data, fit.changes), fit.columns if fit.labels else None)
-    statistic = excess(search, left)
+    statistic, nats = excess(search, left)
     size = {}
     for o in data.outputs:
         rms = float(np.sqrt(np.mean(residual(data, fit.changes)[o] ** 2)))
@@ -28,27 +28,29 @@ def remainder(search: Search) -> Remainder:
     plain = {o: left[o] * search.noise[o].sigma for o in data.outputs}
     located = locate(data, plain, search.noise, search.block) if significant else []
     form = sparse_form(search) if significant else ""
-    return Remainder(size, located, form, bool(significant), statistic)
+    return Remainder(size, located, form, bool(significant), statistic, nats)
 
 
-def excess(search: Search, left: dict[str, Array]) -> float:
-    """Return how much power whitened residuals have beyond white noise, worst of outputs and scales.
+def excess(search: Search, left: dict[str, Array]) -> tuple[float, float]:
+    """Return how much power whitened residuals have beyond white noise, and what that is worth in nats.
 
     At each scale the samples are summed over windows; the mean square of the sums over that of
-    white noise of the same (robust) size is 1 for noise.
+    white noise of the same (robust) size is 1 for noise. The worst output and scale count.
     """
-    worst = 1.0
+    worst, nats = 1.0, 0.0
     for white in left.values():
         size = float(np.median(white**2) / 0.4549)
         x = white / np.sqrt(max(size, 1e-12))
-        worst = max(worst, float(np.mean(np.minimum(x**2, 25.0))))
-        for width in (5, 12, 25, 60):
+        for width in (1, 5, 12, 25, 60):
             n = x.size // width
             if n < 30:
                 continue
             sums = x[: n * width].reshape(n, width).sum(axis=1) / np.sqrt(width)
-            worst = max(worst, float(np.mean(np.minimum(sums**2, 25.0))))
-    return worst
+            ratio = float(np.mean(np.minimum(sums**2, 25.0)))
+            worst = max(worst, ratio)
+            if ratio > 1.0:
+                nats = max(nats, 0.5 * n * (ratio - 1.0 - np.log(ratio)))
+    return worst, nats
 
 
 def sparse_form(search: Search) -> str:

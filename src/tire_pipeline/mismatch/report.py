@@ -104,6 +104,7 @@ class Remainder:
     form: str
     significant: bool
     statistic: float = 0.0
+    nats: float = 0.0
 
 
 @dataclass

@@ -55,7 +55,7 @@ class Gates:
             self.gain > settings.LEAST_GAIN
             and self.p_value < level
             and self.share > settings.LEAST_SHARE
-            and self.loose > 0.0
+            and self.loose > settings.LEAST_GAIN
             and self.in_bounds
         )
 
@@ -87,13 +87,6 @@ class Search:
         return 0.5 * float(np.log(max(rows / self.inflation, 8.0)))
 
 
-def tangents(data: Data) -> dict[str, Array]:
-    """Columns of the effects that act on the model's own inputs."""
-    found, _ = variants(data, [n for n, e in catalogue().items() if e.own_inputs and n != "clipping"])
-    parts = [screening_columns(data, [], v) for v in found]
-    return {o: np.hstack([p[o] for p in parts]) for o in data.outputs}
-
-
 def begin(data: Data) -> Search:
     """Estimate noise and misfit, and set up the sums."""
     rest = {o: data.recorded[o] - data.base[o] for o in data.outputs}
@@ -120,15 +113,13 @@ def begin(data: Data) -> Search:
 def _assemble(search: Search) -> None:
     """Build the system at the likeliest size of the misfit, and the inflation of its noise."""
     data = search.data
-    nuisance = make_nuisance(data, tangents(data))
+    nuisance = make_nuisance(data)
     columns = {o: np.hstack([nuisance.coefficients[o], nuisance.flexible[o]]) for o in data.outputs}
     sizes = {o: (nuisance.coefficients[o].shape[1], nuisance.flexible[o].shape[1]) for o in data.outputs}
 
     def scale(share: float, factor: float = 1.0) -> dict[str, Array]:
-        return {
-            o: np.r_[np.full(c, factor * settings.COEFFICIENT_SHARE), np.full(m, share)]
-            for o, (c, m) in sizes.items()
-        }
+        move = factor * max(settings.COEFFICIENT_SHARE, settings.COEFFICIENT_PART * share)
+        return {o: np.r_[np.full(c, move), np.full(m, share)] for o, (c, m) in sizes.items()}
 
     search.system = System(data, search.noise, search.block, columns, scale(settings.MISFIT_SHARES[0]))
     search._scale = scale  # type: ignore[attr-defined]
@@ -147,7 +138,7 @@ def rescale(search: Search) -> None:
         best = max(best, (value, share))
     search.misfit = best[1]
     search.system = base.rescaled(search._scale(best[1]))  # type: ignore[attr-defined]
-    search.loose = base.rescaled(search._scale(best[1], settings.LOOSE))  # type: ignore[attr-defined]
+    search.loose = base.rescaled(search._scale(max(best[1], 0.009), settings.LOOSE))  # type: ignore[attr-defined]
     search.frozen = base.rescaled(search._scale(best[1], 1e-3))  # type: ignore[attr-defined]
     search.inflation = _inflation(search)
 
@@ -307,7 +298,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
     """Judge each effect of a set: the set with it against the set without it, refitted."""
     out = []
     rest = residual(search.data, fit.changes)
-    total = float(search.frozen.held_out(search.frozen.sums(residual(search.data, []))).sum())
+    total = _mismatch(search, residual(search.data, []))
     for i, name in enumerate(fit.names):
         others = [
             Variant(n, p, f)
@@ -327,23 +318,29 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
             without = s.reduce(s.sums(rest_without, reduced.columns if reduced.labels else None))
             gain = 0.5 * (_best(without) - _best(with_it)) / search.inflation - search.price * count
             gains.append(float(gain))
-        judge = frozen if catalogue()[name].own_inputs else system
-        before = judge.held_out(judge.sums(rest_without, reduced.columns if reduced.labels else None))
-        after = judge.held_out(judge.sums(rest, fit.columns if fit.labels else None))
+        own = catalogue()[name].own_inputs or (name == "camber" and search.data.knows_camber)
+        judge = frozen if own else system
         shown = _shown(search, fit, i)
+        before, first = judge.held_out(rest_without, reduced.columns if reduced.labels else None, shown)
+        after, second = judge.held_out(rest, fit.columns if fit.labels else None, shown)
         out.append(
             Gates(
                 name=name,
                 gain=gains[0],
-                p_value=_wilcoxon(before[shown], after[shown]),
-                share=float((before.sum() - after.sum()) / max(total, before.sum(), 1e-12)),
-                loose=gains[1] if not catalogue()[name].own_inputs else gains[0],
+                p_value=_wilcoxon(first, second),
+                share=(_mismatch(search, rest_without) - _mismatch(search, rest)) / max(total, 1e-12),
+                loose=gains[0] if own else gains[1],
                 frozen=gains[2],
                 in_bounds=not fit.at_bound,
                 blocks=before.size,
             )
         )
     return out
+
+
+def _mismatch(search: Search, rest: dict[str, Array]) -> float:
+    """Mean square of a residual over the noise, outputs added."""
+    return float(sum(np.mean(r**2) / search.noise[o].floor ** 2 for o, r in rest.items()))
 
 
 def _shown(search: Search, fit: Fit, index: int) -> Array:
@@ -355,7 +352,7 @@ def _shown(search: Search, fit: Fit, index: int) -> Array:
         part = (whole[o] - without[o]) / search.noise[o].sigma
         energy += np.bincount(search.block, part**2, search.system.count)
     shown = energy > 0.1 * np.mean(energy)
-    return shown if shown.sum() >= 6 else np.argsort(-energy)[: max(6, int(shown.sum()))]
+    return np.flatnonzero(shown)
 
 
 def _best(reduced: tuple[Array, Array, float]) -> float:
@@ -398,7 +395,7 @@ def run(search: Search) -> None:
         search.log.append(
             "refit: " + ", ".join(f"{'+'.join(f.names)} {gain_of(search, f, empty):.0f}" for f in fits[:6])
         )
-        if not _take(search, fits):
+        if not _take(search, fits) and not _take(search, _pairs(search, fits)):
             break
         rescale(search)
         empty = objective(search.system, [])
@@ -429,8 +426,31 @@ def _refined(search: Search, ranked: list[tuple[float, Variant]]) -> list[Fit]:
     return fits
 
 
+def _pairs(search: Search, fits: list[Fit]) -> list[Fit]:
+    """Refit pairs of the most promising effects: two can mask each other."""
+    if len(search.fit.names) + 2 > settings.MOST_EFFECTS:
+        return []
+    now = [Variant(n, p, f) for (n, p), f in zip(search.fit.changes, search.fit.free, strict=True)]
+    best: dict[str, Fit] = {}
+    for fit in fits:
+        best.setdefault(fit.names[-1], fit)
+    out = []
+    for first, second in combinations(list(best)[:4], 2):
+        forms = [Variant(name, best[name].changes[-1][1], best[name].free[-1]) for name in (first, second)]
+        start = [*search.fit.changes, *(best[name].changes[-1] for name in (first, second))]
+        out.append(prune(search, refit(search.system, [*now, *forms], start=start)))
+    empty = objective(search.system, [])
+    out.sort(key=lambda f: -gain_of(search, f, empty))
+    search.log.append(
+        "pairs: " + ", ".join(f"{'+'.join(f.names)} {gain_of(search, f, empty):.0f}" for f in out[:4])
+    )
+    return out
+
+
 def _take(search: Search, fits: list[Fit]) -> bool:
     """Accept the best set that passes all gates, if its gain is near the best's."""
+    if not fits:
+        return False
     empty = objective(search.system, [])
     best = gain_of(search, fits[0], empty)
     for fit in fits[:3]:

@@ -6,13 +6,16 @@ cases of a published proof.
 
 from __future__ import annotations
 
-COEFFICIENT_SHARE = 0.0008
+COEFFICIENT_SHARE = 0.0005
 """How far the model may be off along each direction of its coefficients, RMS over largest force."""
+
+COEFFICIENT_PART = 0.12
+"""The same as a part of the flexible form's size: a worse fit is also worse along its coefficients."""
 
 LOOSE = 12.0
 """Factor on COEFFICIENT_SHARE in the check that effects with other drivers survive a refit."""
 
-MISFIT_SHARES = (0.001, 0.002, 0.0035, 0.005, 0.007, 0.01)
+MISFIT_SHARES = (0.001, 0.002, 0.004, 0.006, 0.009, 0.013)
 """Sizes of the flexible form that are tried, over the largest force; the likeliest is taken."""
 
 LEAST_GAIN = 8.0

@@ -9,14 +9,14 @@ confidence intervals: Katkovnik 1999, IEEE Trans. Signal Processing 47).
 from __future__ import annotations
 
 import numpy as np
+from scipy.ndimage import percentile_filter
+from scipy.optimize import brentq
 from scipy.signal import savgol_coeffs
 
-from tire_pipeline.mismatch.noise import correlation_from_ratio
 
 Array = np.ndarray
-_WINDOWS = (9, 15, 25, 35)
-_WIDTH = 1.3
-_ORDER = 4
+_WINDOWS = ((9, 4), (15, 4), (25, 4), (35, 4), (61, 2), (121, 2), (241, 2))
+_WIDTH = 1.7
 
 
 def denoise(x: Array, start: Array) -> Array:
@@ -48,7 +48,7 @@ def denoise(x: Array, start: Array) -> Array:
     ends = np.append(firsts[1:], x.size)
     out = x.copy()
     for first, last in zip(firsts, ends, strict=True):
-        if last - first > 2 * _WINDOWS[0]:
+        if last - first > 2 * _WINDOWS[0][0]:
             out[first:last] = _piece(x[first:last], sigma, rho)
     return out
 
@@ -65,25 +65,28 @@ def _piece(x: Array, sigma: float, rho: float) -> Array:
     n = x.size
     low = np.full(n, -np.inf)
     high = np.full(n, np.inf)
-    out = x.copy()
+    level = np.zeros(n, int)
+    values = []
     alive = np.ones(n, bool)
-    for window in (1, *_WINDOWS):
+    for window, order in ((1, 0), *_WINDOWS):
         if window > n // 2:
             break
-        value, spread = _polynomial(x, window, rho)
+        value, spread = _polynomial(x, window, order, rho)
+        values.append(value)
         half = _WIDTH * sigma * spread
         low = np.where(alive, np.maximum(low, value - half), low)
         high = np.where(alive, np.minimum(high, value + half), high)
         alive &= low <= high
-        out = np.where(alive, value, out)
-    return out
+        level = np.where(alive, len(values) - 1, level)
+    level = percentile_filter(level, 30, 21, mode="nearest")
+    return np.choose(level, values)
 
 
-def _polynomial(x: Array, window: int, rho: float) -> tuple[Array, float]:
-    """Return local polynomial values (fourth order) and their standard deviation for noise of unit variance."""
+def _polynomial(x: Array, window: int, order: int, rho: float) -> tuple[Array, float]:
+    """Return local polynomial values and their standard deviation for noise of unit variance."""
     if window == 1:
         return x, 1.0
-    c = savgol_coeffs(window, _ORDER)
+    c = savgol_coeffs(window, order)
     half = window // 2
     padded = np.concatenate([2.0 * x[0] - x[half:0:-1], x, 2.0 * x[-1] - x[-2 : -half - 2 : -1]])
     value = np.convolve(padded, c[::-1], mode="valid")
@@ -101,3 +104,14 @@ def _colour(x: Array, start: Array) -> float:
         ok = piece[2 * lag :] == piece[: -2 * lag]
         sizes.append(_quiet(np.abs(d[ok])) ** 2 if ok.any() else 0.0)
     return correlation_from_ratio(sizes[1] / sizes[0]) if sizes[0] > 0.0 else 0.0
+
+
+def correlation_from_ratio(ratio: float) -> float:
+    """Correlation of neighbours from the ratio of squared second differences at lags 2 and 1."""
+
+    def excess(rho: float) -> float:
+        return (6.0 - 8.0 * rho**2 + 2.0 * rho**4) / (6.0 - 8.0 * rho + 2.0 * rho**2) - ratio
+
+    if ratio <= 1.0:
+        return 0.0
+    return 0.95 if excess(0.95) < 0.0 else float(brentq(excess, 0.0, 0.95))

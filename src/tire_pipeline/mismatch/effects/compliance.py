@@ -22,5 +22,5 @@ class Compliance(Effect):
     order = 20
 
     def inputs(self, state: State, data: object, p: Parameters) -> None:
-        """Turn the wheel by the force that the model predicts."""
-        state.slip_angle = state.slip_angle - p["steer"] * data.base_fy  # type: ignore[attr-defined]
+        """Turn the wheel by the force that then acts."""
+        state.slip_angle = data.turned_by_force(state.slip_angle, p["steer"])  # type: ignore[attr-defined]
