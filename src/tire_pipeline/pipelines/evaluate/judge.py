@@ -15,7 +15,7 @@ from tire_pipeline.representations.coefficients import DATASETS
 from tire_pipeline.tire_table import from_models, normalize_table
 
 Files = Mapping[str, Callable[[], TireModel]]
-BIASED = DATASETS["full"]
+BIASED = (*DATASETS["lateral"], *DATASETS["longitudinal"])
 _COLUMNS = ["set", "translator", "metric", "ratio", "improved", "worst", "files"]
 
 
@@ -86,7 +86,10 @@ def judge(
 
 
 def shifted_by_truth(before: pd.DataFrame, first: pd.DataFrame) -> pd.DataFrame:
-    """What one constant shift a category could reach at best: the mean difference, taken from the truth.
+    """What one constant shift a category could reach: the mean difference of the coefficients of both forces.
+
+    It is taken from the truth. Coefficients of the aligning torque are left as they are: they compensate each
+    other, so that their means are no tire.
 
     Parameters
     ----------
