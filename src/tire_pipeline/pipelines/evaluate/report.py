@@ -155,8 +155,8 @@ def _translation(summary: pd.DataFrame, target: str) -> list[Text | Table]:
     caption = (
         "Sum of squared errors to the target's measurement, divided by that of the untranslated files. "
         "`no change` is the naive baseline, `floor` the target measuring a second time, `oracle` a "
-        "constant shift of the force coefficients of each category, taken from the truth. Improved: share of files "
-        "whose error became smaller by the agent. The first three metrics are the thesis'."
+        "constant shift of the force coefficients of each category, taken from the truth. Improved: share of "
+        "files whose error became smaller by the agent. The first three metrics are the thesis'."
     )
     wide = summary.pivot_table(index=["set", "metric"], columns="translator", values="ratio", sort=False)
     agent = summary[summary["translator"] == "agent"].set_index(["set", "metric"])
