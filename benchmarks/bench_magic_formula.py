@@ -4,8 +4,8 @@
 
 Prints, for 1, 1e3, 1e5 (and 1e7 with --large) points: the time of both and their ratio, on one thread and on
 two; that of a bare compiled loop that only calls sin, cos and arctan as often as the equations do; the peak
-of memory beyond inputs and outputs; and the cost of Jacobians in evaluations. The equations are those of MF 5.2
-and 6.1, for Fx, Fy and Mz.
+of memory beyond inputs and outputs; and the cost of Jacobians in evaluations. The equations are those of MF
+5.2 and 6.1, for Fx, Fy and Mz.
 """
 
 from __future__ import annotations

@@ -29,6 +29,7 @@ PLAIN = ("PHY1", "PHY2", "PHY3", "PVY1", "PVY2", "QHZ1", "QHZ2", "QDZ6", "QDZ7",
 
 
 def arrow(ax: Axes, start, end, colour, text="", shift=(0.0, 0.0), width=2.0):
+    """Draw an arrow with a label at its end."""
     ax.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": colour, "lw": width})
     if text:
         ax.text(
@@ -46,7 +47,8 @@ def turning(ax: Axes, centre, counterclockwise: bool, colour, text, radius=0.5):
     ax.text(centre[0], centre[1] - radius - 0.16, text, color=colour, ha="center", va="center", fontsize=9)
 
 
-def panel(ax: Axes, title: str = ""):
+def panel(ax: Axes, title: str):
+    """Prepare an empty panel."""
     ax.set_xlim(-1.75, 1.75)
     ax.set_ylim(-1.5, 1.65)
     ax.set_aspect("equal")

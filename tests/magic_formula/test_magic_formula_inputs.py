@@ -1,5 +1,7 @@
 """What goes in: shapes, ranges, sides, axes, nonsense."""
 
+import copy
+import pickle
 import warnings
 
 import numpy as np
@@ -190,6 +192,15 @@ def test_what_is_missing_is_listed_with_what_stands_in():
     assert "PCY1" not in tire.defaulted
     assert "PHY3" not in tire.defaulted
     assert "LMUY" not in tire.replace(LMUY=0.9).defaulted
+
+
+def test_a_model_survives_copying_and_pickling():
+    tire = TIRES["6.1"]
+    assert copy.deepcopy(tire).coefficients == tire.coefficients
+    again = pickle.loads(pickle.dumps(tire))
+    assert again.version == tire.version
+    assert again.coefficients == tire.coefficients
+    assert again.defaulted == tire.defaulted
 
 
 def test_only_the_outputs_asked_for_are_there():

@@ -65,9 +65,8 @@ class TireModel:
         family_of(self.version)
         check_values(self.coefficients, self.path)
         values = {key: float(value) for key, value in self.coefficients.items()}
-        missing = {k: v for k, v in self.defaulted.items() if k not in values} or missing_defaults(
-            values, self.version
-        )
+        missing = missing_defaults(values, self.version)
+        missing.update({key: value for key, value in self.defaulted.items() if key not in values})
         object.__setattr__(self, "coefficients", MappingProxyType(values))
         object.__setattr__(self, "defaulted", MappingProxyType(missing))
         object.__setattr__(self, "metadata", MappingProxyType(dict(self.metadata)))
@@ -94,6 +93,13 @@ class TireModel:
         TireModel
         """
         return cls(version=version, coefficients=dict(coefficients), metadata=metadata or {})
+
+    def __deepcopy__(self, memo: dict[int, object]) -> TireModel:
+        return self  # nothing in it changes
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        parts = (dict(self.coefficients), dict(self.defaulted), dict(self.metadata))
+        return TireModel, (self.version, *parts, self.source, self.path)
 
     @cached_property
     def family(self) -> int:
