@@ -14,6 +14,10 @@ TRANSLATORS: dict[str, tuple[str, str]] = {
     "agent": ("tire_pipeline.translation.thesis.translator", "AgentTranslator"),
     "no_change": ("tire_pipeline.translation.no_change", "NoChange"),
     "mixed_model": ("tire_pipeline.translation.curve_translator", "MixedModel"),
+    "greedy_forest": ("tire_pipeline.translation.greedy_forest", "GreedyForest"),
+    "likelihood_agent": ("tire_pipeline.translation.likelihood_agent", "LikelihoodAgent"),
+    "curious_agent": ("tire_pipeline.translation.likelihood_agent", "CuriousAgent"),
+    "cycle_consistent": ("tire_pipeline.translation.cycle_consistent", "CycleConsistent"),
     "paired_mixed_model": ("tire_pipeline.translation.curve_translator", "PairedMixedModel"),
 }
 """Name of a translator -> module and class; imported only when asked for.

@@ -19,8 +19,9 @@ from tire_pipeline.translation.result import Band
 SLIPS = np.linspace(-0.2, 0.2, 41)
 """Slip angles (rad) and slip ratios of the bands."""
 
-QUANTILE = 1.6449
-"""Standard deviations to either side of the middle that hold 90% of a Gaussian."""
+QUANTILE = 1.6449 * 1.04
+"""Standard deviations to either side of the middle: those that hold 90% of a Gaussian, and 4% more, since the
+variances are estimates and the errors have longer tails (found on tuning tires)."""
 
 _REST_SHARE = 1.0  # variance of what the scores leave out, over that of the same between tires
 _LEFT_OUT = 4.0  # CurveSpace.limit is in these deviations

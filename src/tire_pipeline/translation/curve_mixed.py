@@ -30,7 +30,7 @@ GUESS = {
 }
 """Where the search for the variances begins, in units of a score's own variance."""
 
-TIRE_CATEGORY_SHARE = {"shape": 2.0, "aligning": 2.0}
+TIRE_CATEGORY_SHARE = {"shape": 2.0, "aligning": 5.0}
 """Variance of what one tire does in one category alone, over that of the noise, if no tire tells, by part.
 The shape of a curve depends on what else was fitted; stiffness and friction hardly do."""
 

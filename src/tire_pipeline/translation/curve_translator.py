@@ -262,16 +262,21 @@ class MixedModel:
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
         """Bring back what :meth:`to_state` gave; it translates the same."""
-        translator = cls(
-            pairs=bool(state["option_pairs"]),
-            trust=float(state["option_trust"]),
-            gate=bool(state["option_gate"]),
-        )
+        translator = cls._with_options(state)
         translator.target = str(state["target"])
         translator.limits = np.asarray(state["coefficient_limits"])
         translator.reach = TrainingReach.from_state(state)
         translator.model = CurveMixedModel.from_state(state)
         return translator
+
+
+    @classmethod
+    def _with_options(cls, state: Mapping[str, Any]) -> Self:
+        return cls(
+            pairs=bool(state["option_pairs"]),
+            trust=float(state["option_trust"]),
+            gate=bool(state["option_gate"]),
+        )
 
 
 class PairedMixedModel(MixedModel):

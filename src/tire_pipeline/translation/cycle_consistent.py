@@ -1,0 +1,147 @@
+"""Cycle-consistent translation of scores: there, back again, and the same tire (Zhu et al. 2017).
+
+Two networks move scores, one from any source category to the target and one back; two critics, who see the
+metadata, tell moved from measured. What is lost going there and back is charged, and so is what is moved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any, ClassVar, Self
+
+import numpy as np
+import pandas as pd
+import torch
+from torch import nn
+
+from tire_pipeline.translation.curve_mixed import Prediction
+from tire_pipeline.translation.curve_translator import MixedModel
+from tire_pipeline.translation.likelihood_environment import Situation, situation_of
+
+ROUNDS = 1500
+BATCH = 128
+CYCLE, IDENTITY = 3.0, 0.1
+
+
+class CycleConsistent(MixedModel):
+    """Translates by adversarial networks in the scores' space, without pairs.
+
+    Parameters
+    ----------
+    rounds : int
+        Training rounds.
+    """
+
+    name: ClassVar[str] = "cycle_consistent"
+
+    def __init__(self, *, rounds: int = ROUNDS, gate: bool = False, pairs: bool = False) -> None:
+        super().__init__(pairs=pairs, trust=0.0, gate=gate)
+        self.rounds = int(rounds)
+
+    def fit(self, training: pd.DataFrame, *, target: str, seed: int = 0) -> Self:
+        """Fit the space of scores, then train the networks.
+
+        Raises
+        ------
+        DomainError
+            If the table has no tire of the target, or none of any other category.
+        """
+        super().fit(training, target=target, seed=seed)
+        own = training["category"].astype(str) == target
+        there = _rows(self._situation(training.loc[own]))
+        here = _rows(self._situation(training.loc[~own]))
+        threads = torch.get_num_threads()
+        torch.set_num_threads(1)
+        try:
+            sizes = len(self.model.scale), len(self.model.categories)
+            self.layers = _train(here, there, *sizes, self.rounds, seed)
+        finally:
+            torch.set_num_threads(threads)
+        return self
+
+    def _situation(self, table: pd.DataFrame) -> Situation:
+        """Scores about the middle of all training files rather than about the category's expectation."""
+        found = situation_of(self.model, table, self.target)
+        scores, _ = self.model.space.encode(table)
+        return replace(found, scores=np.clip(scores / found.unit, -8.0, 8.0))
+
+    def predict(self, source: pd.DataFrame) -> Prediction:
+        """Let the first network move the scores."""
+        found = self.model.predict(source, self.target, trust=0.0)
+        situation = self._situation(source)
+        first, first_bias, last, last_bias = self.layers
+        seen = np.concatenate([situation.scores, situation.context], axis=1)
+        moved = (np.maximum(seen @ first + first_bias, 0.0) @ last + last_bias) * situation.unit
+        return replace(found, shift=moved, target=found.source + moved)
+
+    def to_state(self) -> dict[str, Any]:
+        """Give arrays, strings and numbers that bring it back."""
+        layers = {f"network_{k}": layer for k, layer in enumerate(self.layers)}
+        return {**super().to_state(), "option_rounds": self.rounds, **layers}
+
+    @classmethod
+    def from_state(cls, state: Mapping[str, Any]) -> Self:
+        """Bring back what :meth:`to_state` gave."""
+        found = super().from_state(state)
+        found.layers = [np.asarray(state[f"network_{k}"]) for k in range(4)]
+        return found
+
+    @classmethod
+    def _with_options(cls, state: Mapping[str, Any]) -> Self:
+        return cls(
+            rounds=int(state["option_rounds"]), gate=bool(state["option_gate"]), pairs=bool(state["option_pairs"])
+        )
+
+
+def _rows(situation: Situation) -> torch.Tensor:
+    return torch.as_tensor(np.concatenate([situation.scores, situation.context], axis=1), dtype=torch.float32)
+
+
+def _network(inputs: int, outputs: int, hidden: int, *, still: bool = False) -> nn.Sequential:
+    network = nn.Sequential(nn.Linear(inputs, hidden), nn.ReLU(), nn.Linear(hidden, outputs))
+    if still:
+        nn.init.zeros_(network[2].weight)
+        nn.init.zeros_(network[2].bias)
+    return network
+
+
+def _train(
+    here: torch.Tensor, there: torch.Tensor, scores: int, actors: int, rounds: int, seed: int
+) -> list[np.ndarray]:
+    """Train both directions; give the weights of the one to the target."""
+    with torch.random.fork_rng():
+        torch.manual_seed(seed)
+        width = here.shape[1]
+        go, back = (_network(width, scores, 64, still=True) for _ in range(2))
+        critics = [_network(width, 1, 64) for _ in range(2)]
+        moving = torch.optim.Adam([*go.parameters(), *back.parameters()], lr=1e-3, betas=(0.5, 0.9))
+        judging = torch.optim.Adam([w for c in critics for w in c.parameters()], lr=1e-3, betas=(0.5, 0.9))
+        generator = torch.Generator().manual_seed(seed)
+        for _ in range(rounds):
+            a = here[torch.randint(len(here), (BATCH,), generator=generator)]
+            b = there[torch.randint(len(there), (BATCH,), generator=generator)]
+            context_a, context_b = a[:, scores:], b[:, scores:]
+            # a target's file, taken to the category of the source beside it, and the reverse
+            as_a = torch.cat([context_a[:, :actors], context_b[:, actors:]], dim=1)
+            as_b = torch.cat([context_b[:, :actors], context_a[:, actors:]], dim=1)
+            fake_b = a[:, :scores] + go(a)
+            fake_a = b[:, :scores] + back(torch.cat([b[:, :scores], as_a], dim=1))
+            again_a = fake_b + back(torch.cat([fake_b, context_a], dim=1))
+            again_b = fake_a + go(torch.cat([fake_a, as_a], dim=1))
+            say_b = critics[0](torch.cat([fake_b, as_b], dim=1))
+            say_a = critics[1](torch.cat([fake_a, as_a], dim=1))
+            loss = ((say_b - 1.0) ** 2).mean() + ((say_a - 1.0) ** 2).mean()
+            loss = loss + CYCLE * ((again_a - a[:, :scores]).abs().mean() + (again_b - b[:, :scores]).abs().mean())
+            loss = loss + IDENTITY * ((fake_b - a[:, :scores]).abs().mean() + (fake_a - b[:, :scores]).abs().mean())
+            moving.zero_grad()
+            loss.backward()
+            moving.step()
+            lie_b = critics[0](torch.cat([fake_b.detach(), as_b], dim=1))
+            lie_a = critics[1](torch.cat([fake_a.detach(), as_a], dim=1))
+            judged = ((critics[0](b) - 1.0) ** 2).mean() + (lie_b**2).mean()
+            judged = judged + ((critics[1](a) - 1.0) ** 2).mean() + (lie_a**2).mean()
+            judging.zero_grad()
+            judged.backward()
+            judging.step()
+    return [w.detach().numpy().T.astype(float) for layer in (go[0], go[2]) for w in (layer.weight, layer.bias)]
