@@ -1,0 +1,88 @@
+"""``python -m tire_pipeline.lineage.one_page build lineage.html``: ``kedro viz build`` as one file.
+
+What ``kedro viz build`` writes needs a server: browsers load neither modules nor data from ``file:``
+addresses. Here script, style and data stand in the page itself.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+from pathlib import Path
+
+from tire_pipeline.errors import DomainError
+from tire_pipeline.lineage.first_screen import prepared
+from tire_pipeline.tir.atomic import write_bytes
+
+_FETCH = """
+(function () {
+  var kept = JSON.parse(document.getElementById("api").textContent), original = window.fetch;
+  window.fetch = function (address) {
+    var found = /api\\/(.+?)(?:[?#].*)?$/.exec(String(address && address.url || address));
+    if (!found) return original.apply(this, arguments);
+    var body = kept[found[1].replace(/\\/$/, "")], known = body !== undefined;
+    return Promise.resolve(new Response(known ? JSON.stringify(body) : "{}",
+      {status: known ? 200 : 404, headers: {"Content-Type": "application/json"}}));
+  };
+})();
+"""
+
+
+def one_page(build: Path) -> str:
+    """One self-contained page from a ``kedro viz build``.
+
+    Parameters
+    ----------
+    build : Path
+        The folder that ``kedro viz build`` wrote.
+
+    Raises
+    ------
+    DomainError
+        It is not such a folder.
+    """
+    index = build / "index.html"
+    if not (index.is_file() and (build / "api").is_dir()):
+        raise DomainError(
+            "there is no kedro-viz build here", where=str(build), todo="run `kedro viz build` first"
+        )
+    html = prepared(index.read_text(encoding="utf-8"))
+    api = {
+        path.relative_to(build / "api").as_posix(): json.loads(path.read_text(encoding="utf-8"))
+        for path in sorted((build / "api").rglob("*"))
+        if path.is_file()
+    }
+    data = json.dumps(api, separators=(",", ":")).replace("</", "<\\/")
+    html = re.sub(r'<link rel="shortcut icon"[^>]*>', "", html)
+    html = re.sub(
+        r'<link rel="stylesheet"[^>]*href="\./([^"]+)"[^>]*>',
+        lambda found: f"<style>{(build / found[1]).read_text(encoding='utf-8')}</style>",
+        html,
+    )
+    html = re.sub(
+        r'<script type="module"[^>]*src="\./([^"]+)"[^>]*></script>',
+        lambda found: f'<script type="module">{_inside(build / found[1])}</script>',
+        html,
+    )
+    head = f'<script type="application/json" id="api">{data}</script><script>{_FETCH}</script>'
+    return html.replace("<head>", f"<head>\n{head}", 1)
+
+
+def _inside(script: Path) -> str:
+    text = script.read_text(encoding="utf-8")
+    return re.sub(r"</(script)", r"<\\/\1", text, flags=re.I).replace("<!--", "\\x3c!--")
+
+
+def main() -> None:
+    """Write the page."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("build", type=Path)
+    parser.add_argument("page", type=Path)
+    arguments = parser.parse_args()
+    write_bytes(arguments.page, one_page(arguments.build).encode(), overwrite=True)
+    print(f"lineage: {arguments.page}")
+
+
+if __name__ == "__main__":
+    main()
