@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import namedtuple
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -131,7 +132,7 @@ NAMES_BY_FAMILY: dict[int, tuple[str, ...]] = {
 }
 """The coefficients that the equations of a family use."""
 
-Coefficients = namedtuple("Coefficients", COEFFICIENT_NAMES)  # type: ignore[misc]
+Coefficients: Any = namedtuple("Coefficients", COEFFICIENT_NAMES)  # type: ignore[misc]
 Coefficients.__doc__ = "All coefficients by name, as the equations read them."
 
 _DEFAULTS = dict.fromkeys(COEFFICIENT_NAMES, 0.0)

@@ -43,6 +43,9 @@ class Symbol:
     """One intermediate value: an operation and what it was applied to. Equal ones are the same object."""
 
     __slots__ = ("arguments", "number", "operation")
+    operation: str
+    arguments: tuple[Any, ...]
+    number: int
 
     def __new__(cls, operation: str, *arguments: Any) -> Symbol:
         """Return the symbol, made only if there is none like it."""
@@ -221,12 +224,12 @@ def traced(family: int) -> tuple[Any, ...]:
     used = set(NAMES_BY_FAMILY[family])
     p = Coefficients(*(Symbol("coefficient", n) if n in used else 0.0 for n in COEFFICIENT_NAMES))
     names = ("alpha", "kappa", "gamma", "fz", "speed", "dpi")
-    point = [Symbol("input", name) for name in names]
+    alpha, kappa, gamma, fz, speed, dpi = (Symbol("input", name) for name in names)
     with np.errstate(all="ignore"):
         if family == 5:
-            return evaluate_52(p, *point[:5])[:5]
-        by_load = rolling_load_factor(p, point[3], point[5])
-        return evaluate_61(p, *point, by_load, NO_TURN_SLIP)[:5]
+            return evaluate_52(p, alpha, kappa, gamma, fz, speed)[:5]
+        by_load = rolling_load_factor(p, fz, dpi)
+        return evaluate_61(p, alpha, kappa, gamma, fz, speed, dpi, by_load, NO_TURN_SLIP)[:5]
 
 
 def _text(y: Any, names: dict[int, str]) -> str:
@@ -237,7 +240,7 @@ def function_source(name: str, output: Symbol) -> tuple[str, list[str]]:
     """Return the source of a function that returns an output's gradient, and the coefficients it is over."""
     by_name = gradient(output)
     names: dict[int, str] = {}
-    lines = []
+    lines: list[str] = []
     for y in _needed(by_name.values()):
         if y.operation == "input":
             names[y.number] = y.arguments[0]

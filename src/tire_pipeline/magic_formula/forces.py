@@ -113,7 +113,7 @@ def tire_forces(
 def _one_point(
     model: TireModel,
     point: tuple[Any, ...],
-    turn_slip: float,
+    turn_slip: Any,
     limits: str,
     outputs: Sequence[str] | None,
 ) -> TireForces | None:
@@ -160,7 +160,7 @@ def _evaluate(
     else:
         out = np.empty((len(wanted), size))
         start = 0
-        flags = ["external_loop", "buffered", "delay_bufalloc", "zerosize_ok"]
+        flags: Any = ["external_loop", "buffered", "delay_bufalloc", "zerosize_ok"]
         with np.nditer(arrays, flags, [["readonly"]] * len(arrays), order="C", buffersize=_BUFFER) as chunks:
             chunks.reset()
             for chunk in chunks:

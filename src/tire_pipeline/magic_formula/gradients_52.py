@@ -12,7 +12,7 @@ from tire_pipeline.magic_formula.ops import (
 from tire_pipeline.magic_formula.unpacking import unpack
 
 BLOCK = 64
-STAMP = "3bfb65410f3874c3"
+STAMP = "17c19f38a0bf7603"
 OVER = {
     "fx": (
         "FNOMIN",
@@ -3360,3 +3360,4 @@ def loop_mz(c, alpha, kappa, gamma, fz, speed, dpi, rows, out):
             if row >= 0:
                 for i in range(m):
                     out[row, start + i] = w[(k + 6) * BLOCK + i]
+

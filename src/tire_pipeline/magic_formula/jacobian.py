@@ -65,7 +65,7 @@ def jacobian(
     Analytic: the equations are differentiated backwards once (:mod:`.derive`). At a kink (a bound, a
     magnitude, a sign) it is the derivative of one side.
     """
-    given = (slip_angle, slip_ratio, camber, normal_load)
+    given: tuple[Any, ...] = (slip_angle, slip_ratio, camber, normal_load)
     given += (model.value("LONGVL") if speed is None else speed,)
     given += (0.0 if model.family == 5 else model.value("NOMPRES") if pressure is None else pressure,)
     keys = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
@@ -105,7 +105,7 @@ def packed_jacobian(
     if unknown:
         raise TirValueError(f"{unknown} are not coefficients", todo="use names of COEFFICIENT_NAMES")
     module = gradients_52 if family == 5 else gradients_61
-    p = Coefficients(*vector.tolist())
+    p: Any = Coefficients(*vector.tolist())
     alpha, kappa, gamma, fz, speed, pressure = points
     with np.errstate(all="ignore"):
         loaded = fz > 0.0
@@ -133,7 +133,7 @@ def _fill(
     module: Any,
     output: str,
     vector: np.ndarray,
-    p: Coefficients,
+    p: Any,
     state: Sequence[np.ndarray],
     rows: np.ndarray,
     out: np.ndarray,
@@ -165,5 +165,5 @@ def _compiled(module: str, output: str) -> Callable[..., None]:
         types.Array(types.float64, 2, "C"),
     )
     source = gradients_52 if module.endswith("52") else gradients_61
-    options = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
+    options: Any = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
     return njit(signature, **options)(getattr(source, f"loop_{output}"))

@@ -9,7 +9,7 @@ from typing import Any
 NO_NUMBA_VARIABLE = "TIRE_PIPELINE_NO_NUMBA"
 """Set this environment variable to 1 to force the pure NumPy form."""
 
-OPTIONS: dict[str, Any] = {
+OPTIONS: Any = {
     "error_model": "numpy",
     "fastmath": {"contract"},
     "forceinline": True,
@@ -25,7 +25,7 @@ try:
 except ImportError:
     HAVE_NUMBA = False
 
-    def register_jitable(**options: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    def register_jitable(**options: Any) -> Callable[..., Any]:  # type: ignore[no-redef]
         """Return a decorator that does nothing: nothing compiles here."""
         return lambda function: function
 

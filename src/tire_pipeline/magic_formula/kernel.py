@@ -70,7 +70,7 @@ def kernel_for(family: int, chosen: int) -> Callable[..., Any]:
     return build(_stamp(), chosen >= 1, chosen >= 2)
 
 
-_COMPILE = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
+_COMPILE: Any = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
 
 
 @njit(error_model="numpy")

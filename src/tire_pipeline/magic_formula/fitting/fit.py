@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
@@ -84,51 +84,66 @@ def fit_magic_formula(
     family = family_of(version)
     points, forces = _columns(recording, start)
     base, notes = _base(recording, version, start, points, nominal_load, unloaded_radius)
-    nominal = base["FNOMIN"]
     points["speed"] = _filled(points["speed"], base["LONGVL"])
     points["pressure"] = _filled(points["pressure"], base.get("NOMPRES", 0.0))
     model = TireModel.from_coefficients(base, version)
+    report = _Report("0" if start is None else "their start values", notes)
     rng = np.random.default_rng(seed)
-    errors: dict[str, float] = {}
-    undetermined: list[str] = []
     for stage in STAGES:
         names = stage.over(family)
-        kept = "their start values" if start is not None else "0"
         if stage.output not in forces:
-            undetermined.append(f"no {stage.output} measured: {', '.join(names)} kept at {kept}")
+            report.leave(f"no {stage.output} measured", names)
             continue
         chosen = _choose(stage, points, forces[stage.output])
         if chosen.size < max(_FEWEST_POINTS, len(names)):
             why = "no" if chosen.size == 0 else f"only {chosen.size} points of"
-            undetermined.append(f"{why} {_POINTS_OF[stage.points]}: {', '.join(names)} kept at {kept}")
+            report.leave(f"{why} {_POINTS_OF[stage.points]}", names)
             continue
         if chosen.size > _MOST_POINTS:
             chosen = np.sort(rng.choice(chosen, _MOST_POINTS, replace=False))
         here = {name: x[chosen] for name, x in points.items()}
         if stage.points in ("lateral", "longitudinal"):
             here["slip_ratio" if stage.points == "lateral" else "slip_angle"] *= 0.0
-        left_out = open_coefficients(names, here, nominal)
+        left_out = open_coefficients(names, here, base["FNOMIN"])
+        for reason, group in left_out.items():
+            report.leave(reason, group)
         closed = {name for group in left_out.values() for name in group}
         active = [name for name in names if name not in closed]
+        measured = forces[stage.output][chosen]
         with threadpool_limits(1):  # many small problems: threads in each only get in each other's way
             values, fit, removed = _fit_stage(
-                stage, model, active, here, forces[stage.output][chosen], starts, loss, rng, start is not None
+                stage, model, active, here, measured, starts, loss, rng, start is not None
             )
         model = model.replace(**values)
-        errors.update(zip(values, fit.errors.tolist(), strict=True))
-        undetermined += [f"{reason}: {', '.join(group)} kept at {kept}" for reason, group in left_out.items()]
-        if removed:
-            undetermined.append(
-                f"{stage.title} does not depend on them enough: {', '.join(removed)} kept at {kept}"
-            )
-        if fit.at_bound:
-            notes.append(f"{stage.title}: {', '.join(fit.at_bound)} at the bound")
+        report.add(stage, values, fit, removed)
     if model.coefficients.get("PKY1", -1.0) > 0 and "fy" in forces:
         notes.append(
             "a positive slip angle gives a positive Fy: the data are not in ISO axes, nor is the model"
         )
-    table = residual_table(model, points, forces)
-    return FitResult(model, errors, table, undetermined, notes, relative_rms(model, points, forces))
+    table, shares = residual_table(model, points, forces), relative_rms(model, points, forces)
+    return FitResult(model, report.errors, table, report.undetermined, notes, shares)
+
+
+class _Report:
+    """What the stages have to say, gathered."""
+
+    def __init__(self, kept: str, notes: list[str]) -> None:
+        self.kept = kept
+        self.notes = notes
+        self.errors: dict[str, float] = {}
+        self.undetermined: list[str] = []
+
+    def leave(self, reason: str, names: Sequence[str]) -> None:
+        """Note coefficients that are not fitted."""
+        self.undetermined.append(f"{reason}: {', '.join(names)} kept at {self.kept}")
+
+    def add(self, stage: Stage, values: Mapping[str, float], fit: StageFit, removed: list[str]) -> None:
+        """Note what a stage has found."""
+        self.errors.update(zip(values, fit.errors.tolist(), strict=True))
+        if removed:
+            self.leave(f"{stage.title} does not depend on them enough", removed)
+        if fit.at_bound:
+            self.notes.append(f"{stage.title}: {', '.join(fit.at_bound)} at the bound")
 
 
 def _columns(
