@@ -148,7 +148,7 @@ RANGES: dict[str, tuple[str, str]] = {
 }
 """Input -> the two coefficients that give its valid range."""
 
-_NOT_ZERO = ("PCX1", "PCY1", "PKY2", "LFZO", "LCX", "LCY", "LMUX", "LMUY")
+_NOT_ZERO = ("PCX1", "PCY1", "PKY2", "LFZO", "LCX", "LCY", "LMUY")
 _POSITIVE = ("FNOMIN", "UNLOADED_RADIUS")
 
 

@@ -12,7 +12,7 @@ from tire_pipeline.magic_formula.ops import (
 from tire_pipeline.magic_formula.unpacking import unpack
 
 BLOCK = 64
-STAMP = "17c19f38a0bf7603"
+STAMP = "e035fcdb3f7e1e55"
 OVER = {
     "fx": (
         "FNOMIN",
