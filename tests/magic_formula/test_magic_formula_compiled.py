@@ -130,6 +130,17 @@ def test_derivatives_are_the_slopes(tire, output):
         assert off.sum() <= 2, name
 
 
+@pytest.mark.slow
+def test_a_converted_model_has_the_derivatives_of_the_first():
+    tire = TIRES["5.2"].replace(LGAX=1.0, LGAY=1.0, LGAZ=1.0)
+    names = ["PDY1", "PKY1", "PHY3", "PVY1", "PDX1", "QDZ1"]
+    points = {"slip_angle": [0.05, -0.1], "slip_ratio": 0.03, "camber": 0.06, "normal_load": 3000.0}
+    before = tire.jacobian(names, **points)
+    after = tire.to_version("6.1").jacobian(names, **points)
+    for output in ("fx", "fy", "mz"):
+        np.testing.assert_allclose(after[output], before[output], rtol=1e-8, atol=1e-9)
+
+
 def test_derivatives_know_their_names():
     tire = TIRES["5.2"]
     found = tire.jacobian(["PKY1", "PCX1"], slip_angle=[[0.1, 0.2]], normal_load=3000.0, outputs=("fy",))

@@ -14,7 +14,12 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.magic_formula.coefficients import COEFFICIENT_NAMES, NAMES_BY_FAMILY, Coefficients
+from tire_pipeline.magic_formula.coefficients import (
+    COEFFICIENT_NAMES,
+    EXTENSIONS_6,
+    NAMES_BY_FAMILY,
+    Coefficients,
+)
 from tire_pipeline.magic_formula.equations_52 import evaluate_52
 from tire_pipeline.magic_formula.equations_61 import NO_TURN_SLIP, evaluate_61, rolling_load_factor
 
@@ -221,7 +226,7 @@ def _needed(outputs: Iterable[Any]) -> list[Symbol]:
 
 def traced(family: int) -> tuple[Any, ...]:
     """Return the symbols of the five forces and moments."""
-    used = set(NAMES_BY_FAMILY[family])
+    used = {*NAMES_BY_FAMILY[family], *(EXTENSIONS_6 if family == 6 else ())}
     p = Coefficients(*(Symbol("coefficient", n) if n in used else 0.0 for n in COEFFICIENT_NAMES))
     names = ("alpha", "kappa", "gamma", "fz", "speed", "dpi")
     alpha, kappa, gamma, fz, speed, dpi = (Symbol("input", name) for name in names)

@@ -12,7 +12,7 @@ from tire_pipeline.magic_formula.ops import (
 from tire_pipeline.magic_formula.unpacking import unpack
 
 BLOCK = 64
-STAMP = "e035fcdb3f7e1e55"
+STAMP = "f39f8ff8dc06aaa2"
 OVER = {
     "fx": (
         "FNOMIN",

@@ -13,6 +13,7 @@ import numpy as np
 
 from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula.coefficients import (
+    INDEX,
     RANGES,
     check_values,
     family_of,
@@ -138,6 +139,8 @@ class TireModel:
     def value(self, name: str) -> float:
         """Return a coefficient's value, or what stands in for it.
 
+        A coefficient of another version, which this one has no use for, has its neutral value, 0 or 1.
+
         Raises
         ------
         TirValueError
@@ -147,6 +150,8 @@ class TireModel:
             return self.coefficients[name]
         if name in self.defaulted:
             return self.defaulted[name]
+        if name in INDEX:
+            return float(self.packed[INDEX[name]])
         raise TirValueError(f"the model has no coefficient {name}", key=name, path=self.path)
 
     def forces(
