@@ -28,7 +28,8 @@ INPUTS = (
     "turn_slip",
 )
 FORCES = ("fx", "fy")
-LEAST_SAMPLES = 20
+LEAST_SAMPLES = 30
+LEAST_POINTS = 12
 _RATE = 50.0
 
 
@@ -79,7 +80,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     if bad.any():
         rows, arrays = rows[~bad], {n: a[~bad] for n, a in arrays.items()}
         time = None if time is None else time[~bad]
-        if rows.size < LEAST_SAMPLES:
+        if rows.size < LEAST_POINTS:
             raise RecordingError(
                 f"after taking out {int(bad.sum())} samples with a stuck or clipped channel only {rows.size} are left",
                 todo="record again",
@@ -135,9 +136,10 @@ def _arrays(recording: pd.DataFrame) -> dict[str, Array]:
         )
     if "slip_angle" not in arrays and "slip_ratio" not in arrays:
         raise RecordingError("neither slip_angle nor slip_ratio is recorded", todo="record one of them")
-    if len(recording) < LEAST_SAMPLES:
+    least = LEAST_SAMPLES if "time" in arrays else LEAST_POINTS
+    if len(recording) < least:
         raise RecordingError(
-            f"only {len(recording)} samples; at least {LEAST_SAMPLES} are needed to tell an effect from noise",
+            f"only {len(recording)} samples; at least {least} are needed to tell an effect from noise",
             todo="use a longer recording",
         )
     return arrays
@@ -186,7 +188,7 @@ def _usable(arrays: Mapping[str, Array], time: Array | None, notes: list[str]) -
         notes.append(
             f"{lost} of {n} samples have no number in some channel (most often {worst}) and are left out"
         )
-    if ok.sum() < max(LEAST_SAMPLES, 0.1 * n):
+    if ok.sum() < max(LEAST_POINTS, 0.1 * n):
         raise RecordingError(
             f"only {int(ok.sum())} of {n} samples have numbers in all channels",
             todo="drop the columns that are mostly empty",

@@ -192,7 +192,7 @@ class System:
         -------
         errors : ndarray, shape (blocks,)
         pieces : ndarray
-            The errors of the sweeps of ``shown``, cut into equal pieces so that there are 24 or
+            The errors of the sweeps of ``shown``, cut into equal pieces so that there are 60 or
             more of them; each is predicted without its whole sweep.
         """
         r = self.whiten(residual)
@@ -217,7 +217,7 @@ class System:
             size = np.sqrt(np.maximum(np.einsum("bii->bi", ee), 1e-300))
             scaled = ee / size[:, :, None] / size[:, None, :] + 1e-7 * np.eye(k)
             x = np.linalg.solve(scaled, (er / size)[:, :, None])[:, :, 0] / size
-        pieces = [] if shown is None else [max(1, int(np.ceil(24 / max(len(shown), 1))))] * len(shown)
+        pieces = [] if shown is None else [max(1, int(np.ceil(60 / max(len(shown), 1))))] * len(shown)
         cut: list[float] = []
         errors = np.zeros(self.count)
         chosen = {} if shown is None else dict(zip(shown.tolist(), pieces, strict=True))

@@ -196,7 +196,9 @@ def _at_bound(changes: list[Change], free: list[tuple[str, ...]]) -> bool:
         for p in catalogue()[name].parameters:
             if p.name not in names or p.name in {"fy", "fx"} and name == "clipping":
                 continue
-            if p.low == p.zero or name == "combined_slip":
+            if name == "combined_slip":
+                continue
+            if p.low == p.zero:
                 reached = values[p.name] >= p.high
             else:
                 reached = values[p.name] <= p.low or values[p.name] >= p.high

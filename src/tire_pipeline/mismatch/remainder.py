@@ -24,7 +24,10 @@ def remainder(search: Search) -> Remainder:
     for o in data.outputs:
         rms = float(np.sqrt(np.mean(residual(data, fit.changes)[o] ** 2)))
         size[o] = float(np.sqrt(max(rms**2 - search.noise[o].floor ** 2, 0.0)))
-    significant = statistic > settings.REMAINDER_LIMIT
+    share = max(size[o] / search.largest[o] for o in data.outputs)
+    significant = (
+        statistic > settings.REMAINDER_LIMIT and nats > settings.REMAINDER_NATS
+    ) or share > settings.REMAINDER_SHARE
     plain = {o: left[o] * search.noise[o].sigma for o in data.outputs}
     located = locate(data, plain, search.noise, search.block) if significant else []
     form = sparse_form(search) if significant else ""

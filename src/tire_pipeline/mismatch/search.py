@@ -48,11 +48,24 @@ class Gates:
     frozen: float
     in_bounds: bool
     blocks: int
+    least_gain: float
+
+    def why_not(self, level: float) -> str:
+        """Return the first gate that is shut, in words."""
+        if self.gain <= self.least_gain:
+            return "does not pay for itself"
+        if self.p_value >= level:
+            return f"held-out sweeps are not better with it (p {self.p_value:.2g})"
+        if self.share <= settings.LEAST_SHARE:
+            return f"removes only {100.0 * self.share:.1f}% of the mismatch"
+        if self.loose <= settings.LEAST_GAIN:
+            return "a refit of the coefficients explains as much"
+        return "its parameters are outside of physical bounds"
 
     def passed(self, level: float) -> bool:
         """Whether all gates are open."""
         return (
-            self.gain > settings.LEAST_GAIN
+            self.gain > self.least_gain
             and self.p_value < level
             and self.share > settings.LEAST_SHARE
             and self.loose > settings.LEAST_GAIN
@@ -240,7 +253,9 @@ def prune(search: Search, fit: Fit) -> Fit:
                 continue
             if name in catalogue()[fit.names[i]].needed:
                 continue
-            if fit.names[i] in {"combined_slip"} or t2[row] > 2.0 * search.price:
+            if (fit.names[i] == "combined_slip" and zero_of(search, fit, i, name) == 0.0) or t2[
+                row
+            ] > 2.0 * search.price:
                 continue
             changes = [(n, dict(p)) for n, p in fit.changes]
             changes[i][1][name] = catalogue()[changes[i][0]].zeros(search.data)[name]
@@ -253,6 +268,11 @@ def prune(search: Search, fit: Fit) -> Fit:
         if not dropped:
             return fit
     return fit
+
+
+def zero_of(search: Search, fit: Fit, index: int, name: str) -> float:
+    """Return the value of a parameter at which its effect is absent."""
+    return catalogue()[fit.names[index]].zeros(search.data)[name]
 
 
 def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str, Array]:
@@ -319,7 +339,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
             gain = 0.5 * (_best(without) - _best(with_it)) / search.inflation - search.price * count
             gains.append(float(gain))
         own = catalogue()[name].own_inputs or (name == "camber" and search.data.knows_camber)
-        judge = frozen if own else system
+        judge = frozen
         shown = _shown(search, fit, i)
         before, first = judge.held_out(rest_without, reduced.columns if reduced.labels else None, shown)
         after, second = judge.held_out(rest, fit.columns if fit.labels else None, shown)
@@ -333,6 +353,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
                 frozen=gains[2],
                 in_bounds=not fit.at_bound,
                 blocks=before.size,
+                least_gain=settings.LEAST_GAIN if len(fit.names) == 1 else settings.LEAST_GAIN_MORE,
             )
         )
     return out
@@ -448,14 +469,19 @@ def _pairs(search: Search, fits: list[Fit]) -> list[Fit]:
 
 
 def _take(search: Search, fits: list[Fit]) -> bool:
-    """Accept the best set that passes all gates, if its gain is near the best's."""
+    """Accept the likeliest set that passes all gates; near ties go by how well frozen coefficients do with it."""
+    empty = objective(search.system, [])
+    fits = [f for f in fits if _visible(search, f) and gain_of(search, f, empty) > settings.LEAST_GAIN]
     if not fits:
         return False
-    empty = objective(search.system, [])
     best = gain_of(search, fits[0], empty)
-    for fit in fits[:3]:
-        if gain_of(search, fit, empty) < best - 6.0 - 0.03 * abs(best):
+    tied = [f for f in fits if gain_of(search, f, empty) > best - settings.TIE]
+    tied.sort(key=lambda f: (_rank(f), objective(search.frozen, f.changes)))
+    tried = 0
+    for fit in [*tied, *(f for f in fits if f not in tied)]:
+        if gain_of(search, fit, empty) < 0.75 * best - settings.TIE or tried >= 4:
             break
+        tried += 1
         ok, gates = _accepted(search, fit)
         search.log.append(
             "gates: "
@@ -465,10 +491,29 @@ def _take(search: Search, fits: list[Fit]) -> bool:
                 for g in gates
             )
         )
+        for g in gates:
+            if not g.passed(settings.LEVEL):
+                search.refused[g.name] = g.why_not(settings.LEVEL)
         if ok:
             search.fit, search.gates = fit, gates
             return True
     return False
+
+
+def _rank(fit: Fit) -> int:
+    """Return how many effects of a set are the less usual of two that look the same."""
+    return sum(catalogue()[name].unusual for name in fit.names)
+
+
+def _visible(search: Search, fit: Fit) -> bool:
+    """Whether each effect of a set removes its least share of the mismatch."""
+    total = _mismatch(search, residual(search.data, []))
+    left = _mismatch(search, residual(search.data, fit.changes))
+    for i in range(len(fit.names)):
+        without = [c for j, c in enumerate(fit.changes) if j != i]
+        if _mismatch(search, residual(search.data, without)) - left < settings.LEAST_SHARE * total:
+            return False
+    return True
 
 
 def _eliminate(search: Search) -> None:

@@ -21,6 +21,12 @@ MISFIT_SHARES = (0.001, 0.002, 0.004, 0.006, 0.009, 0.013)
 LEAST_GAIN = 8.0
 """Least improvement of the Bayes information criterion (in nats, effective sample size) for an effect."""
 
+LEAST_GAIN_MORE = 15.0
+"""The same for each effect of a set of two or more."""
+
+TIE = 8.0
+"""Nats within which two explanations are as good as each other."""
+
 LEAST_SHARE = 0.02
 """Least share of the held-out mismatch that an effect must remove (issue, item 5)."""
 
@@ -35,4 +41,10 @@ MOST_EFFECTS = 3
 AMBIGUITY_SHARE = 0.04
 AMBIGUITY_NATS = 5.0
 AMBIGUITY_LOST = 0.5
-REMAINDER_LIMIT = 1.6
+REMAINDER_LIMIT = 1.3
+REMAINDER_NATS = 60.0
+"""What is left is called unexplained if its power at some scale is so much above white noise, and if
+that is worth so many nats; or if it is larger than the next share of the largest force, which is more than a
+fitted formula's own misfit."""
+
+REMAINDER_SHARE = 0.025

@@ -14,6 +14,7 @@ class CamberOffset(Effect):
     equation = "camber = recorded camber - offset"
     source = "alignment of the rig"
     own_inputs = True
+    unusual = True
     parameters = (Parameter("offset", "rad", -0.15, 0.15, 0.0005),)
     looks_like = {
         "plysteer_conicity": "conicity does not change stiffness with camber",
