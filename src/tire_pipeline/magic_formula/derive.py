@@ -305,7 +305,7 @@ def module_source(family: int) -> str:
         parts.append(f"{source}\n{kernel_source(name, len(over))}\n")
         lists.append(f'    "{name}": (\n' + "".join(f'        "{n}",\n' for n in over) + "    ),\n")
     head = _HEAD.format(family=family, stamp=source_stamp())
-    return head + "OVER = {\n" + "".join(lists) + "}\n\n\n" + "\n".join(parts)
+    return head + "OVER = {\n" + "".join(lists) + "}\n\n\n" + "\n".join(parts).rstrip() + "\n"
 
 
 def source_stamp() -> str:

@@ -12,7 +12,7 @@ from tire_pipeline.magic_formula.ops import (
 from tire_pipeline.magic_formula.unpacking import unpack
 
 BLOCK = 64
-STAMP = "f39f8ff8dc06aaa2"
+STAMP = "ceff17bb97818aa3"
 OVER = {
     "fx": (
         "FNOMIN",
@@ -4045,4 +4045,3 @@ def loop_mz(c, alpha, kappa, gamma, fz, speed, dpi, rows, out):
             if row >= 0:
                 for i in range(m):
                     out[row, start + i] = w[(k + 6) * BLOCK + i]
-
