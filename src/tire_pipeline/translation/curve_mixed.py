@@ -269,6 +269,50 @@ def fit_curve_mixed_model(training: pd.DataFrame, *, pairs: bool, kinds: int = 3
     -------
     CurveMixedModel
     """
+    made = prepare(training, pairs=pairs, kinds=kinds)
+    fitted = _fit_scores(made.design, made.cells, made.space, made.scale)
+    return made.model(fitted)
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """Training data as the mixed model takes them.
+
+    Attributes
+    ----------
+    rows : DataFrame
+        One file of each cell.
+    cells : Cells
+    design : Design
+    space, metadata, categories, kinds, scale
+        As in :class:`CurveMixedModel`.
+    """
+
+    rows: pd.DataFrame
+    cells: Cells
+    design: Design
+    space: CurveSpace
+    metadata: Metadata
+    categories: tuple[str, ...]
+    kinds: np.ndarray
+    scale: np.ndarray
+
+    def model(self, fitted: tuple[Fitted, ...]) -> CurveMixedModel:
+        """Give the model with these weights."""
+        return CurveMixedModel(
+            self.space,
+            self.metadata,
+            self.categories,
+            bool(self.design.tire.shape[1]),
+            self.kinds,
+            self.scale,
+            fitted,
+            _spread_by_category(self.design, self.cells, self.space, self.scale, fitted),
+        )
+
+
+def prepare(training: pd.DataFrame, *, pairs: bool, kinds: int = 3) -> Prepared:
+    """Find the curve space, draw cells together, and lay out the design."""
     space, cells = fit_curve_space(training)
     rows = training.iloc[cells.row].reset_index(drop=True)
     metadata = Metadata.fit(training)
@@ -279,10 +323,7 @@ def fit_curve_mixed_model(training: pd.DataFrame, *, pairs: bool, kinds: int = 3
     if kinds and metadata.names:
         turn = _kinds(rows, cells, metadata, categories, tires, scale, space, kinds)
     blocks = _blocks(metadata, turn, rows, rows["category"].to_numpy(dtype=str), categories)
-    design = Design(blocks, tires, cells.files)
-    fitted = _fit_scores(design, cells, space, scale)
-    spread = _spread_by_category(design, cells, space, scale, fitted)
-    return CurveMixedModel(space, metadata, categories, bool(tires.shape[1]), turn, scale, fitted, spread)
+    return Prepared(rows, cells, Design(blocks, tires, cells.files), space, metadata, categories, turn, scale)
 
 
 def _alone_share(space: CurveSpace, k: int) -> float:

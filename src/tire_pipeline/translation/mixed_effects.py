@@ -158,3 +158,23 @@ def fit_mixed_effects(
     mean, covariance, _, _ = marginal.posterior(found.x)
     variances = dict(zip(names, np.exp(found.x), strict=True))
     return Fitted({**variances, "noise": noise}, mean, covariance)
+
+
+def posterior_weights(design: Design, response: np.ndarray, variances: Mapping[str, float]) -> Fitted:
+    """Find the weights for variances that are known.
+
+    Parameters
+    ----------
+    design : Design
+    response : ndarray, shape (n,)
+    variances : dict of float
+        As in :attr:`Fitted.variances`.
+
+    Returns
+    -------
+    Fitted
+    """
+    marginal = _Marginal(design, response, variances["noise"])
+    logs = np.log([variances[name] for name in (*marginal.names, "tire_category")])
+    mean, covariance, _, _ = marginal.posterior(logs)
+    return Fitted(dict(variances), mean, covariance)

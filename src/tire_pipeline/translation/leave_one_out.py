@@ -1,0 +1,93 @@
+"""How well a translator does on the tires that several actors measured, each left out in its turn."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.errors import DomainError
+from tire_pipeline.translation.curve_mixed import CurveMixedModel, Prepared, fit_curve_mixed_model, prepare
+from tire_pipeline.translation.curve_space import PARTS
+from tire_pipeline.translation.curve_translator import cautious
+from tire_pipeline.translation.mixed_effects import Design, posterior_weights
+
+
+def leave_one_tire_out(
+    training: pd.DataFrame, target: str, *, pairs: bool, model: CurveMixedModel | None = None
+) -> pd.DataFrame:
+    """Translate each tire that the target and others measured by a model that has not seen it.
+
+    The variances are those of all training data; the effects are found anew without the tire.
+
+    Parameters
+    ----------
+    training : DataFrame
+        Tire table with ``category`` and ``tire_id``.
+    target : str
+    pairs : bool
+        Whether the other such tires link the categories.
+    model : CurveMixedModel, optional
+        Already fitted to ``training`` with the same ``pairs``: saves fitting it again.
+
+    Returns
+    -------
+    DataFrame
+        One row a tire and source: ``tire_id``, ``source``, ``error`` and ``error_unchanged`` (mean squared error
+        over the features of lateral and longitudinal force, in (1%)^2) and ``ratio``.
+
+    Raises
+    ------
+    DomainError
+        If no tire of the target was measured by anyone else.
+    """
+    made = prepare(training.reset_index(drop=True), pairs=pairs)
+    full = model or fit_curve_mixed_model(training.reset_index(drop=True), pairs=pairs)
+    own = set(made.rows.loc[made.rows["category"] == target, "tire_id"])
+    shared = sorted(own & set(made.rows.loc[made.rows["category"] != target, "tire_id"]))
+    if not shared:
+        raise DomainError(
+            f"no tire of {target} was measured by another category", todo="use the tuning set instead"
+        )
+    return pd.concat([_one(made, full, target, tire) for tire in shared], ignore_index=True)
+
+
+def _one(made: Prepared, full: CurveMixedModel, target: str, tire: str) -> pd.DataFrame:
+    keep = (made.rows["tire_id"] != tire).to_numpy()
+    design = made.design
+    columns = design.tire[keep].sum(axis=0) > 1
+    without = Design(
+        {name: block[keep] for name, block in design.blocks.items()},
+        design.tire[keep][:, columns],
+        design.files[keep],
+    )
+    fitted = tuple(
+        posterior_weights(without, made.cells.scores[keep, k] / made.scale[k], full.fitted[k].variances)
+        for k in range(made.scale.size)
+    )
+    model = replace(full, fitted=fitted)
+    left = made.rows.loc[~keep]
+    sources = left.loc[left["category"] != target]
+    found = cautious(model, model.predict(sources, target))
+    measured = made.cells.scores[np.flatnonzero(~keep)[(left["category"] == target).to_numpy()]]
+    error, unchanged = (_error(model, scores - measured) for scores in (found.target, found.source))
+    return pd.DataFrame(
+        {
+            "tire_id": tire,
+            "source": sources["category"].to_numpy(),
+            "error": error,
+            "error_unchanged": unchanged,
+            "ratio": error / unchanged,
+        }
+    )
+
+
+def _error(model: CurveMixedModel, gap: np.ndarray) -> np.ndarray:
+    total, features = np.zeros(len(gap)), 0
+    for name, part in PARTS.items():
+        if part.group in ("lateral", "longitudinal"):
+            back = model.space.back[name]
+            total += ((gap[:, model.space.slices[name]] @ back) ** 2).sum(axis=1)
+            features += back.shape[1]
+    return total / features
