@@ -19,7 +19,7 @@ from tire_pipeline.classifiers.experiments import (
     class_distribution,
 )
 from tire_pipeline.classifiers.reliability import expected_calibration_error, reliability_curve
-from tire_pipeline.classifiers.tuning import tune_ann, tune_forest_depth, tune_forest_trees
+from tire_pipeline.classifiers.tuning import narrowed_grid, tune_ann, tune_forest_depth, tune_forest_trees
 from tire_pipeline.representations import make_representation
 from tire_pipeline.representations.power_series_condition import condition_numbers
 
@@ -67,6 +67,13 @@ def tuned_networks(table: pd.DataFrame, split: str, combinations: pd.DataFrame, 
         features_of(table), _labels(table), combinations, seed=seed, tires=tires_of(table, split)
     )
     return {"ann": scores.assign(split=split)}
+
+
+def kept_values(scores: pd.DataFrame, *, best: int = 20) -> dict[str, tuple[Any, ...]]:
+    """Give the values that the best combinations share (Table 5.2), also those that Table 4.2 lacks."""
+    kept = narrowed_grid(scores, best=best)
+    top = scores.nlargest(best, "accuracy")
+    return {name: values or tuple(sorted(set(top[name]))) for name, values in kept.items()}
 
 
 def tuned_forest(

@@ -1,2 +1,151 @@
-def all_figures(results):
-    return {}
+"""The thesis' figures from our results, by file name: ``figure_5_1`` ... ; both splits in each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure as MplFigure
+
+from tire_pipeline.reporting import MARKERS, colour_of, new_figure
+from tire_pipeline.thesis.results import Results, in_words
+
+SPLITS = ("random", "by_tire")
+BIN_FIGURES = {
+    "figure_5_5": "coefficients",
+    "figure_5_6": "key_attributes",
+    "figure_5_7": "latent",
+    "figure_5_8": "power_series",
+}
+
+
+def all_figures(results: Results) -> dict[str, MplFigure]:
+    """Draw every figure for which there are results."""
+    from tire_pipeline.thesis.agent_figures import AGENT_FIGURES
+
+    made = {}
+    for name, draw in {**CLASSIFIER_FIGURES, **AGENT_FIGURES}.items():
+        figure = draw(results)
+        if figure is not None:
+            made[name] = figure
+    return made
+
+
+def class_figure(results: Results, columns: tuple[str, ...]) -> MplFigure:
+    """Files of each category (Figures 4.1, 4.2), side by side for the two splits."""
+    counts = results["class_counts"]
+    figure, axes = new_figure(1, 2, width=9.0, height=3.2, sharey=True)
+    for one, split in zip(np.asarray(axes), SPLITS, strict=True):
+        part = counts[counts["split"] == split]
+        width = 0.8 / len(columns)
+        for number, column in enumerate(columns):
+            places = np.arange(len(part)) + (number - (len(columns) - 1) / 2) * width
+            label = {"all": "all files", "training": "training set", "training_smote": "with SMOTE"}[column]
+            one.bar(places, part[column], width, color=colour_of(number), label=label)
+        one.set_xticks(np.arange(len(part)), part["category"])
+        one.set_xlabel("category")
+        one.set_title(in_words(split))
+    np.asarray(axes)[0].set_ylabel("files")
+    np.asarray(axes)[1].legend()
+    return figure
+
+
+def score_figure(frame: pd.DataFrame, over: str, label: str, *, spread: bool = False) -> MplFigure:
+    """Accuracy and F1 over one number, for both splits (Figures 5.1, 5.2, 5.4 to 5.8).
+
+    Parameters
+    ----------
+    frame : DataFrame
+        ``split, accuracy, f1`` and ``over``.
+    over : str
+        Column of the horizontal axis.
+    label : str
+        Its words.
+    spread : bool
+        Show one standard deviation, from ``accuracy_std``.
+    """
+    figure, axes = new_figure(width=7.0, height=3.3)
+    one: Any = axes
+    for number, split in enumerate(SPLITS):
+        part = frame[frame["split"] == split].sort_values(over)
+        colour = colour_of(number)
+        one.plot(
+            part[over], part["accuracy"], color=colour, marker=MARKERS[number], ms=3,
+            label=f"accuracy, {in_words(split)}",
+        )  # fmt: skip
+        one.plot(part[over], part["f1"], color=colour, ls="--", lw=1, label=f"F1, {in_words(split)}")
+        if spread:
+            low, high = part["accuracy"] - part["accuracy_std"], part["accuracy"] + part["accuracy_std"]
+            one.fill_between(part[over], low, high, color=colour, alpha=0.15, lw=0)
+    one.set_xlabel(label)
+    one.set_ylabel("accuracy, weighted F1")
+    one.legend(fontsize=8)
+    return figure
+
+
+def confusion_figure(results: Results) -> MplFigure:
+    """Confusion matrices of the forest with SMOTE, as shares of all test files (Figure 5.3)."""
+    frame = results["confusion"]
+    frame = frame[(frame["classifier"] == "random_forest") & frame["smote"]]
+    figure, axes = new_figure(1, 2, width=9.2, height=4.3)
+    for one, split in zip(np.asarray(axes), SPLITS, strict=True):
+        shares = frame[frame["split"] == split].pivot(index="true", columns="predicted", values="share")
+        top = float(np.nanmax(shares.to_numpy()))
+        one.imshow(shares, vmin=0, vmax=top, cmap="Blues")
+        one.grid(False)
+        one.set_xticks(range(len(shares)), shares.columns)
+        one.set_yticks(range(len(shares)), shares.index)
+        one.set_xlabel("predicted category")
+        one.set_ylabel("true category")
+        one.set_title(in_words(split))
+        for (row, column), value in np.ndenumerate(shares.to_numpy()):
+            ink = "white" if value > 0.6 * top else "black"
+            one.text(column, row, f"{value:.3f}", ha="center", va="center", color=ink, fontsize=7)
+    return figure
+
+
+def reliability_figure(results: Results) -> MplFigure:
+    """How often a classifier is right when it gives a probability; the diagonal is perfect."""
+    frame = results["reliability"]
+    figure, axes = new_figure(1, 2, width=9.2, height=3.9, sharey=True)
+    for one, split in zip(np.asarray(axes), SPLITS, strict=True):
+        one.plot([0, 1], [0, 1], color="black", lw=0.8, ls=":")
+        names = list(dict.fromkeys(frame["classifier"]))
+        for number, name in enumerate(names):
+            part = frame[(frame["classifier"] == name) & (frame["split"] == split) & frame["smote"]]
+            colour, marker = colour_of(number), MARKERS[number]
+            one.plot(
+                part["confidence"], part["accuracy"], color=colour, marker=marker, ms=4, label=in_words(name)
+            )
+        one.set_xlabel("probability of the most probable category")
+        one.set_title(in_words(split))
+        one.set_xlim(0.15, 1.0)
+    np.asarray(axes)[0].set_ylabel("share that is right")
+    np.asarray(axes)[0].legend(fontsize=8)
+    return figure
+
+
+def _bins(representation: str) -> Callable[[Results], MplFigure]:
+    def draw(results: Results) -> MplFigure:
+        frame = results["bins"]
+        part = frame[frame["representation"] == representation]
+        return score_figure(part, "bins", f"bins a feature ({in_words(representation)})", spread=True)
+
+    return draw
+
+
+CLASSIFIER_FIGURES: dict[str, Callable[[Results], MplFigure | None]] = {
+    "figure_4_1": lambda results: class_figure(results, ("all",)),
+    "figure_4_2": lambda results: class_figure(results, ("training", "training_smote")),
+    "figure_5_1": lambda results: score_figure(results["forest_trees"], "trees", "trees, no limit on depth"),
+    "figure_5_2": lambda results: score_figure(results["forest_depth"], "depth", "greatest depth of a tree"),
+    "figure_5_3": confusion_figure,
+    "figure_5_4": lambda results: score_figure(
+        results["latent"], "features", "latent features (10 bins each)", spread=True
+    ),
+    **{name: _bins(representation) for name, representation in BIN_FIGURES.items()},
+    "reliability": reliability_figure,
+}
+"""File name -> how it is drawn."""

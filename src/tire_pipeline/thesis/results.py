@@ -100,7 +100,7 @@ def over_seeds(agents: pd.DataFrame) -> pd.DataFrame:
         ``set, decoding``, the cell, ``metric, quantity`` (ratio or improved), ``value, std, seeds``.
     """
     keys = ["set", "decoding", *CELL, "metric"]
-    long = agents.melt(keys + ["seed"], ["ratio", "improved"], var_name="quantity", value_name="value")
+    long = agents.melt([*keys, "seed"], ["ratio", "improved"], var_name="quantity", value_name="value")
     grouped = long.groupby([*keys, "quantity"], sort=False)["value"]
     out = grouped.agg(["mean", "std", "count"]).reset_index()
     out["std"] = out["std"].where(out["count"] > 1)

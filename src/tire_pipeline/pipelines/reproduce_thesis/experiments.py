@@ -13,7 +13,6 @@ import pandas as pd
 from tire_pipeline.classifiers.tuning import (
     ANN_GRID,
     ann_combinations,
-    narrowed_grid,
     random_combinations,
 )
 from tire_pipeline.datasets.computed_folder import source_hash
@@ -65,7 +64,7 @@ def search_at_random(
 def search_the_grid(
     searched: Folder, normalized_table: pd.DataFrame, parameters: ReproduceThesisParameters, seed: int
 ) -> Work:
-    """Search the grid of the ANN's hyperparameters (Table 5.3): the whole one, or what the random search leaves.
+    """Search the grid of the ANN's hyperparameters (Table 5.3): whole, or what the random search leaves.
 
     Parameters
     ----------
@@ -78,10 +77,11 @@ def search_the_grid(
     found = together(searched)["ann"]
     work: Work = {}
     for split in SPLITS:
-        grid: dict[str, tuple[Any, ...]] = dict(ANN_GRID)
         if parameters.ann.grid == "narrowed":
-            grid = narrowed_grid(found[found["split"] == split], best=parameters.ann.best)
-        combinations = _epochs(ann_combinations(grid), parameters.ann)
+            own = found[found["split"] == split]
+            combinations = ann_combinations(experiments.kept_values(own, best=parameters.ann.best))
+        else:
+            combinations = _epochs(ann_combinations(), parameters.ann)
         work |= _networks(f"{split}", normalized_table, split, combinations, seed)
     return work
 

@@ -108,6 +108,7 @@ def judged(read: Read, cell: Cell, seed: int, sources: pd.DataFrame, references:
     stored = unpack_state(read())
     frames = judged_agent(stored["agent"], cell, seed, sources, references)
     which = {"seed": seed, **asdict(cell)}
-    frames["learning"] = _frame(stored["learning"]).assign(**which)
+    learning = _frame(stored["learning"]).rename(columns={"reward": "episode_reward"})
+    frames["learning"] = learning.assign(**which)
     frames["seconds"] = pd.DataFrame({"seconds": [stored["seconds"]]}).assign(**which)
     return pack_frames(frames)

@@ -1,0 +1,338 @@
+"""The page's part on classifiers: Figures 4.1 to 5.8, Tables 5.1 to 5.9, calibration."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pandas as pd
+
+from tire_pipeline.classifiers.tuning import ANN_GRID
+from tire_pipeline.reporting import Figure, Table, Text
+from tire_pipeline.thesis.classifier_experiments import kept_values
+from tire_pipeline.thesis.figures import BIN_FIGURES, CLASSIFIER_FIGURES, SPLITS
+from tire_pipeline.thesis.published import published_figure, published_table
+from tire_pipeline.thesis.results import Results, in_words, over_trainings
+from tire_pipeline.thesis.words import least_within, listed, number, plus_minus, points
+
+Part = Text | Table | Figure
+SHORT = {"ANN": "ann", "GNB": "naive_bayes", "RF": "random_forest"}
+
+
+def classifier_parts(results: Results) -> list[Part]:
+    """Everything about classifiers, in the thesis' order."""
+    sections: tuple[Callable[[Results], list[Part]], ...] = (
+        _classes,
+        _ann,
+        _forest,
+        _comparison,
+        _per_class,
+        _latent,
+        _bins,
+        _calibration,
+        _condition,
+    )
+    return [part for section in sections for part in section(results)]
+
+
+def figure_part(results: Results, name: str, number: str, words: list[str]) -> list[Part]:
+    """A figure of ours under the thesis' words on its own."""
+    published = published_figure(number)
+    drawn = CLASSIFIER_FIGURES[name](results)
+    heading = f"Figure {number}: {published.caption}"
+    parts: list[Part] = [Text([f"Thesis: {published.says}", *words], heading=heading)]
+    if drawn is not None:
+        parts.append(Figure(drawn, "Ours."))
+    return parts
+
+
+def _classes(results: Results) -> list[Part]:
+    counts = results["class_counts"]
+    one = counts[counts["split"] == "random"].set_index("category")
+    largest = one["all"].sort_values(ascending=False).head(2)
+    share = largest.sum() / one["all"].sum()
+    balanced = counts.groupby("split")["training_smote"].nunique().eq(1).all()
+    return [
+        *figure_part(
+            results,
+            "figure_4_1",
+            "4.1",
+            [f"Ours: {listed(map(str, largest.index))} are {share:.0%} of {one['all'].sum():,} files."],
+        ),
+        *figure_part(
+            results,
+            "figure_4_2",
+            "4.2",
+            [
+                "Ours: with SMOTE every category has "
+                + ("the same number of training files, on both splits." if balanced else "another number.")
+            ],
+        ),
+    ]
+
+
+def _ann(results: Results) -> list[Part]:
+    keys = list(ANN_GRID)
+    found, grid = results["ann_random"], results["ann_grid"]
+    parts: list[Part] = []
+    for table_number, frame, most in (("5.1", found, 5), ("5.3", grid, 3)):
+        published = published_table(table_number)
+        shown = [published.frame.assign(whose="thesis")]
+        for split in SPLITS:
+            part = frame[frame["split"] == split].nlargest(most, "accuracy")
+            shown.append(part.assign(whose=f"ours, {_folds(split)}"))
+        table = pd.concat(shown, ignore_index=True)[["whose", *keys, "accuracy", "f1"]]
+        words = _tuning_words(frame, published.frame, most)
+        parts.append(Text(words, heading=f"Table {table_number}: {published.caption}"))
+        parts.append(Table(table, "Cross-validated with 4 folds, SMOTE not used, as in the thesis."))
+        if table_number == "5.1":
+            parts += _narrowed(found)
+    best = {s: grid[grid["split"] == s].nlargest(1, "accuracy").iloc[0] for s in SPLITS}
+    thesis = published_table("5.3").frame.iloc[0]
+    rows = [[key, thesis[key], *(best[s][key] for s in SPLITS)] for key in keys]
+    columns = ["hyperparameter", "thesis", *(f"ours, {_folds(s)}" for s in SPLITS)]
+    selected = pd.DataFrame([[str(v) for v in row] for row in rows], columns=columns)
+    same = [row[0] for row in rows if str(row[1]) == str(row[2])]
+    words = [f"On random folds ours agrees with the thesis on {len(same)} of {len(keys)}: {listed(same)}."]
+    parts += [
+        Text(words, heading=f"Table 5.4: {published_table('5.4').caption}"),
+        Table(selected, "The best of the grid."),
+    ]
+    return parts
+
+
+def _tuning_words(frame: pd.DataFrame, thesis: pd.DataFrame, most: int) -> list[str]:
+    lines = [f"{len(frame) // 2:,} combinations were tried on folds of each kind."]
+    for split in SPLITS:
+        own = frame[frame["split"] == split]
+        top = own["accuracy"].max()
+        gap = points(float(top), float(thesis["accuracy"].max()))
+        near = int((own["accuracy"] >= top - 0.005).sum())
+        lines.append(
+            f"Ours, {_folds(split)}: the best reaches {top:.3f}, {gap}; {near} combinations are within "
+            "half a percentage point of it."
+        )
+    return lines
+
+
+def _narrowed(found: pd.DataFrame) -> list[Part]:
+    thesis = dict(published_table("5.2").frame.to_numpy().tolist())
+    by_split = {split: kept_values(found[found["split"] == split]) for split in SPLITS}
+    rows = []
+    for key in ANN_GRID:
+        label = {"loss": "Loss Function"}.get(key, key.replace("_", " ").capitalize())
+        ours = ["{" + ", ".join(map(str, by_split[split][key])) + "}" for split in SPLITS]
+        rows.append([key, thesis[label], *ours])
+    columns = ["hyperparameter", "thesis", *(f"ours, {_folds(split)}" for split in SPLITS)]
+    return [
+        Table(
+            pd.DataFrame(rows, columns=columns),
+            "Values that the best 20 of the random search use more than once.",
+            heading=f"Table 5.2: {published_table('5.2').caption}",
+        )
+    ]
+
+
+def _forest(results: Results) -> list[Part]:
+    trees, depth = results["forest_trees"], results["forest_depth"]
+    best = {
+        split: (
+            least_within(trees[trees["split"] == split], "trees"),
+            least_within(depth[depth["split"] == split], "depth"),
+        )
+        for split in SPLITS
+    }
+    printed = published_table("5.5").frame
+    rows = [
+        [name, int(printed["Selected Value"][place]), *(best[split][place] for split in SPLITS)]
+        for place, name in enumerate(printed["Hyperparameter"])
+    ]
+    columns = ["hyperparameter", "thesis", *(f"ours, {_folds(split)}" for split in SPLITS)]
+
+    def words(place: int, what: str) -> list[str]:
+        return [
+            f"Ours: the least {what} within half a percentage point of the best is {best['random'][place]} "
+            f"on random folds and {best['by_tire'][place]} on folds by tire."
+        ]
+
+    return [
+        *figure_part(results, "figure_5_1", "5.1", words(0, "number of trees")),
+        *figure_part(results, "figure_5_2", "5.2", words(1, "depth")),
+        Table(
+            pd.DataFrame(rows, columns=columns),
+            "Ours by the rule above. All further experiments use the thesis' 30 trees of depth 10.",
+            heading=f"Table 5.5: {published_table('5.5').caption}",
+        ),
+    ]
+
+
+def _folds(split: str) -> str:
+    return "random folds" if split == "random" else "folds by tire"
+
+
+def _comparison(results: Results) -> list[Part]:
+    means = over_trainings(results["scores"]).set_index(["classifier", "smote", "split"])
+    printed = published_table("5.6")
+    rows, lines = [], []
+    known = {(SHORT[r[0]], r[1] == "Yes"): (r[2], r[3]) for r in printed.frame.to_numpy().tolist()}
+    pairs = dict.fromkeys((name, smote) for name, smote, _ in means.index)
+    for name, smote in pairs:
+        thesis = known.get((name, smote), (float("nan"),) * 2)
+        row: list[object] = [in_words(name), "yes" if smote else "no", thesis[0]]
+        row += [_spread(means, name, smote, split, "accuracy") for split in SPLITS]
+        row += [thesis[1], *(_spread(means, name, smote, split, "f1") for split in SPLITS)]
+        rows.append(row)
+    for (name, smote), thesis in known.items():
+        here = float(means.loc[(name, smote, "random"), "accuracy"])
+        new = float(means.loc[(name, smote, "by_tire"), "accuracy"])
+        with_smote = "with" if smote else "without"
+        lines.append(
+            f"{in_words(name)} {with_smote} SMOTE: {here:.3f} on the random split, "
+            f"{points(here, thesis[0])}; {new:.3f} on tires it has not seen."
+        )
+    columns = ["classifier", "SMOTE", "accuracy: thesis", "ours, random split", "ours, by tire"]
+    columns += ["F1: thesis", "F1, random split", "F1, by tire"]
+    best = means["accuracy"].groupby("split").idxmax()
+    chosen = {split: best[split] for split in SPLITS}
+    return [
+        Text(lines, heading=f"Table 5.6: {printed.caption}"),
+        Table(pd.DataFrame(rows, columns=columns), "Mean ± standard deviation of several trainings."),
+        Text(
+            [
+                "Thesis: random forest, 30 trees of depth 10, with SMOTE.",
+                *(
+                    f"Ours, {in_words(split)}: {in_words(chosen[split][0])}, SMOTE "
+                    f"{'yes' if chosen[split][1] else 'no'}, is the most accurate "
+                    f"({means.loc[chosen[split], 'accuracy']:.3f})."
+                    for split in SPLITS
+                ),
+                "The agents below are rewarded by the thesis' choice.",
+            ],
+            heading=f"Table 5.7: {published_table('5.7').caption}",
+        ),
+    ]
+
+
+def _spread(means: pd.DataFrame, name: str, smote: bool, split: str, column: str) -> str:
+    row = means.loc[(name, smote, split)]
+    return f"{row[column]:.3f} ± {row[f'{column}_std']:.3f}"
+
+
+def _per_class(results: Results) -> list[Part]:
+    frame = results["per_class"]
+    frame = frame[(frame["classifier"] == "random_forest") & frame["smote"]]
+    printed = published_table("5.8")
+    table = printed.frame.assign(category=printed.frame["Class"].str[-1])
+    table = table.rename(columns={"Precision": "precision", "Recall": "recall", "F1 score": "F1"})
+    table = table[["category", "precision", "recall", "F1"]].add_suffix(", thesis")
+    table = table.rename(columns={"category, thesis": "category"})
+    for split in SPLITS:
+        part = frame[frame["split"] == split].set_index("category")
+        for column, label in (("precision", "precision"), ("recall", "recall"), ("f1", "F1")):
+            short = "random" if split == "random" else "by tire"
+            table[f"{label}, {short}"] = table["category"].map(part[column])
+    lines = []
+    for label in ("precision", "recall"):
+        worst = {
+            who: str(table.loc[table[f"{label}, {who}"].idxmin(), "category"])
+            for who in ("thesis", "random", "by tire")
+        }
+        lines.append(
+            f"Lowest {label}: category {worst['thesis']} in the thesis, {worst['random']} on our "
+            f"random split, {worst['by tire']} on our split by tire."
+        )
+    lines.append(
+        "The letters of our categories are not the thesis' companies: compare the pattern, not the row."
+    )
+    return [
+        *figure_part(results, "figure_5_3", "5.3", ["Ours: mean of the trainings."]),
+        Text(lines, heading=f"Table 5.8: {printed.caption}"),
+        Table(table, "The forest with SMOTE."),
+    ]
+
+
+def _latent(results: Results) -> list[Part]:
+    frame = results["latent"]
+    lines = []
+    for split in SPLITS:
+        part = frame[frame["split"] == split]
+        level = least_within(part, "features", margin=0.01)
+        lines.append(
+            f"Ours, {in_words(split)}: within a percentage point of the best from {level} latent "
+            f"features on; best {part['accuracy'].max():.3f}."
+        )
+    return figure_part(results, "figure_5_4", "5.4", lines)
+
+
+def _bins(results: Results) -> list[Part]:
+    frame, printed = results["bins"], published_table("5.9")
+    parts: list[Part] = []
+    for name, representation in BIN_FIGURES.items():
+        part = frame[frame["representation"] == representation]
+        lines = []
+        for split in SPLITS:
+            own = part[part["split"] == split]
+            level = least_within(own, "bins", margin=0.01)
+            lines.append(
+                f"Ours, {in_words(split)}: within a percentage point of the best from {level} bins on; "
+                f"best {own['accuracy'].max():.3f}."
+            )
+        parts += figure_part(results, name, name.removeprefix("figure_").replace("_", "."), lines)
+    order = ("coefficients", "key_attributes", "latent", "power_series")
+    ten = frame[frame["bins"] == 10].set_index(["representation", "split"])
+    rows = []
+    for representation, thesis in zip(order, printed.frame.to_numpy().tolist(), strict=True):
+        ours = [ten.loc[(representation, split)] for split in SPLITS]
+        cells = [plus_minus(one["accuracy"], one["accuracy_std"]) for one in ours]
+        cells += [f"{one['f1']:.3f}" for one in ours]
+        rows.append(
+            [in_words(representation), thesis[1], cells[0], cells[1], thesis[2], *cells[2:], thesis[4]]
+        )
+    columns = ["representation", "accuracy: thesis", "ours, random split", "ours, by tire", "F1: thesis"]
+    columns += ["F1, random split", "F1, by tire", "features"]
+    ours = {name: float(ten.loc[(name, "random"), "accuracy"]) for name in order}
+    line = f"Most accurate representation: {in_words(order[0])} in the thesis, "
+    line += f"{in_words(max(ours, key=lambda name: ours[name]))} on our random split."
+    parts.append(Text([line], heading=f"Table 5.9: {printed.caption}"))
+    parts.append(Table(pd.DataFrame(rows, columns=columns), "The forest with SMOTE, 10 bins a feature."))
+    return parts
+
+
+def _calibration(results: Results) -> list[Part]:
+    errors = over_trainings(results["calibration"], ["ece"])
+    table = errors.assign(
+        classifier=errors["classifier"].map(in_words),
+        split=errors["split"].map(in_words),
+        error=[plus_minus(a, b, 3) for a, b in zip(errors["ece"], errors["ece_std"], strict=True)],
+    )[["classifier", "split", "smote", "error", "trainings"]]
+    table = table.rename(columns={"error": "expected calibration error"})
+    best = errors.loc[errors.groupby("split")["ece"].idxmin()].set_index("split")
+    forest = errors[(errors["classifier"] == "random_forest") & errors["smote"]].set_index("split")
+    lines = [
+        "Not in the thesis. The agent's reward is a probability, so it matters whether it means what it says."
+    ]
+    lines += [
+        f"{in_words(split).capitalize()}: the agent's forest is off by {forest.loc[split, 'ece']:.3f} on "
+        f"average; the best is {in_words(best.loc[split, 'classifier'])} "
+        f"({'with' if best.loc[split, 'smote'] else 'without'} SMOTE) with {best.loc[split, 'ece']:.3f}."
+        for split in SPLITS
+    ]
+    drawn = CLASSIFIER_FIGURES["reliability"](results)
+    parts: list[Part] = [Text(lines, heading="Reliability of the probabilities"), Table(table)]
+    if drawn is not None:
+        parts.append(Figure(drawn, "Trained with SMOTE; all trainings together."))
+    return parts
+
+
+def _condition(results: Results) -> list[Part]:
+    frame = results["condition"]
+    gain = frame.groupby("form")["gain_median"].median()
+    line = (
+        "Thesis, 6.3.4: small changes of the features alter the curve radically. Measured on our tires: a "
+        "change of the features by their own spread changes B, C and E by "
+        f"{number(gain['published'])} times theirs in the published form and by {number(gain['stable'])} "
+        "times in the stable one (median)."
+    )
+    return [
+        Text([line], heading="Why the power series is unstable"),
+        Table(frame, "Singular values of the Jacobian, in units of spreads, over all tires."),
+    ]

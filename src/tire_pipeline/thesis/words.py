@@ -1,0 +1,63 @@
+"""Numbers as words: every sentence of the page is made from the numbers it is about."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import pandas as pd
+
+
+def plus_minus(value: float, spread: float, digits: int = 3) -> str:
+    """A value with its spread; a dash where there is none."""
+    if pd.isna(value):
+        return "–"
+    text = number(value, digits)
+    return text if pd.isna(spread) else f"{text} ± {number(spread, 2)}"
+
+
+def number(value: float, digits: int = 3) -> str:
+    """A number with significant digits, without powers of ten."""
+    if pd.isna(value):
+        return "–"
+    return f"{value:,.0f}" if abs(value) >= 10**digits else f"{value:.{digits}g}"
+
+
+def points(ours: float, theirs: float) -> str:
+    """How far a share is from the thesis', in percentage points."""
+    gap = (ours - theirs) * 100
+    if abs(gap) < 0.05:
+        return "the same as in the thesis"
+    return f"{abs(gap):.1f} percentage points {'above' if gap > 0 else 'below'} the thesis"
+
+
+def listed(names: Iterable[str]) -> str:
+    """a, b and c."""
+    items = list(names)
+    if len(items) < 2:
+        return "".join(items) or "none"
+    return f"{', '.join(items[:-1])} and {items[-1]}"
+
+
+def rank_agreement(first: Sequence[float], second: Sequence[float]) -> float:
+    """Spearman's rank correlation; NaN if there are fewer than three pairs or one side is constant."""
+    pairs = pd.DataFrame({"a": first, "b": second}).dropna()
+    if len(pairs) < 3 or pairs["a"].nunique() < 2 or pairs["b"].nunique() < 2:
+        return float("nan")
+    ranks = pairs.rank()
+    return float(ranks["a"].corr(ranks["b"]))
+
+
+def agreement(value: float) -> str:
+    """A rank correlation in words."""
+    if pd.isna(value):
+        return "too few configurations were run to compare their order"
+    kind = "the same" if value > 0.7 else "a similar" if value > 0.3 else "another"
+    if value < -0.3:
+        kind = "nearly the opposite"
+    return f"the configurations come in {kind} order (rank correlation {value:.2f})"
+
+
+def least_within(frame: pd.DataFrame, over: str, *, margin: float = 0.005) -> int:
+    """Where a curve levels off: the least ``over`` whose accuracy is within ``margin`` of the best."""
+    near = frame[frame["accuracy"] >= frame["accuracy"].max() - margin]
+    return int(near[over].min())
