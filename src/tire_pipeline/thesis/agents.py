@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.evaluation import EvaluationGrid, curves_of, evaluate_translations
-from tire_pipeline.translation.thesis.grid import Cell, judge_cell
+from tire_pipeline.evaluation import Curves, EvaluationGrid, curves_of, evaluate_translations
+from tire_pipeline.representations.base import CURVE_LOADS, CURVE_SLIP_ANGLES
+from tire_pipeline.translation.thesis.grid import Cell
 from tire_pipeline.translation.thesis.translator import AgentTranslator
 
 Frames = dict[str, pd.DataFrame]
@@ -47,17 +48,58 @@ def judged_agent(
         count``), ``agent_tires`` (``set, before, after, reached``), and of one set ``force_curves`` and
         ``load_curves``; all with the cell and the seed.
     """
+    translator = AgentTranslator.from_state(state)
     found: dict[str, list[pd.DataFrame]] = {"agents": [], "actions": [], "agent_tires": []}
+    kept: Frames = {}
     for name in dict.fromkeys(sources["set"]):
         rows = (sources["set"] == name).to_numpy()
-        judged = judge_cell(state, sources[rows], references[rows])
-        for key, frame in zip(found, (judged["metrics"], judged["actions"], judged["tires"]), strict=True):
-            found[key].append(frame.assign(set=name))
-    frames = {key: pd.concat(parts, ignore_index=True) for key, parts in found.items()}
-    rows = (sources["set"] == curves_of_set).to_numpy()
-    if rows.any():
-        frames |= _curves(AgentTranslator.from_state(state), sources[rows], references[rows])
+        path = translator.follow(sources[rows])
+        as_tires, as_curves = _both_decodings(translator, sources[rows], references[rows])
+        for decoding, of in (("tire", as_tires), ("curves", as_curves)):
+            result = evaluate_translations(of["translated"], of["source"], of["target"])
+            rows_of = result.summary.rename_axis("metric").reset_index()
+            found["agents"].append(rows_of.assign(decoding=decoding, set=name))
+        actions = pd.DataFrame({"action": translator.action_names, "count": path.action_counts})
+        found["actions"].append(actions.assign(set=name))
+        tires = {"before": path.start_valuations, "after": path.valuations, "reached": path.reached}
+        found["agent_tires"].append(pd.DataFrame(tires).assign(set=name))
+        if name == curves_of_set:
+            kept = _drawn(sources[rows], as_tires, as_curves["translated"])
+    frames = {key: pd.concat(parts, ignore_index=True) for key, parts in found.items()} | kept
     return {key: frame.assign(seed=seed, **asdict(cell)) for key, frame in frames.items()}
+
+
+def _both_decodings(
+    translator: AgentTranslator, sources: pd.DataFrame, references: pd.DataFrame
+) -> tuple[dict[str, Curves], dict[str, Curves]]:
+    """Curves of ``source``, ``translated`` and ``target``: from tires, and as the thesis decodes them."""
+    as_tires = {
+        kind: curves_of(table, lateral_only=True)
+        for kind, table in (
+            ("source", sources),
+            ("translated", translator.translate(sources)),
+            ("target", references),
+        )
+    }
+    decoded = translator.translate_curves(sources)
+    own = as_tires["source"].fy
+    # no real solution (Appendix C), or the same curve but for rounding: the tire is not translated
+    same = np.isclose(decoded, own, rtol=1e-9, atol=1e-6).all(axis=(1, 2))
+    unreal = ~np.isfinite(decoded).all(axis=(1, 2))
+    fy = np.where((same | unreal)[:, None, None], own, decoded)
+    forces = {"source": own, "translated": fy, "target": as_tires["target"].fy}
+    return as_tires, {kind: curves_of_forces(each) for kind, each in forces.items()}
+
+
+def curves_of_forces(fy: np.ndarray) -> Curves:
+    """Slope at the origin and peak friction of sampled forces, shape (n, 3, 100), at their loads."""
+    right = len(CURVE_SLIP_ANGLES) // 2  # the two middle slip angles lie on both sides of the origin
+    width = CURVE_SLIP_ANGLES[right] - CURVE_SLIP_ANGLES[right - 1]
+    return Curves(
+        fy=fy,
+        cornering_stiffness=np.abs(fy[..., right] - fy[..., right - 1]) / width,
+        peak_friction=np.abs(fy).max(axis=2) / CURVE_LOADS,
+    )
 
 
 def judged_floor(sources: pd.DataFrame, references: pd.DataFrame, again: pd.DataFrame) -> pd.DataFrame:
@@ -100,41 +142,27 @@ def thinned_learning_curve(curve: pd.DataFrame) -> pd.DataFrame:
     return thin.reset_index(drop=True)
 
 
-def _curves(translator: AgentTranslator, sources: pd.DataFrame, references: pd.DataFrame) -> Frames:
+def _drawn(sources: pd.DataFrame, as_tires: dict[str, Curves], decoded: Curves) -> Frames:
     """Forces over slip angle, stiffness and friction over load, of every tire and supplier."""
     grid = EvaluationGrid()
-    decoded = translator.translate_curves(sources)
-    of = {
-        "source": curves_of(sources, grid, lateral_only=True),
-        "translated": curves_of(translator.translate(sources), grid, lateral_only=True),
-        "target": curves_of(references, grid, lateral_only=True),
-    }
     forces, over_load = [], []
     for index, (tire, category) in enumerate(zip(sources["tire"], sources["category"], strict=True)):
-        which = {"tire": tire, "category": category}
-        for kind, curves in of.items():
-            for number, load in enumerate(grid.loads):
-                fy = curves.fy[index, number]
-                forces.append(_curve(grid.slip_angles, fy, kind=kind, normal_load=load, **which))
-            stiffness, friction = curves.cornering_stiffness, curves.peak_friction
-            assert stiffness is not None  # lateral_only gives all three
-            assert friction is not None
-            frame = pd.DataFrame(
-                {
-                    "normal_load": grid.load_axis,
-                    "cornering_stiffness": stiffness[index],
-                    "peak_friction": friction[index],
-                }
-            )
-            over_load.append(frame.assign(kind=kind, **which))
-        for number, load in enumerate(grid.loads):
-            fy = decoded[index, number]
-            forces.append(_curve(grid.slip_angles, fy, kind="decoded", normal_load=load, **which))
+        for kind, curves in (*as_tires.items(), ("decoded", decoded)):
+            which = {"tire": tire, "category": category, "kind": kind}
+            for load, fy in zip(grid.loads, curves.fy[index], strict=True):
+                curve = pd.DataFrame({"slip_angle": grid.slip_angles, "fy": fy})
+                forces.append(curve.assign(normal_load=load, **which))
+            if kind == "decoded":
+                continue
+            assert curves.cornering_stiffness is not None  # lateral_only gives all three
+            assert curves.peak_friction is not None
+            columns = {
+                "normal_load": grid.load_axis,
+                "cornering_stiffness": curves.cornering_stiffness[index],
+                "peak_friction": curves.peak_friction[index],
+            }
+            over_load.append(pd.DataFrame(columns).assign(**which))
     return {
         "force_curves": pd.concat(forces, ignore_index=True),
         "load_curves": pd.concat(over_load, ignore_index=True),
     }
-
-
-def _curve(slip_angles: np.ndarray, fy: np.ndarray, **which: Any) -> pd.DataFrame:
-    return pd.DataFrame({"slip_angle": slip_angles, "fy": fy}).assign(**which)

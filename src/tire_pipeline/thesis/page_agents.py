@@ -12,6 +12,12 @@ from tire_pipeline.thesis.words import agreement, listed, number, plus_minus, ra
 from tire_pipeline.translation.thesis.tables import METRICS, better_than_nothing
 
 Part = Text | Table | Figure
+_SHORT = {
+    "forces": "forces",
+    "cornering_stiffness": "slope",
+    "peak_friction": "friction",
+    "mean": "average",
+}
 
 
 def agent_parts(results: Results) -> list[Part]:
@@ -82,7 +88,7 @@ def _table(results: Results, table: str) -> list[Part]:
         values = part.set_index("metric")
         for metric in METRICS:
             one = values.loc[metric]
-            name = in_words(metric)
+            name = _SHORT[metric]
             line[f"{name}: thesis"] = float(one["thesis"])
             line[f"{name}: ours"] = plus_minus(one["curves"], one["curves_std"])
             line[f"{name}: ours, .tir"] = plus_minus(one["tire"], one["tire_std"])
@@ -164,7 +170,8 @@ def _forces(results: Results, name: str, representation: str) -> list[Part]:
                 for kind in ("source", "translated", "decoded")
             }
             better = {
-                kind: int((squares[kind] < squares["source"]).sum()) for kind in ("translated", "decoded")
+                kind: int((squares[kind] < squares["source"] * (1 - 1e-9)).sum())
+                for kind in ("translated", "decoded")
             }
             lines.append(
                 f"Ours: of {len(squares['source'])} curves {better['decoded']} come nearer to the target as "

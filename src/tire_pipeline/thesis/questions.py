@@ -81,10 +81,14 @@ def _translate(results: Results) -> list[str]:
     last = ratios[ratios["set"] == list(dict.fromkeys(ratios["set"]))[-1]]
     none = last.pivot(index=CELL, columns="metric", values="value")["mean"].min() >= 1
     verdict = (
-        f"{'Not' if none else 'In part'} by the thesis' agents: {'none' if none else 'some'} is better than "
-        "doing nothing on average over the larger set."
+        f"{'Not' if none else 'In part'} by the thesis' agents: {'none is' if none else 'some are'} better "
+        "than doing nothing on average over the larger set."
     )
-    return [verdict, *lines, "Other translators are in docs/translation.md; this page keeps to the thesis'."]
+    return [
+        verdict,
+        *lines,
+        "This page keeps to the thesis' agents; the project's other translators are judged elsewhere.",
+    ]
 
 
 def _policies(results: Results) -> list[str]:
