@@ -1,0 +1,69 @@
+"""What is computed once is not computed again, and nothing half-written is ever taken for done."""
+
+from functools import partial
+from pathlib import Path
+
+import pytest
+from kedro.io import DatasetError
+
+from tire_pipeline.datasets import ComputedFolderDataset, RecordingFolderDataset
+from tire_pipeline.datasets.computed_folder import source_hash
+
+
+def _count(folder: Path, name: str, fails: bool = False) -> bytes:
+    with (folder / f"{name}.calls").open("a") as calls:
+        calls.write("x")
+    if fails:
+        raise ValueError("stopped on purpose")
+    return name.encode()
+
+
+def _dataset(tmp_path: Path) -> ComputedFolderDataset:
+    return ComputedFolderDataset(path=str(tmp_path / "out"), processes=1)
+
+
+def test_what_is_there_is_not_computed_again(tmp_path):
+    work = {name: partial(_count, tmp_path, name) for name in ("a", "b")}
+    _dataset(tmp_path).save(work)
+    _dataset(tmp_path).save({**work, "c": partial(_count, tmp_path, "c")})
+    assert {n: r() for n, r in _dataset(tmp_path).load().items()} == {"a": b"a", "b": b"b", "c": b"c"}
+    assert [(tmp_path / f"{n}.calls").read_text() for n in "abc"] == ["x", "x", "x"]
+
+
+def test_an_interrupted_computation_goes_on_where_it_stopped(tmp_path):
+    first = {"a": partial(_count, tmp_path, "a"), "b": partial(_count, tmp_path, "b", True)}
+    with pytest.raises(DatasetError, match="on purpose"):
+        _dataset(tmp_path).save(first)
+    assert not _dataset(tmp_path).exists()
+    assert (tmp_path / "out" / "a").read_bytes() == b"a"
+    assert not (tmp_path / "out" / "b").exists()
+    _dataset(tmp_path).save({**first, "b": partial(_count, tmp_path, "b")})
+    assert (tmp_path / "a.calls").read_text() == "x"
+
+
+def test_only_what_was_asked_for_last_is_loaded(tmp_path):
+    _dataset(tmp_path).save({"old": partial(_count, tmp_path, "old")})
+    _dataset(tmp_path).save({"new": partial(_count, tmp_path, "new")})
+    assert list(_dataset(tmp_path).load()) == ["new"]
+
+
+def test_the_hash_follows_the_source():
+    assert source_hash("tir") == source_hash("tir")
+    assert source_hash("tir") != source_hash("tir", "magic_formula")
+
+
+def test_a_recording_needs_one_tire(tmp_path):
+    folder = tmp_path / "case"
+    folder.mkdir()
+    (folder / "recording.csv").write_text(
+        "time,slip_angle,normal_load,fy\n0,0.01,4000,10\n0.1,0.02,4000,20\n"
+    )
+    dataset = RecordingFolderDataset(path=str(tmp_path))
+    load = dataset.load()["case/recording.csv"]
+    with pytest.raises(Exception, match=r"0 \.tir files could belong"):
+        load()
+
+
+def test_an_empty_folder_of_recordings_says_what_to_do(tmp_path):
+    with pytest.raises(DatasetError, match="no recordings below"):
+        RecordingFolderDataset(path=str(tmp_path)).load()
