@@ -1,0 +1,153 @@
+"""kedro-viz in a real browser: the first screen tells the story, and a preview opens."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from viz_browser import ROOT, browser, needs_browser, served, small_project
+
+pytestmark = pytest.mark.slow
+FILES_TO_EVALUATION = ["files", "features", "classifier", "agent", "evaluation"]
+RECORDINGS_TO_PROOF = ["recordings", "mismatch", "proof"]
+SCREENSHOTS = ROOT / "data" / "08_reporting" / "screenshots"
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory):
+    needs_browser()
+    return small_project(tmp_path_factory.mktemp("viz"))
+
+
+def _wait(driver, condition, seconds: float = 60):
+    from selenium.common.exceptions import ElementClickInterceptedException, StaleElementReferenceException
+    from selenium.webdriver.support.ui import WebDriverWait
+
+    waiting = WebDriverWait(
+        driver, seconds, ignored_exceptions=[StaleElementReferenceException, ElementClickInterceptedException]
+    )
+    return waiting.until(lambda _: condition())
+
+
+def _boxes(driver) -> dict[str, float]:
+    """Names of the boxes on the chart, and where they lie from left to right."""
+    found = driver.find_elements("css selector", ".pipeline-node")
+    return {box.text: box.rect["x"] for box in found if box.text}
+
+
+def _box(driver, name: str):
+    return next(box for box in driver.find_elements("css selector", ".pipeline-node") if box.text == name)
+
+
+def _keep(driver, name: str) -> None:
+    SCREENSHOTS.mkdir(parents=True, exist_ok=True)
+    driver.save_screenshot(str(SCREENSHOTS / name))
+
+
+def _asked_elsewhere(driver) -> list[str]:
+    messages = [json.loads(entry["message"])["message"] for entry in driver.get_log("performance")]
+    asked = [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
+    network = [address for address in asked if address.startswith(("http", "ws"))]
+    return [address for address in network if not address.startswith("http://127.0.0.1:")]
+
+
+def _assert_story(driver) -> None:
+    _wait(driver, lambda: set(_boxes(driver)) == {*FILES_TO_EVALUATION, *RECORDINGS_TO_PROOF})
+    boxes = _settled(driver)
+    for story in (FILES_TO_EVALUATION, RECORDINGS_TO_PROOF):
+        places = [boxes[name] for name in story]
+        assert places == sorted(places), story
+
+
+def _open_preview(driver) -> None:
+    """Search the ingest report, choose it, and read its first rows in the panel."""
+    driver.find_element("css selector", "input[placeholder='Search']").send_keys("ingest_report")
+
+    def row():
+        found = driver.find_elements("css selector", ".row-text__label--kind-element")
+        return next((one for one in found if one.text == "ingest_report"), None)
+
+    _wait(driver, row)
+    _settled(driver)
+    _click(driver, row)
+
+    def panel() -> str:
+        return " ".join(one.text for one in driver.find_elements("css selector", ".pipeline-metadata"))
+
+    _wait(driver, lambda: "A/bad.tir" in panel())
+
+
+def _click(driver, find) -> None:
+    """Click, and find anew where the page was drawn anew meanwhile."""
+
+    def clicked() -> bool:
+        find().click()
+        return True
+
+    _wait(driver, clicked)
+
+
+def _settled(driver) -> dict[str, float]:
+    """Boxes once they have stopped moving."""
+    seen: list[dict[str, float]] = []
+
+    def stands() -> bool:
+        time.sleep(0.3)
+        seen.append(_boxes(driver))
+        return len(seen) > 1 and seen[-1] == seen[-2]
+
+    _wait(driver, stands)
+    return seen[-1]
+
+
+def test_first_screen_then_a_pipeline_then_a_preview(project, tmp_path):
+    with served(project) as address, browser(tmp_path) as driver:
+        driver.get(address)
+        _assert_story(driver)
+        _keep(driver, "viz_first_screen.png")
+
+        _click(driver, lambda: _box(driver, "files"))
+        _wait(driver, lambda: {"read_files", "keep_usable", "to_one_nominal_load"} <= set(_boxes(driver)))
+        assert "files" not in _boxes(driver)
+
+        _click(driver, lambda: driver.find_element("xpath", "//*[normalize-space(text())='Datasets']"))
+        _wait(driver, lambda: "ingest_report" in _boxes(driver))
+        _open_preview(driver)
+        _keep(driver, "viz_preview.png")
+        assert _asked_elsewhere(driver) == []
+
+
+def test_the_build_opens_without_a_server(project, tmp_path):
+    built = subprocess.run(
+        [sys.executable, "-m", "kedro", "viz", "build", "--include-previews"],
+        cwd=project,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert built.returncode == 0, built.stdout + built.stderr
+    assert "circular" not in built.stdout
+    page = project / "a page #1.html"
+    command = [sys.executable, "-m", "tire_pipeline.lineage.one_page", str(project / "build"), str(page)]
+    subprocess.run(command, check=True)
+    moved = Path(tmp_path / "elsewhere.html")
+    moved.write_bytes(page.read_bytes())
+    with browser(tmp_path) as driver:
+        driver.get(moved.as_uri())
+        _assert_story(driver)
+        _click(driver, lambda: driver.find_element("xpath", "//*[normalize-space(text())='Datasets']"))
+        _open_preview(driver)
+        _keep(driver, "viz_one_page.png")
+        assert _asked_elsewhere(driver) == []
+
+
+def test_a_folder_that_is_no_build(tmp_path):
+    from tire_pipeline.errors import DomainError
+    from tire_pipeline.lineage.one_page import one_page
+
+    with pytest.raises(DomainError, match="kedro viz build"):
+        one_page(tmp_path)
