@@ -1,5 +1,7 @@
 """The thesis in full: experiments on classifiers, the grid of agents, one page."""
 
+import warnings
+
 from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline.pipelines.reproduce_thesis import experiments as run
@@ -21,8 +23,11 @@ _SEALED = ["thesis_sources", "evaluation_truth", "params:normalize", "params:tar
 def create_pipeline(**_: object) -> Pipeline:
     """Build one namespace a cell of the run's grid; ``kedro run`` goes on where it stopped."""
     grid = chosen_grid()
-    parts = [_experiments(), _shared(), _fitting(grid.all_representations), *map(_cell, grid.cells)]
-    return Pipeline([*parts, _results(grid.cells)])
+    with warnings.catch_warnings():
+        # the dots are those of the namespaces; Kedro says so even of names that it made itself
+        warnings.filterwarnings("ignore", message="One or more dataset names contain")
+        parts = [_experiments(), _shared(), _fitting(grid.all_representations), *map(_cell, grid.cells)]
+        return Pipeline([*parts, _results(grid.cells)])
 
 
 def _cell(cell: Cell) -> Pipeline:
@@ -33,7 +38,7 @@ def _cell(cell: Cell) -> Pipeline:
             inputs=[
                 "normalized_table",
                 "splits",
-                f"representations.{cell.representation}",
+                "fitted",
                 PARAMETERS,
                 "params:target_category",
             ],
@@ -42,8 +47,8 @@ def _cell(cell: Cell) -> Pipeline:
         ),
         Node(judge_of(cell), inputs=["trained", *_SEALED], outputs="scores", name="judge"),
     ]
-    shared = {"normalized_table", "splits", "thesis_sources", "evaluation_truth"}
-    shared.add(f"representations.{cell.representation}")
+    shared = {name: name for name in ("normalized_table", "splits", "thesis_sources", "evaluation_truth")}
+    shared["fitted"] = f"representations.{cell.representation}"
     return Pipeline(nodes, namespace=f"agents.{cell.name}", inputs=shared, parameters=_parameters(nodes))
 
 
@@ -111,8 +116,8 @@ def _experiments() -> Pipeline:
 
 
 def _results(cells: tuple[Cell, ...]) -> Pipeline:
-    folders = [f"experiments.{name}" for name in EXPERIMENTS]
-    folders += [f"agents.{cell.name}.scores" for cell in cells]
+    folders = {name: f"experiments.{name}" for name in EXPERIMENTS}
+    folders |= {f"scores_of_{cell.name}": f"agents.{cell.name}.scores" for cell in cells}
     nodes = [
         Node(
             collect,
@@ -123,4 +128,4 @@ def _results(cells: tuple[Cell, ...]) -> Pipeline:
         Node(write_tables, inputs="thesis_results", outputs="thesis_tables", name="write_tables"),
         Node(build_page, inputs="thesis_results", outputs="thesis_page", name="build_page"),
     ]
-    return Pipeline(nodes, namespace="reporting", prefix_datasets_with_namespace=False)
+    return Pipeline(nodes, namespace="reporting", inputs=folders, prefix_datasets_with_namespace=False)
