@@ -17,7 +17,7 @@ PREFERENCES = {
 
 
 def prepared(html: str) -> str:
-    """kedro-viz's page with our preferences where the reader has not chosen others, and no web fonts.
+    """kedro-viz's page with our preferences, until the reader chooses others; no web fonts, no telemetry.
 
     Parameters
     ----------
@@ -29,6 +29,7 @@ def prepared(html: str) -> str:
     str
     """
     html = re.sub(r"<link\b[^>]*fonts\.g(?:oogleapis|static)\.com[^>]*>", "", html)
+    html = re.sub(r"<script[^>]*>\s*window\.heap.*?</script>", "", html, flags=re.S)  # telemetry
     return html.replace("<head>", f"<head>\n<script>{_script()}</script>", 1)
 
 

@@ -31,6 +31,7 @@ def main() -> None:
         shutil.copytree(apps._HTML_DIR, pages)
         index = pages / "index.html"
         index.write_text(prepared(index.read_text(encoding="utf-8")), encoding="utf-8")
+        (pages / "telemetry.html").write_text("</head>")  # never, whatever the folder's consent says
         apps._HTML_DIR = pages
         version.get_latest_version = lambda: parse(kedro_viz.__version__)  # it would ask pypi.org
         print(f"kedro-viz: http://127.0.0.1:{arguments.port}/", flush=True)
