@@ -1,15 +1,18 @@
 """Pages and figures: self-contained HTML that opens without a network, and one look for all figures."""
 
 from tire_pipeline.reporting.figures import COLOURS, MARKERS, colour_of, inline_svg, new_figure
-from tire_pipeline.reporting.page import Figure, Table, Text, render_page
+from tire_pipeline.reporting.front import front_page
+from tire_pipeline.reporting.page import Figure, Links, Table, Text, render_page
 
 __all__ = [
     "COLOURS",
     "MARKERS",
     "Figure",
+    "Links",
     "Table",
     "Text",
     "colour_of",
+    "front_page",
     "inline_svg",
     "new_figure",
     "render_page",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+from typing import Any
 
 from markupsafe import Markup
 from matplotlib import rc_context
@@ -12,7 +13,7 @@ from matplotlib.figure import Figure as MplFigure
 #: Okabe and Ito (2008), in an order that also differs in lightness.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D1F")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
-STYLE = {
+STYLE: Any = {
     "font.size": 10,
     "axes.grid": True,
     "grid.alpha": 0.3,
@@ -31,8 +32,8 @@ def colour_of(index: int) -> str:
 
 
 def new_figure(
-    rows: int = 1, columns: int = 1, *, width: float = 7.0, height: float = 3.6, **options: object
-) -> tuple[MplFigure, object]:
+    rows: int = 1, columns: int = 1, *, width: float = 7.0, height: float = 3.6, **options: Any
+) -> tuple[MplFigure, Any]:
     """A figure and its axes in the project's style; no global state, no display.
 
     Parameters
@@ -56,7 +57,7 @@ def new_figure(
     """
     with rc_context(STYLE):
         figure = MplFigure(figsize=(width, height))
-        axes = figure.subplots(rows, columns, **options)  # type: ignore[arg-type]
+        axes = figure.subplots(rows, columns, **options)
     return figure, axes
 
 

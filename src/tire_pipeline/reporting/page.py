@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from urllib.parse import quote
 
 import jinja2
 import pandas as pd
@@ -88,13 +89,35 @@ class Figure:
         return inline_svg(self.figure)
 
 
-def render_page(title: str, parts: Sequence[Text | Table | Figure], *, footer: str = "") -> str:
+@dataclass(frozen=True)
+class Links:
+    """Links to other pages in the same folder or below it.
+
+    Attributes
+    ----------
+    items : sequence of (str, str, str)
+        Path relative to the page, what it is called, and one sentence about it. Without a path it is
+        named but not linked.
+    heading : str
+    """
+
+    items: Sequence[tuple[str, str, str]]
+    heading: str = ""
+    kind: str = field(default="links", init=False)
+
+    @property
+    def escaped(self) -> list[tuple[str, str, str]]:
+        """The same, with paths as they stand in an address."""
+        return [(quote(path), name, text) for path, name, text in self.items]
+
+
+def render_page(title: str, parts: Sequence[Text | Table | Figure | Links], *, footer: str = "") -> str:
     """One HTML page without any outside reference.
 
     Parameters
     ----------
     title : str
-    parts : sequence of Text, Table and Figure
+    parts : sequence of Text, Table, Figure and Links
     footer : str
         For example which run made the page.
 

@@ -82,7 +82,7 @@ def learning_figure(curve: pd.DataFrame) -> Figure:
     figure, axes = new_figure()
     window = max(1, len(curve) // 100)
     smooth = curve["reward"].rolling(window, min_periods=1).mean()
-    axes.plot(curve["step"], smooth, color=colour_of(0))  # type: ignore[attr-defined]
-    axes.set_xlabel("training steps of all environments")  # type: ignore[attr-defined]
-    axes.set_ylabel(f"episode reward\n(mean of {window} episodes)")  # type: ignore[attr-defined]
+    axes.plot(curve["step"], smooth, color=colour_of(0))
+    axes.set_xlabel("training steps of all environments")
+    axes.set_ylabel(f"episode reward\n(mean of {window} episodes)")
     return figure
