@@ -1,9 +1,10 @@
 """Kedro settings: which hooks run, and where configuration lies."""
 
+from tire_pipeline.front_page import FrontPageHooks
 from tire_pipeline.hooks import FolderHooks, RunLedgerHooks, SignpostHooks
 from tire_pipeline.pipelines.reproduce_thesis.chosen_grid import ThesisGridHooks
 
-HOOKS = (FolderHooks(), RunLedgerHooks(), SignpostHooks(), ThesisGridHooks())
+HOOKS = (FolderHooks(), RunLedgerHooks(), SignpostHooks(), ThesisGridHooks(), FrontPageHooks())
 
 # kedro-telemetry comes along with kedro-viz; it stays silent.
 DISABLE_HOOKS_FOR_PLUGINS = ("kedro-telemetry",)

@@ -1,0 +1,121 @@
+"""The front page: one link to every report that is there, and the command for each that is not."""
+
+from __future__ import annotations
+
+import datetime
+import html
+import re
+from pathlib import Path
+
+from tire_pipeline.reporting.page import Links, Text, render_page
+
+FRONT = "index.html"
+_TITLE = re.compile(r"<title>(.*?)</title>", re.S | re.I)
+
+REPORTS = (
+    (
+        "Files, classifier, agent, evaluation",
+        (
+            (
+                "report.html",
+                "Which files were read, who measured them, what the translation does",
+                "kedro run",
+            ),
+            ("confusion_matrix.png", "Which category is taken for which", "kedro run"),
+            ("learning_curve.png", "How the agent learned", "kedro run"),
+            ("force_curves.png", "Forces before and after translation, and the target's", "kedro run"),
+        ),
+    ),
+    (
+        "Translations",
+        (
+            ("translated_files.html", "Your files, translated", "kedro run --pipeline translate"),
+            ("thesis.html", "The thesis, reproduced", "kedro run --pipeline reproduce_thesis"),
+        ),
+    ),
+    (
+        "Recordings, mismatches, proof",
+        (
+            (
+                "mismatch/*.html",
+                "Where recording and simulation differ",
+                "kedro run --pipeline explain_mismatch",
+            ),
+            (
+                "proof.html",
+                "Concealed cases, and how many were explained",
+                "kedro run --pipeline prove_concealed",
+            ),
+        ),
+    ),
+    (
+        "Retraining and lineage",
+        (
+            (
+                "retraining.html",
+                "What has arrived, drifted and been released",
+                "kedro run --pipeline retrain",
+            ),
+            ("lineage.html", "How every result is made", "make viz-page"),
+        ),
+    ),
+)
+
+
+def front_page(folder: Path) -> str:
+    """Link all reports in a folder.
+
+    Parameters
+    ----------
+    folder : Path
+        ``data/08_reporting``.
+
+    Returns
+    -------
+    str
+        A page that opens without a network; titles and names of files are escaped.
+    """
+    parts: list[Text | Links] = [
+        Text(
+            [
+                "Tire property files (.tir): who measured them, what their numbers become as another would "
+                "have measured, and why a recording differs from the simulation."
+            ]
+        )
+    ]
+    for heading, reports in REPORTS:
+        items = [item for report in reports for item in _items(folder, *report)]
+        parts.append(Links(items, heading=heading))
+    return render_page("Tire pipeline: all reports", parts, footer="Made anew after every run.")
+
+
+def _items(folder: Path, pattern: str, name: str, command: str) -> list[tuple[str, str, str]]:
+    found = [newest for path in sorted(folder.glob(pattern)) if (newest := _newest(path)) is not None]
+    if not found:
+        return [("", name, f"not made yet: {command}")]
+    several = len(found) > 1
+    return [
+        (
+            path.relative_to(folder).as_posix(),
+            f"{name}: {_title(path) or path.stem}" if several else name,
+            _date(path),
+        )
+        for path in found
+    ]
+
+
+def _newest(path: Path) -> Path | None:
+    """The file itself, or the newest version of a versioned one."""
+    if path.is_file():
+        return path
+    return max(path.glob(f"*/{path.name}"), default=None)
+
+
+def _title(path: Path) -> str:
+    with path.open(encoding="utf-8", errors="replace") as file:
+        found = _TITLE.search(file.read(20_000))
+    return html.unescape(found[1]).strip() if found else ""
+
+
+def _date(path: Path) -> str:
+    return f"{datetime.datetime.fromtimestamp(path.stat().st_mtime):%Y-%m-%d %H:%M}"

@@ -1,0 +1,47 @@
+"""The front page links what is there and names what is not."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from urllib.parse import unquote
+
+from tire_pipeline.reporting import front_page
+
+
+def _links(page: str) -> list[str]:
+    return [unquote(address) for address in re.findall(r'href="([^"]+)"', page)]
+
+
+def test_an_empty_folder_names_the_command_of_every_report(tmp_path):
+    page = front_page(tmp_path)
+    assert _links(page) == []
+    for command in (
+        "kedro run",
+        "explain_mismatch",
+        "prove_concealed",
+        "reproduce_thesis",
+        "retrain",
+        "translate",
+    ):
+        assert command in page
+
+
+def test_every_link_leads_to_a_file_even_with_hostile_names(tmp_path):
+    (tmp_path / "mismatch").mkdir()
+    for name in ('a"><script>alert(1)</script>.html', "b #?&%.html"):
+        (tmp_path / "mismatch" / name.replace("/", "∕")).write_text("<title>&lt;b&gt; tire</title>")
+    version = tmp_path / "confusion_matrix.png"
+    for when in ("2026-01-01T00.00.00.000Z", "2026-01-02T00.00.00.000Z"):
+        (version / when).mkdir(parents=True)
+        (version / when / "confusion_matrix.png").write_bytes(b"")
+    (tmp_path / "report.html").write_text("<title>Report</title>")
+    page = front_page(tmp_path)
+    links = _links(page)
+    assert len(links) == 4
+    for link in links:
+        assert Path(tmp_path / link).is_file(), link
+    assert any("2026-01-02" in link for link in links)
+    assert "<script>" not in page
+    assert "<b> tire" not in page
+    assert "http" not in page
