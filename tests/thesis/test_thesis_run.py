@@ -22,11 +22,15 @@ def test_a_killed_run_goes_on_where_it_stopped(interrupted_run):
 
 def test_another_run_computes_nothing_and_more_seeds_only_those(interrupted_run):
     before = stored_results(interrupted_run.folder)
+    conf = interrupted_run.folder / "conf" / "small" / "parameters.yml"
+    text = conf.read_text()
+    assert "seeds: [1, 2]," in text
+    conf.write_text(text.replace("seeds: [1, 2],", "seeds: [1, 2, 3],"))
     more = interrupted_run.kedro(
         interrupted_run.folder,
         *("--pipeline", "reproduce_thesis", "--namespaces", "representations,agents,floor"),
-        *("--params", "reproduce_thesis.agents.seeds=[1,2,3]"),
     )
+    conf.write_text(text)
     assert more.returncode == 0, more.stdout + more.stderr
     after = stored_results(interrupted_run.folder)
     assert {name: after[name] for name in before} == before

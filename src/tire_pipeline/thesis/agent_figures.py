@@ -74,9 +74,11 @@ def force_figure(results: Results, representation: str) -> MplFigure | None:
     if frame.empty:
         return None
     tires, suppliers = sorted(set(frame["tire"])), sorted(set(frame["category"]))
-    size = {"width": 2.5 * len(suppliers), "height": 1.9 * len(tires)}
-    figure, axes = new_figure(len(tires), len(suppliers), sharex=True, sharey=True, squeeze=False, **size)
-    kinds = {
+    rows, columns = len(tires), len(suppliers)
+    figure, axes = new_figure(
+        rows, columns, width=2.5 * columns, height=1.9 * rows, sharex=True, sharey=True, squeeze=False
+    )
+    kinds: dict[str, tuple[str, dict[str, Any]]] = {
         "source": ("as measured", {"color": colour_of(0)}),
         "translated": ("translated .tir", {"color": colour_of(1), "ls": "--"}),
         "decoded": ("as the thesis decodes", {"color": colour_of(2), "lw": 0.8}),

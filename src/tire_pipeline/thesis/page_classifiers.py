@@ -289,9 +289,9 @@ def _bins(results: Results) -> list[Part]:
         )
     columns = ["representation", "accuracy: thesis", "ours, random split", "ours, by tire", "F1: thesis"]
     columns += ["F1, random split", "F1, by tire", "features"]
-    ours = {name: float(ten.loc[(name, "random"), "accuracy"]) for name in order}
+    accuracies = {name: float(ten.loc[(name, "random"), "accuracy"]) for name in order}
     line = f"Most accurate representation: {in_words(order[0])} in the thesis, "
-    line += f"{in_words(max(ours, key=lambda name: ours[name]))} on our random split."
+    line += f"{in_words(max(accuracies, key=lambda name: accuracies[name]))} on our random split."
     parts.append(Text([line], heading=f"Table 5.9: {printed.caption}"))
     parts.append(Table(pd.DataFrame(rows, columns=columns), "The forest with SMOTE, 10 bins a feature."))
     return parts

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from functools import partial
 from inspect import getsource
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -103,7 +104,7 @@ def trainer(cell: Cell) -> Callable[..., Work]:
     ) -> Work:
         """Train on the files of the random split's training part, as in the thesis."""
         training = _training(normalized_table, splits)
-        options = {"target": target_category, "total_steps": parameters.agents.total_steps}
+        options: dict[str, Any] = {"target": target_category, "total_steps": parameters.agents.total_steps}
         data = files.key_of(source_hash(*TRAINING_CODE), training, asdict(cell), options)
         work: Work = {}
         for name, read in fitted.items():

@@ -56,8 +56,8 @@ class AgentParameters(Parameters):
         Of all environments together; without it 100,000 for PPO and 300,000 for A2C.
     """
 
-    seeds: tuple[int, ...] = Field((1, 2, 3), min_length=1)
-    total_steps: int | None = Field(None, ge=1)
+    seeds: tuple[int, ...] = Field(default=(1, 2, 3), min_length=1)
+    total_steps: int | None = Field(default=None, ge=1)
 
 
 class AnnParameters(Parameters):
@@ -73,8 +73,8 @@ class AnnParameters(Parameters):
         All 1,728 combinations, or as in the thesis those that the random search leaves.
     """
 
-    random: int = Field(60, ge=5, le=1728)
-    best: int = Field(20, ge=1)
+    random: int = Field(default=60, ge=5, le=1728)
+    best: int = Field(default=20, ge=1)
     grid: Literal["whole", "narrowed"] = "whole"
     epochs: tuple[int, ...] | None = None
 
@@ -82,9 +82,9 @@ class AnnParameters(Parameters):
 class ForestParameters(Parameters):
     """Tuning of the forest (Table 4.3); ``trees``: with how many the depth is varied."""
 
-    trees: int = Field(30, ge=1)
-    most_trees: int = Field(100, ge=1)
-    most_depth: int = Field(100, ge=1)
+    trees: int = Field(default=30, ge=1)
+    most_trees: int = Field(default=100, ge=1)
+    most_depth: int = Field(default=100, ge=1)
 
 
 class ReproduceThesisParameters(Parameters):
@@ -112,13 +112,13 @@ class ReproduceThesisParameters(Parameters):
 
     grid: GridParameters = GridParameters()
     agents: AgentParameters = AgentParameters()
-    sets: tuple[str, ...] = Field(("four", "hidden"), min_length=1)
-    latent_features: int = Field(8, ge=1, le=64)
-    latent_epochs: int = Field(200, ge=1)
+    sets: tuple[str, ...] = Field(default=("four", "hidden"), min_length=1)
+    latent_features: int = Field(default=8, ge=1, le=64)
+    latent_epochs: int = Field(default=200, ge=1)
     ann: AnnParameters = AnnParameters()
     forest: ForestParameters = ForestParameters()
-    trainings: int = Field(10, ge=1)
-    further_trainings: int = Field(3, ge=1)
+    trainings: int = Field(default=10, ge=1)
+    further_trainings: int = Field(default=3, ge=1)
     bins: tuple[int, ...] = tuple(range(2, 41, 2))
     latent_counts: tuple[int, ...] = tuple(range(1, 17))
 
