@@ -9,6 +9,7 @@ import pandas as pd
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import search as searching
+from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.ambiguity import experiment, rivals
 from tire_pipeline.mismatch.checks import Prepared, prepare
 from tire_pipeline.mismatch.confidence import confidence
@@ -18,7 +19,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.locate import locate, when, where
 from tire_pipeline.mismatch.proof import prove
-from tire_pipeline.mismatch.refit import residual
+from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.remainder import remainder
 from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFit, Remainder
 from tire_pipeline.mismatch.search import Search
@@ -70,8 +71,14 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame) -> MismatchReport:
 
 def _report(prepared: Prepared, search: Search) -> MismatchReport:
     data = search.data
-    fit = prove(search)
     left = remainder(search)
+    if _unlike(search, left):
+        search.refused.update(
+            {n: "what it leaves is too large for this to be the cause" for n in search.fit.names}
+        )
+        search.fit, search.gates = Fit([], []), []
+        left = remainder(search)
+    fit = prove(search)
     before = {o: data.recorded[o] - data.base[o] for o in data.outputs}
     effects = [_exact(f, prepared) for f in prepared.findings]
     experiments = []
@@ -108,6 +115,14 @@ def _report(prepared: Prepared, search: Search) -> MismatchReport:
         candidates=_candidates(search),
         series=_series(search),
     )
+
+
+def _unlike(search: Search, left: Remainder) -> bool:
+    """Whether the effects leave so much that something else, which resembles them, must be the cause."""
+    if not search.gates or left.statistic < settings.REMAINDER_LIMIT:
+        return False
+    evidence = max(g.frozen if catalogue()[g.name].own_inputs else g.gain for g in search.gates)
+    return left.nats > settings.UNLIKE * evidence
 
 
 def _exact(finding: Finding, prepared: Prepared) -> EffectReport:

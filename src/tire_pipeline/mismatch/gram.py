@@ -233,6 +233,18 @@ class System:
                 cut += parts.tolist()
         return errors, np.array(cut)
 
+    def fitted(self, residual: dict[str, Array], columns: dict[str, Array] | None = None) -> dict[str, Array]:
+        """Return the coefficients of the nuisance columns in a fit with the effects' columns."""
+        sums = self.sums(residual, columns)
+        info, score, _ = self.reduce(sums)
+        x = np.linalg.lstsq(info, score, rcond=1e-12)[0] if score.size else score
+        out = {}
+        for o in residual:
+            s = self.scale[o]
+            rest = sums.nr[o].sum(axis=0) - sums.ne[o].sum(axis=0) @ x
+            out[o] = cho_solve(self._chol[o], rest * s) * s
+        return out
+
     def left(self, residual: dict[str, Array], columns: dict[str, Array] | None = None) -> dict[str, Array]:
         """Return the whitened residual after nuisance and effects, in the order of time."""
         sums = self.sums(residual, columns)

@@ -109,7 +109,7 @@ def _series(data: Data, r: Array, parts: list[Array]) -> tuple[Array, float, flo
     good = np.all(np.isfinite(sizes), axis=0) & (d1 > 0.0)
     if good.sum() < 4:
         return np.full(r.size, max(float(np.std(np.diff(r))) / np.sqrt(2.0), 1e-9)), 0.0, 0.0
-    growth = np.array([np.quantile(s[good] / d1[good], 0.4) for s in sizes])
+    growth = np.array([np.median(s[good] / d1[good]) for s in sizes])
     share, rho = _colour(growth)
     per_variance = _expected(share, rho, 1)
     weight = np.ones(good.sum())
@@ -188,3 +188,40 @@ def _known(data: Data, name: str, slope: Array) -> Array:
     if "slip_angle_std" in data.channels:
         variance = variance + (slope * np.nan_to_num(data.get("slip_angle_std"))) ** 2
     return np.sqrt(variance)
+
+
+def refined(data: Data, noise: Noise, calm: Array) -> Noise:
+    """Take size and colour from the correlations of a residual that holds nothing but noise.
+
+    Parameters
+    ----------
+    data : Data
+    noise : Noise
+        The first estimate, whose dependence on the slopes is kept.
+    calm : ndarray, shape (n,)
+        A residual without what any model explains, N. If it is still correlated over 40 samples, it
+        holds more than noise and the first estimate stays.
+    """
+    if data.time is None or calm.size < 500:
+        return noise
+    x = calm / noise.sigma
+    spread = float(np.sqrt(np.median(x**2) / _MEDIAN_OF_CHI2))
+    x = np.clip(x, -4.0 * spread, 4.0 * spread)
+    variance = float(np.mean(x**2))
+    piece = np.cumsum(data.start)
+
+    def correlation(lag: int) -> float:
+        same = piece[lag:] == piece[:-lag]
+        return float(np.mean((x[lag:] * x[:-lag])[same])) / variance if same.any() else 0.0
+
+    if abs(correlation(40)) > 0.1:
+        return noise
+    lags = np.array([1, 2, 3, 4, 6, 8, 12])
+    seen = np.array([correlation(int(k)) for k in lags])
+    best = (float(np.sum(seen**2)), 0.0, 0.0)
+    for rho in np.linspace(0.2, 0.95, 26):
+        shape = rho**lags
+        share = float(np.clip(seen @ shape / (shape @ shape), 0.0, 1.0))
+        best = min(best, (float(np.sum((seen - share * shape) ** 2)), share, float(rho)))
+    scale = float(np.clip(np.sqrt(variance), 0.6, 1.7))
+    return Noise(noise.sigma * scale, best[1], best[2])

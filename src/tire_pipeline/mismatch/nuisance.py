@@ -185,7 +185,10 @@ def _slip_at_half(data: Data, force: str) -> float:
 def _gaussian_process(
     data: Data, name: str, here: dict[str, Array], grid: dict[str, Array]
 ) -> tuple[Array, Array]:
-    """Nystrom features of a squared-exponential kernel at inducing points spread over data and grid."""
+    """Nystrom features of a squared-exponential kernel at inducing points spread over data and grid.
+
+    The misfit is small where the force itself is nil: at zero slip (and zero camber), at small load.
+    """
     x, y = _coordinates(data, here), _coordinates(data, grid)
     pick = np.random.default_rng(0).permutation(data.size)[:3000]
     centres = _spread(np.vstack([x[pick], y]), 0.85, _MOST_POINTS)
@@ -195,10 +198,17 @@ def _gaussian_process(
     to_features = vectors[:, good] / np.sqrt(values[good])
     top = np.quantile(data.get("normal_load"), 0.99)
 
-    def features(at: Array, load: Array) -> Array:
-        return _kernel(at, centres) @ to_features * (0.25 + 0.75 * np.clip(load / top, 0.0, 1.2))[:, None]
+    slip, half = ("slip_angle" if name == "fy" else "slip_ratio"), _slip_at_half(data, name)
+    lean = max(float(np.quantile(np.abs(data.get("camber")), 0.99)), 0.01)
 
-    return features(x, here["normal_load"]), features(y, grid["normal_load"])
+    def features(at: Array, point: dict[str, Array]) -> Array:
+        size = 0.25 + 0.75 * np.clip(point["normal_load"] / top, 0.0, 1.2)
+        used = np.abs(point[slip]) / (np.abs(point[slip]) + 0.5 * half)
+        if name == "fy":
+            used = np.minimum(used + 0.3 * np.abs(point["camber"]) / lean * data.varies("camber"), 1.0)
+        return _kernel(at, centres) @ to_features * (size * np.maximum(used, 0.1))[:, None]
+
+    return features(x, here), features(y, grid)
 
 
 def _kernel(a: Array, b: Array) -> Array:

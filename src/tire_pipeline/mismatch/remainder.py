@@ -10,7 +10,7 @@ from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.locate import locate
 from tire_pipeline.mismatch.refit import residual
 from tire_pipeline.mismatch.report import Remainder
-from tire_pipeline.mismatch.search import Search
+from tire_pipeline.mismatch.search import Search, with_shapes
 
 Array = np.ndarray
 
@@ -18,16 +18,18 @@ Array = np.ndarray
 def remainder(search: Search) -> Remainder:
     """Measure what neither the effects nor a misfit of the usual size explains."""
     data, fit = search.data, search.fit
-    left = search.system.left(residual(data, fit.changes), fit.columns if fit.labels else None)
+    system = with_shapes(search, search.loose, fit.changes)
+    left = system.left(residual(data, fit.changes), fit.columns if fit.labels else None)
     statistic, nats = excess(search, left)
     size = {}
     for o in data.outputs:
         rms = float(np.sqrt(np.mean(residual(data, fit.changes)[o] ** 2)))
         size[o] = float(np.sqrt(max(rms**2 - search.noise[o].floor ** 2, 0.0)))
     share = max(size[o] / search.largest[o] for o in data.outputs)
-    significant = (
-        statistic > settings.REMAINDER_LIMIT and nats > settings.REMAINDER_NATS
-    ) or share > settings.REMAINDER_SHARE
+    stated = any(f"{o}_std" in data.channels for o in data.outputs)
+    above = not stated or any(size[o] > 0.5 * search.noise[o].floor for o in data.outputs)
+    much = statistic > settings.REMAINDER_LIMIT and nats > settings.REMAINDER_NATS
+    significant = (above and much) or share > settings.REMAINDER_SHARE
     plain = {o: left[o] * search.noise[o].sigma for o in data.outputs}
     located = locate(data, plain, search.noise, search.block) if significant else []
     form = sparse_form(search) if significant else ""

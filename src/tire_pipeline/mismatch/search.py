@@ -15,7 +15,7 @@ from tire_pipeline.mismatch.candidates import Variant, screening_columns, varian
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.gram import Sums, System
-from tire_pipeline.mismatch.noise import Noise, estimate_noise
+from tire_pipeline.mismatch.noise import Noise, estimate_noise, refined
 from tire_pipeline.mismatch.nuisance import largest_force, make_nuisance
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.simulate import Change, simulate
@@ -88,6 +88,9 @@ class Search:
     largest: dict[str, float]
     misfit: float
     fit: Fit
+    frozen: System = None  # type: ignore[assignment]
+    columns: dict[str, Array] = field(default_factory=dict)
+    sizes: dict[str, tuple[int, int]] = field(default_factory=dict)
     gates: list[Gates] = field(default_factory=list)
     screened: dict[str, float] = field(default_factory=dict)
     refused: dict[str, str] = field(default_factory=dict)
@@ -124,19 +127,38 @@ def begin(data: Data) -> Search:
 
 
 def _assemble(search: Search) -> None:
-    """Build the system at the likeliest size of the misfit, and the inflation of its noise."""
+    """Build the nuisance columns, and the system with noise estimated without what they explain."""
     data = search.data
     nuisance = make_nuisance(data)
-    columns = {o: np.hstack([nuisance.coefficients[o], nuisance.flexible[o]]) for o in data.outputs}
-    sizes = {o: (nuisance.coefficients[o].shape[1], nuisance.flexible[o].shape[1]) for o in data.outputs}
+    search.columns = {o: np.hstack([nuisance.coefficients[o], nuisance.flexible[o]]) for o in data.outputs}
+    search.sizes = {
+        o: (nuisance.coefficients[o].shape[1], nuisance.flexible[o].shape[1]) for o in data.outputs
+    }
+    _weigh(search)
+    renoise(search, search.fit)
 
-    def scale(share: float, factor: float = 1.0) -> dict[str, Array]:
-        move = factor * max(settings.COEFFICIENT_SHARE, settings.COEFFICIENT_PART * share)
-        return {o: np.r_[np.full(c, move), np.full(m, share)] for o, (c, m) in sizes.items()}
 
-    search.system = System(data, search.noise, search.block, columns, scale(settings.MISFIT_SHARES[0]))
-    search._scale = scale  # type: ignore[attr-defined]
+def _scale(search: Search, share: float, factor: float = 1.0) -> dict[str, Array]:
+    """Prior standard deviations of the nuisance columns for a size of the flexible form."""
+    move = factor * max(settings.COEFFICIENT_SHARE, settings.COEFFICIENT_PART * share)
+    return {o: np.r_[np.full(c, move), np.full(m, share)] for o, (c, m) in search.sizes.items()}
+
+
+def _weigh(search: Search) -> None:
+    """Whiten by the noise as it is known now."""
+    start = _scale(search, settings.MISFIT_SHARES[0])
+    search.system = System(search.data, search.noise, search.block, search.columns, start)
     rescale(search)
+
+
+def renoise(search: Search, fit: Fit) -> None:
+    """Estimate the noise again from what a fit and the nuisance leave: what they explain is not noise."""
+    rest = residual(search.data, fit.changes)
+    c = search.loose.fitted(rest, fit.columns if fit.labels else None)
+    calm = {o: r - search.columns[o] @ c[o] for o, r in rest.items()}
+    first = estimate_noise(search.data, calm)
+    search.noise = {o: refined(search.data, n, calm[o]) for o, n in first.items()}
+    _weigh(search)
 
 
 def rescale(search: Search) -> None:
@@ -145,14 +167,14 @@ def rescale(search: Search) -> None:
     sums = base.sums(residual(search.data, search.fit.changes))
     best = (-np.inf, settings.MISFIT_SHARES[0])
     for share in settings.MISFIT_SHARES:
-        trial = base.rescaled(search._scale(share))  # type: ignore[attr-defined]
+        trial = base.rescaled(_scale(search, share))
         _, _, left = trial.reduce(sums)
         value = -0.5 * left / search.inflation - 0.5 * trial.log_determinant()
         best = max(best, (value, share))
     search.misfit = best[1]
-    search.system = base.rescaled(search._scale(best[1]))  # type: ignore[attr-defined]
-    search.loose = base.rescaled(search._scale(max(best[1], 0.009), settings.LOOSE))  # type: ignore[attr-defined]
-    search.frozen = base.rescaled(search._scale(best[1], 1e-3))  # type: ignore[attr-defined]
+    search.system = base.rescaled(_scale(search, best[1]))
+    search.loose = base.rescaled(_scale(search, max(best[1], 0.009), settings.LOOSE))
+    search.frozen = base.rescaled(_scale(search, best[1], 1e-3))
     search.inflation = _inflation(search)
 
 
@@ -478,7 +500,7 @@ def _take(search: Search, fits: list[Fit]) -> bool:
     tied = [f for f in fits if gain_of(search, f, empty) > best - settings.TIE]
     tied.sort(key=lambda f: (_rank(f), objective(search.frozen, f.changes)))
     tried = 0
-    for fit in [*tied, *(f for f in fits if f not in tied)]:
+    for fit in [*tied, *(f for f in fits if all(f is not t for t in tied))]:
         if gain_of(search, fit, empty) < 0.75 * best - settings.TIE or tried >= 4:
             break
         tried += 1

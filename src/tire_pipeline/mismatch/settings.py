@@ -48,3 +48,7 @@ that is worth so many nats; or if it is larger than the next share of the larges
 fitted formula's own misfit."""
 
 REMAINDER_SHARE = 0.025
+
+UNLIKE = 0.2
+"""If what is left is worth more than this part of the evidence for the named effects, they only resemble the
+cause, and nothing is named (backlash must not become a delay)."""

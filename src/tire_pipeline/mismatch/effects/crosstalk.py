@@ -13,6 +13,7 @@ class Crosstalk(Effect):
     title = "crosstalk between force channels"
     equation = "Fy recorded = Fy + into_fy Fx; Fx recorded = Fx + into_fx Fy"
     source = "six-component load cell: off-diagonal terms of the calibration matrix"
+    own_inputs = True
     parameters = (
         Parameter("into_fy", "1", -0.5, 0.5, 0.005, output="fy"),
         Parameter("into_fx", "1", -0.5, 0.5, 0.005, output="fx"),

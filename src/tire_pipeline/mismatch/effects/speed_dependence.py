@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
@@ -11,12 +13,13 @@ class SpeedDependence(Effect):
 
     name = "speed_dependence"
     title = "speed"
-    equation = "d = (v - v0) / v0; friction *= 1 + friction d; stiffness *= 1 + stiffness d"
+    equation = "d = ln(v / v0), or (v - v0) / v0 where `linear` is 1; friction *= 1 + friction d; stiffness *= 1 + stiffness d"
     source = "MF 6.1: LMUV (mu / (1 + LMUV Vs / V0)); Savkoor 1966 on friction and sliding speed"
     channels = ("speed",)
     parameters = (
         Parameter("friction", "1", -0.5, 0.5, 0.01),
         Parameter("stiffness", "1", -0.5, 0.5, 0.01),
+        Parameter("linear", "0 or 1", 0.0, 1.0, 0.1),
     )
     looks_like = {
         "temperature": "temperature lags behind a change of speed",
@@ -25,8 +28,19 @@ class SpeedDependence(Effect):
     experiment = "the same sweep at three speeds, with pauses to cool"
     order = 40
 
+    def starts(self, data: object) -> list[dict[str, float]]:
+        """Return the logarithmic and the linear form."""
+        zero = self.zeros(data)
+        return [zero, {**zero, "linear": 1.0}]
+
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """Return friction and stiffness; the form is one of the two."""
+        return ("friction", "stiffness")
+
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale friction and stiffness with speed."""
         d = data.speed_excess  # type: ignore[attr-defined]
+        if p["linear"] < 0.5:
+            d = np.log(np.maximum(1.0 + d, 0.02))
         state.log_friction = state.log_friction + safe_log1p(p["friction"] * d)
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * d)
