@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
 from typing import TypeVar
 
 from rich.console import Console
@@ -22,7 +22,7 @@ _SHOW_AFTER_SECONDS = 2.0
 _LINE_EVERY_SECONDS = 10.0
 
 
-def track(items: Iterable[T], what: str, total: int | None = None) -> Iterator[T]:
+def track(items: Iterable[T], what: str, total: int | None = None) -> Generator[T, None, None]:
     """Yield the items and show progress, with a rate and the time left, once two seconds have passed.
 
     On a terminal it is a bar on standard error; elsewhere (a log, CI) one line every ten seconds.

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.progress import track
+
 from .formula import (
     ALIGNING,
     LATERAL,
@@ -94,7 +96,7 @@ def fit_all(tasks: list[FitTask], threads: int) -> list[pd.DataFrame]:
             chunks.append(task.chunk(slice(first, first + CHUNK)))
             owner.append(number)
     with ThreadPoolExecutor(threads) as pool:
-        done = list(pool.map(fit_chunk, chunks))
+        done = list(track(pool.map(fit_chunk, chunks), "fitting the fleet", total=len(chunks)))
     columns = [*LATERAL, *LONGITUDINAL, *ALIGNING, "FNOMIN"]
     tables = []
     for number in range(len(tasks)):

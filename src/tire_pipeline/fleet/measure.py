@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.progress import track
+
 from .fits import FitTask, fit_all
 from .habits import habit_of
 from .plan import Plan
@@ -50,7 +52,8 @@ def measure_all(plan: Plan, settings: FleetSettings, rng: np.random.Generator) -
     tires = thermal_parameters(plan.tires, INTERACTION[settings.kind])
     freeze = pd.Series(rng.random(len(tires)), index=tires.index)
     tasks, indices = [], []
-    for key, regime in regimes_of(plan, settings).items():
+    regimes = regimes_of(plan, settings)
+    for key, regime in track(regimes.items(), "measuring the fleet", total=len(regimes)):
         rows = plan.measurements[plan.measurements["regime"] == key]
         for _, batch in rows.groupby(np.arange(len(rows)) // 400):
             tasks.append(_task(batch, plan, tires, freeze, regime, rng))

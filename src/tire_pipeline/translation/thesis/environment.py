@@ -37,7 +37,7 @@ class TranslationEnv(gymnasium.Env[np.ndarray, np.int64]):
     ``options={"row": i}`` to start at a tire of one's choice.
     """
 
-    metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012 (gymnasium's own attribute)
+    metadata: dict[str, Any] = {"render_modes": []}
 
     def __init__(self, starts: np.ndarray, score: Score, rules: Rules) -> None:
         self.starts = np.asarray(starts, dtype=np.int64)
