@@ -119,9 +119,12 @@ def oracle(judge: Judge, translator: PairedMixedModel) -> pd.DataFrame:
     return translator._decode(rows, replace(found, target=found.source + moved))
 
 
-def measure_fleet(kind: str, size: float, seed: int, names: tuple[str, ...]) -> pd.DataFrame:
+def measure_fleet(
+    kind: str, size: float, seed: int, names: tuple[str, ...], sets: tuple[str, ...]
+) -> pd.DataFrame:
     """Measure every translator on one fleet."""
-    fleet = make_fleet(FleetSettings(seed=seed, kind=kind, bias_size=size, threads=1))
+    tuning = 100 if "tuning" in sets else 1
+    fleet = make_fleet(FleetSettings(seed=seed, kind=kind, bias_size=size, threads=1, tuning_tires=tuning))
     target = fleet.settings.target
     kept, _ = dedupe_and_filter(read_all(fleet.files), features=LATERAL_WITHOUT_CAMBER)
     training = normalize_table(kept, 6000.0)
@@ -131,7 +134,7 @@ def measure_fleet(kind: str, size: float, seed: int, names: tuple[str, ...]) -> 
     ]
     inputs = read_all({k: v for k, v in fleet.evaluation.items() if not k.startswith("four")})
     judges = {}
-    for name in ("tuning", "hidden"):
+    for name in sets:
         part = [
             normalize_table(t[t["file"].str.startswith(name)].reset_index(drop=True), 6000.0)
             for t in (inputs, *truth)
@@ -168,9 +171,12 @@ def measure_fleet(kind: str, size: float, seed: int, names: tuple[str, ...]) -> 
                 }
             )
         if name == "paired_mixed_model":
-            judge = judges["hidden"]
-            rows.append({"set": "hidden", "translator": "floor", **judge.measure(judge.second)})
-            rows.append({"set": "hidden", "translator": "oracle", **judge.measure(oracle(judge, translator))})
+            if "hidden" in judges:
+                judge = judges["hidden"]
+                rows.append({"set": "hidden", "translator": "floor", **judge.measure(judge.second)})
+                rows.append(
+                    {"set": "hidden", "translator": "oracle", **judge.measure(oracle(judge, translator))}
+                )
     return pd.DataFrame(rows).assign(kind=kind, bias_size=size, seed=seed)
 
 
@@ -179,6 +185,8 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
     parser.add_argument("--kinds", nargs="+", default=["additive", "interacting", "drifting"])
     parser.add_argument("--sizes", type=float, nargs="+", default=[1.0, 0.3, 0.6, 0.0])
+    parser.add_argument("--sets", nargs="+", choices=["tuning", "hidden"], default=["tuning", "hidden"])
+    parser.add_argument("--names", nargs="+", help="translators, instead of all")
     parser.add_argument("--results", type=Path, default=RESULTS)
     asked = parser.parse_args()
     asked.results.parent.mkdir(parents=True, exist_ok=True)
@@ -191,8 +199,9 @@ def main() -> None:
                 if len(done) and ((done.kind == kind) & (done.bias_size == size) & (done.seed == seed)).any():
                     continue
                 started = time.perf_counter()
-                names = (*ALWAYS, *AT_CALIBRATED) if size == 1.0 and kind == "additive" else ALWAYS
-                found = measure_fleet(kind, size, seed, names)
+                every = (*ALWAYS, *AT_CALIBRATED) if size == 1.0 and kind == "additive" else ALWAYS
+                names = tuple(asked.names or every)
+                found = measure_fleet(kind, size, seed, names, tuple(asked.sets))
                 pd.concat([done, found], ignore_index=True).to_csv(asked.results, index=False)
                 print(kind, size, seed, f"{time.perf_counter() - started:.0f} s", file=sys.stderr, flush=True)
 

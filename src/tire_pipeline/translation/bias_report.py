@@ -1,0 +1,152 @@
+"""What is learned about the data: how each actor's measurements differ from each other's, with intervals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.translation.curve_features import GROUPS, LOADS
+from tire_pipeline.translation.curve_mixed import CurveMixedModel
+from tire_pipeline.translation.curve_space import PARTS, UNIT
+from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel
+
+QUANTILE = 1.6449
+_KEY_PARTS = ("cornering stiffness", "lateral friction", "slip stiffness", "longitudinal friction")
+_MOST_TIRES = 25
+
+
+@dataclass(frozen=True)
+class BiasReport:
+    """Bias between pairs of actors.
+
+    Attributes
+    ----------
+    by_region : DataFrame
+        ``actor``, ``reference``, ``output``, ``region``, ``unit``, ``bias``, ``low``, ``high`` (90% interval), ``clear``
+        (the interval leaves out 0). Bias is ``actor`` less ``reference`` at the mean tire: a share for
+        logarithmic features (0.05: 5% more), else in the feature's own unit.
+    by_metadata : DataFrame
+        ``actor``, ``reference``, ``what``, ``metadata``, ``bias``, ``low``, ``high``, ``clear``: by how much the bias of
+        ``what`` (mean over the loads) grows with one standard deviation of the metadata.
+    by_coefficient : DataFrame
+        ``actor``, ``reference``, ``coefficient``, ``bias``, ``low``, ``high``: mean change of the coefficient when
+        tires of ``reference`` are translated to ``actor``, and the range that 90% of the tires lie in.
+    """
+
+    by_region: pd.DataFrame
+    by_metadata: pd.DataFrame
+    by_coefficient: pd.DataFrame
+
+
+def bias_report(translator: MixedModel, training: pd.DataFrame, *, coefficients: bool = True) -> BiasReport:
+    """Report the bias of every pair of actors.
+
+    Parameters
+    ----------
+    translator : MixedModel
+        Fitted; with pairs or without.
+    training : DataFrame
+        What it was fitted to.
+    coefficients : bool
+        Also translate some tires of each pair for ``by_coefficient``, which takes a second a pair.
+
+    Returns
+    -------
+    BiasReport
+    """
+    model = translator.model
+    pairs = list(combinations(model.categories, 2))
+    regions = [_regions(model, actor, reference) for reference, actor in pairs]
+    slopes = [_slopes(model, actor, reference) for reference, actor in pairs]
+    moved = [_moved(translator, training, actor, reference) for reference, actor in pairs] if coefficients else []
+    return BiasReport(*(pd.concat(part, ignore_index=True) if part else pd.DataFrame() for part in (regions, slopes, moved)))
+
+
+def _columns_of(model: CurveMixedModel, block: str) -> slice:
+    """Where a block's weights stand."""
+    d, sizes, actors = len(model.metadata.names), len(model.metadata.sizes), len(model.categories)
+    starts = {"category": 1 + d + sizes, "category_metadata": 1 + d + sizes + actors}
+    widths = {"category": actors, "category_metadata": actors * d}
+    return slice(starts[block], starts[block] + widths[block])
+
+
+def _difference(model: CurveMixedModel, contrast: np.ndarray, place: slice) -> tuple[np.ndarray, np.ndarray]:
+    """Mean and variance, for each score, of a weighted sum of weights."""
+    weights = [fitted.mean[place] @ contrast for fitted in model.fitted]
+    variances = [contrast @ fitted.covariance[place, place] @ contrast for fitted in model.fitted]
+    return np.array(weights) * model.scale, np.array(variances) * model.scale**2
+
+
+def _contrast(model: CurveMixedModel, actor: str, reference: str) -> np.ndarray:
+    names = np.array(model.categories)
+    return (names == actor).astype(float) - (names == reference).astype(float)
+
+
+def _regions(model: CurveMixedModel, actor: str, reference: str) -> pd.DataFrame:
+    mean, variance = _difference(model, _contrast(model, actor, reference), _columns_of(model, "category"))
+    rows = []
+    names = {group.name: np.array(group.names) for group in GROUPS}
+    for part, place in model.space.slices.items():
+        group = PARTS[part].group
+        back = model.space.back[part] * UNIT[group]
+        bias = mean[place] @ back
+        half = QUANTILE * np.sqrt(variance[place] @ back**2)
+        labels = names[group][PARTS[part].columns]
+        for label, middle, width in zip(labels, bias, half, strict=True):
+            share = label.startswith("ln ")
+            ends = (middle - width, middle, middle + width)
+            low, value, high = (np.expm1(e) if share else e for e in ends)
+            rows.append((actor, reference, group, label.removeprefix("ln "), "share" if share else "feature", value, low, high))
+    table = pd.DataFrame(
+        rows, columns=["actor", "reference", "output", "region", "unit", "bias", "low", "high"]
+    )
+    return table.assign(clear=(table["low"] > 0.0) | (table["high"] < 0.0))
+
+
+def _slopes(model: CurveMixedModel, actor: str, reference: str) -> pd.DataFrame:
+    rows = []
+    contrast = _contrast(model, actor, reference)
+    for k, name in enumerate(model.metadata.names):
+        one = np.zeros((len(model.categories), len(model.metadata.names)))
+        one[:, k] = contrast
+        mean, variance = _difference(model, one.ravel(), _columns_of(model, "category_metadata"))
+        for part in _KEY_PARTS:
+            place = model.space.slices[part]
+            along = model.space.back[part].mean(axis=1) * UNIT[PARTS[part].group]
+            value, half = mean[place] @ along, QUANTILE * np.sqrt(variance[place] @ along**2)
+            rows.append((actor, reference, part, name, value, value - half, value + half))
+    table = pd.DataFrame(rows, columns=["actor", "reference", "what", "metadata", "bias", "low", "high"])
+    return table.assign(clear=(table["low"] > 0.0) | (table["high"] < 0.0))
+
+
+def _moved(translator: MixedModel, training: pd.DataFrame, actor: str, reference: str) -> pd.DataFrame:
+    tires = training.loc[training["category"] == reference].drop_duplicates("tire_id").head(_MOST_TIRES)
+    before_target, before_gate = translator.target, translator.gate
+    translator.target, translator.gate = actor, False
+    try:
+        translated = translator.translate(tires.reset_index(drop=True))
+    finally:
+        translator.target, translator.gate = before_target, before_gate
+    change = translated[list(COEFFICIENTS)].to_numpy(float) - tires[list(COEFFICIENTS)].to_numpy(float)
+    low, high = np.nanquantile(change, [0.05, 0.95], axis=0)
+    return pd.DataFrame(
+        {
+            "actor": actor,
+            "reference": reference,
+            "coefficient": COEFFICIENTS,
+            "bias": np.nanmean(change, axis=0),
+            "low": low,
+            "high": high,
+        }
+    )
+
+
+def at_each_load(report: BiasReport, region: str) -> pd.DataFrame:
+    """Take one property (``"cornering stiffness"``, ``"friction level"``) out of ``by_region``, with ``normal_load`` in N."""
+    own = report.by_region[report.by_region["region"].str.match(rf"{region}, \d+ N")].copy()
+    own["normal_load"] = own["region"].str.extract(r"(\d+) N")[0].astype(float)
+    assert own["normal_load"].isin(LOADS).all()
+    return own

@@ -1,0 +1,227 @@
+"""Translators on a small fleet with a known truth."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from tire_pipeline.errors import DomainError
+from tire_pipeline.evaluation import evaluate_translations
+from tire_pipeline.fleet import FleetSettings, make_fleet
+from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
+from tire_pipeline.tir import read_tir
+from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
+from tire_pipeline.translation.base import make_translator, translator_from_state
+from tire_pipeline.translation.bias_report import at_each_load, bias_report
+from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel, PairedMixedModel
+from tire_pipeline.translation.cycle_consistent import CycleConsistent
+from tire_pipeline.translation.greedy_forest import GreedyForest
+from tire_pipeline.translation.leave_one_out import leave_one_tire_out
+from tire_pipeline.translation.likelihood_agent import CuriousAgent, LikelihoodAgent
+from tire_pipeline.translation.physics import SYMMETRY, violations
+from tire_pipeline.translation.result import REFUSED, TRANSLATED, UNBIASED, comment_lines, write_translated
+
+
+def _table(files):
+    models = ((path, path.split("/")[-2], read_tir(text.encode("latin-1"))) for path, text in files.items())
+    return from_models(models)
+
+
+@pytest.fixture(scope="module")
+def fleet():
+    return make_fleet(FleetSettings(seed=77, files=700, tuning_tires=1, hidden_tires=12))
+
+
+@pytest.fixture(scope="module")
+def training(fleet):
+    kept, _ = dedupe_and_filter(_table(fleet.files), features=LATERAL_WITHOUT_CAMBER)
+    return normalize_table(kept, 6000.0)
+
+
+@pytest.fixture(scope="module")
+def hidden(fleet):
+    own = {k: v for k, v in fleet.evaluation.items() if k.startswith("hidden")}
+    return normalize_table(_table(own), 6000.0)
+
+
+@pytest.fixture(scope="module")
+def truth(fleet, hidden):
+    own = {k: v for k, v in fleet.truth.first.items() if k.startswith("hidden/D")}
+    table = normalize_table(_table(own), 6000.0)
+    names = hidden["file"].str.split("/").str[-1]
+    return table.set_index(table["file"].str.split("/").str[-1]).loc[names].reset_index(drop=True)
+
+
+@pytest.fixture(scope="module")
+def mixed(training):
+    return MixedModel().fit(training, target="D", seed=0)
+
+
+@pytest.fixture(scope="module")
+def paired(training):
+    return PairedMixedModel().fit(training, target="D", seed=0)
+
+
+@pytest.mark.parametrize("name", ["mixed", "paired"])
+def test_translations_are_nearer_to_what_the_target_measured(name, request, hidden, truth):
+    translator = request.getfixturevalue(name)
+    summary = evaluate_translations(translator.translate(hidden), hidden, truth, lateral_only=True).summary
+    assert summary.loc["forces", "ratio"] < 0.5
+    assert summary.loc["mean", "improved"] > 0.75
+
+
+def test_only_p_and_q_coefficients_change(paired, hidden):
+    translated = paired.translate(hidden)
+    same = [name for name in hidden.columns if name not in COEFFICIENTS]
+    pd.testing.assert_frame_equal(translated[same], hidden[same])
+    assert (translated[list(COEFFICIENTS)] != hidden[list(COEFFICIENTS)]).any(axis=None)
+
+
+def test_the_same_again_and_after_a_round_trip(paired, training, hidden):
+    first = paired.translate(hidden)
+    again = PairedMixedModel().fit(training, target="D", seed=0).translate(hidden)
+    back = translator_from_state(paired.to_state()).translate(hidden)
+    pd.testing.assert_frame_equal(first, again, check_exact=True)
+    pd.testing.assert_frame_equal(first, back, check_exact=True)
+
+
+def test_a_file_is_translated_alike_alone_and_among_others(mixed, hidden):
+    all_at_once = mixed.translate(hidden)
+    one = mixed.translate(hidden.iloc[[7]])
+    np.testing.assert_allclose(
+        one[list(COEFFICIENTS)].to_numpy(float),
+        all_at_once.iloc[[7]][list(COEFFICIENTS)].to_numpy(float),
+        rtol=1e-6,
+    )
+
+
+def test_shuffling_the_truth_changes_no_translated_file(fleet, training, hidden):
+    before = MixedModel().fit(training, target="D", seed=0).translate(hidden)
+    keys = list(fleet.truth.first)
+    values = [fleet.truth.first[key] for key in keys]
+    rng = np.random.default_rng(0)
+    shuffled = [values[i] for i in rng.permutation(len(values))]
+    assert shuffled != values
+    try:
+        fleet.truth.first.update(zip(keys, shuffled, strict=True))
+        own = {k: v for k, v in fleet.evaluation.items() if k.startswith("hidden")}
+        again_hidden = normalize_table(_table(own), 6000.0)
+        kept, _ = dedupe_and_filter(_table(fleet.files), features=LATERAL_WITHOUT_CAMBER)
+        again = MixedModel().fit(normalize_table(kept, 6000.0), target="D", seed=0).translate(again_hidden)
+    finally:
+        fleet.truth.first.update(zip(keys, values, strict=True))
+    assert before[list(COEFFICIENTS)].to_numpy().tobytes() == again[list(COEFFICIENTS)].to_numpy().tobytes()
+
+
+def test_translated_tires_are_physical(paired, hidden):
+    result = paired.translation(hidden)
+    moved = (result.report["verdict"] == TRANSLATED).to_numpy()
+    broken = violations(result.table[moved]) & ~violations(hidden[moved])
+    assert not broken.any(axis=None)
+
+
+def test_a_symmetric_source_stays_symmetric(paired, hidden):
+    source = hidden.head(6).copy()
+    for names in SYMMETRY.values():
+        source[list(names)] = 0.0
+    result = paired.translation(source, bands=False)
+    for names in SYMMETRY.values():
+        assert (result.table[list(names)] == 0.0).all(axis=None)
+
+
+def test_verdicts(paired, hidden):
+    rows = hidden.head(5).copy()
+    rows["category"] = rows["category"].astype(object)
+    rows.iloc[1, rows.columns.get_loc("category")] = "nobody"
+    rows.iloc[2, rows.columns.get_loc("category")] = "D"
+    rows.iloc[3, rows.columns.get_loc("PKY1")] *= 3.0
+    rows.iloc[4, rows.columns.get_loc("PDY1")] = np.nan
+    result = paired.translation(rows)
+    assert list(result.report["verdict"]) == [TRANSLATED, REFUSED, UNBIASED, REFUSED, REFUSED]
+    assert "outside of what D has measured" in result.report["reason"].iloc[3]
+    unchanged = [1, 2, 3, 4]
+    pd.testing.assert_frame_equal(result.table.iloc[unchanged], rows.iloc[unchanged])
+
+
+def test_bands_hold_the_translated_curve(paired, hidden):
+    result = paired.translation(hidden)
+    for band in result.bands.values():
+        assert band.middle.shape == (len(hidden), band.normal_load.size, band.slip.size)
+        known = np.isfinite(band.low)
+        assert (band.low[known] < band.middle[known]).all()
+        assert (band.middle[known] < band.high[known]).all()
+
+
+def test_what_moved_is_said_in_words_and_comments(paired, hidden, fleet):
+    result = paired.translation(hidden, bands=False)
+    assert "cornering stiffness" in " ".join(result.report["changes"])
+    model = read_tir(fleet.evaluation[hidden["file"].iloc[0]].encode("latin-1"))
+    written, comments = write_translated(model.nominal_load_changed(6000.0), result, 0, COEFFICIENTS)
+    assert written.coefficients["PDY1"] == result.table["PDY1"].iloc[0]
+    text = "\n".join(comments)
+    for word in (
+        "-> D",
+        "method: paired_mixed_model",
+        "hash: ",
+        "verdict: translated",
+        hidden["file"].iloc[0],
+    ):
+        assert word in text
+    assert comment_lines(result, 1, COEFFICIENTS)[-1] != comments[-1] or len(comments) > 7
+
+
+def test_bias_report_has_intervals_for_every_pair(paired, training):
+    report = bias_report(paired, training, coefficients=False)
+    assert set(zip(report.by_region["actor"], report.by_region["reference"], strict=True)) >= {
+        ("D", "A"),
+        ("E", "D"),
+    }
+    for table in (report.by_region, report.by_metadata):
+        assert (table["low"] <= table["bias"]).all()
+        assert (table["bias"] <= table["high"]).all()
+    stiffness = at_each_load(report, "cornering stiffness")
+    assert set(stiffness["normal_load"]) == {2000.0, 4000.0, 6000.0, 8000.0}
+
+
+def test_leaving_one_tire_out(training, paired):
+    left = leave_one_tire_out(training, "D", pairs=True, model=paired.model)
+    assert left["tire_id"].nunique() >= 4
+    assert left["error"].sum() < left["error_unchanged"].sum()
+
+
+def test_agents_learn_and_come_back(training, hidden):
+    agent = LikelihoodAgent(updates=12).fit(training, target="D", seed=3)
+    again = LikelihoodAgent(updates=12).fit(training, target="D", seed=3)
+    pd.testing.assert_frame_equal(agent.translate(hidden), again.translate(hidden), check_exact=True)
+    back = translator_from_state(agent.to_state())
+    pd.testing.assert_frame_equal(agent.translate(hidden), back.translate(hidden), check_exact=True)
+    curious = CuriousAgent(updates=2).fit(training, target="D", seed=3)
+    assert not curious.translate(hidden).equals(agent.translate(hidden))
+
+
+def test_cycle_consistent_networks_move_tires_and_come_back(training, hidden):
+    found = CycleConsistent(rounds=30).fit(training, target="D", seed=1)
+    translated = found.translate(hidden)
+    assert not translated.equals(hidden)
+    pd.testing.assert_frame_equal(translated, translator_from_state(found.to_state()).translate(hidden))
+
+
+def test_greedy_forest_raises_the_probability(training, hidden):
+    found = GreedyForest().fit(training, target="D", seed=1)
+    translated = found.translate(hidden)
+    names = list(LATERAL_WITHOUT_CAMBER)
+    before, after = (found.probability(t[names].to_numpy(float)) for t in (hidden, translated))
+    assert (after >= before).all()
+    assert after.mean() > before.mean() + 0.1
+    pd.testing.assert_frame_equal(translated, translator_from_state(found.to_state()).translate(hidden))
+
+
+@pytest.mark.parametrize("name", ["no_change", "mixed_model", "greedy_forest"])
+def test_impossible_targets_are_named(name, training):
+    with pytest.raises(DomainError, match="target category 'Z'"):
+        make_translator(name).fit(training, target="Z", seed=0)
+
+
+def test_doing_nothing_gives_a_copy(training, hidden):
+    found = make_translator("no_change").fit(training, target="D", seed=0)
+    assert found.translate(hidden) is not hidden
+    pd.testing.assert_frame_equal(found.translate(hidden), hidden)
