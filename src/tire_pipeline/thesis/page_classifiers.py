@@ -101,15 +101,15 @@ def _ann(results: Results) -> list[Part]:
 
 
 def _tuning_words(frame: pd.DataFrame, thesis: pd.DataFrame, most: int) -> list[str]:
-    lines = [f"{len(frame) // 2:,} combinations were tried on folds of each kind."]
+    lines = []
     for split in SPLITS:
         own = frame[frame["split"] == split]
         top = own["accuracy"].max()
         gap = points(float(top), float(thesis["accuracy"].max()))
         near = int((own["accuracy"] >= top - 0.005).sum())
         lines.append(
-            f"Ours, {_folds(split)}: the best reaches {top:.3f}, {gap}; {near} combinations are within "
-            "half a percentage point of it."
+            f"Ours, {_folds(split)}: {len(own):,} combinations were tried; the best reaches {top:.3f}, "
+            f"{gap}; {near} are within half a percentage point of it."
         )
     return lines
 

@@ -48,7 +48,7 @@ class Results:
         agent_tires, learning, seconds, force_curves, load_curves``; columns as in
         ``classifier_experiments`` and ``agents``.
     facts : mapping
-        ``target, files, seeds, trainings, further_trainings, ann_grid, sets``.
+        ``target, files, seeds, trainings, further_trainings, sets``.
     """
 
     frames: Mapping[str, pd.DataFrame]

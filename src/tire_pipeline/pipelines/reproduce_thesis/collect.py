@@ -60,7 +60,6 @@ def collect(
         "seeds": list(parameters.agents.seeds),
         "trainings": parameters.trainings,
         "further_trainings": parameters.further_trainings,
-        "ann_grid": parameters.ann.grid,
         "sets": list(parameters.sets),
     }
     return Results(frames, facts)

@@ -77,7 +77,7 @@ def search_the_grid(
     found = together(searched)["ann"]
     work: Work = {}
     for split in SPLITS:
-        if parameters.ann.grid == "narrowed":
+        if split not in parameters.ann.whole_grid:
             own = found[found["split"] == split]
             combinations = ann_combinations(experiments.kept_values(own, best=parameters.ann.best))
         else:
