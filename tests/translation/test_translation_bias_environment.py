@@ -58,7 +58,8 @@ def test_the_batch_plays_by_the_same_rules():
         np.testing.assert_allclose(reward, rewards[step][2], rtol=1e-4, atol=1e-5)
     assert over
     np.testing.assert_allclose(last, infos[2]["terminal_observation"], rtol=1e-6)
-    assert REACH > 0 and seen.shape == (6, situation.observation_size)
+    assert REACH > 0
+    assert seen.shape == (6, situation.observation_size)
 
 
 def test_what_was_seen_often_is_no_longer_strange():

@@ -13,6 +13,7 @@ from tire_pipeline.translation.mixed_effects import Design, _Marginal, fit_mixed
 from tire_pipeline.translation.physics import violations
 
 FULL = DATASETS["full"]
+# ruff: noqa: E501
 TIRE = {
     "FNOMIN": 6000.0, "UNLOADED_RADIUS": 0.33,
     "PCX1": 1.6, "PDX1": 1.1, "PDX2": -0.1, "PDX3": 0.4, "PEX1": 0.2, "PEX2": 0.1, "PEX3": -0.05, "PEX4": 0.02,

@@ -61,7 +61,9 @@ def bias_beside_truth(by_region: pd.DataFrame, measured: pd.DataFrame) -> pd.Dat
     return both.assign(inside=(both["true_bias"] >= both["low"]) & (both["true_bias"] <= both["high"]))
 
 
-def regime_differences(regimes: Mapping[str, Mapping[str, float]], actor: str, reference: str) -> pd.DataFrame:
+def regime_differences(
+    regimes: Mapping[str, Mapping[str, float]], actor: str, reference: str
+) -> pd.DataFrame:
     """List what two actors' true protocols do differently (surface, temperature, drum, lag, ranges).
 
     Parameters

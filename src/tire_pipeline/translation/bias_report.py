@@ -25,14 +25,17 @@ class BiasReport:
     Attributes
     ----------
     by_region : DataFrame
-        ``actor``, ``reference``, ``output``, ``region``, ``unit``, ``bias``, ``low``, ``high`` (90% interval), ``clear``
+        ``actor``, ``reference``, ``output``, ``region``, ``unit``, ``bias``, ``low``, ``high`` (90%
+        interval), ``clear``
         (the interval leaves out 0). Bias is ``actor`` less ``reference`` at the mean tire: a share for
         logarithmic features (0.05: 5% more), else in the feature's own unit.
     by_metadata : DataFrame
-        ``actor``, ``reference``, ``what``, ``metadata``, ``bias``, ``low``, ``high``, ``clear``: by how much the bias of
+        ``actor``, ``reference``, ``what``, ``metadata``, ``bias``, ``low``, ``high``, ``clear``: by how much
+        the bias of
         ``what`` (mean over the loads) grows with one standard deviation of the metadata.
     by_coefficient : DataFrame
-        ``actor``, ``reference``, ``coefficient``, ``bias``, ``low``, ``high``: mean change of the coefficient when
+        ``actor``, ``reference``, ``coefficient``, ``bias``, ``low``, ``high``: mean change of the
+        coefficient when
         tires of ``reference`` are translated to ``actor``, and the range that 90% of the tires lie in.
     """
 
@@ -61,8 +64,9 @@ def bias_report(translator: MixedModel, training: pd.DataFrame, *, coefficients:
     pairs = list(combinations(model.categories, 2))
     regions = [_regions(model, actor, reference) for reference, actor in pairs]
     slopes = [_slopes(model, actor, reference) for reference, actor in pairs]
-    moved = [_moved(translator, training, actor, reference) for reference, actor in pairs] if coefficients else []
-    return BiasReport(*(pd.concat(part, ignore_index=True) if part else pd.DataFrame() for part in (regions, slopes, moved)))
+    moved = [_moved(translator, training, actor, reference) for reference, actor in pairs if coefficients]
+    parts = (regions, slopes, moved)
+    return BiasReport(*(pd.concat(p, ignore_index=True) if p else pd.DataFrame() for p in parts))
 
 
 def _columns_of(model: CurveMixedModel, block: str) -> slice:
@@ -99,7 +103,8 @@ def _regions(model: CurveMixedModel, actor: str, reference: str) -> pd.DataFrame
             share = label.startswith("ln ")
             ends = (middle - width, middle, middle + width)
             low, value, high = (np.expm1(e) if share else e for e in ends)
-            rows.append((actor, reference, group, label.removeprefix("ln "), "share" if share else "feature", value, low, high))
+            unit = "share" if share else "feature"
+            rows.append((actor, reference, group, label.removeprefix("ln "), unit, value, low, high))
     table = pd.DataFrame(
         rows, columns=["actor", "reference", "output", "region", "unit", "bias", "low", "high"]
     )
@@ -145,7 +150,7 @@ def _moved(translator: MixedModel, training: pd.DataFrame, actor: str, reference
 
 
 def at_each_load(report: BiasReport, region: str) -> pd.DataFrame:
-    """Take one property (``"cornering stiffness"``, ``"friction level"``) out of ``by_region``, with ``normal_load`` in N."""
+    """Take one property, such as ``"cornering stiffness"``, out of ``by_region``, with its load in N."""
     own = report.by_region[report.by_region["region"].str.match(rf"{region}, \d+ N")].copy()
     own["normal_load"] = own["region"].str.extract(r"(\d+) N")[0].astype(float)
     assert own["normal_load"].isin(LOADS).all()

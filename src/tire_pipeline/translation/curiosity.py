@@ -42,5 +42,6 @@ def _network(size: int, generator: torch.Generator) -> nn.Sequential:
     network = nn.Sequential(nn.Linear(size, 32), nn.ReLU(), nn.Linear(32, 16))
     with torch.no_grad():
         for weights in network.parameters():
-            weights.copy_(torch.randn(weights.shape, generator=generator) / np.sqrt(max(weights.shape[-1], 1)))
+            drawn = torch.randn(weights.shape, generator=generator)
+            weights.copy_(drawn / np.sqrt(max(weights.shape[-1], 1)))
     return network

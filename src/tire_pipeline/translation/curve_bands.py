@@ -49,7 +49,8 @@ def curve_bands(
 
     Notes
     -----
-    At a fixed slip, d ln F = d shape + (1 - eta) d level + eta d slope with eta = d ln F / d ln slip: linear in
+    At a fixed slip, d ln F = d shape + (1 - eta) d level + eta d slope with eta = d ln F / d ln slip: linear
+    in
     the features, and so in the independent scores.
     """
     p = columns(translated)

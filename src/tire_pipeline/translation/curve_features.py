@@ -1,6 +1,7 @@
 """Tires as points of their force curves: the space in which a measurement's bias is simple.
 
-A measurement's bias is a factor on friction (surface, temperature) or on slope (belt, drum, lag) far more than it
+A measurement's bias is a factor on friction (surface, temperature) or on slope (belt, drum, lag) far more
+than it
 is a step in a coefficient, and many different coefficients give nearly the same curve. By the similarity of
 tire curves (Pacejka, *Tire and Vehicle Dynamics*, section 4.2) such a factor moves one feature only, if
 the features are: the logarithms of stiffness and of friction level over the load, and the shape of the

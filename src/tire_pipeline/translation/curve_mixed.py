@@ -1,6 +1,7 @@
 """What a target would measure: a mixed model of curve scores, conditioned on the metadata.
 
-For every score: tire (metadata, size, what is its own) + category + category x metadata + category x kind of tire +
+For every score: tire (metadata, size, what is its own) + category + category x metadata + category x kind of
+tire +
 noise. The target's measurement of a tire is then predicted from the source's measurement of it: the source's
 score, moved by the difference of the categories' effects, and drawn a little towards what the metadata lets
 expect, by as much as the source is noise.
@@ -203,7 +204,7 @@ def _predict_score(
     trust: float,
     spread: tuple[np.ndarray, float],
 ) -> tuple[np.ndarray, ...]:
-    """Shift, its variance, prediction, its variance, surprise, expectation; all in units of the score's deviation."""
+    """Shift, its variance, prediction, its variance, surprise, expectation, in deviations of the score."""
     count = here.shape[1]
     weights, covariance = fitted.mean[:count], fitted.covariance[:count, :count]
     at_source, at_target = here @ weights, there @ weights
@@ -331,9 +332,7 @@ def _alone_share(space: CurveSpace, k: int) -> float:
     return next((share for word, share in TIRE_CATEGORY_SHARE.items() if word in part), _OTHER_SHARE)
 
 
-def _fit_scores(
-    design: Design, cells: Cells, space: CurveSpace, scale: np.ndarray
-) -> tuple[Fitted, ...]:
+def _fit_scores(design: Design, cells: Cells, space: CurveSpace, scale: np.ndarray) -> tuple[Fitted, ...]:
     """Fit every score twice: the second time the size of the bias is expected as it was found in all of them.
 
     Six categories tell little about the variance of their effects on one score; all scores together do.
@@ -341,15 +340,13 @@ def _fit_scores(
     first = [_fit_score(design, cells, space, scale, k, GUESS) for k in range(scale.size)]
     noise = space.noise / scale**2
     common = {
-        name: float(np.exp(np.mean([np.log(f.variances[name] / n) for f, n in zip(first, noise, strict=True)])))
+        name: float(np.exp(np.mean(np.log(np.array([f.variances[name] for f in first]) / noise))))
         for name in _POOLED
         if name in first[0].variances
     }
+    guesses = [{**GUESS, **{name: common[name] * one for name in common}} for one in noise]
     return tuple(
-        _fit_score(
-            design, cells, space, scale, k, {**GUESS, **{name: common[name] * noise[k] for name in common}}, tuple(common)
-        )
-        for k in range(scale.size)
+        _fit_score(design, cells, space, scale, k, guess, tuple(common)) for k, guess in enumerate(guesses)
     )
 
 

@@ -1,7 +1,9 @@
 """A few numbers that say how a tire's curves differ from others', in units of measurement noise.
 
-Principal components of the curve features of one part, turned so that noise (files of one tire in one category)
-and what is a tire's own beyond its metadata are both uncorrelated: then each component can be modelled on its own.
+Principal components of the curve features of one part, turned so that noise (files of one tire in one
+category)
+and what is a tire's own beyond its metadata are both uncorrelated: then each component can be modelled on
+its own.
 """
 
 from __future__ import annotations
@@ -57,7 +59,7 @@ PARTS: dict[str, Part] = {
     "longitudinal shape": Part("longitudinal", _LOADS[2], 6),
     "aligning torque": Part("aligning", slice(None), 10),
 }
-"""Stiffness, friction and shape apart: mechanisms act on one of them, and chance differs from one to the other."""
+"""Stiffness, friction and shape apart: a mechanism acts on one of them, and so does chance."""
 
 
 @dataclass(frozen=True)
@@ -273,7 +275,7 @@ def _robust_location(scores: np.ndarray, cell: np.ndarray) -> np.ndarray:
 
 
 def _noise_covariance(apart: np.ndarray, cell: np.ndarray) -> np.ndarray | None:
-    """Covariance of one file about its cell, worn tires and other odd files left out; None if too few repeat."""
+    """Covariance of one file about its cell without worn and odd ones; None if too few repeat."""
     count = np.bincount(cell)
     several = count[cell] >= 4
     if several.sum() < 10 * apart.shape[1]:

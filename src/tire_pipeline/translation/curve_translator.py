@@ -169,7 +169,7 @@ class MixedModel:
 
     def _empty_report(self, source: pd.DataFrame, refused: np.ndarray) -> pd.DataFrame:
         own = refused == "it is the target's own"
-        probability = source["category_probability"] if "category_probability" in source else 1.0
+        probability = source.get("category_probability", 1.0)
         return pd.DataFrame(
             {
                 "file": source["file"] if "file" in source else source.index.astype(str),
@@ -269,7 +269,6 @@ class MixedModel:
         translator.model = CurveMixedModel.from_state(state)
         return translator
 
-
     @classmethod
     def _with_options(cls, state: Mapping[str, Any]) -> Self:
         return cls(
@@ -287,7 +286,8 @@ class PairedMixedModel(MixedModel):
 
 
 def cautious(model: CurveMixedModel, found: Prediction) -> Prediction:
-    """Shorten the move of each part by how uncertain it is: positive-part shrinkage (Stein) towards no change.
+    """Shorten the move of each part by how uncertain it is: positive-part shrinkage (Stein) towards no
+    change.
 
     The shrinkage of the mixed model rests on variances that six categories tell little about; this one takes
     each file's move and the variance of its estimate.
@@ -326,7 +326,8 @@ def without_failed_fits(model: CurveMixedModel, found: Prediction) -> Prediction
 
 
 def expected_gain(model: CurveMixedModel, found: Prediction) -> tuple[np.ndarray, np.ndarray]:
-    """Expected squared error of the translation over that of no change, and the probability that it is larger.
+    """Expected squared error of the translation over that of no change, and the probability that it is
+    larger.
 
     Parameters
     ----------

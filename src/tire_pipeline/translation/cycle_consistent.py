@@ -90,7 +90,9 @@ class CycleConsistent(MixedModel):
     @classmethod
     def _with_options(cls, state: Mapping[str, Any]) -> Self:
         return cls(
-            rounds=int(state["option_rounds"]), gate=bool(state["option_gate"]), pairs=bool(state["option_pairs"])
+            rounds=int(state["option_rounds"]),
+            gate=bool(state["option_gate"]),
+            pairs=bool(state["option_pairs"]),
         )
 
 
@@ -132,8 +134,9 @@ def _train(
             say_b = critics[0](torch.cat([fake_b, as_b], dim=1))
             say_a = critics[1](torch.cat([fake_a, as_a], dim=1))
             loss = ((say_b - 1.0) ** 2).mean() + ((say_a - 1.0) ** 2).mean()
-            loss = loss + CYCLE * ((again_a - a[:, :scores]).abs().mean() + (again_b - b[:, :scores]).abs().mean())
-            loss = loss + IDENTITY * ((fake_b - a[:, :scores]).abs().mean() + (fake_a - b[:, :scores]).abs().mean())
+            own_a, own_b = a[:, :scores], b[:, :scores]
+            loss = loss + CYCLE * ((again_a - own_a).abs().mean() + (again_b - own_b).abs().mean())
+            loss = loss + IDENTITY * ((fake_b - own_a).abs().mean() + (fake_a - own_b).abs().mean())
             moving.zero_grad()
             loss.backward()
             moving.step()
@@ -144,4 +147,5 @@ def _train(
             judging.zero_grad()
             judged.backward()
             judging.step()
-    return [w.detach().numpy().T.astype(float) for layer in (go[0], go[2]) for w in (layer.weight, layer.bias)]
+    weights = [w for layer in (go[0], go[2]) for w in (layer.weight, layer.bias)]
+    return [w.detach().numpy().T.astype(float) for w in weights]

@@ -1,4 +1,4 @@
-"""Greedy maximum of a classifier's probability: the compass that misleads, to be measured beside the others."""
+"""Greedy maximum of a classifier's probability: the compass that misleads, measured beside the others."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ MOST_STEPS = 60
 
 
 class GreedyForest:
-    """Moves one of the 11 lateral coefficients by one bin at a time, wherever the forest's probability grows most.
+    """Moves one of the 11 lateral coefficients by one bin at a time, wherever the forest's probability grows
+    most.
 
     Stops where no move raises the probability of the target category.
     """

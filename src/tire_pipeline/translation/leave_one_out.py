@@ -34,7 +34,8 @@ def leave_one_tire_out(
     Returns
     -------
     DataFrame
-        One row a tire and source: ``tire_id``, ``source``, ``error`` and ``error_unchanged`` (mean squared error
+        One row a tire and source: ``tire_id``, ``source``, ``error`` and ``error_unchanged`` (mean squared
+        error
         over the features of lateral and longitudinal force, in (1%)^2) and ``ratio``.
 
     Raises

@@ -92,7 +92,7 @@ class LikelihoodEnvironment(gym.Env):
     situation : Situation
     """
 
-    metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012
+    metadata: dict[str, Any] = {"render_modes": []}
 
     def __init__(self, situation: Situation) -> None:
         self.situation = situation
@@ -183,9 +183,7 @@ class BatchLikelihoodEnvironment(VecEnv):
         """Set an attribute of this object."""
         setattr(self, attr_name, value)
 
-    def env_method(
-        self, method_name: str, *args: Any, indices: Any = None, **options: Any
-    ) -> list[Any]:
+    def env_method(self, method_name: str, *args: Any, indices: Any = None, **options: Any) -> list[Any]:
         """Not offered: there are no single environments in here."""
         raise NotImplementedError(method_name)
 

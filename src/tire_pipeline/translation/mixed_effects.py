@@ -2,7 +2,8 @@
 
 y_i = sum over blocks of x_i' w_block + tire effect + (tire x category) effect + noise
 
-Weights of a block are Gaussian around zero with a variance of the block's own. Variances maximise the marginal
+Weights of a block are Gaussian around zero with a variance of the block's own. Variances maximise the
+marginal
 likelihood (empirical Bayes; Robinson 1991, *That BLUP is a good thing*; MacKay 1992): a block that the
 data does not support gets a variance near zero, and so its effect shrinks to nothing.
 """

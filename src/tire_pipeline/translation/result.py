@@ -48,7 +48,8 @@ class TranslationResult:
         The translated tires: rows, columns, index and metadata of the source table, other p and q
         coefficients. A file that was refused or is already unbiased stands there unchanged.
     report : DataFrame
-        One row a file, same index: ``file``, ``source``, ``source_probability`` (1 if the category was given),
+        One row a file, same index: ``file``, ``source``, ``source_probability`` (1 if the category was
+        given),
         ``target``, ``verdict``, ``reason``, ``distance`` (1: at the edge of the training data),
         ``expected_ratio`` (expected squared error of the curves over that of the unchanged file),
         ``harm_probability`` and ``changes`` (what moved and why, in words).

@@ -36,7 +36,8 @@ def describe_changes(
     Returns
     -------
     list of str
-        For example ``"D measures 6% more cornering stiffness than B, most at high load (belt, ...)"``, several
+        For example ``"D measures 6% more cornering stiffness than B, most at high load (belt, ...)"``,
+        several
         parted by ``"; "``; empty where nothing moved.
     """
     moves = {

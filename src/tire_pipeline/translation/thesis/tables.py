@@ -20,7 +20,7 @@ def collect_cells(
     Parameters
     ----------
     judged : mapping
-        Name of the cell -> ``metrics`` of :func:`.grid.judge_cell`, one for each seed. Cells that are
+        Name of the cell -> ``metrics`` of ``tire_pipeline.thesis.agents.judged_agent``, one for each seed. Cells that are
         not there are left out.
     cells : iterable of Cell
 

@@ -1,0 +1,252 @@
+"""The page of translations: every translator on the same hidden tires, and what is learned about the data."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure as MplFigure
+
+from tire_pipeline.reporting.figures import MARKERS, colour_of, new_figure
+from tire_pipeline.reporting.page import Figure, Table, Text, render_page
+
+RATIOS = {
+    "ratio_forces": "forces",
+    "ratio_cornering_stiffness": "cornering stiffness",
+    "ratio_peak_friction": "peak friction",
+}
+MORE = {
+    "ratio_forces_camber": "forces with camber",
+    "ratio_fx": "longitudinal",
+    "ratio_mz": "aligning torque",
+}
+IN_WORDS = {
+    "no_change": "doing nothing",
+    "greedy_forest": "greedy maximum of the forest's probability",
+    "cycle_consistent": "cycle-consistent networks, no pairs",
+    "curious_agent": "agent with random network distillation, no pairs",
+    "likelihood_agent": "agent paid in likelihood given the metadata, no pairs",
+    "mixed_model": "mixed model conditioned on the metadata, no pairs",
+    "paired_mixed_model": "the same with the tires that several actors measured",
+    "oracle": "oracle: fitted on the hidden truth itself",
+    "floor": "floor: the target measures the tire a second time",
+}
+GOALS = (
+    ("likelihood_agent", ("additive",), 1.0, (0.30, 0.30, 0.30), 0.85, None),
+    ("mixed_model", ("additive", "interacting", "drifting"), 1.0, None, 0.90, 3.0),
+    ("paired_mixed_model", ("additive", "interacting", "drifting"), 1.0, None, 0.90, 1.5),
+    ("paired_mixed_model", ("interacting",), 1.0, (0.30, 0.25, 0.30), None, None),
+)
+
+
+def translation_page(
+    grid: pd.DataFrame,
+    *,
+    bias: pd.DataFrame | None = None,
+    beside_truth: pd.DataFrame | None = None,
+    note: str = "",
+) -> str:
+    """Show how well every translator does.
+
+    Parameters
+    ----------
+    grid : DataFrame
+        As ``benchmarks/bench_translation.py`` writes it.
+    bias : DataFrame, optional
+        ``BiasReport.by_region`` of the user's or the demonstration data.
+    beside_truth : DataFrame, optional
+        The same beside the sealed truth (``evaluation.bias_truth.bias_beside_truth``).
+    note : str
+        For the page's foot.
+
+    Returns
+    -------
+    str
+        HTML.
+    """
+    hidden = grid[grid["set"] == "hidden"]
+    parts: list[Text | Table | Figure] = [
+        Text(_summary(hidden), emphasis=True),
+        Table(
+            _at_calibrated(hidden),
+            "Squared error over that of the untranslated files (1: nothing gained), mean over the seeds, "
+            "100 hidden tires from five actors each; improved: share of improved curves.",
+            heading="Every translator at the calibrated bias",
+        ),
+        Figure(
+            _by_size(hidden),
+            "Bias size 1 is the calibrated bias; at 0 only the fits differ.",
+            "By size of the bias",
+        ),
+        Table(
+            check_goals(hidden),
+            "Fixed before the hidden tires were looked at.",
+            heading="Goals, met and missed",
+        ),
+        Table(
+            _bands_and_refusals(hidden),
+            "Coverage: share of the target's own points inside the 90% band. A file is rightly left alone if "
+            "its translation would have been worse.",
+            heading="Bands and refusals",
+        ),
+    ]
+    if beside_truth is not None and len(beside_truth):
+        inside = beside_truth["inside"].mean()
+        caption = (
+            "Reported bias with its 90% interval against what the sealed tires, measured by both, show; "
+            f"{inside:.0%} of {len(beside_truth)} lie inside."
+        )
+        parts.append(Figure(_truth_figure(beside_truth), caption, "What is learned about the data"))
+    if bias is not None and len(bias):
+        parts.append(
+            Table(_largest(bias), "Largest first, 90% intervals.", heading="Bias between pairs of actors")
+        )
+    return render_page("Translations", parts, footer=note)
+
+
+def _summary(hidden: pd.DataFrame) -> list[str]:
+    worst = hidden[hidden["translator"].isin(["mixed_model", "paired_mixed_model"])]
+    largest = worst[list(RATIOS)].max(axis=1)
+    row = worst.loc[largest.idxmax()]
+    fleets = len(hidden[["kind", "bias_size", "seed"]].drop_duplicates())
+    seeds = hidden["seed"].nunique()
+    harm = "never does harm" if largest.max() <= 1.0 else "does harm"
+    kinds = ", ".join(sorted(hidden["kind"].unique()))
+    where = f"{row['translator']}, {row['kind']}, bias size {row['bias_size']:g}, seed {row['seed']}"
+    return [
+        f"{fleets} fleets ({kinds}; number of seeds: {seeds}), 100 hidden tires each, "
+        "without the compound class in the metadata.",
+        f"The mixed model {harm}: its largest ratio anywhere is {largest.max():.2f} ({where}).",
+        "The metadata, which is known to be right, is the compass. Nominal pressure is part of it, and in "
+        "this fleet it follows the compound; where it does not, expect less.",
+    ]
+
+
+def _mean(rows: pd.DataFrame, names: list[str]) -> pd.DataFrame:
+    return rows.groupby(["kind", "translator"])[names].mean().reset_index()
+
+
+def _at_calibrated(hidden: pd.DataFrame) -> pd.DataFrame:
+    rows = _mean(hidden[hidden["bias_size"] == 1.0], [*RATIOS, *MORE, "improved"])
+    order = {name: k for k, name in enumerate(IN_WORDS)}
+    rows = rows.sort_values(
+        ["kind", "translator"], key=lambda c: c.map(order) if c.name == "translator" else c
+    )
+    rows = rows.assign(translator=rows["translator"].map(IN_WORDS))
+    return rows.rename(columns={**RATIOS, **MORE}).round(3)
+
+
+def check_goals(hidden: pd.DataFrame) -> pd.DataFrame:
+    """Put each goal beside what was measured.
+
+    Parameters
+    ----------
+    hidden : DataFrame
+        Rows of the grid with ``set == "hidden"``.
+
+    Returns
+    -------
+    DataFrame
+        ``translator``, ``fleet``, ``goal``, ``measured``, ``met``.
+    """
+    rows = []
+    for name, kinds, size, most, improved, floors in GOALS:
+        for kind in kinds:
+            own = hidden[(hidden["kind"] == kind) & (hidden["bias_size"] == size)]
+            mine = own[own["translator"] == name]
+            if mine.empty:
+                continue
+            ratios = mine[list(RATIOS)].mean()
+            floor = own.loc[own["translator"] == "floor", list(RATIOS)].mean()
+            if most is not None:
+                rows.append(
+                    (name, kind, f"ratios at most {_slashed(most)}", _slashed(ratios), (ratios <= most).all())
+                )
+            if floors is not None:
+                share = ratios / floor
+                rows.append(
+                    (name, kind, f"at most {floors:g} x floor", _slashed(share), (share <= floors).all())
+                )
+            if improved is not None:
+                got = float(mine["improved"].mean())
+                rows.append((name, kind, f"improved at least {improved:.2f}", f"{got:.2f}", got >= improved))
+    for name in ("mixed_model", "paired_mixed_model"):
+        mine = hidden[hidden["translator"] == name]
+        largest = float(mine[list(RATIOS)].max(axis=None)) if len(mine) else np.nan
+        rows.append(
+            (name, "all kinds and sizes", "no ratio above 1", f"largest {largest:.2f}", largest <= 1.0)
+        )
+    table = pd.DataFrame(rows, columns=["translator", "fleet", "goal", "measured", "met"])
+    return table.assign(met=np.where(table["met"].astype(bool), "yes", "no"))
+
+
+def _slashed(values: pd.Series | tuple[float, ...]) -> str:
+    return " / ".join(f"{value:.2f}" for value in values)
+
+
+def _bands_and_refusals(hidden: pd.DataFrame) -> pd.DataFrame:
+    names = {
+        "coverage_fy": "coverage, lateral",
+        "coverage_fx": "coverage, longitudinal",
+        "coverage_mz": "coverage, aligning",
+        "left_alone": "left alone",
+        "harmful": "translation would be worse",
+        "refusal_precision": "precision of leaving alone",
+        "refusal_recall": "recall of leaving alone",
+    }
+    own = hidden[hidden["translator"].isin(["mixed_model", "paired_mixed_model"])]
+    rows = own.groupby(["kind", "bias_size", "translator"])[list(names)].mean().reset_index()
+    return rows.rename(columns={**names, "bias_size": "bias size"}).round(3)
+
+
+def _by_size(hidden: pd.DataFrame) -> MplFigure:
+    kinds = [kind for kind in ("additive", "interacting", "drifting") if kind in set(hidden["kind"])]
+    figure, axes = new_figure(len(kinds), 3, width=9.0, height=2.7 * len(kinds), squeeze=False, sharex=True)
+    for row, kind in zip(np.asarray(axes), kinds, strict=True):
+        for axis, (column, what) in zip(row, RATIOS.items(), strict=True):
+            for k, name in enumerate(
+                ("mixed_model", "paired_mixed_model", "oracle", "floor", "greedy_forest")
+            ):
+                own = hidden[(hidden["kind"] == kind) & (hidden["translator"] == name)]
+                line = own.groupby("bias_size")[column].mean()
+                axis.plot(
+                    line.index, line, marker=MARKERS[k], color=colour_of(k), label=name.replace("_", " ")
+                )
+            axis.axhline(1.0, color="black", linewidth=0.8)
+            axis.set_ylim(0.0, 1.6)
+            axis.set_title(f"{kind}: {what}", fontsize=9)
+            axis.set_xlabel("bias size")
+            axis.set_ylabel("error ratio")
+    np.asarray(axes)[0, 0].legend(fontsize=7)
+    return figure
+
+
+def _truth_figure(both: pd.DataFrame) -> MplFigure:
+    figure, axis = new_figure(width=6.5, height=4.2)
+    for k, (what, own) in enumerate(both.groupby(both["region"].str.split(",").str[0])):
+        bias = 100 * own["bias"]
+        ends = np.stack([bias - 100 * own["low"], 100 * own["high"] - bias])
+        axis.errorbar(
+            100 * own["true_bias"],
+            bias,
+            yerr=ends,
+            fmt=MARKERS[k],
+            color=colour_of(k),
+            markersize=4,
+            label=what,
+            alpha=0.7,
+        )
+    low, high = 100 * both["true_bias"].min(), 100 * both["true_bias"].max()
+    axis.plot([low, high], [low, high], color="black", linewidth=0.8)
+    axis.set_xlabel("true bias / %")
+    axis.set_ylabel("reported bias / %")
+    axis.legend()
+    return figure
+
+
+def _largest(bias: pd.DataFrame) -> pd.DataFrame:
+    wanted = ("cornering stiffness, 4000 N", "friction level, 4000 N", "slip stiffness, 4000 N")
+    own = bias[bias["region"].isin(wanted)].copy()
+    own = own.reindex(own["bias"].abs().sort_values(ascending=False).index).head(45)
+    for name in ("bias", "low", "high"):
+        own[name] = (100 * own[name]).map("{:+.1f} %".format)
+    return own[["actor", "reference", "output", "region", "bias", "low", "high"]]
