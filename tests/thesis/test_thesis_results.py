@@ -35,6 +35,24 @@ def test_tires_that_do_not_move_are_neither_better_nor_worse(judged):
     assert (own["improved"] == 0).all()
 
 
+@pytest.mark.parametrize("representation", ["coefficients", "power_series"])
+def test_both_decodings_are_judged(table, representation):
+    cell = Cell("A2C", "maximize_reward", representation, 10)
+    state = train_cell(table, cell, target="A", seed=0, total_steps=2_000)["state"]
+    sources = table[table["category"] == "B"].head(6).assign(set="four", tire=list("uvwxyz"))
+    target = table[table["category"] == "A"].head(6)
+    found = judged_agent(state, cell, 0, sources, target)
+    metrics = found["agents"]
+    assert set(metrics["decoding"]) == {"tire", "curves"}
+    assert np.isfinite(metrics["ratio"]).all()
+    assert metrics["improved"].between(0, 1).all()
+    assert len(found["agent_tires"]) == 6
+    assert len(found["actions"]) == 2 * (11 if representation == "coefficients" else 12)
+    if representation == "coefficients":  # both decodings are the same curves here
+        forces = metrics[metrics["metric"] == "forces"].set_index("decoding")["ratio"]
+        assert forces["tire"] == pytest.approx(forces["curves"], rel=1e-6)
+
+
 def test_every_row_says_which_agent_it_is_of(judged):
     assert set(judged["agents"]["decoding"]) == {"tire", "curves"}
     for frame in judged.values():

@@ -9,7 +9,7 @@ from tire_pipeline.classifiers.experiments import (
 )
 from tire_pipeline.representations import make_representation
 from tire_pipeline.tire_table import random_split, split_by_tire
-from tire_pipeline.translation.thesis.grid import CELLS, Cell, judge_cell, train_cell
+from tire_pipeline.translation.thesis.grid import CELLS, Cell, train_cell
 from tire_pipeline.translation.thesis.tables import (
     better_than_nothing,
     collect_cells,
@@ -32,23 +32,12 @@ def test_grid_has_48_cells_with_names_of_their_own():
 
 
 @pytest.mark.parametrize("representation", ["coefficients", "power_series"])
-def test_one_cell_is_trained_and_judged(table, representation):
+def test_one_cell_is_trained(table, representation):
     cell = Cell("A2C", "maximize_reward", representation, 10)
     given = make_representation(representation).fit(table) if representation != "coefficients" else None
     trained = train_cell(table, cell, target="A", seed=0, total_steps=2_000, representation=given)
-    sources = table[table["category"] == "B"].head(6)
-    reference = table[table["category"] == "A"].head(6)
-    judged = judge_cell(trained["state"], sources, reference)
-    metrics = judged["metrics"]
-    assert set(metrics["decoding"]) == {"tire", "curves"}
-    assert np.isfinite(metrics["ratio"]).all()
-    assert metrics["improved"].between(0, 1).all()
-    assert len(judged["tires"]) == 6
-    assert len(judged["actions"]) == 2 * (11 if representation == "coefficients" else 12)
+    assert trained["state"]["translator"] == "agent"
     assert len(trained["learning_curve"]) > 0
-    if representation == "coefficients":  # both decodings are the same curves here
-        forces = metrics[metrics["metric"] == "forces"].set_index("decoding")["ratio"]
-        assert forces["tire"] == pytest.approx(forces["curves"], rel=1e-6)
 
 
 def test_experiments_give_every_cell(table, splits):
