@@ -138,6 +138,7 @@ def test_verdicts(paired, hidden):
     result = paired.translation(rows)
     assert list(result.report["verdict"]) == [TRANSLATED, REFUSED, UNBIASED, REFUSED, REFUSED]
     assert "outside of what D has measured" in result.report["reason"].iloc[3]
+    assert result.bands["fy"].middle.shape[0] == 5
     unchanged = [1, 2, 3, 4]
     pd.testing.assert_frame_equal(result.table.iloc[unchanged], rows.iloc[unchanged])
 

@@ -24,6 +24,7 @@ from tire_pipeline.translation.result import (
     REFUSED,
     TRANSLATED,
     UNBIASED,
+    Band,
     TranslationResult,
     moved_coefficients,
 )
@@ -32,8 +33,9 @@ from tire_pipeline.translation.words import describe_changes
 COEFFICIENTS = DATASETS["full"]
 """The p and q coefficients: what a translation may change."""
 
-FARTHEST = 1.5
-"""Files farther than this from the training data are refused; 1 is the edge of the training data."""
+FARTHEST = 3.0
+"""Files farther than this from the training data are refused; 1 is the edge of the training data. On tuning
+tires every refusal between 1.5 and 2.2 was wrong."""
 
 LEAST_GAIN = 0.05
 """A file whose expected squared error would shrink by less than this share is already unbiased."""
@@ -142,10 +144,26 @@ class MixedModel:
         return TranslationResult(
             table,
             report,
-            curve_bands(self.model.space, table.iloc[usable], found.variance, act) if bands else {},
+            self._bands(table, usable, found, act) if bands else {},
             moved_coefficients(source, table, COEFFICIENTS),
             self.name,
         )
+
+    def _bands(
+        self, table: pd.DataFrame, usable: np.ndarray, found: Prediction, act: np.ndarray
+    ) -> dict[str, Band]:
+        """Bands of all files; NaN for those that cannot be evaluated."""
+
+        def spread(values: np.ndarray) -> np.ndarray:
+            out = np.full((len(table), *values.shape[1:]), np.nan)
+            out[usable] = values
+            return out
+
+        own = curve_bands(self.model.space, table.iloc[usable], found.variance, act)
+        return {
+            name: Band(b.slip, b.normal_load, spread(b.middle), spread(b.low), spread(b.high))
+            for name, b in own.items()
+        }
 
     def _cannot(self, source: pd.DataFrame) -> np.ndarray:
         """Say why a file cannot be translated at all, "" if it can."""
