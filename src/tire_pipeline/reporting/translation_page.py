@@ -63,7 +63,7 @@ def translation_page(
     str
         HTML.
     """
-    hidden = grid[grid["set"] == "hidden"]
+    hidden = grid[grid["set"] == "hidden"].reset_index(drop=True)
     parts: list[Text | Table | Figure] = [
         Text(_summary(hidden), emphasis=True),
         Table(
@@ -212,7 +212,8 @@ def _by_size(hidden: pd.DataFrame) -> MplFigure:
                     line.index, line, marker=MARKERS[k], color=colour_of(k), label=name.replace("_", " ")
                 )
             axis.axhline(1.0, color="black", linewidth=0.8)
-            axis.set_ylim(0.0, 1.6)
+            axis.set_yscale("log")
+            axis.set_ylim(0.015, 3.0)
             axis.set_title(f"{kind}: {what}", fontsize=9)
             axis.set_xlabel("bias size")
             axis.set_ylabel("error ratio")

@@ -1,0 +1,39 @@
+"""RQ4 on the demonstration fleet: the reported bias of every pair of actors beside the sealed truth.
+
+Writes ``benchmarks/results/translation_bias.csv`` and ``translation_bias_truth.csv``, for the page.
+"""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+from bench_translation import RESULTS, read_all
+
+from tire_pipeline.evaluation.bias_truth import bias_beside_truth, measured_bias, regime_differences
+from tire_pipeline.fleet import FleetSettings, make_fleet
+from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
+from tire_pipeline.tire_table import dedupe_and_filter, normalize_table
+from tire_pipeline.translation.base import make_translator
+from tire_pipeline.translation.bias_report import bias_report
+
+
+def main(seed: int = 1) -> None:
+    fleet = make_fleet(FleetSettings(seed=seed, threads=1, tuning_tires=1))
+    kept, _ = dedupe_and_filter(read_all(fleet.files), features=LATERAL_WITHOUT_CAMBER)
+    training = normalize_table(kept, 6000.0)
+    sealed = {name: text for name, text in fleet.truth.first.items() if name.startswith("hidden")}
+    measured = measured_bias(
+        normalize_table(read_all(sealed), 6000.0), np.array([2000.0, 4000.0, 6000.0, 8000.0])
+    )
+    translator = make_translator("paired_mixed_model").fit(training, target=fleet.settings.target, seed=seed)
+    report = bias_report(translator, training, coefficients="coefficients" in sys.argv)
+    both = bias_beside_truth(report.by_region, measured)
+    print(f"{both['inside'].mean():.0%} of {len(both)} true biases lie in the 90% interval")
+    print(regime_differences(fleet.truth.regimes, "D", "B"))
+    report.by_region.to_csv(RESULTS.with_name("translation_bias.csv"), index=False, float_format="%.5g")
+    both.to_csv(RESULTS.with_name("translation_bias_truth.csv"), index=False, float_format="%.5g")
+
+
+if __name__ == "__main__":
+    main()
