@@ -147,6 +147,7 @@ class SignpostHooks:
         ("evaluation_report", "report"),
         ("translated_tir", "translated .tir files"),
         ("ingest_report", "ingest report"),
+        ("thesis_page", "page of the thesis"),
     )
 
     @hook_impl(trylast=True)

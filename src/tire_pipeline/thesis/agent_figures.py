@@ -51,7 +51,7 @@ def learning_figure(results: Results) -> MplFigure | None:
             grouped = part.groupby(place)
             steps, mean = grouped["step"].mean(), grouped["episode_reward"].mean()
             spread = grouped["episode_reward"].std().fillna(0.0)
-            one.plot(steps, mean, color=colour_of(number), label=_label(name))
+            one.plot(steps, mean, color=colour_of(number), label=in_words(name))
             one.fill_between(steps, mean - spread, mean + spread, color=colour_of(number), alpha=0.15, lw=0)
         one.set_title(algorithm)
         one.set_xlabel("training steps of all environments")
@@ -59,10 +59,6 @@ def learning_figure(results: Results) -> MplFigure | None:
     first.set_ylabel("reward of an episode")
     first.legend(fontsize=8)
     return figure
-
-
-def _label(name: str) -> str:
-    return "power series, stable form" if name == "power_series_stable" else in_words(name)
 
 
 def force_figure(results: Results, representation: str) -> MplFigure | None:

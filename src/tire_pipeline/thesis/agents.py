@@ -83,12 +83,22 @@ def _both_decodings(
     }
     decoded = translator.translate_curves(sources)
     own = as_tires["source"].fy
-    # no real solution (Appendix C), or the same curve but for rounding: the tire is not translated
-    same = np.isclose(decoded, own, rtol=1e-9, atol=1e-6).all(axis=(1, 2))
-    unreal = ~np.isfinite(decoded).all(axis=(1, 2))
-    fy = np.where((same | unreal)[:, None, None], own, decoded)
+    unreal = ~np.isfinite(decoded).all(axis=(1, 2))  # no real solution (Appendix C): not translated
+    fy = np.where(unreal[:, None, None], own, decoded)
     forces = {"source": own, "translated": fy, "target": as_tires["target"].fy}
-    return as_tires, {kind: curves_of_forces(each) for kind, each in forces.items()}
+    as_curves = {kind: curves_of_forces(each) for kind, each in forces.items()}
+    for curves in (as_tires, as_curves):
+        curves["translated"] = _but_for_rounding(curves["translated"], curves["source"])
+    return as_tires, as_curves
+
+
+def _but_for_rounding(translated: Curves, source: Curves) -> Curves:
+    """What differs from the source by rounding only is the source's: it is neither better nor worse."""
+    same = {}
+    for name in ("fy", "cornering_stiffness", "peak_friction"):
+        ours, own = getattr(translated, name), getattr(source, name)
+        same[name] = np.where(np.isclose(ours, own, rtol=1e-8, atol=1e-6 if name == "fy" else 0.0), own, ours)
+    return Curves(**same)
 
 
 def curves_of_forces(fy: np.ndarray) -> Curves:

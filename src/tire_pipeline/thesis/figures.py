@@ -48,7 +48,8 @@ def class_figure(results: Results, columns: tuple[str, ...]) -> MplFigure:
         one.set_xlabel("category")
         one.set_title(in_words(split))
     np.asarray(axes)[0].set_ylabel("files")
-    np.asarray(axes)[1].legend()
+    handles, labels = np.asarray(axes)[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=2, fontsize=8)
     return figure
 
 

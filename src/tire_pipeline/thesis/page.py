@@ -8,7 +8,7 @@ from tire_pipeline.reporting import Table, Text, render_page
 from tire_pipeline.thesis.page_agents import agent_parts
 from tire_pipeline.thesis.page_classifiers import Part, classifier_parts
 from tire_pipeline.thesis.questions import answers
-from tire_pipeline.thesis.results import Results, over_seeds, over_trainings
+from tire_pipeline.thesis.results import BETTER, Results, over_seeds, over_trainings
 from tire_pipeline.thesis.words import number
 
 THESIS_FILES = 2061
@@ -45,7 +45,7 @@ def _main(results: Results) -> list[str]:
     ]
     for name in dict.fromkeys(ours["set"]):
         part = ours[ours["set"] == name]
-        below = int((part["value"] < 1).sum())
+        below = int((part["value"] < BETTER).sum())
         lines.append(
             f"Set {name}: averaged over the three metrics, {below} of {len(part)} configurations bring tires "
             f"nearer to {results.facts['target']}'s measurement than doing nothing (1); the median is "

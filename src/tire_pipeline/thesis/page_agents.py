@@ -7,7 +7,7 @@ import pandas as pd
 from tire_pipeline.reporting import Figure, Table, Text
 from tire_pipeline.thesis.agent_figures import AGENT_FIGURES, FORCE_FIGURES, shown
 from tire_pipeline.thesis.published import AGENT_TABLES, published_figure, published_table
-from tire_pipeline.thesis.results import CELL, Results, in_words, over_seeds
+from tire_pipeline.thesis.results import BETTER, CELL, Results, in_words, over_seeds
 from tire_pipeline.thesis.words import agreement, listed, number, plus_minus, rank_agreement
 from tire_pipeline.translation.thesis.tables import METRICS, better_than_nothing
 
@@ -120,7 +120,7 @@ def _table_words(ran: pd.DataFrame) -> list[str]:
     ]
     single = ran[ran["metric"] != "mean"]
     if ratio:
-        below = {who: int((single[who] < 1).sum()) for who in ("thesis", "curves", "tire")}
+        below = {who: int((single[who] < BETTER).sum()) for who in ("thesis", "curves", "tire")}
         lines.append(
             f"Values below 1, better than doing nothing: {below['thesis']} of {len(single)} in the thesis, "
             f"{below['curves']} here as the thesis decodes, {below['tire']} as .tir."
@@ -226,6 +226,7 @@ def _table_6_1(results: Results) -> list[Part]:
     for name in dict.fromkeys(agents["set"]):
         for decoding, words in (("curves", "curves as the thesis decodes them"), ("tire", "as .tir")):
             table = better_than_nothing(agents[agents["set"] == name], decoding=decoding)
+            table = table[table["ratio"] < BETTER].reset_index(drop=True)
             tried = 3 * results.cells_run
             for column in ("representation", "reward", "metric"):
                 table[column] = table[column].map(in_words)

@@ -7,7 +7,7 @@ import pandas as pd
 
 from tire_pipeline.reporting import Text
 from tire_pipeline.thesis.page_agents import rising
-from tire_pipeline.thesis.results import CELL, Results, in_words, over_seeds, over_trainings
+from tire_pipeline.thesis.results import BETTER, CELL, Results, in_words, over_seeds, over_trainings
 from tire_pipeline.thesis.words import listed, number, rank_agreement
 
 QUESTIONS = (
@@ -66,8 +66,8 @@ def _translate(results: Results) -> list[str]:
     for name in dict.fromkeys(ratios["set"]):
         wide = ratios[ratios["set"] == name].pivot(index=CELL, columns="metric", values="value")
         single = wide[["forces", "cornering_stiffness", "peak_friction"]]
-        all_three = int((single < 1).all(axis=1).sum())
-        some = int((single < 1).any(axis=1).sum())
+        all_three = int((single < BETTER).all(axis=1).sum())
+        some = int((single < BETTER).any(axis=1).sum())
         best = wide["mean"].idxmin()
         which = f"{best[0]}, {in_words(best[1])}, {in_words(best[2])}, {best[3]} bins"
         floor = results["floor"]
@@ -79,7 +79,7 @@ def _translate(results: Results) -> list[str]:
             f"{number(float(own))}."
         )
     last = ratios[ratios["set"] == list(dict.fromkeys(ratios["set"]))[-1]]
-    none = last.pivot(index=CELL, columns="metric", values="value")["mean"].min() >= 1
+    none = last.pivot(index=CELL, columns="metric", values="value")["mean"].min() >= BETTER
     verdict = (
         f"{'Not' if none else 'In part'} by the thesis' agents: {'none is' if none else 'some are'} better "
         "than doing nothing on average over the larger set."

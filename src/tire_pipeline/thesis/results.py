@@ -19,6 +19,7 @@ WORDS = {
     "latent": "latent",
     "power_series": "power series",
     "key_attributes": "key attributes",
+    "power_series_stable": "power series, stable form",
     "reach_target_fast": "Reach Target Fast",
     "maximize_reward": "Maximize Reward",
     "random": "random split",
@@ -34,6 +35,9 @@ WORDS = {
     "mean": "average",
 }
 """What the page calls things."""
+
+BETTER = 0.9995
+"""A ratio counts as better than doing nothing below this: what is printed as 1 does not."""
 
 
 @dataclass(frozen=True)
