@@ -10,6 +10,7 @@ import subprocess
 import sys
 import threading
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
@@ -17,7 +18,7 @@ import pytest
 from retraining_files import put, put_fleet, tir_text
 
 from tire_pipeline.datasets import IngestStoreDataset, ReleaseDataset
-from tire_pipeline.retraining import Manifest, Store, difference, ingest
+from tire_pipeline.retraining import Manifest, Shelf, Store, difference, ingest, judge
 
 pytestmark = pytest.mark.slow
 ROOT = Path(__file__).resolve().parents[2]
@@ -62,8 +63,12 @@ def _stored(folder: Path) -> Store:
     return IngestStoreDataset(path=str(folder / "data/02_intermediate/ingested")).load()
 
 
-def _in_use(folder: Path):
-    return ReleaseDataset(path=str(folder / "data/06_models/released")).load()
+def _released(folder: Path) -> ReleaseDataset:
+    return ReleaseDataset(path=str(folder / "data/06_models/released"))
+
+
+def _in_use(folder: Path) -> Shelf:
+    return _released(folder).load()
 
 
 def _assert_right(folder: Path) -> None:
@@ -124,10 +129,13 @@ def test_files_that_arrive_before_and_during_a_run(tmp_path):
     _run(folder)
     assert _outcome(folder)["event"] == "unchanged"
     assert _in_use(folder).release == before
-    if len(before.models) > 1:
-        said = _run(folder, "rollback")
-        assert f"model in use: {before.models[-2]}" in said
-        assert _in_use(folder).release.current == before.models[-2]
+    later = replace(before.judged, digest="of other files")
+    after = judge(before, "later", later, better=True, time="now", figures={})
+    _released(folder).save(Shelf(after, _in_use(folder).model))
+    assert _in_use(folder).release.current == "later"
+    said = _run(folder, "rollback")
+    assert f"model in use: {before.current} (later taken back)" in said
+    assert _in_use(folder).release.current == before.current
     assert first in before.models
     page = (folder / "data/08_reporting/retraining.html").read_text()
     assert "unchanged" in page

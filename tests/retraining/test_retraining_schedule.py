@@ -108,3 +108,28 @@ def test_a_run_is_that_of_kedro(monkeypatch):
     config = {"ops": {"retrain": {"config": {"env": "small"}}}}
     assert schedule.retraining.execute_in_process(run_config=config).success
     assert asked == [("small", "retrain")]
+
+
+def test_every_cell_of_the_grid_is_a_partition_and_a_namespace():
+    from pathlib import Path
+
+    from kedro.framework.project import pipelines
+    from kedro.framework.startup import bootstrap_project
+
+    bootstrap_project(Path(__file__).resolve().parents[2])
+    namespaces = {
+        node.namespace for node in pipelines["reproduce_thesis"].nodes if node.namespace.startswith("agents.")
+    }
+    partitions = schedule.agents.partitions_def.get_partition_keys()
+    assert {f"agents.{name}" for name in partitions} == namespaces
+    assert len(partitions) == len(namespaces) > 10
+
+
+def test_a_partition_runs_its_own_cell_only(monkeypatch):
+    asked = []
+    monkeypatch.setattr(
+        schedule, "kedro_run", lambda config, pipeline, names: asked.append((pipeline, names))
+    )
+    cell = schedule.agents.partitions_def.get_partition_keys()[3]
+    assert schedule.agents.execute_in_process(partition_key=cell).success
+    assert asked == [("reproduce_thesis", [f"agents.{cell}"])]

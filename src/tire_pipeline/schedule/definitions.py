@@ -10,6 +10,7 @@ from kedro.framework.session import KedroSession
 from kedro.framework.startup import bootstrap_project
 from pydantic import Field
 
+from tire_pipeline.pipelines.reproduce_thesis.parameters import GridParameters
 from tire_pipeline.schedule.arrivals import new_files_of
 
 ROOT = Path(os.environ.get("TIRE_PIPELINE_ROOT", Path.cwd()))
@@ -40,16 +41,16 @@ class KedroRun(dg.Config):
     parameters: dict[str, Any] = Field(default_factory=dict)
 
 
-def kedro_run(config: KedroRun, pipeline: str, parameters: dict[str, Any] | None = None) -> None:
-    """Run one registered pipeline, as ``kedro run --pipeline`` does."""
+def kedro_run(config: KedroRun, pipeline: str, namespaces: list[str] | None = None) -> None:
+    """Run one registered pipeline, or some namespaces of it, as ``kedro run --pipeline`` does."""
     bootstrap_project(ROOT)
     with KedroSession.create(
         project_path=ROOT,
         env=config.env,
         conf_source=config.conf_source,
-        runtime_params={**config.parameters, **(parameters or {})},
+        runtime_params=dict(config.parameters),
     ) as session:
-        session.run(pipeline_names=[pipeline])
+        session.run(pipeline_names=[pipeline], namespaces=namespaces)
 
 
 @dg.op(retry_policy=dg.RetryPolicy(max_retries=2, delay=60))
@@ -80,12 +81,24 @@ def arrivals(context: dg.SensorEvaluationContext) -> dg.SensorResult | dg.SkipRe
     return dg.SensorResult([dg.RunRequest(run_key=f"{found.key}-{before}", tags=tag)])
 
 
+@dg.op
+def train_cell(context: dg.OpExecutionContext, config: KedroRun) -> None:
+    """Train and judge the agents of one cell of the thesis' grid."""
+    kedro_run(config, "reproduce_thesis", [f"agents.{context.partition_key}"])
+
+
+@dg.job(partitions_def=dg.StaticPartitionsDefinition([cell.name for cell in GridParameters().cells]))
+def agents() -> None:
+    """The grid of agents, one partition a cell; each writes results of its own (docs/cluster.md)."""
+    train_cell()
+
+
 nightly = dg.ScheduleDefinition(
     job=retraining, cron_schedule="0 3 * * *", default_status=dg.DefaultScheduleStatus.RUNNING
 )
 
 definitions = dg.Definitions(
-    jobs=[retraining],
+    jobs=[retraining, agents],
     sensors=[arrivals],
     schedules=[nightly],
     executor=dg.multiprocess_executor.configured({"max_concurrent": 2}),
