@@ -13,7 +13,7 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.pipelines.evaluate.parameters import EvaluateParameters
 from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
 from tire_pipeline.progress import track
-from tire_pipeline.tir import tir_bytes
+from tire_pipeline.tir import read_tir, tir_bytes
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.translation import translator_from_state
 
@@ -134,7 +134,20 @@ def write_back(
             f"Changed: {' '.join(moved) or 'nothing'}",
         ]
         texts[file] = tir_bytes(model.replace(**moved), comments=comments)
+        _read_back(texts[file], moved, file)
     return texts
+
+
+def _read_back(text: bytes, wanted: Mapping[str, float], file: str) -> None:
+    """A file that does not read back as what was meant is not given to anyone."""
+    found = read_tir(text, path=file).coefficients
+    for name, value in wanted.items():
+        if abs(found[name] - value) > 1e-6 * max(abs(value), 1e-6):
+            raise DomainError(
+                f"{name} was to be {value!r} and reads back as {found[name]!r}",
+                where=file,
+                todo="report this: the writer and the reader disagree",
+            )
 
 
 def _changed(new: Any, old: Any) -> bool:
