@@ -15,6 +15,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.simulate import plain_forces
 from tire_pipeline.mismatch.smoothing import denoise
+from tire_pipeline.mismatch.surrogate import stand_in
 
 Array = np.ndarray
 INPUTS = (
@@ -61,7 +62,8 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
 
     Parameters
     ----------
-    tire : TireModel
+    tire : TireModel or None
+        None if the recording has ``simulated_fy`` or ``simulated_fx``.
     recording : pandas.DataFrame
         Canonical columns, SI.
 
@@ -76,7 +78,11 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     rows = _usable(arrays, time, notes)
     arrays = {n: a[rows] for n, a in arrays.items()}
     time = None if time is None else time[rows]
-    findings, bad = _exact(tire, arrays, time)
+    beside = None
+    if tire is None:
+        tire, beside = stand_in(arrays)
+        arrays |= {f"_beside_{n}": b for n, b in beside.items()}
+    findings, bad = _exact(tire, arrays, time) if beside is None else ([], np.zeros(rows.size, bool))
     if bad.any():
         rows, arrays = rows[~bad], {n: a[~bad] for n, a in arrays.items()}
         time = None if time is None else time[~bad]
@@ -97,14 +103,15 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
             arrays[name] = denoise(arrays[name], start)
     present = {n for n in INPUTS if n in recording.columns and n in arrays}
     own = own_relaxation(tire)
+    beside = None if beside is None else {n: arrays.pop(f"_beside_{n}") for n in beside}
     data = Data(
         tire=tire,
         channels={n: a for n, a in arrays.items() if n not in FORCES},
-        recorded={n: arrays[n] for n in FORCES if n in arrays},
+        recorded={n: arrays[n] for n in FORCES if n in arrays and (beside is None or n in beside)},
         time=time,
         start=start,
         present=present,
-        beside=None,
+        beside=beside,
         fixed={"own_relaxation": own},
     )
     return Prepared(data, findings, notes, rows)

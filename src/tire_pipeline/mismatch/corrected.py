@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +14,10 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.checks import INPUTS, own_relaxation
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.simulate import Change, simulate
+from tire_pipeline.mismatch.simulate import Change, plain_forces, simulate
 from tire_pipeline.mismatch.smoothing import denoise
 
-_CHUNK = 200_000
+_POINTS = ("slip_angle", "slip_ratio", "camber", "normal_load")
 
 
 @dataclass(frozen=True)
@@ -32,13 +32,16 @@ class CorrectedModel:
         Nominal pressure and speed, and what work, heat and time are measured by.
     outputs : tuple of str
         Forces that were recorded.
+    stands_in : bool
+        True if the tire model only stands in for another simulator, whose output a recording to
+        predict must have as ``simulated_fy``.
     """
 
     tire: Any
     changes: tuple[Change, ...]
     reference: Mapping[str, Any]
     outputs: tuple[str, ...]
-    simulated: Mapping[str, str] = field(default_factory=dict)
+    stands_in: bool = False
 
     def predict(self, recording: pd.DataFrame) -> pd.DataFrame:
         """Return the corrected forces at the samples of a recording.
@@ -83,6 +86,17 @@ class CorrectedModel:
         for name in ("slip_angle", "slip_ratio", "camber", "normal_load"):
             if time is not None:
                 channels[name] = denoise(channels[name], start)
+        beside = None
+        if self.stands_in:
+            needed = [f"simulated_{o}" for o in self.outputs]
+            missing = [c for c in needed if c not in recording]
+            if missing:
+                raise RecordingError(
+                    f"{', '.join(missing)} is needed: the model is another simulator's output",
+                    todo="add the column",
+                )
+            own = plain_forces(self.tire, **{n: channels[n] for n in _POINTS})
+            beside = {o: recording[f"simulated_{o}"].to_numpy(dtype=float) - own[o] for o in self.outputs}
         for name, _ in self.changes:
             for channel in catalogue()[name].channels:
                 if channel not in channels:
@@ -94,7 +108,7 @@ class CorrectedModel:
             time=time,
             start=start,
             present={c for c in channels if c in recording.columns},
-            beside=None,
+            beside=beside,
             fixed={**self.reference, "own_relaxation": own_relaxation(self.tire)},
         )
 

@@ -143,10 +143,14 @@ class Data:
         return (load - self.load_nominal) / self.load_nominal
 
     @cached_property
-    def pressure_excess(self) -> Array:
-        """``(p - p0) / p0``; p0 from the file, else the pressure that is most common."""
-        p = self.smooth("pressure")
-        return (p - self.pressure_nominal) / self.pressure_nominal
+    def pressure_levels(self) -> list[float]:
+        """Pressures at which the model may be right, Pa: the file's, or the recording's most common and first."""
+        nominal = self.pressure_nominal
+        c, missing = self.tire.coefficients, getattr(self.tire, "defaulted", {})
+        if any(c.get(k) == nominal and k not in missing for k in ("NOMPRES", "INFLPRES")):
+            return [nominal]
+        first = float(np.median(self.smooth("pressure")[: max(self.size // 20, 1)]))
+        return [nominal] + ([first] if abs(first / nominal - 1.0) > 0.03 else [])
 
     @cached_property
     def pressure_nominal(self) -> float:

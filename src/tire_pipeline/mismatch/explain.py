@@ -101,7 +101,9 @@ def _report(prepared: Prepared, search: Search) -> MismatchReport:
         reference["pressure_nominal"] = data.pressure_nominal
     if "speed" in data.present:
         reference["speed_nominal"] = data.speed_nominal
-    corrected = CorrectedModel(data.tire, tuple(search.fit.changes), reference, outputs)
+    corrected = CorrectedModel(
+        data.tire, tuple(search.fit.changes), reference, outputs, data.beside is not None
+    )
     return MismatchReport(
         verdict=verdict,
         effects=effects,

@@ -21,14 +21,25 @@ class InflationPressure(Effect):
         Parameter("friction", "1", -1.5, 1.5, 0.02),
         Parameter("stiffness", "1", -2.5, 2.5, 0.02),
         Parameter("lateral_stiffness", "1", -2.0, 2.0, 0.02, output="fy"),
+        Parameter("reference", "Pa", 0.0, 5e6, 100.0),
     )
     looks_like = {"temperature": "temperature lags; pressure steps show at once"}
     experiment = "the same sweep at three pressures, in an order that is not the order of time"
     order = 40
 
+    def starts(self, data: object) -> list[dict[str, float]]:
+        """Return each pressure at which the model may be right: the file's, or those of the recording."""
+        zero = self.zeros(data)
+        return [{**zero, "reference": p} for p in data.pressure_levels]  # type: ignore[attr-defined]
+
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """All but the reference."""
+        return ("friction", "stiffness", "lateral_stiffness")
+
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale friction and stiffness with pressure."""
-        d = data.pressure_excess  # type: ignore[attr-defined]
+        reference = p["reference"] or data.pressure_nominal  # type: ignore[attr-defined]
+        d = (data.smooth("pressure") - reference) / reference  # type: ignore[attr-defined]
         state.log_friction = state.log_friction + safe_log1p(p["friction"] * d)
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * d)
         state.log_stiffness_y = state.log_stiffness_y + safe_log1p(p["lateral_stiffness"] * d)

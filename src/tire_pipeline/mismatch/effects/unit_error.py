@@ -47,7 +47,8 @@ class UnitError(Effect):
 
     def detect(self, channels: Mapping[str, Array], simulate: Simulate) -> list[Finding]:  # type: ignore[override]
         """Try the exact ratios: forces must fit far better, or the channel must be impossible as it is."""
-        found = _pressure(channels)
+        found = _pressure(channels) + _impossible(channels)
+        channels = {**channels, **{n: x for f in found for n, x in f.repaired.items()}}
         trials = [
             (name, factor, text if power > 0 else f"the inverse of {text}")
             for name, factors in _FACTORS.items()
@@ -100,6 +101,25 @@ def _pressure(channels: Mapping[str, Array]) -> list[Finding]:
     ]
 
 
+_LARGEST = {"slip_angle": (1.6, _DEG), "camber": (1.2, _DEG), "slip_ratio": (4.0, 100.0)}
+
+
+def _impossible(channels: Mapping[str, Array]) -> list[Finding]:
+    """Angles beyond what a wheel can have: degrees, percent."""
+    found = []
+    for name, (largest, factor) in _LARGEST.items():
+        if name in channels and float(np.nanquantile(np.abs(channels[name]), 0.98)) > largest:
+            text = _FACTORS[name][factor]
+            parameters = {"ratio": (factor, 0.0, "1")}
+            repaired = {name: channels[name] / factor}
+            found.append(
+                Finding(
+                    UnitError.name, name, f"{name} is wrong by {factor:.5g} ({text})", parameters, repaired
+                )
+            )
+    return found
+
+
 def best_repair(
     channels: Mapping[str, Array],
     simulate: Simulate,
@@ -126,7 +146,9 @@ def best_repair(
     if not scored:
         return None
     best = min(scored, key=lambda s: s[0])
-    return best if before > 0.3 and best[0] < 0.15 and best[0] < 0.2 * before else None
+    better = best[0] < 0.15 and best[0] < 0.2 * before
+    sure = before > 0.3 or (before > 0.1 and best[0] < 0.1 * before)
+    return best if better and sure else None
 
 
 def misfit(channels: Mapping[str, Array], simulate: Simulate, factors: Mapping[str, float]) -> float:

@@ -1,0 +1,94 @@
+import numpy as np
+import pandas as pd
+import pytest
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.effects import catalogue
+
+
+def physics(report):
+    return [e.name for e in report.effects if catalogue()[e.name].kind == "physics"]
+
+
+def bad(recording, what):
+    r = recording.copy()
+    if what == "no force":
+        return r.drop(columns="fy")
+    if what == "no load":
+        return r.drop(columns="normal_load")
+    if what == "no slip":
+        return r.drop(columns="slip_angle")
+    if what == "ten samples":
+        return r.iloc[:10]
+    if what == "backwards":
+        r.loc[500, "time"] = 1.0
+    if what == "repeated":
+        r.loc[500, "time"] = r.loc[499, "time"]
+    if what == "no overlap":
+        r["normal_load"] = 40.0 + 0 * r["normal_load"]
+        r["fy"] = 1.0 + 0 * r["fy"]
+    if what == "all missing":
+        r["fy"] = np.nan
+    return r
+
+
+@pytest.mark.parametrize(
+    ("what", "word"),
+    [
+        ("no force", "force"),
+        ("no load", "normal_load"),
+        ("no slip", "slip"),
+        ("ten samples", "10 samples"),
+        ("backwards", "backwards"),
+        ("repeated", "repeated"),
+        ("no overlap", "overlap"),
+        ("all missing", "force"),
+    ],
+)
+def test_what_cannot_be_used_is_said(tire, record, what, word):
+    with pytest.raises(RecordingError, match=word) as caught:
+        explain_mismatch(tire, bad(record(), what))
+    assert caught.value.todo
+
+
+def test_neither_model_nor_simulation(record):
+    with pytest.raises(RecordingError, match="simulated_fy"):
+        explain_mismatch(None, record())
+
+
+def test_not_a_frame(tire):
+    with pytest.raises(RecordingError, match="DataFrame"):
+        explain_mismatch(tire, [1, 2, 3])
+
+
+@pytest.mark.parametrize(
+    ("change", "name"),
+    [
+        (lambda r: r.assign(slip_angle=np.degrees(r["slip_angle"])), "unit_error"),
+        (lambda r: r.assign(normal_load=r["normal_load"] / 4.4482216), "unit_error"),
+        (lambda r: r.assign(fy=r["fy"] / 1000.0), "unit_error"),
+        (lambda r: r.assign(pressure=r["pressure"] / 6894.757), "unit_error"),
+        (lambda r: r.assign(fy=-r["fy"]), "sign_convention"),
+        (lambda r: r.assign(slip_angle=-r["slip_angle"]), "sign_convention"),
+        (lambda r: r.assign(fy=np.clip(r["fy"], -3500.0, 3500.0)), "clipping"),
+        (
+            lambda r: r.assign(fy=r["fy"].where(~r["time"].between(60, 90), r["fy"].iloc[3000])),
+            "stuck_channel",
+        ),
+    ],
+)
+def test_exact_artefacts_get_their_name_and_nothing_else(tire, record, change, name):
+    report = explain_mismatch(tire, change(record()))
+    assert [e.name for e in report.effects] == [name]
+    assert physics(report) == []
+
+
+def test_gaps_and_missing_blocks_are_no_physics(tire, record):
+    r = record()
+    r = pd.concat([r.iloc[:2000], r.iloc[2600:]], ignore_index=True)
+    r.loc[3000:3400, "fy"] = np.nan
+    report = explain_mismatch(tire, r)
+    assert report.effects == []
+    assert any("gap" in n for n in report.notes)
+    assert any("no number" in n for n in report.notes)

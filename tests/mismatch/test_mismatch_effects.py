@@ -1,0 +1,56 @@
+import numpy as np
+import pytest
+
+from tire_pipeline.mismatch.checks import prepare
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.simulate import simulate
+
+PHYSICS = (
+    "friction_scale stiffness_scale load_sensitivity camber combined_slip inflation_pressure temperature "
+    "speed_dependence relaxation_length wear plysteer_conicity turn_slip nonuniformity compliance surface_change"
+).split()
+ARTEFACTS = (
+    "force_offset force_gain slip_angle_offset camber_offset time_delay low_pass crosstalk sensor_drift "
+    "sign_convention unit_error clipping stuck_channel"
+).split()
+
+
+def test_the_catalogue_has_the_names_of_the_issue():
+    kinds = {n: e.kind for n, e in catalogue().items()}
+    assert kinds == {**dict.fromkeys(PHYSICS, "physics"), **dict.fromkeys(ARTEFACTS, "artefact")}
+
+
+@pytest.mark.parametrize("name", sorted(PHYSICS + ARTEFACTS))
+def test_every_effect_says_what_it_is(name):
+    effect = catalogue()[name]
+    assert effect.equation
+    assert effect.source
+    assert effect.title
+    assert effect.experiment
+    assert all(other in catalogue() for other in effect.looks_like)
+    assert all(p.low < p.high and p.step > 0.0 for p in effect.parameters)
+
+
+@pytest.mark.parametrize("name", sorted(PHYSICS + ARTEFACTS))
+def test_an_effect_at_zero_changes_nothing(name, tire, record):
+    data = prepare(tire, record()).data
+    effect = catalogue()[name]
+    if effect.absent(data) is not None:
+        pytest.skip(f"cannot show in this recording: {effect.absent(data)}")
+    changed = simulate(data, [(name, effect.zeros(data))])
+    np.testing.assert_allclose(changed["fy"], data.base["fy"], rtol=0, atol=1e-6)
+
+
+def test_friction_keeps_the_slope_and_moves_the_peak(tire, record):
+    data = prepare(tire, record()).data
+    fy = simulate(data, [("friction_scale", {"friction": 0.2})])["fy"]
+    ratio = fy / np.where(np.abs(data.base["fy"]) < 1.0, np.nan, data.base["fy"])
+    small, large = np.abs(data.get("slip_angle")) < 0.004, np.abs(data.get("slip_angle")) > 0.15
+    assert np.nanmedian(ratio[small]) == pytest.approx(1.0, abs=0.02)
+    assert np.nanmedian(ratio[large]) == pytest.approx(1.2, abs=0.03)
+
+
+def test_a_delay_moves_the_force_by_its_time(tire, record):
+    data = prepare(tire, record()).data
+    late = simulate(data, [("time_delay", {"delay": 0.2})])["fy"]
+    np.testing.assert_allclose(late[20:200], data.base["fy"][10:190], atol=1e-6)

@@ -1,0 +1,130 @@
+import json
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+from conftest import shared
+
+from tire_pipeline.magic_formula.fitting import fit_magic_formula
+from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.recordings import read_recording
+from tire_pipeline.tir import read_tir
+
+
+def names(report):
+    return [e.name for e in report.effects]
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_nothing_missing_agrees(tire, record, seed):
+    report = explain_mismatch(tire, record(seed))
+    assert report.verdict == "agrees"
+    assert report.effects == []
+    assert report.corrected.changes == ()
+
+
+def test_pressure_is_found_located_and_put_in(tire, record, tmp_path):
+    recording = record(3, pressure_effect=-0.35)
+    report = explain_mismatch(tire, recording)
+    assert names(report) == ["inflation_pressure"]
+    effect = report.effects[0]
+    value, error, unit = effect.parameters["friction"]
+    assert value == pytest.approx(-0.35, abs=0.05)
+    assert 0.0 < error < 0.05
+    assert unit == "1"
+    assert min(a for a, _ in effect.when) > 49.0
+    assert report.fit["fy"].rms_after < 0.5 * report.fit["fy"].rms_before
+    assert report.located
+    other = record(4, pressure_effect=-0.35)
+    predicted = report.corrected.predict(other.drop(columns="fy"))["fy"]
+    assert np.sqrt(np.mean((other["fy"] - predicted) ** 2)) < 0.5 * report.fit["fy"].rms_before
+    path = report.corrected.to_tir(tmp_path / "corrected.tir")
+    again = read_tir(path)
+    assert again.metadata["sidecar"]["inflation_pressure"]["parameters"]["friction"] == pytest.approx(value)
+
+
+def test_friction_goes_into_the_tir(tire, record, tmp_path):
+    report = explain_mismatch(tire, record(5, friction=0.88))
+    assert names(report) == ["friction_scale"]
+    again = read_tir(report.corrected.to_tir(tmp_path / "c.tir"))
+    assert again.coefficients["LMUY"] == pytest.approx(0.88, abs=0.02)
+    assert explain_mismatch(again, record(6, friction=0.88)).verdict == "agrees"
+
+
+def test_delay_and_offset_are_artefacts(tire, record):
+    assert names(explain_mismatch(tire, record(7, delay=0.08)))[0] in {"time_delay", "low_pass"}
+    found = explain_mismatch(tire, record(8, offset=150.0))
+    assert names(found) == ["force_offset"]
+    assert found.effects[0].parameters["fy"][0] == pytest.approx(150.0, abs=10.0)
+
+
+def test_what_is_not_in_the_catalogue_gets_no_name(tire, record):
+    recording = record(9)
+    rng = np.random.default_rng(1)
+    t = recording["time"].to_numpy()
+    wave = np.sin(2 * np.pi * (1.3 * t + 0.4 * np.sin(0.7 * t)))
+    recording["fy"] += 400.0 * wave * (np.abs(recording["slip_angle"]) > 0.08) + rng.normal(size=t.size)
+    report = explain_mismatch(tire, recording)
+    assert report.verdict == "unexplained"
+    assert report.effects == []
+    assert report.remainder.size["fy"] > 100.0
+    assert report.next_experiment
+
+
+def test_another_simulator_stands_in_for_the_tire(tire, record):
+    recording = record(10, pressure_effect=-0.35)
+    recording["simulated_fy"] = tire.forces(
+        slip_angle=recording["slip_angle"].to_numpy(), normal_load=recording["normal_load"].to_numpy()
+    ).fy
+    report = explain_mismatch(None, recording)
+    assert names(report) == ["inflation_pressure"]
+    left = recording["fy"] - report.corrected.predict(recording)["fy"]
+    assert np.sqrt(np.mean(left**2)) < 0.6 * report.fit["fy"].rms_before
+
+
+def test_the_report_is_plain_json_and_one_page(tire, record, tmp_path):
+    report = explain_mismatch(tire, record(3, pressure_effect=-0.35))
+    table = report.to_dict()
+    assert json.loads(json.dumps(table, allow_nan=False)) == table
+    page = report.to_html(tmp_path / "report.html").read_text(encoding="utf-8")
+    assert report.summary.split(".")[0] in page
+    assert not re.search(r"(src|href)\s*=\s*[\"']https?:", page)
+    assert "inflation_pressure" in page
+
+
+def test_points_without_time_are_steady(tire, record):
+    r = record(11)
+    points = r.iloc[::60].drop(columns="time")
+    report = explain_mismatch(tire, points)
+    assert report.verdict == "agrees"
+    why = {c["name"]: c["why"] for c in report.candidates}
+    assert "no time" in why["time_delay"]
+
+
+@pytest.mark.slow
+def test_tydex_camber_is_found_and_halves_the_error():
+    t = read_recording(shared("recordings/tydex/DT_195_65R15_demo.tdx"))
+    flat = t["camber"].abs() < 0.002
+    model = fit_magic_formula(t[flat][["slip_angle", "camber", "normal_load", "fy"]]).model
+    held = ~flat & (np.random.default_rng(0).random(len(t)) < 0.4)
+    report = explain_mismatch(model, t[~held])
+    assert names(report) == ["camber"]
+    rest = t[held]
+    before = model.forces(
+        slip_angle=rest["slip_angle"].to_numpy(),
+        camber=rest["camber"].to_numpy(),
+        normal_load=rest["normal_load"].to_numpy(),
+    ).fy
+    after = report.corrected.predict(rest)["fy"]
+    assert np.std(rest["fy"] - after) < 0.5 * np.std(rest["fy"] - before)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", range(10))
+def test_the_ten_examples_are_read_right(examples, number):
+    folder, labels = examples
+    name = f"example{number:02d}"
+    recording = pd.read_csv(folder / name / "recording.csv")
+    report = explain_mismatch(read_tir(folder / name / "model.tir"), recording)
+    assert set(names(report)) == set(labels[name]["left_out"])
