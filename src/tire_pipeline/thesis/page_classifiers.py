@@ -292,7 +292,14 @@ def _bins(results: Results) -> list[Part]:
     accuracies = {name: float(ten.loc[(name, "random"), "accuracy"]) for name in order}
     line = f"Most accurate representation: {in_words(order[0])} in the thesis, "
     line += f"{in_words(max(accuracies, key=lambda name: accuracies[name]))} on our random split."
-    parts.append(Text([line], heading=f"Table 5.9: {printed.caption}"))
+    lines = [line]
+    for name, thesis in zip(order, printed.frame["ACC"], strict=True):
+        new = float(ten.loc[(name, "by_tire"), "accuracy"])
+        lines.append(
+            f"{in_words(name)}: {accuracies[name]:.3f} on the random split, "
+            f"{points(accuracies[name], float(thesis))}; {new:.3f} on tires it has not seen."
+        )
+    parts.append(Text(lines, heading=f"Table 5.9: {printed.caption}"))
     parts.append(Table(pd.DataFrame(rows, columns=columns), "The forest with SMOTE, 10 bins a feature."))
     return parts
 
