@@ -102,7 +102,7 @@ def _axes(
         for width in (1, 2, 4, 8):
             for k in range(0, 17 - width, max(1, width // 2)):
                 low, high = float(edges[k]), float(edges[k + width])
-                if high > low:
+                if high - low > 0.02 * (edges[-1] - edges[0]):
                     tests.append((axis, low, high, (values >= low) & (values <= high)))
     count = signs.shape[1]
     sums = np.array([np.bincount(block, scaled * m, count) for *_, m in tests])

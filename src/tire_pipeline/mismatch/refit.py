@@ -194,7 +194,7 @@ def _inverse(info: Array) -> Array:
 def _at_bound(changes: list[Change], free: list[tuple[str, ...]]) -> bool:
     for (name, values), names in zip(changes, free, strict=True):
         for p in catalogue()[name].parameters:
-            if p.name not in names or p.name in {"fy", "fx"} and name == "clipping":
+            if p.name not in names or (p.name in {"fy", "fx"} and name == "clipping"):
                 continue
             if name == "combined_slip":
                 continue

@@ -14,7 +14,7 @@ from tire_pipeline.mismatch.blocks import sweeps
 from tire_pipeline.mismatch.candidates import Variant, screening_columns, variants
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.gram import Sums, System
+from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.noise import Noise, estimate_noise, refined
 from tire_pipeline.mismatch.nuisance import largest_force, make_nuisance
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual

@@ -13,7 +13,6 @@ from scipy.ndimage import percentile_filter
 from scipy.optimize import brentq
 from scipy.signal import savgol_coeffs
 
-
 Array = np.ndarray
 _WINDOWS = ((9, 4), (15, 4), (25, 4), (35, 4), (61, 2), (121, 2), (241, 2))
 _WIDTH = 1.7

@@ -91,7 +91,7 @@ def summary(
 def _where(located: Sequence[Located]) -> str:
     """First sentence: where recorded and simulated force differ most."""
     along = [f for f in located if f.along_force] or list(located)
-    output = along[0].output
+    output = max(along, key=lambda f: abs(f.mean)).output
     own = [f for f in along if f.output == output][:3]
     where = ", ".join(interval(f.axis, f.low, f.high) for f in own)
     best = max(own, key=lambda f: abs(f.mean))
