@@ -144,7 +144,7 @@ class Data:
 
     @cached_property
     def pressure_levels(self) -> list[float]:
-        """Pressures at which the model may be right, Pa: the file's, or the recording's most common and first."""
+        """Pressures at which the model may be right, Pa: the file's, or the most common and the first."""
         nominal = self.pressure_nominal
         c, missing = self.tire.coefficients, getattr(self.tire, "defaulted", {})
         if any(c.get(k) == nominal and k not in missing for k in ("NOMPRES", "INFLPRES")):

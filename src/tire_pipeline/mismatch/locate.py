@@ -132,7 +132,7 @@ def when(part: Array, data: Data, floor: float) -> list[tuple[float, float]]:
     """
     if data.time is None:
         return []
-    width = max(int(round(1.0 / max(float(np.median(data.step)), 1e-9))), 1)
+    width = max(round(1.0 / max(float(np.median(data.step)), 1e-9)), 1)
     local = np.sqrt(np.maximum(uniform_filter1d(part**2, width), 0.0))
     above = np.flatnonzero(local > floor)
     if above.size == 0:

@@ -95,7 +95,7 @@ def estimate_noise(data: Data, residual: dict[str, Array]) -> dict[str, Noise]:
 
 
 def _series(data: Data, r: Array, parts: list[Array]) -> tuple[Array, float, float]:
-    """Size by non-negative least squares on block medians of squared second differences; colour by their lag."""
+    """Size by least squares on block medians of squared second differences; colour by their lag."""
     length = 50
     count = max(r.size // length, 4)
     block = np.minimum(np.arange(r.size) // length, count - 1)

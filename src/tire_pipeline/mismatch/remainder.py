@@ -1,4 +1,4 @@
-"""What is left above the noise after the effects: where it lives, how large it is, and a form without a name."""
+"""What is left above the noise after the effects: where, how large, and a form without a name."""
 
 from __future__ import annotations
 

@@ -364,7 +364,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
         judge = frozen
         shown = _shown(search, fit, i)
         before, first = judge.held_out(rest_without, reduced.columns if reduced.labels else None, shown)
-        after, second = judge.held_out(rest, fit.columns if fit.labels else None, shown)
+        _after, second = judge.held_out(rest, fit.columns if fit.labels else None, shown)
         out.append(
             Gates(
                 name=name,
@@ -491,7 +491,7 @@ def _pairs(search: Search, fits: list[Fit]) -> list[Fit]:
 
 
 def _take(search: Search, fits: list[Fit]) -> bool:
-    """Accept the likeliest set that passes all gates; near ties go by how well frozen coefficients do with it."""
+    """Accept the likeliest set that passes all gates; near ties go by the fit with frozen coefficients."""
     empty = objective(search.system, [])
     fits = [f for f in fits if _visible(search, f) and gain_of(search, f, empty) > settings.LEAST_GAIN]
     if not fits:

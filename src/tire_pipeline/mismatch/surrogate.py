@@ -1,4 +1,4 @@
-"""Another simulator's output in place of a tire model: a Magic Formula that stands in for it, and what it lacks."""
+"""Another simulator's output in place of a tire model: a Magic Formula that stands in for it."""
 
 from __future__ import annotations
 

@@ -9,6 +9,7 @@ try:
 except ImportError:  # pragma: no cover - numba is a dependency; this keeps the file importable without
 
     def njit(*_args: object, **_kwargs: object):  # type: ignore[no-redef]
+        """Leave the function as it is."""
         return lambda function: function
 
 
