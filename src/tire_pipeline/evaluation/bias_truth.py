@@ -29,7 +29,10 @@ def measured_bias(first: pd.DataFrame, loads: np.ndarray) -> pd.DataFrame:
     parts = first["file"].str.split("/", expand=True)
     grid = EvaluationGrid(loads=np.asarray(loads), load_axis=np.asarray(loads))
     curves = curves_of(first, grid, lateral_only=True)
-    values = {"cornering stiffness": curves.cornering_stiffness, "friction level": curves.peak_friction}
+    values = {
+        "cornering stiffness": np.asarray(curves.cornering_stiffness),
+        "friction level": np.asarray(curves.peak_friction),
+    }
     rows = []
     for what, array in values.items():
         logs = pd.DataFrame(np.log(array), index=[parts[1], parts[0] + "/" + parts[2]])

@@ -179,7 +179,8 @@ def fit_curve_space(table: pd.DataFrame) -> tuple[CurveSpace, Cells]:
         if not np.isfinite(values).all():
             bad = table["file"].iloc[int(np.flatnonzero(~np.isfinite(values).all(axis=1))[0])]
             raise DomainError(f"the curves of {bad} are not finite", todo="drop the file")
-        *parts[name], own, spread = _fit_part(values, cell, over, known, part.components)
+        *fitted, own, spread = _fit_part(values, cell, over, known, part.components)
+        parts[name] = tuple(fitted)  # type: ignore[assignment]
         scores.append(own)
         noise.append(spread)
     mean, onto, back, limit = ({name: found[k] for name, found in parts.items()} for k in range(4))

@@ -9,6 +9,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 import pandas as pd
 from scipy.stats import norm
+from threadpoolctl import threadpool_limits
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.representations.coefficients import DATASETS
@@ -85,8 +86,9 @@ class MixedModel:
         check_target(training, target)
         training = training.reset_index(drop=True)
         self.target = target
-        self.model: CurveMixedModel = fit_curve_mixed_model(training, pairs=self.pairs)
-        self.reach = TrainingReach.fit(self.model, training, target)
+        with threadpool_limits(1):  # thousands of small matrices: threads would only wait for each other
+            self.model: CurveMixedModel = fit_curve_mixed_model(training, pairs=self.pairs)
+            self.reach = TrainingReach.fit(self.model, training, target)
         self._learn_coefficients(training)
         return self
 
@@ -132,8 +134,9 @@ class MixedModel:
         if not usable.size:
             return TranslationResult(table, report, {}, pd.DataFrame(), self.name)
         rows = source.iloc[usable]
-        found = self.predict(rows)
-        moved = self._decode(rows, found)
+        with threadpool_limits(1):
+            found = self.predict(rows)
+            moved = self._decode(rows, found)
         judged = self._judge(rows, moved, found)
         act = (judged["verdict"] == TRANSLATED).to_numpy()
         changed = np.zeros(len(source), dtype=bool)
@@ -240,12 +243,12 @@ class MixedModel:
         reason = np.full(len(rows), "", dtype=object)
         for i in range(len(rows)):
             reason[i] = f"expected error {ratio[i]:.0%} of the unchanged file's"
-            if new.iloc[i].any() or broken.iloc[i].drop("curvature").any():
-                verdict[i] = REFUSED
-                reason[i] = f"no physical tire found: {', '.join(broken.columns[broken.iloc[i]])}"
-            elif self.gate and distance[i] > FARTHEST:
+            if self.gate and distance[i] > FARTHEST:
                 verdict[i] = REFUSED
                 reason[i] = f"this tire is outside of what {self.target} has measured: do not trust"
+            elif new.iloc[i].any() or broken.iloc[i].drop("curvature").any():
+                verdict[i] = REFUSED
+                reason[i] = f"no physical tire found: {', '.join(broken.columns[broken.iloc[i]])}"
             elif self.gate and ratio[i] > 1.0 - LEAST_GAIN:
                 verdict[i] = UNBIASED
                 reason[i] = "no bias worth correcting was found for such a tire"

@@ -103,8 +103,8 @@ def _rows(situation: Situation) -> torch.Tensor:
 def _network(inputs: int, outputs: int, hidden: int, *, still: bool = False) -> nn.Sequential:
     network = nn.Sequential(nn.Linear(inputs, hidden), nn.ReLU(), nn.Linear(hidden, outputs))
     if still:
-        nn.init.zeros_(network[2].weight)
-        nn.init.zeros_(network[2].bias)
+        for last in network[2].parameters():
+            nn.init.zeros_(last)
     return network
 
 
@@ -147,5 +147,5 @@ def _train(
             judging.zero_grad()
             judged.backward()
             judging.step()
-    weights = [w for layer in (go[0], go[2]) for w in (layer.weight, layer.bias)]
+    weights = [w for layer in (go[0], go[2]) for w in layer.parameters()]
     return [w.detach().numpy().T.astype(float) for w in weights]

@@ -134,6 +134,7 @@ def _layers(agent: PPO) -> list[np.ndarray]:
     """Weights (input x output) and biases of the policy's two layers, double precision."""
     inner, outer = agent.policy.mlp_extractor.policy_net[0], agent.policy.action_net
     found = []
-    for layer in (inner, outer):
-        found += [layer.weight.detach().numpy().T.astype(float), layer.bias.detach().numpy().astype(float)]
+    for layer in (inner, outer):  # type: Any
+        weight, bias = (each.detach().numpy().astype(float) for each in layer.parameters())
+        found += [weight.T, bias]
     return found

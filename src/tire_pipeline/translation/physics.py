@@ -90,10 +90,10 @@ def violations(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def _outside(values: np.ndarray, low: float, high: float) -> np.ndarray:
-    return ~((values >= low) & (values <= high)).all(axis=1)
+    return np.asarray(~((values >= low) & (values <= high)).all(axis=1))
 
 
 def symmetric(table: pd.DataFrame, group: str) -> np.ndarray:
     """Tell which tires have the same curve to both sides at zero camber, (n,)."""
     p = columns(table)
-    return np.concatenate([p[name] == 0.0 for name in SYMMETRY[group]], axis=1).all(axis=1)
+    return np.asarray(np.concatenate([p[name] == 0.0 for name in SYMMETRY[group]], axis=1).all(axis=1))

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
+from numpy.typing import ArrayLike
 
 from tire_pipeline.representations.coefficients import ALIGNING, LATERAL, LONGITUDINAL
 
@@ -38,7 +39,7 @@ class Points:
     camber: np.ndarray
 
     @classmethod
-    def grid(cls, slip: Sequence[float], normal_load: Sequence[float], camber: Sequence[float]) -> Points:
+    def grid(cls, slip: ArrayLike, normal_load: ArrayLike, camber: ArrayLike) -> Points:
         """Every combination, in the order (normal_load, camber, slip)."""
         load, tilt, along = np.meshgrid(normal_load, camber, slip, indexing="ij")
         return cls(along.ravel(), load.ravel(), tilt.ravel())
