@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -77,7 +78,7 @@ def _report(prepared: Prepared, search: Search) -> MismatchReport:
             {n: "what it leaves is too large for this to be the cause" for n in search.fit.names}
         )
         search.fit, search.gates = Fit([], []), []
-        left = remainder(search)
+        left = replace(remainder(search), significant=True)
     fit = prove(search)
     before = {o: data.recorded[o] - data.base[o] for o in data.outputs}
     effects = [_exact(f, prepared) for f in prepared.findings]
@@ -123,6 +124,8 @@ def _unlike(search: Search, left: Remainder) -> bool:
     """Whether the effects leave so much that something else, which resembles them, must be the cause."""
     if not search.gates or left.statistic < settings.REMAINDER_LIMIT:
         return False
+    if "nonuniformity" in search.fit.names:
+        return False  # its higher harmonics are left, and no other cause follows the wheel's angle
     evidence = max(g.frozen if catalogue()[g.name].own_inputs else g.gain for g in search.gates)
     return left.nats > settings.UNLIKE * evidence
 
