@@ -7,7 +7,8 @@ from tire_pipeline.mismatch.simulate import simulate
 
 PHYSICS = (
     "friction_scale stiffness_scale load_sensitivity camber combined_slip inflation_pressure temperature "
-    "speed_dependence relaxation_length wear plysteer_conicity turn_slip nonuniformity compliance surface_change"
+    "speed_dependence relaxation_length wear plysteer_conicity turn_slip "
+    "nonuniformity compliance surface_change"
 ).split()
 ARTEFACTS = (
     "force_offset force_gain slip_angle_offset camber_offset time_delay low_pass crosstalk sensor_drift "

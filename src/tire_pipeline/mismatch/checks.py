@@ -88,7 +88,8 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
         time = None if time is None else time[~bad]
         if rows.size < LEAST_POINTS:
             raise RecordingError(
-                f"after taking out {int(bad.sum())} samples with a stuck or clipped channel only {rows.size} are left",
+                f"after taking out {int(bad.sum())} samples with a stuck or clipped channel only "
+                f"{rows.size} are left",
                 todo="record again",
             )
     for name in ("camber", "slip_ratio", "slip_angle"):
@@ -266,7 +267,8 @@ def _overlap(tire: Any, arrays: Mapping[str, Array]) -> None:
     inside = (load > low) & (load < high)
     if inside.mean() < 0.1:
         raise RecordingError(
-            f"no overlap between model and recording: the loads are {np.min(load):.4g} to {np.max(load):.4g} N, "
+            f"no overlap between model and recording: the loads are {np.min(load):.4g} to "
+            f"{np.max(load):.4g} N, "
             f"the model's nominal load is {c.get('FNOMIN', float('nan')):.4g} N",
             where="normal_load",
             todo="use the .tir file of this tire, or check the unit of the load",

@@ -122,7 +122,8 @@ class CorrectedModel:
             Effect -> equation, parameters and reference values, for what a ``.tir`` cannot hold.
             Artefacts belong to the recording, not to the tire, and are in neither.
         """
-        tire, sidecar = self.tire, {}
+        tire: Any = self.tire
+        sidecar: dict[str, dict[str, object]] = {}
         for name, p in self.changes:
             effect = catalogue()[name]
             if effect.kind == "artefact":

@@ -243,7 +243,7 @@ class Data:
         """Return d force / d channel of the model by central differences."""
         key = f"slope {name}"
         if key not in self.fixed:
-            out = {}
+            out: dict[str, Array] = {}
             for sign in (1.0, -1.0):
                 c = {n: self.get(n) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
                 c[name] = c[name] + sign * step
@@ -319,8 +319,9 @@ class Data:
     def elapsed(self) -> Array:
         """Time so far over all of it."""
         if "elapsed" in self.fixed:
-            return self.fixed["elapsed"]
-        return (self.time - self.scales["time_origin"]) / self.scales["time_span"]
+            return np.asarray(self.fixed["elapsed"])
+        assert self.time is not None  # asked only of effects that need a time line
+        return np.asarray((self.time - self.scales["time_origin"]) / self.scales["time_span"])
 
     @cached_property
     def distance(self) -> Array:
@@ -338,6 +339,7 @@ class Data:
         if key not in cache:
             first = np.zeros(self.size, bool)
             first[0] = True
+            assert self.power is not None  # asked only of effects that need a time line
             power = self.power.copy()
             power[0] = 0.0
             h = first_order(power, 1.0 - np.exp(-self.step / max(lag, 1e-3)), first)

@@ -172,7 +172,7 @@ def _found(search: Search, index: int, left: Remainder, data: Data) -> tuple[Eff
     parameters = {
         n: (float(v), errors.get(n, 0.0), units[n]) for n, v in values.items() if n in search.fit.free[index]
     }
-    evidence = {
+    evidence: dict[str, Any] = {
         "gain_nats": gate.gain,
         "gain_with_loose_coefficients": gate.loose,
         "gain_with_frozen_coefficients": gate.frozen,

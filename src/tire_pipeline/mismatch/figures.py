@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from tire_pipeline.mismatch.report import MismatchReport
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
-_STYLE = {
+_STYLE: Any = {
     "font.size": 9,
     "axes.spines.top": False,
     "axes.spines.right": False,

@@ -8,6 +8,7 @@ that leaving sweeps out costs nothing.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
@@ -112,7 +113,8 @@ class System:
         return out
 
     def _factor(self) -> None:
-        self._chol, self._without = {}, {}
+        self._chol: dict[Any, Any] = {}
+        self._without: dict[Any, Any] = {}
         for o, g in self._gram.items():
             s = self.scale[o]
             total = g.sum(axis=0) * s[:, None] * s[None, :]

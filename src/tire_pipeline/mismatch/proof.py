@@ -72,6 +72,7 @@ def _solve(info: Array, score: Array) -> Array:
 def _without(search: Search, left_out: Array) -> Array:
     """Return the change of the parameters when some sweeps (bool, by number) are left out."""
     sums = search.fit.sums
+    assert sums is not None  # kept by the last fit
     kept = ~left_out
     info, score = sums.ee[kept].sum(axis=0), sums.er[kept].sum(axis=0)
     return _solve(info, score)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -151,7 +152,7 @@ def _step(
 
 
 def _moved(changes: list[Change], labels: list[tuple[int, str]], delta: Array) -> list[Change]:
-    out = [(n, dict(p)) for n, p in changes]
+    out: list[Any] = [(n, dict(p)) for n, p in changes]
     for (i, name), d in zip(labels, delta, strict=True):
         parameter = next(p for p in catalogue()[out[i][0]].parameters if p.name == name)
         values = out[i][1]
@@ -169,10 +170,11 @@ def _scan(
         if name != "surface_change" or "moment" not in free[i]:
             continue
         time = system.data.time
+        assert time is not None  # the effect needs a time line
         width = (time[-1] - time[0]) / 50.0
         while width > 0.05:
             for sign in (1.0, -1.0):
-                trial = [(n, dict(p)) for n, p in changes]
+                trial: list[Any] = [(n, dict(p)) for n, p in changes]
                 trial[i][1]["moment"] = float(np.clip(values["moment"] + sign * width, time[0], time[-1]))
                 value = objective(system, trial)
                 if value < best:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 from scipy.stats import wilcoxon
@@ -456,7 +457,7 @@ def _refined(search: Search, ranked: list[tuple[float, Variant]]) -> list[Fit]:
     now = [Variant(n, p, f) for (n, p), f in zip(search.fit.changes, search.fit.free, strict=True)]
     best = ranked[0][0]
     seen: dict[str, int] = {}
-    chosen = []
+    chosen: list[Any] = []
     for gain, v in ranked:
         if gain < 0.25 * best - 5.0 or seen.get(v.name, 0) >= 2 or len(chosen) >= 9:
             continue
@@ -499,17 +500,15 @@ def _take(search: Search, fits: list[Fit]) -> bool:
     best = gain_of(search, fits[0], empty)
     tied = [f for f in fits if gain_of(search, f, empty) > best - settings.TIE]
     tied.sort(key=lambda f: (_rank(f), objective(search.frozen, f.changes)))
-    tried = 0
-    for fit in [*tied, *(f for f in fits if all(f is not t for t in tied))]:
+    for tried, fit in enumerate([*tied, *(f for f in fits if all(f is not t for t in tied))]):
         if gain_of(search, fit, empty) < 0.75 * best - settings.TIE or tried >= 4:
             break
-        tried += 1
         ok, gates = _accepted(search, fit)
         search.log.append(
             "gates: "
             + "; ".join(
-                f"{g.name} gain {g.gain:.1f} loose {g.loose:.1f} frozen {g.frozen:.1f} p {g.p_value:.1g} share {g.share:.3f}"
-                + ("" if g.in_bounds else " bound")
+                f"{g.name} gain {g.gain:.1f} loose {g.loose:.1f} frozen {g.frozen:.1f} p "
+                f"{g.p_value:.1g} share {g.share:.3f}" + ("" if g.in_bounds else " bound")
                 for g in gates
             )
         )

@@ -52,7 +52,8 @@ def summary(
             f"{o.capitalize()} {f.rms_before:.0f} N (noise {f.noise_floor:.0f} N)" for o, f in fit.items()
         )
         return (
-            "Simulation and recording agree: what differs is no larger than noise and the misfit that a fitted "
+            "Simulation and recording agree: what differs is no larger than noise and the "
+            "misfit that a fitted "
             f"tire model always has. RMS difference: {floors}."
         )
     if located:
@@ -67,7 +68,8 @@ def summary(
         if fit:
             o, f = max(fit.items(), key=lambda t: t[1].rms_before ** 2 - t[1].rms_after ** 2)
             parts.append(
-                f"With it the error of {o.capitalize()} falls from {f.rms_before:.0f} N to {f.rms_after:.0f} N on sweeps "
+                f"With it the error of {o.capitalize()} falls from {f.rms_before:.0f} N to "
+                f"{f.rms_after:.0f} N on sweeps "
                 f"left out of the fit; noise is {f.noise_floor:.0f} N."
             )
         for e in effects:

@@ -57,7 +57,10 @@ class Clipping(Effect):
             bad, limits = _at_the_ends(x)
             if bad is None:
                 continue
-            text = f"{name} stays exactly at {', '.join(f'{v:.5g}' for v in limits)} for {int(bad.sum())} samples"
+            text = (
+                f"{name} stays exactly at {', '.join(f'{v:.5g}' for v in limits)} for "
+                f"{int(bad.sum())} samples"
+            )
             values = {f"{name}_limit_{i + 1}": (v, 0.0, "as recorded") for i, v in enumerate(limits)}
             found.append(Finding(self.name, name, text, values, {}, bad))
         return found

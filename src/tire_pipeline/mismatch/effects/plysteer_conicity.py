@@ -10,8 +10,14 @@ class PlysteerConicity(Effect):
 
     name = "plysteer_conicity"
     title = "conicity or ply steer"
-    equation = "slip angle += ply_steer; and either Fy += conicity Fz, or camber += pseudo_camber where the model answers to camber"
-    source = "SAE J1106; Pacejka, 3rd ed., 4.2.1: ply steer as equivalent slip angle, conicity as equivalent camber"
+    equation = (
+        "slip angle += ply_steer; and either Fy += conicity Fz, or camber += "
+        "pseudo_camber where the model answers to camber"
+    )
+    source = (
+        "SAE J1106; Pacejka, 3rd ed., 4.2.1: ply steer as equivalent slip angle, "
+        "conicity as equivalent camber"
+    )
     own_inputs = True
     parameters = (
         Parameter("conicity", "1", -0.15, 0.15, 0.001, output="fy"),

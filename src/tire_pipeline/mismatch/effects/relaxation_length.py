@@ -13,7 +13,10 @@ class RelaxationLength(Effect):
 
     name = "relaxation_length"
     title = "relaxation length"
-    equation = "length / v d(slip')/dt + slip' = slip, forces from slip'; length *= slope(slip) / slope(0) where `fades`"
+    equation = (
+        "length / v d(slip')/dt + slip' = slip, forces from slip'; length *= slope(slip) "
+        "/ slope(0) where `fades`"
+    )
     source = "von Schlippe and Dietrich 1941; Pacejka, 3rd ed., 7.2 (PTX, PTY of MF 5.2)"
     needs_time = True
     dynamic = True

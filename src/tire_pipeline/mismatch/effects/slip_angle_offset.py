@@ -16,7 +16,9 @@ class SlipAngleOffset(Effect):
     own_inputs = True
     parameters = (Parameter("offset", "rad", -0.15, 0.15, 0.0005),)
     looks_like = {
-        "plysteer_conicity": "conicity shows where the tire slides, too; ply steer is told apart by turning the tire round",
+        "plysteer_conicity": (
+            "conicity shows where the tire slides, too; ply steer is told apart by turning the tire round"
+        ),
         "force_offset": "a force offset shows where the tire slides, too",
     }
     experiment = "a sweep to full sliding on both sides; turn the tire on its rim"

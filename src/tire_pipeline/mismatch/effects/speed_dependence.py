@@ -13,7 +13,10 @@ class SpeedDependence(Effect):
 
     name = "speed_dependence"
     title = "speed"
-    equation = "d = ln(v / v0), or (v - v0) / v0 where `linear` is 1; friction *= 1 + friction d; stiffness *= 1 + stiffness d"
+    equation = (
+        "d = ln(v / v0), or (v - v0) / v0 where `linear` is 1; friction *= 1 + friction "
+        "d; stiffness *= 1 + stiffness d"
+    )
     source = "MF 6.1: LMUV (mu / (1 + LMUV Vs / V0)); Savkoor 1966 on friction and sliding speed"
     channels = ("speed",)
     parameters = (

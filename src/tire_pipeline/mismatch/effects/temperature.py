@@ -14,11 +14,15 @@ class Temperature(Effect):
     name = "temperature"
     title = "tread temperature"
     equation = (
-        "d = (T - reference) / 50 degC; friction *= 1 + friction d - curvature d^2; stiffness *= 1 + stiffness d. "
+        "d = (T - reference) / 50 degC; friction *= 1 + friction d - curvature d^2; "
+        "stiffness *= 1 + stiffness d. "
         "Without a temperature channel d is the state of lag dh/dt = (P - h) / lag, P friction power, "
         "over its 90% quantile in the recording"
     )
-    source = "Sorniotti 2009, SAE 2009-01-0441; Mizuno et al. 2005, VSD 43 (suppl.): temperature in the Magic Formula"
+    source = (
+        "Sorniotti 2009, SAE 2009-01-0441; Mizuno et al. 2005, VSD 43 (suppl.): "
+        "temperature in the Magic Formula"
+    )
     parameters = (
         Parameter("friction", "1", -0.8, 0.8, 0.01),
         Parameter("curvature", "1", -0.8, 0.8, 0.01),
