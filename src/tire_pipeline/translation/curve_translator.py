@@ -16,7 +16,8 @@ from tire_pipeline.representations.coefficients import DATASETS
 from tire_pipeline.translation.base import check_target
 from tire_pipeline.translation.curve_bands import curve_bands
 from tire_pipeline.translation.curve_features import LOADS, encode
-from tire_pipeline.translation.curve_mixed import CurveMixedModel, Prediction, fit_curve_mixed_model
+from tire_pipeline.translation.curve_mixed import CurveMixedModel, Prediction
+from tire_pipeline.translation.curve_mixed_fit import fit_curve_mixed_model
 from tire_pipeline.translation.curve_space import PARTS, UNIT
 from tire_pipeline.translation.decode import Wish, decode
 from tire_pipeline.translation.distance import TrainingReach

@@ -8,7 +8,8 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.translation.curve_mixed import CurveMixedModel, Prepared, fit_curve_mixed_model, prepare
+from tire_pipeline.translation.curve_mixed import CurveMixedModel
+from tire_pipeline.translation.curve_mixed_fit import Prepared, fit_curve_mixed_model, prepare
 from tire_pipeline.translation.curve_space import PARTS
 from tire_pipeline.translation.curve_translator import cautious
 from tire_pipeline.translation.mixed_effects import Design, posterior_weights

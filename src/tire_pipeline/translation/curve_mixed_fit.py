@@ -1,0 +1,221 @@
+"""Fit the mixed model of curve scores to a training table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.translation.curve_mixed import CurveMixedModel, design_blocks
+from tire_pipeline.translation.curve_space import Cells, CurveSpace, fit_curve_space
+from tire_pipeline.translation.metadata import Metadata
+from tire_pipeline.translation.mixed_effects import Design, Fitted, fit_mixed_effects
+
+GUESS = {
+    "level": 100.0,
+    "metadata": 0.1,
+    "size": 0.05,
+    "category": 0.1,
+    "category_metadata": 0.01,
+    "category_kind": 0.01,
+    "tire": 0.2,
+}
+"""Where the search for the variances begins, in units of a score's own variance."""
+
+TIRE_CATEGORY_SHARE = {"shape": 2.0, "aligning": 5.0}
+"""Variance of what one tire does in one category alone, over that of the noise, if no tire tells, by part.
+The shape of a curve depends on what else was fitted; stiffness and friction hardly do."""
+
+_OTHER_SHARE = 0.5
+_POOLED = ("category", "category_metadata", "category_kind")
+_POOLED_WIDTH = 1.0
+_WIDTH = 3.0
+
+KIND_SCORES = {
+    "cornering stiffness": 1,
+    "lateral friction": 2,
+    "lateral shape": 1,
+    "longitudinal friction": 1,
+}
+"""The scores whose metadata-predicted values say what kind of tire it is."""
+
+
+def _tire_columns(cells: pd.DataFrame, pairs: bool) -> np.ndarray:
+    """One column for each tire that several categories measured, if these may be used."""
+    tires = cells["tire_id"].to_numpy(dtype=str)
+    names, count = np.unique(tires, return_counts=True)
+    shared = names[count > 1] if pairs else names[:0]
+    return (tires[:, None] == shared[None, :]).astype(float)
+
+
+def fit_curve_mixed_model(training: pd.DataFrame, *, pairs: bool, kinds: int = 3) -> CurveMixedModel:
+    """Fit the model to a training table.
+
+    Parameters
+    ----------
+    training : DataFrame
+        Tire table with ``category`` and ``tire_id``.
+    pairs : bool
+        Use it that several categories measured a tire.
+    kinds : int
+        Numbers that say what kind of tire it is, for interactions.
+
+    Returns
+    -------
+    CurveMixedModel
+    """
+    made = prepare(training, pairs=pairs, kinds=kinds)
+    fitted = _fit_scores(made.design, made.cells, made.space, made.scale)
+    return made.model(fitted)
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """Training data as the mixed model takes them.
+
+    Attributes
+    ----------
+    rows : DataFrame
+        One file of each cell.
+    cells : Cells
+    design : Design
+    space, metadata, categories, kinds, scale
+        As in :class:`CurveMixedModel`.
+    """
+
+    rows: pd.DataFrame
+    cells: Cells
+    design: Design
+    space: CurveSpace
+    metadata: Metadata
+    categories: tuple[str, ...]
+    kinds: np.ndarray
+    scale: np.ndarray
+
+    def model(self, fitted: tuple[Fitted, ...]) -> CurveMixedModel:
+        """Give the model with these weights."""
+        return CurveMixedModel(
+            self.space,
+            self.metadata,
+            self.categories,
+            bool(self.design.tire.shape[1]),
+            self.kinds,
+            self.scale,
+            fitted,
+            _spread_by_category(self.design, self.cells, self.space, self.scale, fitted),
+        )
+
+
+def prepare(training: pd.DataFrame, *, pairs: bool, kinds: int = 3) -> Prepared:
+    """Find the curve space, draw cells together, and lay out the design."""
+    space, cells = fit_curve_space(training)
+    rows = training.iloc[cells.row].reset_index(drop=True)
+    metadata = Metadata.fit(training)
+    categories = tuple(np.unique(training["category"].to_numpy(dtype=str)))
+    tires = _tire_columns(rows, pairs)
+    scale = np.maximum(cells.scores.std(axis=0), 1e-9)
+    turn = np.zeros((len(metadata.names) + len(metadata.sizes), 0))
+    if kinds and metadata.names:
+        turn = _kinds(rows, cells, metadata, categories, tires, scale, space, kinds)
+    blocks = design_blocks(metadata, turn, rows, rows["category"].to_numpy(dtype=str), categories)
+    return Prepared(rows, cells, Design(blocks, tires, cells.files), space, metadata, categories, turn, scale)
+
+
+def _alone_share(space: CurveSpace, k: int) -> float:
+    part = next(name for name, place in space.slices.items() if place.start <= k < place.stop)
+    return next((share for word, share in TIRE_CATEGORY_SHARE.items() if word in part), _OTHER_SHARE)
+
+
+def _fit_scores(design: Design, cells: Cells, space: CurveSpace, scale: np.ndarray) -> tuple[Fitted, ...]:
+    """Fit every score twice: the second time the size of the bias is expected as it was found in all of them.
+
+    Six categories tell little about the variance of their effects on one score; all scores together do.
+    """
+    first = [_fit_score(design, cells, space, scale, k, GUESS) for k in range(scale.size)]
+    noise = space.noise / scale**2
+    common = {
+        name: float(np.exp(np.mean(np.log(np.array([f.variances[name] for f in first]) / noise))))
+        for name in _POOLED
+        if name in first[0].variances
+    }
+    guesses = [{**GUESS, **{name: common[name] * one for name in common}} for one in noise]
+    return tuple(
+        _fit_score(design, cells, space, scale, k, guess, tuple(common)) for k, guess in enumerate(guesses)
+    )
+
+
+def _fit_score(
+    design: Design,
+    cells: Cells,
+    space: CurveSpace,
+    scale: np.ndarray,
+    k: int,
+    guess: dict[str, float],
+    pooled: tuple[str, ...] = (),
+) -> Fitted:
+    noise = float(space.noise[k] / scale[k] ** 2)
+    alone = _alone_share(space, k) * noise
+    guess = {**guess, "tire_category": alone}
+    estimated = design.tire.shape[1] >= 4
+    return fit_mixed_effects(
+        design,
+        cells.scores[:, k] / scale[k],
+        noise=noise,
+        guess=guess,
+        width={name: _POOLED_WIDTH if name in pooled else _WIDTH for name in guess},
+        tire_category=None if estimated else alone,
+    )
+
+
+def _spread_by_category(
+    design: Design, cells: Cells, space: CurveSpace, scale: np.ndarray, fitted: tuple[Fitted, ...]
+) -> np.ndarray:
+    """How much more or less than the average a category spreads what is the tires' own, (categories, p).
+
+    From the residuals' variance by category; its logarithm shrinks towards 0 by its own uncertainty.
+    """
+    x = np.concatenate(list(design.blocks.values()), axis=1)
+    actor = design.blocks["category"].astype(bool)
+    out = np.ones((actor.shape[1], scale.size))
+    for k, one in enumerate(fitted):
+        own = one.variances["tire"]
+        rest = one.variances["tire_category"] + one.variances["noise"] / design.files
+        gap = cells.scores[:, k] / scale[k] - x @ one.mean[: x.shape[1]]
+        gap = np.clip(gap, -3.0 * np.sqrt(own + rest), 3.0 * np.sqrt(own + rest))
+        logs, doubts = np.zeros(len(out)), np.ones(len(out))
+        for c in range(len(out)):
+            rows = actor[:, c]
+            excess = (gap[rows] ** 2 - rest[rows]).mean() / own
+            logs[c] = 0.5 * np.log(np.clip(excess, 0.1, 10.0))
+            doubts[c] = 0.5 / rows.sum() * np.mean((own + rest[rows]) ** 2) / own**2
+        logs -= np.average(logs, weights=1.0 / doubts)
+        between = max(0.0, float(np.mean(logs**2 - doubts)))
+        out[:, k] = np.exp(logs * between / (between + doubts))
+    return out
+
+
+def _kinds(
+    rows: pd.DataFrame,
+    cells: Cells,
+    metadata: Metadata,
+    categories: tuple[str, ...],
+    tires: np.ndarray,
+    scale: np.ndarray,
+    space: CurveSpace,
+    count: int,
+) -> np.ndarray:
+    """Find the directions in the metadata along which the tires themselves differ most."""
+    category = rows["category"].to_numpy(dtype=str)
+    none = np.zeros((len(metadata.names) + len(metadata.sizes), 0))
+    design = Design(design_blocks(metadata, none, rows, category, categories), tires, cells.files)
+    own = slice(1, 1 + len(none))
+    weights = []
+    for part, first in KIND_SCORES.items():
+        start = space.slices[part].start
+        weights += [_fit_score(design, cells, space, scale, start + k, GUESS).mean[own] for k in range(first)]
+    x = np.concatenate([metadata.regressors(rows), metadata.size_indicators(rows)], axis=1)
+    predicted = x @ np.stack(weights, axis=1)
+    _, size, axes = np.linalg.svd(predicted - predicted.mean(axis=0), full_matrices=False)
+    keep = min(count, int((size > 1e-6 * size[0]).sum()))
+    return np.stack(weights, axis=1) @ axes[:keep].T / (size[:keep] / np.sqrt(len(x)))
