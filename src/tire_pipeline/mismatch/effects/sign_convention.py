@@ -28,7 +28,7 @@ class SignConvention(Effect):
     def detect(
         self,
         channels: Mapping[str, Array],
-        simulate: Callable[[Mapping[str, Array]], dict[str, Array]],
+        simulate: Callable[[Mapping[str, Array]], dict[str, Array]],  # type: ignore[override]
     ) -> list[Finding]:
         """Turn one sign after the other; load must be positive."""
         found = []
