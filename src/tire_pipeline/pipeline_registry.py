@@ -31,6 +31,7 @@ GROUPS = {
     "train_classifier": "classifier",
     "train_agent": "agent",
     "translate": "translation",
+    "compare_translators": "translation",
     "evaluate": "evaluation",
     "reproduce_thesis": "evaluation",
     "explain_mismatch": "mismatch",
