@@ -117,7 +117,7 @@ def _summary(hidden: pd.DataFrame) -> list[str]:
         "without the compound class in the metadata.",
         f"The mixed model {harm}: its largest ratio anywhere is {largest.max():.2f} ({where}).",
         "The metadata, which is known to be right, is the compass. Nominal pressure is part of it, and in "
-        "this fleet it follows the compound; where it does not, expect less (docs/translation.md says how much).",
+        "this fleet it follows the compound; where it does not, expect less (see docs/translation.md).",
     ]
 
 
