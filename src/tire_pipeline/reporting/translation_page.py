@@ -79,7 +79,7 @@ def translation_page(
         ),
         Table(
             check_goals(hidden),
-            "Fixed before the hidden tires were looked at.",
+            "Goals were fixed beforehand; docs/translation.md says what was chosen where.",
             heading="Goals, met and missed",
         ),
         Table(
