@@ -35,8 +35,9 @@ def _wait(driver, condition, seconds: float = 60):
 
 def _boxes(driver) -> dict[str, float]:
     """Names of the boxes on the chart, and where they lie from left to right."""
-    found = driver.find_elements("css selector", ".pipeline-node")
-    return {box.text: box.rect["x"] for box in found if box.text}
+    script = """return [...document.querySelectorAll('.pipeline-node')]
+        .map(node => [node.textContent.trim(), node.getBoundingClientRect().x])"""
+    return {name: place for name, place in driver.execute_script(script) if name}
 
 
 def _box(driver, name: str):
@@ -112,7 +113,7 @@ def test_first_screen_then_a_pipeline_then_a_preview(project, tmp_path):
 
         _click(driver, lambda: _box(driver, "files"))
         _wait(driver, lambda: {"read_files", "keep_usable", "to_one_nominal_load"} <= set(_boxes(driver)))
-        assert "files" not in _boxes(driver)
+        _wait(driver, lambda: "files" not in _boxes(driver))
 
         _click(driver, lambda: driver.find_element("xpath", "//*[normalize-space(text())='Datasets']"))
         _wait(driver, lambda: "ingest_report" in _boxes(driver))
