@@ -6,9 +6,9 @@ from kedro.pipeline import Node, Pipeline
 from tire_pipeline.reporting.translation_page import translation_page
 
 
-def draw_translation_page(measured: pd.DataFrame) -> str:
-    """Every translator on the same hidden tires, beside floor, oracle and doing nothing."""
-    return translation_page(measured)
+def draw_translation_page(measured: pd.DataFrame, bias: pd.DataFrame, beside_truth: pd.DataFrame) -> str:
+    """Every translator on the same hidden tires, and what is learned about the actors' bias."""
+    return translation_page(measured, bias=bias, beside_truth=beside_truth)
 
 
 def create_pipeline(**_: object) -> Pipeline:
@@ -17,7 +17,7 @@ def create_pipeline(**_: object) -> Pipeline:
         [
             Node(
                 draw_translation_page,
-                inputs="translation_measured",
+                inputs=["translation_measured", "bias_measured", "bias_beside_truth"],
                 outputs="translation_page",
                 name="draw_translation_page",
             )
