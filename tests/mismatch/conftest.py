@@ -3,24 +3,12 @@
 from __future__ import annotations
 
 import json
-import os
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 
 from tire_pipeline.magic_formula import TireModel
-
-SHARED = Path(__file__).resolve().parents[3] / "shared"
-
-
-def shared(name: str) -> Path:
-    path = SHARED / name
-    if not path.exists() and not os.environ.get("CI"):
-        pytest.skip(f"{path} is not there")
-    return path
-
 
 COEFFICIENTS = {
     "FNOMIN": 4000.0,

@@ -4,7 +4,7 @@ import re
 import numpy as np
 import pandas as pd
 import pytest
-from conftest import shared
+from mismatch_shared import shared
 
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
