@@ -7,6 +7,7 @@ import json
 import numpy as np
 import pandas as pd
 import pytest
+from mismatch_shared import shared
 
 from tire_pipeline.magic_formula import TireModel
 
