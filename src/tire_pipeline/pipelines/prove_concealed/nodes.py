@@ -128,7 +128,7 @@ def score_proof(
         tables.append(pd.DataFrame(result["scores"]).assign(method=method))
         details[method] = {key: result[key] for key in ("n", "by_strength", "by_effect")}
         if method == METHOD:
-            misses = pd.DataFrame(result["misses"])
+            misses = pd.DataFrame(result["misses"]) if result["misses"] else pd.DataFrame(columns=["case_id"])
     scores = pd.concat(tables, ignore_index=True)
     return scores[["method", *[c for c in scores.columns if c != "method"]]], misses, details
 
