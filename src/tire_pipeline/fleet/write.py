@@ -48,8 +48,8 @@ def write_fleet(fleet: Fleet, raw_folder: str | Path) -> dict[str, Path]:
             todo="move them away, or choose another tir_folder; nothing was changed",
         )
     parts: dict[str, dict[str, bytes]] = {
-        "tir": _bytes(fleet.files),
-        "evaluation": _bytes(fleet.evaluation),
+        "tir": encoded(fleet.files),
+        "evaluation": encoded(fleet.evaluation),
         "truth": truth_files(fleet),
     }
     staged: dict[str, Path] = {}
@@ -85,8 +85,8 @@ def truth_files(fleet: Fleet) -> dict[str, bytes]:
         By path relative to ``truth/``.
     """
     truth = fleet.truth
-    files = _bytes({f"first/{path}": text for path, text in truth.first.items()})
-    files |= _bytes({f"second/{path}": text for path, text in truth.second.items()})
+    files = encoded({f"first/{path}": text for path, text in truth.first.items()})
+    files |= encoded({f"second/{path}": text for path, text in truth.second.items()})
     files["tires.parquet"] = _parquet(truth.tires.reset_index())
     files["files.parquet"] = _parquet(truth.files)
     files["evaluation.parquet"] = _parquet(truth.evaluation)
@@ -116,7 +116,8 @@ def read_truth_tables(folder: str | Path) -> tuple[pd.DataFrame, pd.DataFrame]:
     return tires, pd.read_parquet(folder / "files.parquet")
 
 
-def _bytes(texts: dict[str, str]) -> dict[str, bytes]:
+def encoded(texts: dict[str, str]) -> dict[str, bytes]:
+    """Texts as the bytes that are written: Windows-1252, line ends as the manufacturers have them."""
     return {path: text.encode("cp1252") for path, text in texts.items()}
 
 

@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from tire_pipeline.fleet import FleetSettings, make_fleet
-from tire_pipeline.fleet.write import truth_files
+from tire_pipeline.fleet.write import encoded, truth_files
 from tire_pipeline.pipelines.parameters import Parameters
 
 
@@ -42,8 +42,4 @@ def build_fleet(
     """
     settings = FleetSettings(target=target_category, seed=seed, **parameters.model_dump())
     fleet = make_fleet(settings)
-    return truth_files(fleet), _encoded(fleet.evaluation), _encoded(fleet.files)
-
-
-def _encoded(texts: dict[str, str]) -> dict[str, bytes]:
-    return {path: text.encode("cp1252") for path, text in texts.items()}
+    return truth_files(fleet), encoded(fleet.evaluation), encoded(fleet.files)

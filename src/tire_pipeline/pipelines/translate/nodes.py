@@ -180,7 +180,7 @@ def _bands(result: TranslationResult, own: pd.DataFrame) -> pd.DataFrame:
     parts = []
     for output, band in result.bands.items():
         n, loads, slips = band.middle.shape
-        files = own["file"].to_numpy()[_band_rows(result, n)]
+        files = own["file"].to_numpy()
         parts.append(
             pd.DataFrame(
                 {
@@ -194,13 +194,6 @@ def _bands(result: TranslationResult, own: pd.DataFrame) -> pd.DataFrame:
         )
     columns = ["file", "output", "normal_load", "slip", "middle", "low", "high"]
     return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=columns)
-
-
-def _band_rows(result: TranslationResult, n: int) -> np.ndarray:
-    """Rows of the files that bands were given for: those that were not refused outright."""
-    if n == len(result.table):
-        return np.arange(n)
-    return np.flatnonzero(result.report["distance"].notna().to_numpy())
 
 
 def translate_page(
