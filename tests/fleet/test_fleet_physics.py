@@ -126,3 +126,16 @@ def test_metadata_is_unique_and_every_compound_occurs() -> None:
     assert not tires.duplicated(keys).any()
     assert set(tires["compound"]) == set(COMPOUNDS)
     assert (tires.select_dtypes("number").drop(columns=["ply_steer"]).notna()).all(axis=None)
+
+
+def test_metadata_say_nothing_of_the_compound_beyond_the_size() -> None:
+    tires = draw_tires(4000, np.random.default_rng(8))
+    code = tires["compound"].map({name: float(i) for i, name in enumerate(COMPOUNDS)})
+    sizes = tires.groupby(["WIDTH", "ASPECT_RATIO", "RIM_RADIUS"]).ngroup()
+    within = code - code.groupby(sizes).transform("mean")
+    assert within.var() > 0.5 * code.var(), "the size alone does not give it away"
+    for name in ("NOMPRES", "MASS", "UNLOADED_RADIUS", "RIM_WIDTH"):
+        column = tires[name] - tires[name].groupby(sizes).transform("mean")
+        spread = float(column.std())
+        correlation = float(np.mean(column * within)) / (spread * within.std()) if spread > 1e-9 else 0.0
+        assert abs(correlation) < 4.0 / np.sqrt(len(tires)), name

@@ -73,6 +73,8 @@ def draw_tires(count: int, rng: np.random.Generator, first: int = 0) -> pd.DataF
     means = np.array([_COMPOUND_MEANS[name] for name in COMPOUNDS])[compound]
     heaviness = rng.normal(0.0, 1.0, count)
     radius = np.round(rim_radius + width * aspect + rng.normal(0.0, 0.0015, count), 4)
+    # Of its own generator: the metadata say nothing of the compound beyond what the size says.
+    pressure = 2.3 + 0.25 * (rated / 6500.0 - 0.8) + rng.spawn(1)[0].normal(0.0, 0.12, count)
     mass = 9.6 * (width / 0.215) * (radius / 0.32) ** 1.6 * (rated / 6500.0) ** 0.3
     tires = pd.DataFrame(
         {
@@ -82,13 +84,13 @@ def draw_tires(count: int, rng: np.random.Generator, first: int = 0) -> pd.DataF
             "RIM_RADIUS": rim_radius,
             "RIM_WIDTH": np.round(np.round(width * 0.88 / 0.0127) * 0.0127, 4),
             "MASS": np.round(mass * (1.0 + 0.06 * heaviness), 2),
-            "NOMPRES": np.round(2.1 + 0.25 * (rated / 6500.0 - 0.8) + 0.1 * compound, 1) * 1e5,
+            "NOMPRES": np.round(np.round(pressure, 1) * 1e5),
             "load_index": size[:, 3],
             "compound": np.array(COMPOUNDS)[compound],
         },
         index=pd.Index([f"T{first + i:04d}" for i in range(count)], name="tire"),
     )
-    tires = tires.assign(**_true_parameters(tires, means, heaviness, rng), NOMPRES=tires["NOMPRES"].round())
+    tires = tires.assign(**_true_parameters(tires, means, heaviness, rng))
     return _unique_metadata(tires)
 
 
