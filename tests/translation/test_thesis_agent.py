@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 import torch
 
+from tire_pipeline.datasets.state import pack_state, unpack_state
 from tire_pipeline.errors import DomainError
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
-from tire_pipeline.state_files import read_state, write_state
 from tire_pipeline.tire_table.bins import Binning
 from tire_pipeline.translation import make_translator, translator_from_state
 from tire_pipeline.translation.thesis.batch_environment import BatchEnv
@@ -52,19 +52,16 @@ def test_only_what_moved_changes(translator, table):
     assert not still.all()
 
 
-def test_stored_translator_translates_the_same(translator, table, tmp_path):
-    write_state(tmp_path / "agent", translator.to_state())
-    assert {path.suffix for path in tmp_path.iterdir()} == {".json", ".safetensors"}
-    again = translator_from_state(read_state(tmp_path / "agent"))
+def test_stored_translator_translates_the_same(translator, table):
+    again = translator_from_state(unpack_state(pack_state(translator.to_state())))
     source = table.head(40)
     assert again.translate(source).equals(translator.translate(source))
 
 
-def test_half_a_stored_translator_is_refused(translator, tmp_path):
-    write_state(tmp_path / "agent", translator.to_state())
-    (tmp_path / "agent.json").unlink()
-    with pytest.raises(DomainError, match="incomplete"):
-        read_state(tmp_path / "agent")
+def test_half_a_stored_translator_is_refused(translator):
+    stored = pack_state(translator.to_state())
+    with pytest.raises(DomainError, match="damaged"):
+        unpack_state(stored[: len(stored) // 2])
 
 
 @pytest.mark.parametrize("representation", ["key_attributes", "power_series", "latent"])

@@ -9,7 +9,7 @@ from typing import Any
 from joblib import Parallel, delayed
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.datasets._atomic import replaced_file
+from tire_pipeline.atomic import replaced_file
 from tire_pipeline.datasets.text_folder import _inside
 from tire_pipeline.progress import track
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.datasets._atomic import replaced_file
+from tire_pipeline.atomic import replaced_file
 
 
 class HtmlPageDataset(AbstractDataset[str, str]):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import io
-import os
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,12 +11,11 @@ from typing import Any
 import pandas as pd
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.datasets._atomic import replaced_file
+from tire_pipeline.atomic import replaced_file, write_bytes
 from tire_pipeline.datasets._one_at_a_time import locked, refuse_other_revision
 from tire_pipeline.errors import DomainError
 from tire_pipeline.retraining.ingest import Store
 from tire_pipeline.retraining.manifest import Manifest
-from tire_pipeline.tir.atomic import write_bytes
 
 _TODO = "delete this folder: the next run reads all files again"
 
@@ -77,7 +75,7 @@ class IngestStoreDataset(AbstractDataset[Store, Store]):
             if table is None or data.manifest.sequence != present.sequence:
                 table = self._write_table(data)
             new = replace(data.manifest, revision=present.revision + 1)
-            write_bytes(folder / "manifest.json", new.to_json(table=table), overwrite=True)
+            write_bytes(folder / "manifest.json", new.to_json(table=table))
             for stray in folder.glob("table-*.parquet"):
                 if stray.name != table["name"]:
                     stray.unlink(missing_ok=True)
@@ -88,7 +86,6 @@ class IngestStoreDataset(AbstractDataset[Store, Store]):
             data.table.to_parquet(temporary, index=False)
             with open(temporary, "rb") as file:
                 digest = hashlib.file_digest(file, "sha256").hexdigest()
-                os.fsync(file.fileno())
         return {"name": name, "sha256": digest}
 
     def _manifest(self) -> tuple[Manifest, dict[str, str] | None]:

@@ -9,12 +9,12 @@ from typing import Any
 
 from kedro.io.core import AbstractDataset
 
+from tire_pipeline.atomic import write_bytes
 from tire_pipeline.datasets._one_at_a_time import locked, refuse_other_revision
 from tire_pipeline.datasets.state import pack_state, unpack_state
 from tire_pipeline.errors import DomainError
 from tire_pipeline.retraining.model import CategoryModel
 from tire_pipeline.retraining.release import KEPT_MODELS, Release, Shelf
-from tire_pipeline.tir.atomic import write_bytes
 
 _NAME = re.compile(r"[0-9A-Za-z][0-9A-Za-z.\-]*").fullmatch
 
@@ -69,9 +69,9 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
                 if data.model is None:
                     raise DomainError(f"there is no model for {current}", where=str(folder))
                 self._model(current).parent.mkdir(parents=True, exist_ok=True)
-                write_bytes(self._model(current), pack_state(data.model.to_state()), overwrite=True)
+                write_bytes(self._model(current), pack_state(data.model.to_state()))
             text = json.dumps(data.release.to_dict(), indent=1)
-            write_bytes(folder / "record.json", text.encode(), overwrite=True)
+            write_bytes(folder / "record.json", text.encode())
             for old in sorted((folder / "models").glob("*.npz"))[:-KEPT_MODELS]:
                 if old.stem not in data.release.models:
                     old.unlink(missing_ok=True)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from kedro.io.core import AbstractVersionedDataset, Version
 
-from tire_pipeline.datasets._atomic import replaced_file
+from tire_pipeline.atomic import replaced_file
 from tire_pipeline.errors import DomainError
 
 _PLAIN = "plain.json"

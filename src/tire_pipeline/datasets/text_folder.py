@@ -9,7 +9,7 @@ from typing import Any
 
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.datasets._atomic import replaced_folder
+from tire_pipeline.atomic import replaced_folder
 from tire_pipeline.errors import DomainError
 from tire_pipeline.progress import track
 

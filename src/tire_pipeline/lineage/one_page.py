@@ -11,9 +11,9 @@ import json
 import re
 from pathlib import Path
 
+from tire_pipeline.atomic import write_bytes
 from tire_pipeline.errors import DomainError
 from tire_pipeline.lineage.first_screen import prepared
-from tire_pipeline.tir.atomic import write_bytes
 
 _FETCH = """
 (function () {
@@ -80,7 +80,7 @@ def main() -> None:
     parser.add_argument("build", type=Path)
     parser.add_argument("page", type=Path)
     arguments = parser.parse_args()
-    write_bytes(arguments.page, one_page(arguments.build).encode(), overwrite=True)
+    write_bytes(arguments.page, one_page(arguments.build).encode())
     print(f"lineage: {arguments.page}")
 
 

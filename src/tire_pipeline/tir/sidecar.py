@@ -19,8 +19,8 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
+from tire_pipeline.atomic import write_bytes
 from tire_pipeline.errors import TirError, TirSyntaxError
-from tire_pipeline.tir.atomic import write_bytes
 
 SUFFIX = ".sidecar.json"
 FORMAT = "tire-pipeline sidecar"
@@ -97,7 +97,7 @@ def write_sidecar(path: str | os.PathLike[str], effects: Mapping[str, Mapping[st
         text = json.dumps(content, indent=1, allow_nan=False, default=_plain)
     except (TypeError, ValueError, RecursionError) as error:
         raise TirError(f"the corrections do not fit JSON: {error}", path=str(file)) from error
-    write_bytes(file, text.encode(), overwrite=True)
+    write_bytes(file, text.encode())
     return file
 
 

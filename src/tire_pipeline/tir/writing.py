@@ -6,10 +6,10 @@ import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from tire_pipeline.atomic import write_bytes
 from tire_pipeline.errors import TirError
 from tire_pipeline.magic_formula.convert import to_version
 from tire_pipeline.magic_formula.model import TireModel
-from tire_pipeline.tir.atomic import write_bytes
 from tire_pipeline.tir.document import TirFile
 from tire_pipeline.tir.edits import edited_source
 from tire_pipeline.tir.fresh import fresh_text
@@ -65,13 +65,11 @@ def write_tir(
         model = to_version(model, version)
     sidecar = model.metadata.get("sidecar")
     beside = sidecar_path(target)
-    if beside.exists() and not overwrite:
-        raise TirError(
-            "there are corrections for a file of that name",
-            path=str(beside),
-            todo="choose another name, or pass overwrite=True",
-        )
-    write_bytes(target, tir_bytes(model, comments=comments, complete=complete), overwrite=overwrite)
+    for file, what in ((beside, "there are corrections for"), (target, "there is")):
+        if file.exists() and not overwrite:
+            todo = "choose another name, or pass overwrite=True"
+            raise TirError(f"{what} a file of that name", path=str(file), todo=todo)
+    write_bytes(target, tir_bytes(model, comments=comments, complete=complete))
     if isinstance(sidecar, Mapping) and sidecar:
         write_sidecar(target, sidecar)
     else:
