@@ -140,3 +140,18 @@ def test_recordings_that_cannot_be_fitted_say_why():
         fit_magic_formula(pd.DataFrame({"normal_load": np.ones(20)}))
     with pytest.raises(RecordingError, match="only 3 points"):
         fit_magic_formula(pd.DataFrame({"normal_load": np.ones(3), "fy": np.ones(3)}))
+
+
+def test_one_load_leaves_a_tire_and_not_nothing():
+    """With PKY2 at 0 the cornering stiffness would be nil, and the fit a constant."""
+    slip = np.linspace(-0.12, 0.12, 81)
+    true = TireModel.from_coefficients(
+        {"FNOMIN": 7.2, "UNLOADED_RADIUS": 0.03, "PCY1": 1.4, "PDY1": 0.8, "PKY1": -12.0, "PKY2": 1.8},
+        version="5.2",
+    )
+    fy = true.forces(slip_angle=slip, normal_load=np.full(81, 7.2)).fy
+    recording = pd.DataFrame({"slip_angle": slip, "normal_load": 7.2, "fy": fy})
+    fit = fit_magic_formula(recording)
+    assert any("one load only" in text and "PKY2 kept at 1.8" in text for text in fit.undetermined)
+    left = fy - fit.forces(slip_angle=slip, normal_load=np.full(81, 7.2)).fy
+    assert np.sqrt(np.mean(left**2)) < 0.01 * np.abs(fy).max()

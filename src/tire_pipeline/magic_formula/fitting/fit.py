@@ -105,17 +105,20 @@ def fit_magic_formula(
         if stage.points in ("lateral", "longitudinal"):
             here["slip_ratio" if stage.points == "lateral" else "slip_angle"] *= 0.0
         left_out = open_coefficients(names, here, base["FNOMIN"])
-        for reason, group in left_out.items():
-            report.leave(reason, group)
         closed = {name for group in left_out.values() for name in group}
+        typical = {n: _kept_value(n, model, True) for n in sorted(closed)}
+        model = model.replace(**{n: value for n, value in typical.items() if value != 0.0})
+        for reason, group in left_out.items():
+            report.leave(reason, group, typical if start is None else None)
         active = [name for name in names if name not in closed]
         measured = forces[stage.output][chosen]
         with threadpool_limits(1):  # many small problems: threads in each only get in each other's way
             values, fit, removed = _fit_stage(
                 stage, model, active, here, measured, starts, loss, rng, start is not None
             )
-        model = model.replace(**values)
-        report.add(stage, values, fit, removed)
+        kept = {n: _kept_value(n, model, start is not None) for n in removed}
+        model = model.replace(**values, **{n: value for n, value in kept.items() if value != 0.0})
+        report.add(stage, values, fit, kept if start is None else dict.fromkeys(removed, 0.0))
     if model.coefficients.get("PKY1", -1.0) > 0 and "fy" in forces:
         notes.append(
             "a positive slip angle gives a positive Fy: the data are not in ISO axes, nor is the model"
@@ -133,15 +136,21 @@ class _Report:
         self.errors: dict[str, float] = {}
         self.undetermined: list[str] = []
 
-    def leave(self, reason: str, names: Sequence[str]) -> None:
-        """Note coefficients that are not fitted."""
-        self.undetermined.append(f"{reason}: {', '.join(names)} kept at {self.kept}")
+    def leave(self, reason: str, names: Sequence[str], at: Mapping[str, float] | None = None) -> None:
+        """Note coefficients that are not fitted, and where they stay if not at 0 or at their start."""
+        typical = {n: at[n] for n in names if at and at[n] != 0.0}
+        zero = [n for n in names if n not in typical]
+        parts = [f"{', '.join(zero)} kept at {self.kept}"] if zero else []
+        parts += [f"{n} kept at {value:g}" for n, value in typical.items()]
+        self.undetermined.append(f"{reason}: {', '.join(parts)}")
 
-    def add(self, stage: Stage, values: Mapping[str, float], fit: StageFit, removed: list[str]) -> None:
+    def add(
+        self, stage: Stage, values: Mapping[str, float], fit: StageFit, removed: Mapping[str, float]
+    ) -> None:
         """Note what a stage has found."""
         self.errors.update(zip(values, fit.errors.tolist(), strict=True))
         if removed:
-            self.leave(f"{stage.title} does not depend on them enough", removed)
+            self.leave(f"{stage.title} does not depend on them enough", list(removed), removed)
         if fit.at_bound:
             self.notes.append(f"{stage.title}: {', '.join(fit.at_bound)} at the bound")
 
@@ -282,9 +291,11 @@ def _fit_stage(
 
 
 def _kept_value(name: str, model: TireModel, from_start: bool) -> float:
+    """Return the value of a coefficient that stays open: the model's, else 0, or typical if 0 is no tire."""
     if from_start and name in model.coefficients:
         return model.coefficients[name]
-    return 0.0
+    low, _, typical = _bound_of(name)
+    return typical if low > 0.0 else 0.0
 
 
 def _bound_of(name: str) -> tuple[float, float, float]:
