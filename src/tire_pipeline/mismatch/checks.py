@@ -209,19 +209,18 @@ def _exact(tire: Any, arrays: dict[str, Array], time: Array | None) -> tuple[lis
     n = arrays["normal_load"].size
     bad = np.zeros(n, bool)
     findings: list[Finding] = []
-    found: list[Finding] = []
-    if time is not None:
-        for name in ("stuck_channel", "clipping"):
-            found = catalogue()[name].detect({k: a[~bad] for k, a in arrays.items()}, None)
-            rows = np.flatnonzero(~bad)
-            for finding in found:
-                hit = np.zeros(n, bool)
-                hit[rows[finding.bad]] = True
-                at = time[hit]
-                span = (float(at[0]), float(at[-1])) if name == "stuck_channel" else None
-                finding = Finding(**{**finding.__dict__, "bad": hit, "span": span})
-                bad |= hit
-                findings.append(finding)
+    for name in ("stuck_channel", "clipping") if time is not None else ("clipping",):
+        some = {k: a[~bad] for k, a in arrays.items()}
+        if time is None:
+            some["_steady_points"] = np.ones(1)
+        rows = np.flatnonzero(~bad)
+        for finding in catalogue()[name].detect(some, None):
+            hit = np.zeros(n, bool)
+            hit[rows[finding.bad]] = True
+            at = np.zeros(2) if time is None else time[hit]
+            span = (float(at[0]), float(at[-1])) if name == "stuck_channel" else None
+            bad |= hit
+            findings.append(Finding(**{**finding.__dict__, "bad": hit, "span": span}))
     pick = np.flatnonzero(~bad)
     pick = pick[:: max(1, pick.size // 4000)]
 
@@ -235,11 +234,13 @@ def _exact(tire: Any, arrays: dict[str, Array], time: Array | None) -> tuple[lis
             normal_load=channels["normal_load"],
         )
 
-    nominal = float(tire.coefficients.get("NOMPRES", 0.0) or 2.3e5)
+    nominal = {"_nominal_pressure": np.array([float(tire.coefficients.get("NOMPRES", 0.0) or 2.3e5)])}
+    if tire.coefficients.get("FNOMIN", 0.0) > 0.0:
+        nominal["_nominal_load"] = np.array([float(tire.coefficients["FNOMIN"])])
     for _ in range(3):
         again = False
         for name in ("sign_convention", "unit_error"):
-            some = {k: a[pick] for k, a in arrays.items()} | {"_nominal_pressure": np.array([nominal])}
+            some = {k: a[pick] for k, a in arrays.items()} | nominal
             for finding in catalogue()[name].detect(some, run):
                 for channel, repaired in finding.repaired.items():
                     factor = _ratio(repaired, some[channel])

@@ -41,9 +41,20 @@ def excess(search: Search, left: dict[str, Array]) -> tuple[float, float]:
 
     At each scale the samples are summed over windows; the mean square of the sums over that of
     white noise of the same (robust) size is 1 for noise. The worst output and scale count.
+
+    Where the recording states its uncertainty (``fy_std``, as :func:`axle_recording` does) neighbours share
+    a filter and unknowns that are constant over a drive: slow changes are no evidence there, and only
+    power beyond what is stated counts.
     """
     worst, nats = 1.0, 0.0
-    for white in left.values():
+    for o, white in left.items():
+        if f"{o}_std" in search.data.channels:
+            ratio = float(np.mean(np.minimum(white**2, 25.0)))
+            worst = max(worst, ratio)
+            if ratio > 1.0:
+                count = white.size / search.inflation
+                nats = max(nats, 0.5 * count * (ratio - 1.0 - np.log(ratio)))
+            continue
         size = float(np.median(white**2) / 0.4549)
         x = white / np.sqrt(max(size, 1e-12))
         for width in (1, 5, 12, 25, 60):

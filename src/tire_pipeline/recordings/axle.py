@@ -64,17 +64,22 @@ def axle_recording(
     bandwidth : float
         Half-power frequency of the differentiation, Hz. What is faster is not in the result.
     min_speed : float, optional
-        Slower samples are left out, m/s. Left out: a sixth of the largest speed.
+        Slower samples are left out, m/s. Left out: a sixth of the largest speed and, where
+        `vehicle.wheel_radius` is known, the speed below which the filter lets through more than a
+        tenth of the power of what happens once a wheel turn (a bent or unbalanced wheel makes the
+        body wobble, and that wobble is no slip of the tire).
     rate : float, optional
-        Samples a second in the result, Hz. Left out: those of the drive, which are then far from
-        independent (see `attrs["independent_samples"]`).
+        Samples a second in the result, Hz. Left out: twice the bandwidth, as samples nearer to each
+        other share their filter and say the same again. `float("inf")`: those of the drive (see
+        `attrs["independent_samples"]`).
 
     Returns
     -------
     DataFrame
         `time`, `slip_angle`, `slip_ratio` (if known), `normal_load`, `speed`, `fy`, `fx` (if
         known), each of them with `<name>_std` (noise and unknown vehicle together) and, for
-        `fy` and `slip_angle`, `<name>_noise_std` (differentiation noise alone); `yaw_rate`,
+        `fy` and `slip_angle`, `<name>_noise_std` (differentiation noise alone); `turn_slip` 1/m,
+        the curvature of the axle's path (yaw rate over speed, positive to the left); `yaw_rate`,
         `lateral_acceleration`, and `segment`, a number for each uninterrupted piece. Forces are
         those of the whole axle. `attrs` holds `bandwidth_hz`, `independent_samples`, `noise`,
         `vehicle`, `notes`.
@@ -163,6 +168,7 @@ def _table(motion: BodyMotion, state: _AxleState) -> pd.DataFrame:
             "slip_angle_std": np.hypot(state.slip_noise, state.slip_unsure),
             "slip_angle_noise_std": state.slip_noise,
             "normal_load_std": state.load_std,
+            "turn_slip": motion.yaw_rate / state.speed,
             "yaw_rate": motion.yaw_rate,
             "lateral_acceleration": motion.ay,
         }
@@ -217,6 +223,8 @@ def _finish(
     """Cut what is missing or too slow, thin, number the pieces, and write the attributes."""
     fast = table["speed"].to_numpy()
     limit = float(np.quantile(fast[motion.good], 0.99)) / 6 if motion.good.any() else 0.0
+    if vehicle.wheel_radius:
+        limit = max(limit, motion.smoother.stop * 2 * np.pi * vehicle.wheel_radius)
     limit = limit if min_speed is None else min_speed
     keep = motion.good & (fast >= limit) & (motion.vx > 0) & np.isfinite(table["fy"].to_numpy())
     keep &= np.isfinite(table["slip_angle"].to_numpy())
@@ -226,15 +234,13 @@ def _finish(
         )
     table["segment"] = np.cumsum(np.diff(keep.astype(int), prepend=0) == 1)
     dt = motion.smoother.dt
-    if rate is not None:
-        if not 0 < rate <= 1 / dt * 1.001:
-            raise RecordingError(f"rate={rate:g} Hz", todo=f"choose up to {1 / dt:g} Hz")
-        every = np.zeros(keep.size, dtype=bool)
-        every[:: max(1, round(1 / (rate * dt)))] = True
-        seconds = keep.sum() * dt
-        keep &= every
-    else:
-        seconds = keep.sum() * dt
+    rate = min(2 * motion.smoother.bandwidth, 1 / dt) if rate is None else rate
+    if rate != np.inf and not 0 < rate <= 1 / dt * 1.001:
+        raise RecordingError(f"rate={rate:g} Hz", todo=f"choose up to {1 / dt:g} Hz")
+    every = np.zeros(keep.size, dtype=bool)
+    every[:: max(1, round(1 / (rate * dt)))] = True
+    seconds = keep.sum() * dt
+    keep &= every
     out = table.loc[keep].reset_index(drop=True)
     notes.append(f"{1 - motion.good.mean():.1%} of the samples rest on drop-outs or ends: cut")
     if vehicle.cg_height is None:
@@ -246,7 +252,7 @@ def _finish(
         "format": "axle",
         "axle": axle,
         "bandwidth_hz": motion.smoother.bandwidth,
-        "sample_rate_hz": 1 / dt,
+        "sample_rate_hz": 1 / (max(1, round(1 / (rate * dt))) * dt),
         "independent_samples": max(1, int(seconds * 2 * motion.smoother.bandwidth)),
         "noise": motion.noise,
         "vehicle": asdict(vehicle),

@@ -145,11 +145,10 @@ def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMo
     more_vx, more_vy = (smoother.inflation(s, position_std, moving) for s in (ahead, left))
     more_yaw = smoother.inflation(turning, yaw_std, moving)
     g0, g1, h0 = (smoother.gain(a, b) for a, b in ((1, 0), (1, 1), (0, 0)))
-    one = np.ones_like(vx)
-    vx_std, vx_dot_std = one * more_vx * position_std * g0, one * more_vx * position_std * g1
+    vx_std, vx_dot_std = more_vx * position_std * g0, more_vx * position_std * g1
     vy_std = np.hypot(more_vy * position_std * g0, vx * yaw_std * h0)
     turned = more_yaw * yaw_std * smoother.rotation_gain()
-    rate_std, rate_dot_std = one * more_yaw * yaw_std * g0, one * more_yaw * yaw_std * g1
+    rate_std, rate_dot_std = more_yaw * yaw_std * g0, more_yaw * yaw_std * g1
     return BodyMotion(
         time=table["time"].to_numpy(dtype=float),
         ahead=vehicle.marker_offset,
@@ -170,8 +169,8 @@ def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMo
         noise={
             "position_std_m": position_std,
             "yaw_std_rad": yaw_std,
-            "inflation_lateral": more_vy,
-            "inflation_yaw": more_yaw,
+            "inflation_lateral": float(np.median(more_vy[good])) if good.any() else 1.0,
+            "inflation_yaw": float(np.median(more_yaw[good])) if good.any() else 1.0,
             "missing_share": float(missing.mean()),
         },
         notes=notes,

@@ -29,7 +29,9 @@ _ENCODER_STEP = 0.0413  # m/s: the smallest difference between its values
 _GLITCH = {"x": 5e-3, "y": 5e-3, "yaw": 1.5e-2}
 
 # Figures of the README beside the drives. Not from there, and so marked uncertain: the height of
-# the centre of gravity and every `_std`.
+# the centre of gravity, every `_std`, and the wheel radius: below 1.3 m/s the slip angle swings
+# once every 0.155 to 0.158 m in left-hand circles and every 0.126 to 0.138 m in right-hand ones,
+# as it would with one crooked left wheel of 0.145 m around (track 0.08 m, circles of 0.6 to 0.8 m).
 DART_CAR = Vehicle(
     mass=1.580,
     front_mass=0.847,
@@ -44,6 +46,7 @@ DART_CAR = Vehicle(
     marker_offset_std=0.002,
     yaw_offset=0.0077,
     yaw_offset_std=0.004,
+    wheel_radius=0.023,
 )
 
 

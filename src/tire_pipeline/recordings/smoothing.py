@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import binary_dilation
-from scipy.signal import freqz, savgol_coeffs, savgol_filter, welch
+from scipy.ndimage import binary_dilation, uniform_filter1d
+from scipy.signal import butter, freqz, savgol_coeffs, savgol_filter, sosfiltfilt, sosfreqz
 
 from tire_pipeline.errors import RecordingError
 
@@ -47,6 +47,13 @@ class Smoother:
         """Samples on each side that one output depends on."""
         return (self.short - 1) // 2 + (self.long - 1) // 2
 
+    @property
+    def stop(self) -> float:
+        """Frequency above which the long filter passes less than a tenth of the power, Hz."""
+        frequency, response = freqz(savgol_coeffs(self.long, _ORDER), worN=8192)
+        passed = np.flatnonzero(np.abs(response) ** 2 > 0.1)
+        return float(frequency[passed[-1]] / (2 * np.pi * self.dt))
+
     def first(self, signal: Array) -> Array:
         """First derivative through the short filter."""
         return np.asarray(savgol_filter(signal, self.short, _ORDER, deriv=1, delta=self.dt))
@@ -78,26 +85,35 @@ class Smoother:
         )
         return float(np.linalg.norm(rate - np.pad(direct, (self.short - 1) // 2)))
 
-    def inflation(self, rate: Array, input_std: float, good: NDArray[np.bool_]) -> float:
-        """How much stronger the noise is near the band than white noise of ``input_std`` would be.
+    def inflation(self, rate: Array, input_std: float, good: NDArray[np.bool_]) -> Array:
+        """How much stronger the noise beside the band is than white noise of ``input_std`` would be.
 
-        The spectrum of ``rate`` (a derivative by the short filter) between 1.5 and 4 times the
-        bandwidth is compared with that of differentiated white noise. At least 1.
+        The power of ``rate`` (a derivative by the short filter) between 1 and 4 times the bandwidth,
+        averaged over 16 periods of the bandwidth, is compared with that of differentiated white noise.
+        It is had at each sample, as it need not stay the same: a wobble once a wheel turn lies far
+        outside of the band at speed and beside it when the vehicle is slow.
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            At least 1.
         """
         values = np.where(good, rate, np.nan)
         finite = np.isfinite(values)
         length = min(values.size, round(16 / (self.bandwidth * self.dt)))
         if finite.sum() < 2 * length or input_std <= 0:
-            return 1.0
+            return np.ones(rate.size)
         filled = np.interp(np.arange(values.size), np.flatnonzero(finite), values[finite])
-        frequency, power = welch(filled, 1.0 / self.dt, nperseg=length, average="median")
-        coefficients = savgol_coeffs(self.short, _ORDER, deriv=1, delta=self.dt)
-        _, response = freqz(coefficients, worN=2 * np.pi * frequency * self.dt)
-        white = 2.0 * self.dt * input_std**2 * np.abs(response) ** 2
-        band = (frequency > 1.5 * self.bandwidth) & (frequency < 4.0 * self.bandwidth)
-        if not band.any():
-            return 1.0
-        return float(max(1.0, np.sqrt(np.median(power[band] / white[band]))))
+        top = min(4.0 * self.bandwidth, 0.45 / self.dt)
+        band = butter(2, (self.bandwidth, top), "bandpass", fs=1.0 / self.dt, output="sos")
+        # Twice, forth and back: the response is squared, and so is its power.
+        passed = np.asarray(sosfiltfilt(band, filled)) ** 2
+        frequency, response = sosfreqz(band, worN=8192)
+        _, first = freqz(savgol_coeffs(self.short, _ORDER, deriv=1, delta=self.dt), worN=frequency)
+        white = input_std**2 * float(np.mean(np.abs(response) ** 4 * np.abs(first) ** 2))
+        weight = uniform_filter1d(finite.astype(float), length, mode="nearest")
+        local = uniform_filter1d(np.where(finite, passed, 0.0), length, mode="nearest")
+        return np.sqrt(np.maximum(local / np.maximum(weight, 1.0 / length) / white, 1.0))
 
 
 def make_smoother(dt: float, bandwidth: float) -> Smoother:

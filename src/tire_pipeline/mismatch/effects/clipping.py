@@ -54,7 +54,7 @@ class Clipping(Effect):
             if name not in channels:
                 continue
             x = channels[name]
-            bad, limits = _at_the_ends(x)
+            bad, limits = _at_the_ends(x, "_steady_points" not in channels)
             if bad is None:
                 continue
             text = (
@@ -66,19 +66,25 @@ class Clipping(Effect):
         return found
 
 
-def _at_the_ends(x: Array) -> tuple[Array | None, list[float]]:
-    """Samples exactly at the largest or smallest value, if these are many and the rest is not."""
+def _at_the_ends(x: Array, in_time: bool) -> tuple[Array | None, list[float]]:
+    """Samples exactly at the largest or smallest value, if these are many and the rest is not.
+
+    In time they must stay there three samples on end; of steady points four at one end are enough, if all
+    others differ.
+    """
     finite = x[np.isfinite(x)]
-    if finite.size < 50 or np.ptp(finite) == 0.0:
+    if finite.size < (50 if in_time else 20) or np.ptp(finite) == 0.0:
         return None, []
     _, counts = np.unique(finite, return_counts=True)
-    usual = np.quantile(counts, 0.99)
+    usual = np.quantile(counts, 0.99 if in_time else 0.9)
+    least = max(12.0, 4.0 * usual) if in_time else 4.0 * usual
     bad = np.zeros(x.size, bool)
     limits = []
     for value in (finite.max(), finite.min()):
         at = x == value
         runs = np.diff(np.flatnonzero(np.diff(np.r_[0, at.astype(np.int8), 0])))[::2]
-        if at.sum() >= max(12.0, 4.0 * usual) and runs.size and runs.max() >= 3 and at.mean() < 0.6:
+        stays = not in_time or (runs.size and runs.max() >= 3)
+        if at.sum() >= least and stays and at.mean() < 0.6:
             bad |= at
             limits.append(float(value))
     return (bad, limits) if limits else (None, [])

@@ -68,7 +68,7 @@ def _stuck(x: Array) -> tuple[Array | None, float]:
     bad = np.zeros(n, bool)
     value = float("nan")
     for first, length in zip(starts[long], lengths[long], strict=True):
-        if x[first] in (low, high) and length < 0.05 * n and (x == x[first]).sum() > length:
+        if x[first] in (low, high) and (x == x[first]).sum() > length:
             continue  # comes back to the end of its range: clipping
         bad[first : first + length] = True
         value = float(x[first])

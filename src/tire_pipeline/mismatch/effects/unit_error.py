@@ -56,6 +56,7 @@ class UnitError(Effect):
             for base, text in factors.items()
             for power in (1, -1)
             for factor in (base**power,)
+            if name != "normal_load" or _nearer(channels, 1.0 / factor)
         ]
         best = best_repair(channels, simulate, [({n: 1.0 / f}, (n, f, t)) for n, f, t in trials])
         both = best_repair(
@@ -78,6 +79,14 @@ class UnitError(Effect):
                 Finding(self.name, name, f"{name} is wrong by {factor:.5g} ({text})", parameters, repaired)
             )
         return found
+
+
+def _nearer(channels: Mapping[str, Array], factor: float) -> bool:
+    """Whether a factor brings the load nearer to the model's nominal load, where that is known."""
+    if "_nominal_load" not in channels:
+        return True
+    ratio = float(np.nanmedian(np.abs(channels["normal_load"]))) / float(channels["_nominal_load"][0])
+    return abs(np.log(max(ratio * factor, 1e-9))) < abs(np.log(max(ratio, 1e-9)))
 
 
 def _pressure(channels: Mapping[str, Array]) -> list[Finding]:
