@@ -11,8 +11,10 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.canonical import RawChannel, RawRecording
 from tire_pipeline.recordings.channels import find_channel
 from tire_pipeline.recordings.limits import check_expansion
+from tire_pipeline.recordings.mat_elements import check_elements
 from tire_pipeline.recordings.names import split_unit
 
+_LEVEL_5 = 1  # of scipy's numbers: 0 is MATLAB's version 4, 2 is HDF5
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 
 
@@ -44,6 +46,8 @@ def read_mat(path: Path) -> RawRecording:
             todo="save it with save('name.mat', ..., '-v7')",
         )
     try:
+        if scipy.io.matlab.matfile_version(str(path))[0] == _LEVEL_5:
+            check_elements(path)
         listed = scipy.io.whosmat(str(path))
         values = sum(float(np.prod([float(n) for n in shape])) for _, shape, _ in listed)
         check_expansion(path, 8 * values)
