@@ -125,11 +125,79 @@ def test_every_cell_of_the_grid_is_a_partition_and_a_namespace():
     assert len(partitions) == len(namespaces) > 10
 
 
-def test_a_partition_runs_its_own_cell_only(monkeypatch):
-    asked = []
+@pytest.fixture
+def asked(monkeypatch):
+    """What Kedro was asked to run."""
+    calls = []
     monkeypatch.setattr(
-        schedule, "kedro_run", lambda config, pipeline, names: asked.append((pipeline, names))
+        schedule, "kedro_run", lambda config, pipeline, **part: calls.append((pipeline, part))
     )
+    return calls
+
+
+def test_a_partition_runs_its_own_cell_only(asked):
     cell = schedule.agents.partitions_def.get_partition_keys()[3]
     assert schedule.agents.execute_in_process(partition_key=cell).success
-    assert asked == [("reproduce_thesis", [f"agents.{cell}"])]
+    assert asked == [("reproduce_thesis", {"namespaces": [f"agents.{cell}"]})]
+
+
+def test_a_partition_explains_its_own_case_only(asked):
+    keys = schedule.cases.partitions_def.get_partition_keys()
+    assert len(keys) == 400
+    assert schedule.cases.execute_in_process(partition_key=keys[2]).success
+    assert asked == [("prove_concealed", {"nodes": schedule.CASE_NODES, "share": "3/400"})]
+
+
+def test_a_partition_tunes_its_own_networks_only(asked):
+    keys = schedule.tuning.partitions_def.get_partition_keys()
+    assert schedule.tuning.execute_in_process(partition_key=keys[-1]).success
+    assert asked == [("reproduce_thesis", {"nodes": schedule.TUNING_NODES, "share": "18/18"})]
+
+
+def test_the_partitions_are_as_many_as_there_are_parts(small_table):
+    from tire_pipeline.classifiers.tuning import ann_combinations
+    from tire_pipeline.pipelines.prove_concealed.nodes import explain_by_baselines, explain_cases
+    from tire_pipeline.pipelines.reproduce_thesis.experiments import _networks
+
+    parts = {**_networks("random", small_table, "random", ann_combinations(), 1)}
+    assert 2 * len(parts) == schedule.TUNING_PARTS
+    shown = {f"code/{case:03d}.zip": bytes for case in range(schedule.CASES)}
+    parameters = schedule.ProveConcealedParameters(seed=10_000)
+    # each share holds one case, and the same one of every method
+    for work in (explain_cases(shown), explain_by_baselines(shown, parameters)):
+        share = list(work)[2 :: schedule.CASES]
+        assert {name.split("/")[-1] for name in share} == {"002.zip"}
+
+
+@pytest.fixture
+def small_table():
+    import pandas as pd
+
+    return pd.DataFrame({"file": ["a"], "category": ["A"]})
+
+
+def test_the_nodes_of_the_partitions_exist_and_a_run_takes_the_share(monkeypatch):
+    from pathlib import Path
+
+    from kedro.framework.project import pipelines
+    from kedro.framework.session import KedroSession
+    from kedro.framework.startup import bootstrap_project
+
+    root = Path(__file__).resolve().parents[2]
+    bootstrap_project(root)
+    names = {node.name for name in ("prove_concealed", "reproduce_thesis") for node in pipelines[name].nodes}
+    assert {*schedule.CASE_NODES, *schedule.TUNING_NODES} <= names
+    seen = {}
+
+    def run(self, **part):
+        catalog = self.load_context().catalog
+        seen.update(
+            {name: catalog.get(name)._share for name in ("concealed_reports", "experiments.ann_grid")}
+        )
+        seen["made"] = catalog.get("concealed_made")._share
+
+    monkeypatch.setattr(KedroSession, "run", run)
+    monkeypatch.setattr(schedule, "ROOT", root)
+    schedule.kedro_run(schedule.KedroRun(), "prove_concealed", nodes=schedule.CASE_NODES, share="3/400")
+    every = slice(2, None, 400)
+    assert seen == {"concealed_reports": every, "experiments.ann_grid": every, "made": None}

@@ -10,6 +10,8 @@ from kedro.framework.session import KedroSession
 from kedro.framework.startup import bootstrap_project
 from pydantic import Field
 
+from tire_pipeline.classifiers.tuning import ANN_GRID
+from tire_pipeline.pipelines.prove_concealed.nodes import ProveConcealedParameters
 from tire_pipeline.pipelines.reproduce_thesis.parameters import GridParameters
 from tire_pipeline.schedule.arrivals import new_files_of
 
@@ -21,6 +23,17 @@ UNDERWAY = [
     dg.DagsterRunStatus.STARTING,
     dg.DagsterRunStatus.STARTED,
 ]
+
+
+TUNING_NODES = ["experiments.search_the_grid"]
+TUNING_PARTS = 2 * len(ANN_GRID["batch_size"]) * len(ANN_GRID["optimizer"])  # on both kinds of folds
+CASE_NODES = ["mismatch.explain_cases", "mismatch.explain_by_baselines"]
+CASES = ProveConcealedParameters.model_fields["cases"].default
+
+
+def shares(count: int) -> dg.StaticPartitionsDefinition:
+    """Partitions ``1_of_n`` to ``n_of_n``."""
+    return dg.StaticPartitionsDefinition([f"{k}_of_{count}" for k in range(1, count + 1)])
 
 
 class KedroRun(dg.Config):
@@ -41,16 +54,26 @@ class KedroRun(dg.Config):
     parameters: dict[str, Any] = Field(default_factory=dict)
 
 
-def kedro_run(config: KedroRun, pipeline: str, namespaces: list[str] | None = None) -> None:
-    """Run one registered pipeline, or some namespaces of it, as ``kedro run --pipeline`` does."""
+def kedro_run(
+    config: KedroRun,
+    pipeline: str,
+    *,
+    namespaces: list[str] | None = None,
+    nodes: list[str] | None = None,
+    share: str | None = None,
+) -> None:
+    """Run one registered pipeline or a part of it, as ``kedro run --pipeline`` does.
+
+    ``share`` is ``k/n``: of the files that the nodes compute, the k-th of n shares only.
+    """
     bootstrap_project(ROOT)
     with KedroSession.create(
         project_path=ROOT,
         env=config.env,
         conf_source=config.conf_source,
-        runtime_params=dict(config.parameters),
+        runtime_params={**config.parameters, **({"share": share} if share else {})},
     ) as session:
-        session.run(pipeline_names=[pipeline], namespaces=namespaces)
+        session.run(pipeline_names=[pipeline], namespaces=namespaces, node_names=nodes)
 
 
 @dg.op(retry_policy=dg.RetryPolicy(max_retries=2, delay=60))
@@ -84,7 +107,7 @@ def arrivals(context: dg.SensorEvaluationContext) -> dg.SensorResult | dg.SkipRe
 @dg.op
 def train_cell(context: dg.OpExecutionContext, config: KedroRun) -> None:
     """Train and judge the agents of one cell of the thesis' grid."""
-    kedro_run(config, "reproduce_thesis", [f"agents.{context.partition_key}"])
+    kedro_run(config, "reproduce_thesis", namespaces=[f"agents.{context.partition_key}"])
 
 
 @dg.job(partitions_def=dg.StaticPartitionsDefinition([cell.name for cell in GridParameters().cells]))
@@ -93,12 +116,38 @@ def agents() -> None:
     train_cell()
 
 
+@dg.op
+def tune_part(context: dg.OpExecutionContext, config: KedroRun) -> None:
+    """Train the networks of one batch size and optimizer of the ANN's grid, on one kind of folds."""
+    kedro_run(
+        config, "reproduce_thesis", nodes=TUNING_NODES, share=context.partition_key.replace("_of_", "/")
+    )
+
+
+@dg.job(partitions_def=shares(TUNING_PARTS))
+def tuning() -> None:
+    """The tuning of the ANN, one partition a batch size, optimizer and kind of folds."""
+    tune_part()
+
+
+@dg.op
+def explain_case(context: dg.OpExecutionContext, config: KedroRun) -> None:
+    """Explain one concealed case, by ``explain_mismatch`` and by the baselines."""
+    kedro_run(config, "prove_concealed", nodes=CASE_NODES, share=context.partition_key.replace("_of_", "/"))
+
+
+@dg.job(partitions_def=shares(CASES))
+def cases() -> None:
+    """The concealed cases, one partition each."""
+    explain_case()
+
+
 nightly = dg.ScheduleDefinition(
     job=retraining, cron_schedule="0 3 * * *", default_status=dg.DefaultScheduleStatus.RUNNING
 )
 
 definitions = dg.Definitions(
-    jobs=[retraining, agents],
+    jobs=[retraining, agents, tuning, cases],
     sensors=[arrivals],
     schedules=[nightly],
     executor=dg.multiprocess_executor.configured({"max_concurrent": 2}),
