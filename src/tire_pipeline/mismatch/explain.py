@@ -25,7 +25,7 @@ from tire_pipeline.mismatch.remainder import remainder
 from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFit, Remainder
 from tire_pipeline.mismatch.search import Search
 from tire_pipeline.mismatch.simulate import simulate
-from tire_pipeline.mismatch.thinning import thinned
+from tire_pipeline.mismatch.thinning import refit_on_all, thinned
 from tire_pipeline.mismatch.words import summary
 from tire_pipeline.progress import track
 
@@ -63,11 +63,24 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame) -> MismatchReport:
         ("check", lambda: state.update(prepared=prepare(tire, recording))),
         ("noise", lambda: state.update(search=searching.begin(thinned(state["prepared"].data)))),
         ("search", lambda: searching.run(state["search"])),
+        ("refit", lambda: _refit(state["search"], state["prepared"])),
         ("report", lambda: state.update(report=_report(state["prepared"], state["search"]))),
     )
     for _, step in track(steps, "explaining the mismatch"):
         step()
     return state["report"]
+
+
+def _refit(search: Search, prepared: Prepared) -> None:
+    """Refit the parameters to all samples if the search has seen a part of them."""
+    whole, seen = prepared.data.size, search.data.size
+    if whole == seen:
+        return
+    search.fit = refit_on_all(search, prepared.data)
+    refitted = "; parameters are fitted to all" if search.fit.names else ""
+    prepared.notes.append(
+        f"effects were searched for in {seen:,} of {whole:,} samples, stretches spread over them{refitted}"
+    )
 
 
 def _report(prepared: Prepared, search: Search) -> MismatchReport:
