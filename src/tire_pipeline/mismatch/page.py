@@ -10,7 +10,7 @@ import jinja2
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.figures import drawings
 from tire_pipeline.mismatch.report import MismatchReport
-from tire_pipeline.mismatch.words import interval
+from tire_pipeline.mismatch.words import gaussian, interval
 
 
 def render(report: MismatchReport) -> str:
@@ -36,6 +36,7 @@ def render(report: MismatchReport) -> str:
             (f.output, interval(f.axis, f.low, f.high), f.mean, f.share, f.p_value)
             for f in report.located[:8]
         ],
+        gaussian=[gaussian(f) for f in report.remainder.gaussian],
         candidates=[_candidate(c) for c in report.candidates],
     )
 

@@ -7,9 +7,10 @@ import warnings
 import numpy as np
 
 from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.gaussian_form import gaussian_form
 from tire_pipeline.mismatch.locate import locate
 from tire_pipeline.mismatch.refit import residual
-from tire_pipeline.mismatch.report import Remainder
+from tire_pipeline.mismatch.report import GaussianForm, Remainder
 from tire_pipeline.mismatch.search import Search, with_shapes
 
 Array = np.ndarray
@@ -33,7 +34,17 @@ def remainder(search: Search) -> Remainder:
     plain = {o: left[o] * search.noise[o].sigma for o in data.outputs}
     located = locate(data, plain, search.noise, search.block) if significant else []
     form = sparse_form(search) if significant else ""
-    return Remainder(size, located, form, bool(significant), statistic, nats)
+    gaussian = gaussian_forms(search, size) if significant else []
+    return Remainder(size, located, form, bool(significant), statistic, nats, gaussian)
+
+
+def gaussian_forms(search: Search, size: dict[str, float]) -> list[GaussianForm]:
+    """Return a Gaussian process for each output that has something left, the largest first."""
+    rest = residual(search.data, search.fit.changes)
+    order = sorted(size, key=lambda o: -size[o])
+    wanted = [o for o in order if o == order[0] or size[o] > 0.5 * search.noise[o].floor]
+    forms = [gaussian_form(search.data, rest[o], o, search.block, search.noise[o].floor) for o in wanted]
+    return [f for f in forms if f is not None]
 
 
 def excess(search: Search, left: dict[str, Array]) -> tuple[float, float]:

@@ -86,6 +86,34 @@ class OutputFit:
 
 
 @dataclass(frozen=True)
+class GaussianForm:
+    """A Gaussian process for what is left of one output; it has no name.
+
+    Parameters
+    ----------
+    output : str
+    size, noise : float
+        Its standard deviation, and that of the white noise beside it, N.
+    lengths : dict
+        Channel (or ``rate of <channel>``, per second) -> length over which it changes, SI.
+    explained : float
+        Share of what is left, as a square, that it predicts on sweeps left out of its fit.
+    recovered : float
+        The same of what is left above the noise.
+    points : int
+        Samples it was fitted to.
+    """
+
+    output: str
+    size: float
+    noise: float
+    lengths: dict[str, float]
+    explained: float
+    recovered: float
+    points: int
+
+
+@dataclass(frozen=True)
 class Remainder:
     """What is left above the noise, without a name.
 
@@ -95,8 +123,13 @@ class Remainder:
         Output -> RMS above noise, N.
     located : list of Located
     form : str
-        A sparse equation for it, or nothing.
-    p_value : float
+        A sparse equation for it (PySINDy), or nothing.
+    significant : bool
+        Whether it counts.
+    statistic, nats : float
+        Its power over that of noise at the worst scale, and what that is worth.
+    gaussian : list of GaussianForm
+        The output first in which most is left.
     """
 
     size: dict[str, float]
@@ -105,6 +138,7 @@ class Remainder:
     significant: bool
     statistic: float = 0.0
     nats: float = 0.0
+    gaussian: list[GaussianForm] = field(default_factory=list)
 
 
 @dataclass

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.locate import Located
-from tire_pipeline.mismatch.report import EffectReport, OutputFit, Remainder
+from tire_pipeline.mismatch.report import EffectReport, GaussianForm, OutputFit, Remainder
 
 _UNITS = {
     "slip_angle": (57.29578, "deg", "slip angle"),
@@ -35,6 +35,32 @@ def interval(axis: str, low: float, high: float) -> str:
     """Return ``load 2.1 to 4.3 kN``."""
     factor, unit, name = _UNITS.get(axis, (1.0, "", axis))
     return f"{name} {low * factor:.3g} to {high * factor:.3g} {unit}".strip()
+
+
+def gaussian(form: GaussianForm) -> str:
+    """Return a Gaussian process in a sentence."""
+    lengths = []
+    for name, length in form.lengths.items():
+        channel = name.removeprefix("rate of ")
+        factor, unit, text = _UNITS.get(channel, (1.0, "", channel))
+        per = "/s" if name != channel else ""
+        lead = f"rate of {text}" if per else text
+        lengths.append(f"{lead} ({length * factor:.2g} {unit}{per})".replace(" )", ")").replace("( ", "("))
+    share = (
+        "" if form.explained != form.explained else f"; it predicts {100.0 * max(form.explained, 0.0):.0f}%"
+    )
+    where = ", ".join(lengths)
+    low = form.explained < 0.2
+    return (
+        f"{form.output.capitalize()}: {newtons(form.size)} N, changing with {where}{share}"
+        + (" of what is left on sweeps that its fit has not seen" if share else "")
+        + (": it depends on something that is not recorded, or lives in time as well" if low else "")
+    )
+
+
+def newtons(value: float) -> str:
+    """Return a force with as many digits as it deserves."""
+    return f"{value:,.0f}" if abs(value) >= 20.0 else f"{value:.2g}"
 
 
 def summary(
