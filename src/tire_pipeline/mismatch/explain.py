@@ -18,7 +18,7 @@ from tire_pipeline.mismatch.corrected import CorrectedModel
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
-from tire_pipeline.mismatch.locate import locate, when, where
+from tire_pipeline.mismatch.locate import AXES, locate, when, where
 from tire_pipeline.mismatch.proof import prove
 from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.remainder import remainder
@@ -124,7 +124,7 @@ def _report(prepared: Prepared, search: Search) -> MismatchReport:
         fit=fit,
         next_experiment=following,
         corrected=corrected,
-        summary=summary(verdict, effects, fit, located, left, following),
+        summary=summary(verdict, effects, fit, located, left, following, _ranges(data)),
         located=located,
         remainder=left,
         notes=prepared.notes,
@@ -218,6 +218,17 @@ def _verdict(effects: list[EffectReport], left: Remainder) -> str:
     if left.significant:
         return "partly explained"
     return "ambiguous" if any(e.alternatives for e in effects) else "explained"
+
+
+def _ranges(data: Data) -> dict[str, tuple[float, float]]:
+    """Lowest and highest value of each axis (0.5 and 99.5% quantile)."""
+    out = {}
+    for axis in ("time", *AXES):
+        values = data.time if axis == "time" else data.channels.get(axis)
+        if values is not None:
+            low, high = np.quantile(values, [0.005, 0.995])
+            out[axis] = (float(low), float(high))
+    return out
 
 
 def _candidates(search: Search) -> list[dict[str, Any]]:

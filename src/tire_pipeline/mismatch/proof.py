@@ -10,6 +10,7 @@ from tire_pipeline.mismatch.report import OutputFit
 from tire_pipeline.mismatch.search import Search
 
 Array = np.ndarray
+_LOCKED = {"moment", "radius"}
 
 
 def prove(search: Search, *, resamples: int = 400, seed: int = 0) -> dict[str, OutputFit]:
@@ -70,12 +71,20 @@ def _solve(info: Array, score: Array) -> Array:
 
 
 def _without(search: Search, left_out: Array) -> Array:
-    """Return the change of the parameters when some sweeps (bool, by number) are left out."""
+    """Return the change of the parameters when some sweeps (bool, by number) are left out.
+
+    A moment in time and a wheel's radius are locked: one sweep determines them, and a linear step says
+    nothing about them without it.
+    """
     sums = search.fit.sums
     assert sums is not None  # kept by the last fit
     kept = ~left_out
+    free = np.array([name not in _LOCKED for _, name in search.fit.labels])
     info, score = sums.ee[kept].sum(axis=0), sums.er[kept].sum(axis=0)
-    return _solve(info, score)
+    delta = np.zeros(score.size)
+    if free.any():
+        delta[free] = _solve(info[np.ix_(free, free)], score[free])
+    return delta
 
 
 def _jackknife(search: Search, after: dict[str, Array]) -> dict[str, Array]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+
+import numpy as np
 
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.locate import Located
@@ -70,62 +72,121 @@ def summary(
     located: Sequence[Located],
     remainder: Remainder,
     next_experiment: str,
+    ranges: Mapping[str, tuple[float, float]] | None = None,
 ) -> str:
-    """Return the report in a few sentences."""
-    parts = []
+    """Return the report in a few sentences.
+
+    Parameters
+    ----------
+    verdict, effects, fit, located, remainder, next_experiment
+        Of the report.
+    ranges : mapping, optional
+        Axis -> (lowest, highest) recorded, SI, to say "above" and "below" where a stretch ends there.
+    """
     if verdict == "agrees":
-        floors = ", ".join(
-            f"{o.capitalize()} {f.rms_before:.0f} N (noise {f.noise_floor:.0f} N)" for o, f in fit.items()
-        )
-        return (
-            "Simulation and recording agree: what differs is no larger than noise and the "
-            "misfit that a fitted "
-            f"tire model always has. RMS difference: {floors}."
-        )
-    if located:
-        parts.append(_where(located))
+        return _agreement(fit)
+    exact = bool(effects) and not any(np.isfinite(e.share) for e in effects)
+    parts = [_where(located, ranges or {})] if located and not (exact and not remainder.significant) else []
     if effects:
-        names = " and ".join(e.title for e in effects)
-        physics = [e for e in effects if e.kind == "physics"]
-        lead = "Left out of the model" if len(physics) == len(effects) else "Found"
-        if not physics:
-            lead = "Wrong in the recording"
-        parts.append(f"{lead}: {names}.")
-        if fit:
-            o, f = max(fit.items(), key=lambda t: t[1].rms_before ** 2 - t[1].rms_after ** 2)
-            parts.append(
-                f"With it the error of {o.capitalize()} falls from {f.rms_before:.0f} N to "
-                f"{f.rms_after:.0f} N on sweeps "
-                f"left out of the fit; noise is {f.noise_floor:.0f} N."
-            )
-        for e in effects:
-            if e.alternatives:
-                others = " or ".join(catalogue()[a].title for a in e.alternatives)
-                parts.append(f"This recording cannot exclude {others} instead of {e.title}.")
+        parts += _cause(effects, fit)
+    parts += [_doubt(e) for e in effects if e.alternatives]
     if remainder.significant:
-        sizes = ", ".join(f"{o.capitalize()} {s:.0f} N" for o, s in remainder.size.items())
-        lead = "Something else is left" if effects else "No effect in the catalogue explains it"
-        parts.append(f"{lead} ({sizes} RMS above noise); it gets no name.")
-        if remainder.located:
-            f0 = remainder.located[0]
-            parts.append(
-                f"It is clearest in {f0.output.capitalize()} at {interval(f0.axis, f0.low, f0.high)}."
-            )
+        parts += _left(bool(effects), remainder, ranges or {})
     if next_experiment:
         parts.append(next_experiment)
     return " ".join(parts)
 
 
-def _where(located: Sequence[Located]) -> str:
+def _agreement(fit: dict[str, OutputFit]) -> str:
+    sizes = ", ".join(
+        f"{o.capitalize()} {newtons(f.rms_before)} N (noise {newtons(f.noise_floor)} N)"
+        for o, f in fit.items()
+    )
+    return (
+        "Simulation and recording agree: what differs is no larger than noise and the misfit that a fitted "
+        f"tire model always has. RMS difference: {sizes}."
+    )
+
+
+def _cause(effects: Sequence[EffectReport], fit: dict[str, OutputFit]) -> list[str]:
+    """What was left out or is wrong, and what it brings."""
+    physics = [e.title for e in effects if e.kind == "physics"]
+    artefacts = [e.title for e in effects if e.kind != "physics"]
+    parts = []
+    if physics:
+        parts.append(f"Left out of the model: {' and '.join(physics)}.")
+    if artefacts:
+        parts.append(f"Wrong in the recording: {' and '.join(artefacts)}.")
+    if fit and any(np.isfinite(e.share) for e in effects):
+        o, f = max(fit.items(), key=lambda t: t[1].rms_before ** 2 - t[1].rms_after ** 2)
+        it = "it" if len(effects) == 1 else "them"
+        goes = "falls" if f.rms_after < f.rms_before else "goes"
+        parts.append(
+            f"With {it} the error of {o.capitalize()} {goes} from {newtons(f.rms_before)} N to "
+            f"{newtons(f.rms_after)} N on sweeps left out of the fit of the parameters; noise is "
+            f"{newtons(f.noise_floor)} N."
+        )
+    elif fit:
+        sizes = ", ".join(
+            f"{o.capitalize()} {newtons(f.rms_before)} N (noise {newtons(f.noise_floor)} N)"
+            for o, f in fit.items()
+        )
+        parts.append(f"With that set right the difference is {sizes} RMS.")
+    return parts
+
+
+def _doubt(effect: EffectReport) -> str:
+    others = " or ".join(catalogue()[a].title for a in effect.alternatives)
+    return f"{others[:1].upper()}{others[1:]} cannot be excluded instead of {effect.title}."
+
+
+def _left(named: bool, remainder: Remainder, ranges: Mapping[str, tuple[float, float]]) -> list[str]:
+    sizes = ", ".join(f"{o.capitalize()} {newtons(s)} N" for o, s in remainder.size.items())
+    lead = "Something else is left" if named else "No effect of the catalogue explains it"
+    parts = [f"{lead} ({sizes} RMS above noise); it gets no name."]
+    if remainder.located:
+        f = remainder.located[0]
+        parts.append(f"It is clearest in {f.output.capitalize()} {place(f.axis, f.low, f.high, ranges)}.")
+    return parts
+
+
+def place(axis: str, low: float, high: float, ranges: Mapping[str, tuple[float, float]]) -> str:
+    """Return ``between 41 and 96 s``, ``at load above 4 kN``, ``at slip angle below -2 deg``."""
+    factor, unit, name = _UNITS.get(axis, (1.0, "", axis.replace("_", " ")))
+    a, b = f"{low * factor:.3g}", f"{high * factor:.3g}"
+    lowest, highest = ranges.get(axis, (-np.inf, np.inf))
+    near = 0.03 * (highest - lowest) if np.isfinite(highest - lowest) else 0.0
+    if axis == "time":
+        return f"between {a} and {b} s"
+    if high >= highest - near and low > lowest + near:
+        return f"at {name} above {a} {unit}".rstrip()
+    if low <= lowest + near and high < highest - near:
+        return f"at {name} below {b} {unit}".rstrip()
+    return f"at {name} between {a} and {b} {unit}".rstrip()
+
+
+def _where(located: Sequence[Located], ranges: Mapping[str, tuple[float, float]]) -> str:
     """First sentence: where recorded and simulated force differ most."""
     along = [f for f in located if f.along_force] or list(located)
     output = max(along, key=lambda f: abs(f.mean)).output
-    own = [f for f in along if f.output == output][:3]
-    where = ", ".join(interval(f.axis, f.low, f.high) for f in own)
+    own = [f for f in along if f.output == output]
+    own = sorted(own[:4], key=lambda f: (f.axis != "time", f.p_value, -abs(f.mean)))[:3]
+    spots = [place(f.axis, f.low, f.high, ranges) for f in own]
+    spots = [
+        s.removeprefix("at ") if i and spots[i - 1].startswith("at ") else s for i, s in enumerate(spots)
+    ]
+    times = spots[0] + ", " if own[0].axis == "time" and len(spots) > 1 else ""
+    rest = spots[1:] if times else spots
+    where = times + " and ".join(rest)
     best = max(own, key=lambda f: abs(f.mean))
+    name = output.capitalize()
+    lead = f"{where[:1].upper()}{where[1:]}, {name}"
     if best.along_force and abs(best.share) > 0.002:
         word = "lower" if best.mean < 0.0 else "higher"
+        size = abs(best.share) * 100
         return (
-            f"At {where}, {output.capitalize()} is up to {abs(best.share) * 100:.2g}% {word} than the model."
+            f"{lead} is up to {size:.2g}% {word} than the model."
+            if size < 99.5
+            else (f"{lead} is up to {newtons(abs(best.mean))} N {word} than the model.")
         )
-    return f"At {where}, {output.capitalize()} differs from the model by {best.mean:+.0f} N on average."
+    return f"{lead} differs from the model by {best.mean:+,.3g} N on average."
