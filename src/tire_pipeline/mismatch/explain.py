@@ -242,10 +242,17 @@ def _candidates(search: Search) -> list[dict[str, Any]]:
             gain = taken[name].gain if name in taken else search.screened.get(name)
             row |= {
                 "gain": gain,
-                "why": "" if name in taken else search.refused.get(name, "does not pay for itself"),
+                "why": "" if name in taken else search.refused.get(name, _why_not(search, gain)),
             }
         rows.append(row)
     return sorted(rows, key=lambda r: (not r["accepted"], -(r["gain"] if r["gain"] is not None else -1e9)))
+
+
+def _why_not(search: Search, gain: float | None) -> str:
+    """Why a candidate that no gate refused is not in."""
+    if gain is not None and gain > settings.LEAST_GAIN and search.fit.names:
+        return "explains less than what is accepted, and nothing beside it"
+    return "does not pay for itself"
 
 
 def _series(search: Search) -> dict[str, Any]:

@@ -70,7 +70,8 @@ def operating_map(report: MismatchReport, output: str) -> Figure:
     s = report.series
     slip = s["slip_angle"] if output == "fy" else s["slip_ratio"]
     factor, unit = (57.29578, "slip angle (deg)") if output == "fy" else (1.0, "slip ratio")
-    load = s["normal_load"] / 1e3
+    small = float(np.max(s["normal_load"])) < 100.0
+    load = s["normal_load"] if small else s["normal_load"] / 1e3
     kinds = ["before"] + (["after"] if report.corrected.changes else [])
     x_edges = np.linspace(slip.min() * factor, slip.max() * factor + 1e-9, 25)
     y_edges = np.linspace(load.min(), load.max() + 1e-9, 9)
@@ -90,7 +91,7 @@ def operating_map(report: MismatchReport, output: str) -> Figure:
             ax.set_title(kind)
             ax.set_xlabel(unit)
             ax.grid(False)
-        axes[0].set_ylabel("normal load (kN)")
+        axes[0].set_ylabel("normal load (N)" if small else "normal load (kN)")
         figure.colorbar(mesh, ax=axes, label=f"mean {output.capitalize()} recorded - simulated (N)")
     return figure
 

@@ -68,7 +68,7 @@ def gaussian_form(data: Data, rest: Array, output: str, block: Array, floor: flo
     size = float(np.std(rest[train])) or 1.0
     live, process = _chosen(x[train], rest[train] / size, min(floor / size, 1.0))
     lengths = np.atleast_1d(process.kernel_.k1.k2.length_scale)
-    left = rest[test] - size * process.predict(x[np.ix_(test, live)])
+    left = rest[test] - size * process.predict(x[test][:, live])
     total = float(np.mean(rest[test] ** 2))
     above = total - floor**2
     gone = total - float(np.mean(left**2))

@@ -10,7 +10,7 @@ import jinja2
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.figures import drawings
 from tire_pipeline.mismatch.report import MismatchReport
-from tire_pipeline.mismatch.words import gaussian, interval
+from tire_pipeline.mismatch.words import condition, gaussian, interval
 
 
 def render(report: MismatchReport) -> str:
@@ -28,17 +28,24 @@ def render(report: MismatchReport) -> str:
         undefined=jinja2.StrictUndefined,
     )
     environment.filters["number"] = number
+    environment.filters["condition"] = condition
     return environment.get_template("report.html").render(
         report=report,
         drawings=drawings(report),
         effects=[_effect(e) for e in report.effects],
-        located=[
-            (f.output, interval(f.axis, f.low, f.high), f.mean, f.share, f.p_value)
-            for f in report.located[:8]
-        ],
+        located=_located(report),
         gaussian=[gaussian(f) for f in report.remainder.gaussian],
         candidates=[_candidate(c) for c in report.candidates],
     )
+
+
+def _located(report: MismatchReport) -> list[tuple[str, str, float, float, float]]:
+    """One row for each output and axis: the stretch along the force before the one of plain differences."""
+    rows: dict[tuple[str, str], Any] = {}
+    for f in sorted(report.located, key=lambda f: not f.along_force):
+        rows.setdefault((f.output, f.axis), f)
+    order = [f for f in report.located if rows[f.output, f.axis] is f]
+    return [(f.output, interval(f.axis, f.low, f.high), f.mean, f.share, f.p_value) for f in order[:8]]
 
 
 def number(value: Any, digits: int = 3) -> str:

@@ -14,6 +14,7 @@ from tire_pipeline.mismatch.report import GaussianForm, Remainder
 from tire_pipeline.mismatch.search import Search, with_shapes
 
 Array = np.ndarray
+_MOST_TERMS = 5
 
 
 def remainder(search: Search) -> Remainder:
@@ -102,18 +103,30 @@ def sparse_form(search: Search) -> str:
         return ""
     step = max(1, data.size // 4000)
     x = np.column_stack(columns)[::step]
+    library = pysindy.PolynomialLibrary(degree=2)
+    features = np.asarray(library.fit_transform(x))
+    terms = library.get_feature_names(labels)
     lines = []
     for o in data.outputs:
-        y = rest[o][::step]
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            library = pysindy.PolynomialLibrary(degree=2)
-            features = np.asarray(library.fit_transform(x))
-            optimizer = pysindy.STLSQ(threshold=0.25 * float(np.std(y)), alpha=1e-3)
-            optimizer.fit(features, y[:, None])
-        terms = library.get_feature_names(labels)
-        found = np.ravel(optimizer.coef_)
-        text = " ".join(f"{c:+.3g} {t}" for c, t in zip(found, terms, strict=True) if c != 0.0)
+        found = _few_terms(features, rest[o][::step])
+        text = " ".join(f"{c:+.3g} {t}".removesuffix(" 1") for c, t in zip(found, terms, strict=True) if c)
         if text:
             lines.append(f"{o} left = {text} N")
     return "; ".join(lines)
+
+
+def _few_terms(features: Array, y: Array) -> Array:
+    """Coefficients by thresholded least squares, the threshold raised until few terms are left."""
+    import pysindy
+
+    threshold = 0.25 * float(np.std(y))
+    for _ in range(12):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            optimizer = pysindy.STLSQ(threshold=threshold, alpha=1e-3)
+            optimizer.fit(features, y[:, None])
+        found = np.ravel(optimizer.coef_)
+        if np.count_nonzero(found) <= _MOST_TERMS:
+            break
+        threshold *= 1.6
+    return found

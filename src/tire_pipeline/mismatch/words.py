@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -18,13 +19,21 @@ _UNITS = {
     "pressure": (1e-5, "bar", "pressure"),
     "tread_temperature": (1.0, "degC", "tread temperature"),
     "slip_ratio": (1.0, "", "slip ratio"),
+    "turn_slip": (1.0, "1/m", "path curvature"),
     "time": (1.0, "s", "time"),
 }
 
 
+def unit_of(axis: str, size: float) -> tuple[float, str, str]:
+    """Return factor, unit and name of an axis; loads below 100 N (model cars) are shown in N."""
+    if axis == "normal_load" and abs(size) < 100.0:
+        return 1.0, "N", "load"
+    return _UNITS.get(axis, (1.0, "", axis.replace("_", " ")))
+
+
 def shown(axis: str, value: float) -> str:
     """Return a value of an axis in the unit that engineers use."""
-    factor, unit, _ = _UNITS.get(axis, (1.0, "", axis))
+    factor, unit, _ = unit_of(axis, value)
     return f"{value * factor:.3g} {unit}".strip()
 
 
@@ -35,7 +44,7 @@ def label(axis: str) -> str:
 
 def interval(axis: str, low: float, high: float) -> str:
     """Return ``load 2.1 to 4.3 kN``."""
-    factor, unit, name = _UNITS.get(axis, (1.0, "", axis))
+    factor, unit, name = unit_of(axis, max(abs(low), abs(high)))
     return f"{name} {low * factor:.3g} to {high * factor:.3g} {unit}".strip()
 
 
@@ -44,7 +53,7 @@ def gaussian(form: GaussianForm) -> str:
     lengths = []
     for name, length in form.lengths.items():
         channel = name.removeprefix("rate of ")
-        factor, unit, text = _UNITS.get(channel, (1.0, "", channel))
+        factor, unit, text = unit_of(channel, length)
         per = "/s" if name != channel else ""
         lead = f"rate of {text}" if per else text
         lengths.append(f"{lead} ({length * factor:.2g} {unit}{per})".replace(" )", ")").replace("( ", "("))
@@ -93,8 +102,23 @@ def summary(
     if remainder.significant:
         parts += _left(bool(effects), remainder, ranges or {})
     if next_experiment:
-        parts.append(next_experiment)
+        parts.append(in_words(next_experiment))
     return " ".join(parts)
+
+
+def in_words(text: str) -> str:
+    """Return a text with the titles of effects in place of their names."""
+    names = sorted(catalogue(), key=len, reverse=True)
+    return re.sub(rf"\b({'|'.join(n for n in names if '_' in n)})\b", lambda m: catalogue()[m[1]].title, text)
+
+
+def condition(text: str) -> str:
+    """Return ``|slip angle| above 4.2 deg`` from ``|slip_angle| above 0.0735 rad``."""
+    found = re.fullmatch(r"\|(\w+)\| above (\S+) \S+", text)
+    if found is None:
+        return text
+    value = float(found[2])
+    return f"|{label(found[1])}| above {shown(found[1], value)}"
 
 
 def _agreement(fit: dict[str, OutputFit]) -> str:
@@ -152,7 +176,7 @@ def _left(named: bool, remainder: Remainder, ranges: Mapping[str, tuple[float, f
 
 def place(axis: str, low: float, high: float, ranges: Mapping[str, tuple[float, float]]) -> str:
     """Return ``between 41 and 96 s``, ``at load above 4 kN``, ``at slip angle below -2 deg``."""
-    factor, unit, name = _UNITS.get(axis, (1.0, "", axis.replace("_", " ")))
+    factor, unit, name = unit_of(axis, max(abs(low), abs(high)))
     a, b = f"{low * factor:.3g}", f"{high * factor:.3g}"
     lowest, highest = ranges.get(axis, (-np.inf, np.inf))
     near = 0.03 * (highest - lowest) if np.isfinite(highest - lowest) else 0.0
@@ -170,6 +194,8 @@ def _where(located: Sequence[Located], ranges: Mapping[str, tuple[float, float]]
     along = [f for f in located if f.along_force] or list(located)
     output = max(along, key=lambda f: abs(f.mean)).output
     own = [f for f in along if f.output == output]
+    top = max(own, key=lambda f: abs(f.mean))
+    own = [f for f in own if f.mean * top.mean > 0.0 and abs(f.mean) > 0.4 * abs(top.mean)]
     own = sorted(own[:4], key=lambda f: (f.axis != "time", f.p_value, -abs(f.mean)))[:3]
     spots = [place(f.axis, f.low, f.high, ranges) for f in own]
     spots = [
