@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 import time
@@ -10,6 +11,8 @@ from pathlib import Path
 
 import pytest
 from viz_browser import ROOT, browser, needs_browser, served, small_project
+
+from tire_pipeline.lineage.descriptions import descriptions
 
 pytestmark = pytest.mark.slow
 FILES_TO_EVALUATION = ["files", "features", "classifier", "agent", "evaluation"]
@@ -80,6 +83,7 @@ def _open_preview(driver) -> None:
         return " ".join(one.text for one in driver.find_elements("css selector", ".pipeline-metadata"))
 
     _wait(driver, lambda: "A/bad.tir" in panel())
+    assert "read or set aside with line and reason" in panel()  # the catalog's description
 
 
 def _click(driver, find) -> None:
@@ -144,6 +148,27 @@ def test_the_build_opens_without_a_server(project, tmp_path):
         _open_preview(driver)
         _keep(driver, "viz_one_page.png")
         assert _asked_elsewhere(driver) == []
+
+
+def test_every_dataset_and_node_of_the_story_has_a_description():
+    from kedro.framework.project import pipelines
+
+    known = descriptions(ROOT)
+    story = pipelines["story"]
+    names = {node.name for node in story.nodes} | {d for d in story.datasets() if not d.startswith("param")}
+    assert {name for name in names if not known["exact"].get(name)} == set()
+    patterns = {re.sub(r"\\(.)", r"\1", pattern): text for pattern, text in known["patterns"]}
+    assert "fitted once a seed" in patterns["^representations.[^.]+$"]
+    assert all(re.compile(pattern) for pattern, _ in known["patterns"])
+
+
+def test_a_description_cannot_end_the_script(tmp_path, monkeypatch):
+    from tire_pipeline.lineage import descriptions as module
+
+    monkeypatch.setattr(module, "descriptions", lambda *_: {"exact": {"a": "</script><b>"}, "patterns": []})
+    page = module.described("<head></head>", tmp_path)
+    assert page.count("</script>") == 1
+    assert "<b>" not in page
 
 
 def test_a_folder_that_is_no_build(tmp_path):

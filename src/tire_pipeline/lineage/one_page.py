@@ -13,6 +13,7 @@ from pathlib import Path
 
 from tire_pipeline.atomic import write_bytes
 from tire_pipeline.errors import DomainError
+from tire_pipeline.lineage.descriptions import described
 from tire_pipeline.lineage.first_screen import prepared
 
 _FETCH = """
@@ -79,8 +80,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("build", type=Path)
     parser.add_argument("page", type=Path)
+    parser.add_argument("--project", type=Path, default=Path.cwd())
     arguments = parser.parse_args()
-    write_bytes(arguments.page, one_page(arguments.build).encode())
+    page = described(one_page(arguments.build), arguments.project.resolve())
+    write_bytes(arguments.page, page.encode())
     print(f"lineage: {arguments.page}")
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from packaging.version import parse
 
+from tire_pipeline.lineage.descriptions import described
 from tire_pipeline.lineage.first_screen import prepared
 
 
@@ -30,7 +31,8 @@ def main() -> None:
         pages = Path(folder) / "html"
         shutil.copytree(apps._HTML_DIR, pages)
         index = pages / "index.html"
-        index.write_text(prepared(index.read_text(encoding="utf-8")), encoding="utf-8")
+        html = prepared(index.read_text(encoding="utf-8"))
+        index.write_text(described(html, arguments.project.resolve(), arguments.env), encoding="utf-8")
         (pages / "telemetry.html").write_text("</head>")  # never, whatever the folder's consent says
         apps._HTML_DIR = pages
         version.get_latest_version = lambda: parse(kedro_viz.__version__)  # it would ask pypi.org
