@@ -14,7 +14,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.checks import INPUTS, own_relaxation
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.simulate import Change, plain_forces, simulate
+from tire_pipeline.mismatch.simulate import Change, plain_forces, simulate, simulate_moments
 from tire_pipeline.mismatch.smoothing import denoise
 
 _POINTS = ("slip_angle", "slip_ratio", "camber", "normal_load")
@@ -35,6 +35,8 @@ class CorrectedModel:
     stands_in : bool
         True if the tire model only stands in for another simulator, whose output a recording to
         predict must have as ``simulated_fy``.
+    moments : tuple of str
+        Moments that were recorded and that the tire model gives.
     """
 
     tire: Any
@@ -42,6 +44,7 @@ class CorrectedModel:
     reference: Mapping[str, Any]
     outputs: tuple[str, ...]
     stands_in: bool = False
+    moments: tuple[str, ...] = ()
 
     def predict(self, recording: pd.DataFrame) -> pd.DataFrame:
         """Return the corrected forces at the samples of a recording.
@@ -54,8 +57,9 @@ class CorrectedModel:
         Returns
         -------
         pandas.DataFrame
-            ``fx``, ``fy`` in N (those that were recorded when the model was corrected), index as
-            the recording's. Artefacts of the sensors are put in, too: this is what would be recorded.
+            ``fx``, ``fy`` in N and ``mx``, ``my``, ``mz`` in N m (those that were recorded when the
+            model was corrected), index as the recording's. Artefacts of the force sensors are put in,
+            too: this is what would be recorded.
 
         Raises
         ------
@@ -64,6 +68,8 @@ class CorrectedModel:
         """
         data = self._data(recording)
         forces = simulate(data, self.changes)
+        if self.moments:
+            forces |= simulate_moments(data, self.changes, self.moments)
         return pd.DataFrame(forces, index=recording.index)
 
     def _data(self, recording: pd.DataFrame) -> Data:

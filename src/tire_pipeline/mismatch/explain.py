@@ -19,7 +19,7 @@ from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.locate import AXES, locate, when, where
-from tire_pipeline.mismatch.proof import prove
+from tire_pipeline.mismatch.proof import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.remainder import remainder
 from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFit, Remainder
@@ -116,12 +116,17 @@ def _report(prepared: Prepared, search: Search) -> MismatchReport:
     if "speed" in data.present:
         reference["speed_nominal"] = data.speed_nominal
     corrected = CorrectedModel(
-        data.tire, tuple(search.fit.changes), reference, outputs, data.beside is not None
+        data.tire,
+        tuple(search.fit.changes),
+        reference,
+        outputs,
+        data.beside is not None,
+        recorded_moments(data),
     )
     return MismatchReport(
         verdict=verdict,
         effects=effects,
-        fit=fit,
+        fit={**fit, **prove_moments(search)},
         next_experiment=following,
         corrected=corrected,
         summary=summary(verdict, effects, fit, located, left, following, _ranges(data)),

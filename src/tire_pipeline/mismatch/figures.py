@@ -98,7 +98,10 @@ def operating_map(report: MismatchReport, output: str) -> Figure:
 
 def drawings(report: MismatchReport) -> list[dict[str, Any]]:
     """Return the figures of a report as inline SVG with captions, the outputs that differ most first."""
-    order = sorted(report.fit, key=lambda o: -report.fit[o].rms_before / max(report.fit[o].noise_floor, 1e-9))
+    order = sorted(
+        (o for o in report.fit if f"before_{o}" in report.series),
+        key=lambda o: -report.fit[o].rms_before / max(report.fit[o].noise_floor, 1e-9),
+    )
     out = []
     for o in order:
         name = o.capitalize()

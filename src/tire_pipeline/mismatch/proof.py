@@ -8,6 +8,7 @@ from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.refit import residual
 from tire_pipeline.mismatch.report import OutputFit
 from tire_pipeline.mismatch.search import Search
+from tire_pipeline.mismatch.simulate import simulate_moments
 
 Array = np.ndarray
 _LOCKED = {"moment", "radius"}
@@ -58,6 +59,61 @@ def prove(search: Search, *, resamples: int = 400, seed: int = 0) -> dict[str, O
             else float(np.sqrt(np.mean(condition[o] ** 2))),
         )
     return out
+
+
+def prove_moments(search: Search, *, resamples: int = 400, seed: int = 0) -> dict[str, OutputFit]:
+    """Return the errors of the recorded moments, N m, which no fit has seen: only fx and fy were fitted.
+
+    Moments that the model does not give (no coefficients, or another simulator's output in its place) are
+    left out.
+    """
+    data = search.data
+    names = recorded_moments(data)
+    if not names:
+        return {}
+    plain = simulate_moments(data, [], names)
+    corrected = simulate_moments(data, search.fit.changes, names)
+    count = np.bincount(search.block, minlength=search.system.count)
+    rng = np.random.default_rng(seed)
+    out = {}
+    for name in names:
+        recorded = data.channels[name]
+        before, after = recorded - plain[name], recorded - corrected[name]
+        sums = _by_sweep(after, search.block, search.system.count)
+        picks = rng.integers(count.size, size=(resamples, count.size))
+        draws = np.sqrt(sums[picks].sum(axis=1) / np.maximum(count[picks].sum(axis=1), 1))
+        low, high = np.quantile(draws, [0.025, 0.975])
+        size_before, size_after = float(np.mean(before**2)), float(np.mean(after**2))
+        floor = _white_noise(after) if data.time is not None else float("nan")
+        above = size_before - floor**2
+        out[name] = OutputFit(
+            noise_floor=floor,
+            rms_before=float(np.sqrt(size_before)),
+            rms_after=float(np.sqrt(size_after)),
+            rms_after_low=float(low),
+            rms_after_high=float(high),
+            recovered=float(np.clip((size_before - size_after) / above, -1.0, 1.0))
+            if above > 0.05 * floor**2
+            else float("nan"),
+        )
+    return out
+
+
+def recorded_moments(data: Data) -> tuple[str, ...]:
+    """Moments that are recorded without holes and that the model gives."""
+    names = [
+        n for n in ("mx", "my", "mz") if n in data.channels and bool(np.isfinite(data.channels[n]).all())
+    ]
+    if not names or data.beside is not None:
+        return ()
+    plain = simulate_moments(data, [], names)
+    return tuple(n for n in names if np.ptp(plain[n]) > 1e-6 * max(float(np.ptp(data.channels[n])), 1e-9))
+
+
+def _white_noise(x: Array) -> float:
+    """Size of white noise from second differences (robust)."""
+    d = np.diff(x, 2)
+    return float(np.median(np.abs(d)) / 0.6745 / np.sqrt(6.0)) if d.size else float("nan")
 
 
 def _by_sweep(x: Array, block: Array, count: int) -> Array:

@@ -60,7 +60,7 @@ class EffectReport:
 
 @dataclass(frozen=True)
 class OutputFit:
-    """Errors of one output on sweeps that were left out of the fit, N.
+    """Errors of one output on sweeps that were left out of the fit, N (moments: no fit has seen them, N m).
 
     Parameters
     ----------

@@ -66,6 +66,55 @@ def simulate(data: Any, changes: Sequence[Change] = ()) -> dict[str, Array]:
     dict of ndarray
         One array for each of ``data.outputs``, N.
     """
+    state, effects = _at_the_tire(data, changes)
+    state.forces = _tire(data, state)
+    for effect, p in effects:
+        effect.outputs(state, data, p)
+    return {name: state.forces[name] for name in data.outputs}
+
+
+def simulate_moments(data: Any, changes: Sequence[Change], names: Sequence[str]) -> dict[str, Array]:
+    """Simulate moments with effects put in.
+
+    Effects act on the slips and on the tire; those on recorded forces (gain, offset, delay) leave the
+    moments as they are. Friction m and stiffness k turn M(s) into m M(s k / m), with the lateral pair of
+    m and k for mx and mz and the longitudinal one for my.
+
+    Parameters
+    ----------
+    data : Data
+    changes : sequence of (name, parameters)
+    names : sequence of str
+        Some of ``mx, my, mz``.
+
+    Returns
+    -------
+    dict of ndarray, shape (n,)
+        N m.
+    """
+    state, _ = _at_the_tire(data, changes)
+    m_x, ratio_x, m_y, ratio_y = _similarity(state)
+    tire = data.tire.replace(**state.coefficients) if state.coefficients else data.tire
+    more = {
+        n: v for n, v in (("speed", data.model_speed), ("pressure", data.model_pressure)) if v is not None
+    }
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        out = tire.forces(
+            slip_angle=state.slip_angle * ratio_y,
+            slip_ratio=state.slip_ratio * ratio_x,
+            camber=state.camber,
+            normal_load=state.normal_load,
+            limits="ignore",
+            outputs=tuple(names),
+            **more,
+        )
+    scale = {"mx": np.exp(m_y), "my": np.exp(m_x), "mz": np.exp(m_y)}
+    return {n: np.asarray(getattr(out, n), float) * scale[n] for n in names}
+
+
+def _at_the_tire(data: Any, changes: Sequence[Change]) -> tuple[State, list[tuple[Any, Mapping[str, float]]]]:
+    """What the tire sees and what it is like, and the effects in their order."""
     effects = [(catalogue()[name], p) for name, p in changes]
     effects.sort(key=lambda e: e[0].order)
     zero = np.zeros(data.size)
@@ -84,18 +133,21 @@ def simulate(data: Any, changes: Sequence[Change] = ()) -> dict[str, Array]:
     data.relax(state, {name for name, _ in changes})
     for effect, p in effects:
         effect.tire(state, data, p)
-    state.forces = _tire(data, state)
-    for effect, p in effects:
-        effect.outputs(state, data, p)
-    return {name: state.forces[name] for name in data.outputs}
+    return state, effects
+
+
+def _similarity(state: State) -> tuple[Any, Any, Any, Any]:
+    """Log friction and factor of the slip, along and across."""
+    m_x, m_y = state.log_friction, state.log_friction + state.log_friction_y
+    ratio_y = np.exp(state.log_stiffness + state.log_stiffness_y - m_y)
+    ratio_x = np.exp(state.log_stiffness - m_x)
+    return m_x, ratio_x, m_y, ratio_y
 
 
 def _tire(data: Any, state: State) -> dict[str, Array]:
     """Evaluate the tire by similarity: friction m and stiffness k turn F(s) into m F(s k / m)."""
     tire = data.tire.replace(**state.coefficients) if state.coefficients else data.tire
-    m_x, m_y = state.log_friction, state.log_friction + state.log_friction_y
-    ratio_y = np.exp(state.log_stiffness + state.log_stiffness_y - m_y)
-    ratio_x = np.exp(state.log_stiffness - m_x)
+    m_x, ratio_x, m_y, ratio_y = _similarity(state)
     forces = plain_forces(
         tire,
         slip_angle=state.slip_angle * ratio_y,
