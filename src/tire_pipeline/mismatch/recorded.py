@@ -1,0 +1,94 @@
+"""Channels of a recording: whether they vary, without their noise, and the time step; a part of `Data`."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+Array = np.ndarray
+_RELATIVE_SPREAD = {"pressure": 0.03, "speed": 0.12, "normal_load": 0.1}
+_ABSOLUTE_SPREAD = {
+    "camber": 0.008,
+    "tread_temperature": 4.0,
+    "slip_angle": 0.005,
+    "slip_ratio": 0.01,
+    "turn_slip": 0.003,
+}
+
+
+class Channels:
+    """What is recorded."""
+
+    tire: Any
+    channels: dict[str, Array]
+    recorded: dict[str, Array]
+    time: Array | None
+    start: Array
+    present: set[str]
+    fixed: dict[str, Any]
+
+    @property
+    def size(self) -> int:
+        """Number of samples."""
+        return self.channels["normal_load"].size
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """Forces that are recorded."""
+        return tuple(self.recorded)
+
+    def get(self, name: str) -> Array:
+        """Return one channel."""
+        return self.channels[name]
+
+    def has(self, name: str) -> bool:
+        """Whether the recording has the channel."""
+        return name in self.present
+
+    def varies(self, name: str) -> bool:
+        """Whether the channel is there and moves by more than sensors do."""
+        if name not in self.present:
+            return False
+        known = self.fixed.get("varies")
+        if known is not None:
+            return bool(known[name])
+        low, high = np.quantile(self.smooth(name), [0.005, 0.995])
+        least = _ABSOLUTE_SPREAD.get(name, 0.0)
+        if name in _RELATIVE_SPREAD:
+            least = _RELATIVE_SPREAD[name] * abs(float(np.median(self.channels[name])))
+        return bool(high - low > least)
+
+    def smooth(self, name: str) -> Array:
+        """Return a slow channel without its sensor noise: a running mean over half a second."""
+        key = f"smooth {name}"
+        if key not in self.fixed:
+            self.fixed[key] = self._running_mean(self.channels[name], 0.5)
+        return self.fixed[key]
+
+    def _running_mean(self, x: Array, seconds: float) -> Array:
+        if self.time is None or x.size < 8:
+            return x
+        half = int(max(seconds / max(float(np.median(self.step)), 1e-9), 1.0)) // 2
+        if half < 1:
+            return x
+        total = np.concatenate([[0.0], np.cumsum(x)])
+        firsts = np.flatnonzero(self.start)
+        piece = np.cumsum(self.start) - 1
+        first = firsts[piece]
+        last = np.append(firsts[1:], x.size)[piece]
+        i = np.arange(x.size)
+        a, b = np.maximum(i - half, first), np.minimum(i + half + 1, last)
+        return (total[b] - total[a]) / (b - a)
+
+    @cached_property
+    def step(self) -> Array:
+        """Time step that ends at each sample, s."""
+        if self.time is None:
+            return np.zeros(self.size)
+        d = np.diff(self.time, prepend=self.time[0])
+        d[self.start] = 0.0
+        typical = float(np.median(d[d > 0.0])) if np.any(d > 0.0) else 0.0
+        d[self.start] = typical
+        return d

@@ -1,0 +1,98 @@
+"""The simulation as it is and its slopes; a part of `Data`."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from tire_pipeline.mismatch.nominal import Nominal
+from tire_pipeline.mismatch.simulate import plain_forces, simulate
+
+Array = np.ndarray
+
+
+class Simulated(Nominal):
+    """Forces of the model at the recorded points."""
+
+    @cached_property
+    def base(self) -> dict[str, Array]:
+        """The simulation as it is, N."""
+        return simulate(self)
+
+    @cached_property
+    def all_base(self) -> dict[str, Array]:
+        """fx and fy of the model, recorded or not, N."""
+        return plain_forces(
+            self.tire,
+            slip_angle=self.get("slip_angle"),
+            slip_ratio=self.get("slip_ratio"),
+            camber=self.get("camber"),
+            normal_load=self.get("normal_load"),
+            speed=self.model_speed,
+            pressure=self.model_pressure,
+        )
+
+    @cached_property
+    def base_fy(self) -> Array:
+        """Lateral force of the model, N."""
+        return self.all_base["fy"]
+
+    def turned_by_force(self, slip_angle: Array, steer: float) -> Array:
+        """Return ``slip_angle - steer Fy`` with the force Fy that the model then gives.
+
+        The recorded force would bring its own noise into the slip angle.
+        """
+        force, turned = self.base_fy, slip_angle
+        for _ in range(4):
+            turned = slip_angle - steer * force
+            force = plain_forces(
+                self.tire,
+                slip_angle=turned,
+                slip_ratio=self.get("slip_ratio"),
+                camber=self.get("camber"),
+                normal_load=self.get("normal_load"),
+                speed=self.model_speed,
+                pressure=self.model_pressure,
+            )["fy"]
+        return turned
+
+    def slope(self, name: str, step: float) -> dict[str, Array]:
+        """Return d force / d channel of the model by central differences."""
+        key = f"slope {name}"
+        if key not in self.fixed:
+            out: dict[str, Array] = {}
+            for sign in (1.0, -1.0):
+                c = {n: self.get(n) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
+                c[name] = c[name] + sign * step
+                f = plain_forces(self.tire, speed=self.model_speed, pressure=self.model_pressure, **c)
+                for axis, value in f.items():
+                    out[axis] = out.get(axis, 0.0) + sign * value / (2.0 * step)
+            self.fixed[key] = out
+        return self.fixed[key]
+
+    def _stiffness(self, axis: str) -> float:
+        """Slip stiffness at nominal load, N per unit of slip, positive."""
+        h = 1e-3
+        a = np.array([h, -h]) if axis == "fy" else np.zeros(2)
+        k = np.array([h, -h]) if axis == "fx" else np.zeros(2)
+        f = plain_forces(
+            self.tire,
+            slip_angle=a,
+            slip_ratio=k,
+            camber=np.zeros(2),
+            normal_load=np.full(2, self.load_nominal),
+        )[axis]
+        return float(max(abs(f[0] - f[1]) / (2.0 * h), 1e-9))
+
+    @cached_property
+    def slope_share(self) -> Array:
+        """|dFy/d slip angle| over the cornering stiffness at nominal load, 0.03 to 2."""
+        share = np.abs(self.slope("slip_angle", 2e-3)["fy"]) / self._stiffness("fy")
+        return np.clip(share, 0.03, 2.0)
+
+    @cached_property
+    def slope_share_x(self) -> Array:
+        """|dFx/d slip ratio| over the slip stiffness at nominal load, 0.03 to 2."""
+        share = np.abs(self.slope("slip_ratio", 2e-3)["fx"]) / self._stiffness("fx")
+        return np.clip(share, 0.03, 2.0)

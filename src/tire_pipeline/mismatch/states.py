@@ -1,0 +1,121 @@
+"""States along the time line: friction power, work, heat, distance, wheel turns; a part of `Data`."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from tire_pipeline.mismatch.effects.base import State
+from tire_pipeline.mismatch.effects.shared import first_order
+from tire_pipeline.mismatch.simulated import Simulated
+
+Array = np.ndarray
+
+
+class States(Simulated):
+    """What builds up while the tire rolls, from the model's own forces."""
+
+    @cached_property
+    def power(self) -> Array | None:
+        """Friction power ``|Fy v sin a| + |Fx v k|`` of the model, W."""
+        if self.time is None or "speed" not in self.present:
+            return None
+        if "power" in self.fixed:
+            return self.fixed["power"]
+        v = np.abs(self.get("speed"))
+        f = self.all_base
+        out = np.abs(f["fy"] * v * np.sin(self.get("slip_angle"))) + np.abs(
+            f["fx"] * v * self.get("slip_ratio")
+        )
+        return np.asarray(out)
+
+    @cached_property
+    def work(self) -> Array:
+        """Friction work so far over all of it (of the recording that was explained)."""
+        if "work" in self.fixed:
+            return self.fixed["work"]
+        w = np.cumsum(self.power * self.step)
+        return w / self.scales["work"]
+
+    @cached_property
+    def scales(self) -> dict[str, float]:
+        """What work, heat and time are measured by, so that parameters hold for other recordings too."""
+        if "scales" in self.fixed:
+            return self.fixed["scales"]
+        out = {"work": 1.0, "power": 1.0, "time_origin": 0.0, "time_span": 1.0}
+        if self.time is not None:
+            out["time_origin"] = float(self.time[0])
+            out["time_span"] = max(float(self.time[-1] - self.time[0]), 1e-12)
+            if self.power is not None:
+                out["work"] = max(float(np.sum(self.power * self.step)), 1e-12)
+                out["power"] = max(float(np.quantile(self.power, 0.9)), 1e-12)
+        return out
+
+    @cached_property
+    def elapsed(self) -> Array:
+        """Time so far over all of it."""
+        if "elapsed" in self.fixed:
+            return np.asarray(self.fixed["elapsed"])
+        assert self.time is not None  # asked only of effects that need a time line
+        return np.asarray((self.time - self.scales["time_origin"]) / self.scales["time_span"])
+
+    @cached_property
+    def distance(self) -> Array:
+        """Distance rolled, m."""
+        if "distance" in self.fixed:
+            return self.fixed["distance"]
+        return np.cumsum(np.abs(self.get("speed")) * self.step)
+
+    def heat(self, lag: float) -> Array:
+        """Return friction power followed with a lag of first order, over its 90% quantile."""
+        if "heat" in self.fixed:
+            return self.fixed["heat"](lag)
+        key = round(float(lag), 2)
+        cache = self.fixed.setdefault("heats", {})
+        if key not in cache:
+            first = np.zeros(self.size, bool)
+            first[0] = True
+            assert self.power is not None  # asked only of effects that need a time line
+            power = self.power.copy()
+            power[0] = 0.0
+            h = first_order(power, 1.0 - np.exp(-self.step / max(lag, 1e-3)), first)
+            if len(cache) > 40:
+                cache.clear()
+            cache[key] = h / self.scales["power"]
+        return cache[key]
+
+    @cached_property
+    def turns_resolved(self) -> bool:
+        """Whether there are at least three samples a wheel turn, in at least half of the recording."""
+        if self.time is None or "speed" not in self.present:
+            return False
+        turns = np.abs(self.get("speed")) * self.step / (2.0 * np.pi * self.radius)
+        return bool(np.mean((turns < 0.34) & (turns > 1e-4)) > 0.4)
+
+    def rolling_radii(self) -> list[float]:
+        """Return the rolling radius (m) at which the residual has most power once a turn."""
+        if "radius" in self.fixed:
+            return [self.fixed["radius"]]
+        residual = self.recorded[self.outputs[-1]] - self.base[self.outputs[-1]]
+        residual = residual - self._running_mean(residual, 0.4)
+        turns = np.abs(self.get("speed")) * self.step / (2.0 * np.pi * self.radius)
+        residual = np.where(turns < 0.4, residual, 0.0)
+        rolled = self.distance
+        span = max(float(rolled[-1] - rolled[0]), 1e-9)
+        per_metre = np.arange(1.0 / (1.04 * self.radius), 1.0 / (0.9 * self.radius), 0.8 / span)
+        if per_metre.size > 4000:
+            per_metre = np.linspace(per_metre[0], per_metre[-1], 4000)
+        power = np.array([np.abs(np.sum(residual * np.exp(-1j * rolled * k))) for k in per_metre])
+        self.fixed["radius"] = float(1.0 / per_metre[int(np.argmax(power))])
+        return [self.fixed["radius"]]
+
+    def relax(self, state: State, names: set[str]) -> None:
+        """Lag the slips by the relaxation that the file itself states (PTY1, PTX1), if it does."""
+        own = self.fixed.get("own_relaxation")
+        if own is None or "relaxation_length" in names or self.time is None:
+            return
+        speed = np.maximum(np.abs(self.get("speed")), 0.1)
+        for slip, length in own.items():
+            gain = 1.0 - np.exp(-self.step * speed / max(length, 1e-3))
+            setattr(state, slip, first_order(getattr(state, slip), gain, self.start))
