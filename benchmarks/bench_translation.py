@@ -18,6 +18,7 @@ import time
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -30,7 +31,9 @@ from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
 from tire_pipeline.translation.base import make_translator
-from tire_pipeline.translation.curve_translator import PairedMixedModel
+from tire_pipeline.translation.curve_mixed_fit import Prepared, prepare
+from tire_pipeline.translation.curve_space import fit_curve_space
+from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel, PairedMixedModel
 from tire_pipeline.translation.leave_one_out import leave_one_tire_out
 from tire_pipeline.translation.pure_slip import (
     Points,
@@ -88,7 +91,8 @@ class Judge:
             points = Points.grid(band.slip, band.normal_load, [0.0])
             values = _FORCES[name](truth, points).reshape(band.middle.shape)
             known = np.isfinite(band.low).all(axis=(1, 2))
-            found[f"coverage_{name}"] = ((values >= band.low) & (values <= band.high))[known].mean()
+            inside = ((values >= band.low) & (values <= band.high))[known]
+            found[f"coverage_{name}"] = inside.mean() if inside.size else np.nan
         self.measure(ungated)
         metrics = ("forces", "cornering_stiffness", "peak_friction")
         relative = sum(self.per_file[m] / self.per_file[f"{m}_untranslated"].mean() for m in metrics)
@@ -102,6 +106,18 @@ class Judge:
         found["refusal_precision"] = grown[kept].mean() if kept.any() else np.nan
         found["refusal_recall"] = kept[grown].mean() if grown.any() else np.nan
         return found
+
+
+def without_gate(translator: MixedModel, inputs: pd.DataFrame, result: TranslationResult) -> pd.DataFrame:
+    """What would have come out if nothing had been left alone."""
+    table = result.table.copy()
+    kept = (result.report["verdict"] != TRANSLATED).to_numpy()
+    if kept.any():
+        gate, translator.gate = translator.gate, False
+        names = list(COEFFICIENTS)
+        table.loc[kept, names] = translator.translate(inputs[kept])[names].to_numpy()
+        translator.gate = gate
+    return table
 
 
 def oracle(judge: Judge, translator: PairedMixedModel) -> pd.DataFrame:
@@ -144,9 +160,18 @@ def measure_fleet(
         ]
         judges[name] = Judge(*part)
     rows = []
+    training = training.reset_index(drop=True)
+    shared = fit_curve_space(training)
+    prepared: dict[bool, Prepared] = {}
     for name in names:
         started = time.perf_counter()
-        translator = make_translator(name).fit(training, target=target, seed=seed)
+        options: dict[str, Any] = {}
+        if name not in ("no_change", "greedy_forest"):
+            pairs = name == "paired_mixed_model"
+            if pairs not in prepared:
+                prepared[pairs] = prepare(training, pairs=pairs, space_and_cells=shared)
+            options["made"] = prepared[pairs]
+        translator = make_translator(name).fit(training, target=target, seed=seed, **options)
         fitted = time.perf_counter() - started
         for where, judge in judges.items():
             started = time.perf_counter()
@@ -154,17 +179,16 @@ def measure_fleet(
             if name.endswith("mixed_model"):
                 result = translator.translation(judge.inputs)
                 found["translate_seconds"] = time.perf_counter() - started
-                gate, translator.gate = translator.gate, False
-                found |= judge.judge_result(result, translator.translate(judge.inputs))
-                translator.gate = gate
                 table = result.table
+                found |= judge.judge_result(result, without_gate(translator, judge.inputs, result))
             else:
                 table = translator.translate(judge.inputs)
                 found["translate_seconds"] = time.perf_counter() - started
             rows.append({"set": where, "translator": name, **judge.measure(table), **found})
         if name in ("mixed_model", "paired_mixed_model"):
-            pairs = name == "paired_mixed_model"
-            left = leave_one_tire_out(training, target, pairs=pairs, model=translator.model)
+            left = leave_one_tire_out(
+                training, target, pairs=pairs, model=translator.model, made=prepared[pairs]
+            )
             rows.append(
                 {
                     "set": "leave one tire out",
@@ -186,13 +210,13 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
     parser.add_argument("--kinds", nargs="+", default=["additive", "interacting", "drifting"])
     parser.add_argument("--sizes", type=float, nargs="+", default=[1.0, 0.3, 0.6, 0.0])
-    parser.add_argument("--sets", nargs="+", choices=["tuning", "hidden"], default=["tuning", "hidden"])
+    parser.add_argument("--sets", nargs="+", choices=["tuning", "hidden"], default=["hidden"])
     parser.add_argument("--names", nargs="+", help="translators, instead of all")
     parser.add_argument("--results", type=Path, default=RESULTS)
     asked = parser.parse_args()
     asked.results.parent.mkdir(parents=True, exist_ok=True)
-    for seed in asked.seeds:
-        for size in asked.sizes:
+    for size in asked.sizes:
+        for seed in asked.seeds:
             for kind in asked.kinds:
                 done = pd.read_csv(asked.results) if asked.results.exists() else pd.DataFrame()
                 if kind == "drifting" and size == 0.0:

@@ -16,9 +16,11 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.translation.class_search import with_classes
 from tire_pipeline.translation.curve_space import CurveSpace
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.mixed_effects import Fitted
+from tire_pipeline.translation.tire_classes import TireClasses
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,9 @@ class Prediction:
     surprise : ndarray
         Source's score less its expectation, over the standard deviation of that.
     expected : ndarray
-        What the target would measure of such a tire, from the metadata alone.
+        What the target would measure of such a tire, from metadata and class alone.
+    classes : ndarray, shape (n, k)
+        Probability of each class of tire.
     """
 
     source: np.ndarray
@@ -50,6 +54,7 @@ class Prediction:
     variance: np.ndarray
     surprise: np.ndarray
     expected: np.ndarray
+    classes: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -71,6 +76,8 @@ class CurveMixedModel:
         One a score.
     spread : ndarray, shape (categories, p)
         How much more than the average a category spreads what is the tires' own.
+    classes : TireClasses or None
+        Classes of tires that no metadata names.
     """
 
     space: CurveSpace
@@ -81,11 +88,32 @@ class CurveMixedModel:
     scale: np.ndarray
     fitted: tuple[Fitted, ...]
     spread: np.ndarray
+    classes: TireClasses | None = None
 
-    def regressors(self, table: pd.DataFrame, category: np.ndarray) -> np.ndarray:
-        """Rows of the design without tire effects, if ``category`` had measured, (n, m)."""
+    def regressors(self, table: pd.DataFrame, category: np.ndarray) -> list[np.ndarray]:
+        """Rows of the design without tire effects, if ``category`` had measured: for each class, (n, m)."""
         blocks = design_blocks(self.metadata, self.kinds, table, category, self.categories)
-        return np.concatenate(list(blocks.values()), axis=1)
+        if self.classes is None:
+            return [np.concatenate(list(blocks.values()), axis=1)]
+        codes = self.classes.coded(np.eye(self.classes.count))
+        every = [with_classes(blocks, np.tile(code, (len(table), 1))) for code in codes]
+        return [np.concatenate(list(one.values()), axis=1) for one in every]
+
+    def class_probability(
+        self, table: pd.DataFrame, source: np.ndarray, here: list[np.ndarray]
+    ) -> np.ndarray:
+        """Probability of each class of tire, (n, k), given its metadata and its scores (n, p)."""
+        if self.classes is None:
+            return np.ones((len(table), 1))
+        telling = self.classes.scores
+        weights = np.stack([self.fitted[k].mean[: here[0].shape[1]] for k in telling], axis=1)
+        scaled = source[:, telling] / self.scale[telling]
+        gap = np.stack([scaled - x @ weights for x in here], axis=1)
+        once = [
+            self.fitted[k].variances["tire_category"] + self.fitted[k].variances["noise"] for k in telling
+        ]
+        alone = np.tile(once, (len(table), 1))
+        return self.classes.probability(self.metadata.regressors(table), gap, alone)
 
     def predict(self, table: pd.DataFrame, target: str, *, trust: float = 1.0) -> Prediction:
         """Predict what ``target`` would measure.
@@ -109,8 +137,9 @@ class CurveMixedModel:
         place = {name: k for k, name in enumerate(self.categories)}
         spread = self.spread[[place[name] for name in table["category"].astype(str)]]
         same = (table["category"].to_numpy(dtype=str) == target).astype(float)
+        likely = self.class_probability(table, source, here)
         found = [
-            _predict_score(fitted, column / scale, here, there, same, trust, (mine, theirs))
+            _predict_score(fitted, column / scale, here, there, likely, same, trust, (mine, theirs))
             for fitted, column, scale, mine, theirs in zip(
                 self.fitted, source.T, self.scale, spread.T, self.spread[place[target]], strict=True
             )
@@ -126,6 +155,7 @@ class CurveMixedModel:
             variance * self.scale**2,
             surprise,
             expected * self.scale,
+            likely,
         )
 
     def to_state(self) -> dict[str, Any]:
@@ -139,6 +169,7 @@ class CurveMixedModel:
             "kinds": self.kinds,
             "scale": self.scale,
             "spread": self.spread,
+            **(self.classes.to_state() if self.classes else {}),
             "variance_names": np.array(names, dtype=str),
             "variances": np.array([[f.variances[name] for name in names] for f in self.fitted]),
             "weights": np.stack([f.mean for f in self.fitted]),
@@ -164,10 +195,36 @@ class CurveMixedModel:
             np.asarray(state["scale"]),
             fitted,
             np.asarray(state["spread"]),
+            TireClasses.from_state(state) if "class_own" in state else None,
         )
 
 
 def _predict_score(
+    fitted: Fitted,
+    source: np.ndarray,
+    here: list[np.ndarray],
+    there: list[np.ndarray],
+    likely: np.ndarray,
+    same: np.ndarray,
+    trust: float,
+    spread: tuple[np.ndarray, float],
+) -> tuple[np.ndarray, ...]:
+    """Shift, its variance, prediction, its variance, surprise, expectation, in deviations of the score.
+
+    Each is what it is for each class of tire, drawn together by the classes' probabilities.
+    """
+    each = [
+        _predict_in_class(fitted, source, mine, theirs, same, trust, spread)
+        for mine, theirs in zip(here, there, strict=True)
+    ]
+    columns = [np.stack(part, axis=1) for part in zip(*each, strict=True)]
+    mean = [(likely * values).sum(axis=1) for values in columns]
+    for value, variance in ((0, 1), (2, 3)):  # what the class leaves open
+        mean[variance] = mean[variance] + (likely * (columns[value] - mean[value][:, None]) ** 2).sum(axis=1)
+    return tuple(mean)
+
+
+def _predict_in_class(
     fitted: Fitted,
     source: np.ndarray,
     here: np.ndarray,
@@ -176,7 +233,7 @@ def _predict_score(
     trust: float,
     spread: tuple[np.ndarray, float],
 ) -> tuple[np.ndarray, ...]:
-    """Shift, its variance, prediction, its variance, surprise, expectation, in deviations of the score."""
+    """As :func:`_predict_score`, for a tire of a known class."""
     count = here.shape[1]
     weights, covariance = fitted.mean[:count], fitted.covariance[:count, :count]
     at_source, at_target = here @ weights, there @ weights

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.translation.class_search import Question, find_classes, with_classes
 from tire_pipeline.translation.curve_mixed import CurveMixedModel, design_blocks
 from tire_pipeline.translation.curve_space import Cells, CurveSpace, fit_curve_space
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.mixed_effects import Design, Fitted, fit_mixed_effects
+from tire_pipeline.translation.tire_classes import TireClasses
 
 GUESS = {
     "level": 100.0,
@@ -19,18 +21,30 @@ GUESS = {
     "category": 0.1,
     "category_metadata": 0.01,
     "category_kind": 0.01,
-    "tire": 0.2,
+    "class": 0.5,
+    "category_class": 0.01,
+    "tire": 0.1,
 }
 """Where the search for the variances begins, in units of a score's own variance."""
 
-TIRE_CATEGORY_SHARE = {"shape": 2.0, "aligning": 5.0}
+TIRE_CATEGORY_SHARE = {"shape": 2.0, "aligning": 9.0}
 """Variance of what one tire does in one category alone, over that of the noise, if no tire tells, by part.
 The shape of a curve depends on what else was fitted; stiffness and friction hardly do."""
 
 _OTHER_SHARE = 0.5
-_POOLED = ("category", "category_metadata", "category_kind")
+_POOLED = ("category", "category_metadata", "category_kind", "category_class")
 _POOLED_WIDTH = 1.0
 _WIDTH = 3.0
+
+CLASS_PARTS = {
+    "cornering stiffness": 0,
+    "lateral friction": 1,
+    "slip stiffness": 2,
+    "longitudinal friction": 1,
+}
+"""The parts whose scores tell classes of tires apart, and the property that each is of. Within a class
+properties are taken to differ independently of each other: what links them is the class (latent
+class analysis)."""
 
 KIND_SCORES = {
     "cornering stiffness": 1,
@@ -49,7 +63,9 @@ def _tire_columns(cells: pd.DataFrame, pairs: bool) -> np.ndarray:
     return (tires[:, None] == shared[None, :]).astype(float)
 
 
-def fit_curve_mixed_model(training: pd.DataFrame, *, pairs: bool, kinds: int = 3) -> CurveMixedModel:
+def fit_curve_mixed_model(
+    training: pd.DataFrame, *, pairs: bool, kinds: int = 3, made: Prepared | None = None
+) -> CurveMixedModel:
     """Fit the model to a training table.
 
     Parameters
@@ -60,12 +76,14 @@ def fit_curve_mixed_model(training: pd.DataFrame, *, pairs: bool, kinds: int = 3
         Use it that several categories measured a tire.
     kinds : int
         Numbers that say what kind of tire it is, for interactions.
+    made : Prepared, optional
+        What :func:`prepare` gave for the same, if it is there already.
 
     Returns
     -------
     CurveMixedModel
     """
-    made = prepare(training, pairs=pairs, kinds=kinds)
+    made = made or prepare(training, pairs=pairs, kinds=kinds)
     fitted = _fit_scores(made.design, made.cells, made.space, made.scale)
     return made.model(fitted)
 
@@ -92,6 +110,7 @@ class Prepared:
     categories: tuple[str, ...]
     kinds: np.ndarray
     scale: np.ndarray
+    classes: TireClasses | None
 
     def model(self, fitted: tuple[Fitted, ...]) -> CurveMixedModel:
         """Give the model with these weights."""
@@ -104,12 +123,19 @@ class Prepared:
             self.scale,
             fitted,
             _spread_by_category(self.design, self.cells, self.space, self.scale, fitted),
+            self.classes,
         )
 
 
-def prepare(training: pd.DataFrame, *, pairs: bool, kinds: int = 3) -> Prepared:
-    """Find the curve space, draw cells together, and lay out the design."""
-    space, cells = fit_curve_space(training)
+def prepare(
+    training: pd.DataFrame,
+    *,
+    pairs: bool,
+    kinds: int = 3,
+    space_and_cells: tuple[CurveSpace, Cells] | None = None,
+) -> Prepared:
+    """Find the curve space (unless it is given), draw cells together, find classes, lay out the design."""
+    space, cells = space_and_cells or fit_curve_space(training)
     rows = training.iloc[cells.row].reset_index(drop=True)
     metadata = Metadata.fit(training)
     categories = tuple(np.unique(training["category"].to_numpy(dtype=str)))
@@ -118,8 +144,40 @@ def prepare(training: pd.DataFrame, *, pairs: bool, kinds: int = 3) -> Prepared:
     turn = np.zeros((len(metadata.names) + len(metadata.sizes), 0))
     if kinds and metadata.names:
         turn = _kinds(rows, cells, metadata, categories, tires, scale, space, kinds)
-    blocks = design_blocks(metadata, turn, rows, rows["category"].to_numpy(dtype=str), categories)
-    return Prepared(rows, cells, Design(blocks, tires, cells.files), space, metadata, categories, turn, scale)
+    category = rows["category"].to_numpy(dtype=str)
+    blocks = design_blocks(metadata, turn, rows, category, categories)
+    design = Design(blocks, tires, cells.files)
+    classes, probability = _classes(design, cells, space, scale, metadata.regressors(rows))
+    if classes is not None:
+        design = Design(with_classes(blocks, classes.coded(probability)), tires, cells.files)
+    return Prepared(rows, cells, design, space, metadata, categories, turn, scale, classes)
+
+
+def _classes(
+    design: Design, cells: Cells, space: CurveSpace, scale: np.ndarray, metadata: np.ndarray
+) -> tuple[TireClasses | None, np.ndarray]:
+    """Classes of tires, by the scores of stiffness and friction."""
+    telling = np.concatenate([np.arange(s.start, s.stop) for s in (space.slices[n] for n in CLASS_PARTS)])
+    kind = np.concatenate(
+        [np.full(space.slices[n].stop - space.slices[n].start, k) for n, k in CLASS_PARTS.items()]
+    )
+    blocks = {name: design.blocks[name] for name in ("level", "metadata", "size", "category")}
+    plain = Design(blocks, design.tire, design.files)
+    fitted = [_fit_score(plain, cells, space, scale, k, GUESS) for k in telling]
+    linked = np.concatenate([np.zeros((len(cells.row), 1)), design.tire], axis=1).argmax(axis=1)
+    same = np.where(linked > 0, linked, -1 - np.arange(len(cells.row)))
+    question = Question(
+        plain,
+        cells.scores[:, telling] / scale[telling],
+        np.unique(same, return_inverse=True)[1],
+        metadata,
+        space.noise[telling] / scale[telling] ** 2,
+        np.array([f.variances["tire_category"] for f in fitted]),
+        tuple(f.variances for f in fitted),
+        telling,
+        kind[:, None] == kind[None, :],
+    )
+    return find_classes(question)
 
 
 def _alone_share(space: CurveSpace, k: int) -> float:

@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any, ClassVar, Self
 
 import numpy as np
 import pandas as pd
-from scipy.stats import norm
 from threadpoolctl import threadpool_limits
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.representations.coefficients import DATASETS
 from tire_pipeline.translation.base import check_target
+from tire_pipeline.translation.caution import (
+    DOUBTFUL,
+    cautious,
+    expected_gain,
+    failed_fits,
+    without_failed_fits,
+)
 from tire_pipeline.translation.curve_bands import curve_bands
 from tire_pipeline.translation.curve_features import LOADS, encode
 from tire_pipeline.translation.curve_mixed import CurveMixedModel, Prediction
-from tire_pipeline.translation.curve_mixed_fit import fit_curve_mixed_model
-from tire_pipeline.translation.curve_space import PARTS, UNIT
+from tire_pipeline.translation.curve_mixed_fit import Prepared, fit_curve_mixed_model
+from tire_pipeline.translation.curve_space import UNIT
 from tire_pipeline.translation.decode import Wish, decode
 from tire_pipeline.translation.distance import TrainingReach
 from tire_pipeline.translation.physics import SYMMETRY, symmetric, violations
@@ -42,13 +47,6 @@ tires every refusal between 1.5 and 2.2 was wrong."""
 LEAST_GAIN = 0.05
 """A file whose expected squared error would shrink by less than this share is already unbiased."""
 
-CAUTION = 0.5
-"""Weight of a move's variance against its square in :func:`cautious`."""
-
-ODD_TORQUE = 2.5
-"""Root mean square surprise of the aligning torque beyond which its fit has failed."""
-
-_JUDGED = tuple(name for name, part in PARTS.items() if part.group in ("lateral", "longitudinal"))
 VERSIONS = ("5.0", "5.1", "5.2", "PAC2002")
 
 
@@ -76,8 +74,17 @@ class MixedModel:
         self.pairs = self.uses_pairs if pairs is None else bool(pairs)
         self.trust, self.gate = float(trust), bool(gate)
 
-    def fit(self, training: pd.DataFrame, *, target: str, seed: int = 0) -> Self:
+    def fit(
+        self, training: pd.DataFrame, *, target: str, seed: int = 0, made: Prepared | None = None
+    ) -> Self:
         """Learn; nothing is drawn, ``seed`` is there for the interface.
+
+        Parameters
+        ----------
+        training, target, seed
+            As for every translator.
+        made : Prepared, optional
+            What :func:`.curve_mixed_fit.prepare` gave for ``training``, if it is there already.
 
         Raises
         ------
@@ -88,10 +95,18 @@ class MixedModel:
         training = training.reset_index(drop=True)
         self.target = target
         with threadpool_limits(1):  # thousands of small matrices: threads would only wait for each other
-            self.model: CurveMixedModel = fit_curve_mixed_model(training, pairs=self.pairs)
+            self.model: CurveMixedModel = fit_curve_mixed_model(training, pairs=self.pairs, made=made)
             self.reach = TrainingReach.fit(self.model, training, target)
+            self.doubt = self._doubt(training)
         self._learn_coefficients(training)
         return self
+
+    def _doubt(self, training: pd.DataFrame) -> np.ndarray:
+        """Mean probability of harm for the files of each category, (categories,)."""
+        found = cautious(self.model, self.model.predict(training, self.target, trust=self.trust))
+        harm = expected_gain(self.model, found)[1]
+        category = training["category"].to_numpy(dtype=str)
+        return np.array([harm[category == name].mean() for name in self.model.categories])
 
     def _learn_coefficients(self, training: pd.DataFrame) -> None:
         values = training.reindex(columns=list(COEFFICIENTS)).fillna(0.0)
@@ -242,6 +257,8 @@ class MixedModel:
         new = broken & ~before
         verdict = np.full(len(rows), TRANSLATED, dtype=object)
         reason = np.full(len(rows), "", dtype=object)
+        actors = rows["category"].astype(str).to_numpy()
+        doubtful = np.isin(actors, np.array(self.model.categories)[self.doubt > DOUBTFUL])
         for i in range(len(rows)):
             reason[i] = f"expected error {ratio[i]:.0%} of the unchanged file's"
             if self.gate and distance[i] > FARTHEST:
@@ -250,10 +267,12 @@ class MixedModel:
             elif new.iloc[i].any() or broken.iloc[i].drop("curvature").any():
                 verdict[i] = REFUSED
                 reason[i] = f"no physical tire found: {', '.join(broken.columns[broken.iloc[i]])}"
+            elif self.gate and doubtful[i]:
+                verdict[i] = UNBIASED
+                reason[i] = f"{actors[i]}'s bias against {self.target} is too small to be told from chance"
             elif self.gate and ratio[i] > 1.0 - LEAST_GAIN:
                 verdict[i] = UNBIASED
                 reason[i] = "no bias worth correcting was found for such a tire"
-        actors = rows["category"].astype(str).to_numpy()
         said = np.array(describe_changes(encode(rows), encode(moved), actors, self.target), dtype=object)
         said[verdict != TRANSLATED] = ""
         return pd.DataFrame(
@@ -277,6 +296,7 @@ class MixedModel:
             "option_trust": self.trust,
             "option_gate": self.gate,
             "coefficient_limits": self.limits,
+            "doubt": self.doubt,
             **self.reach.to_state(),
             **self.model.to_state(),
         }
@@ -287,6 +307,7 @@ class MixedModel:
         translator = cls._with_options(state)
         translator.target = str(state["target"])
         translator.limits = np.asarray(state["coefficient_limits"])
+        translator.doubt = np.asarray(state["doubt"])
         translator.reach = TrainingReach.from_state(state)
         translator.model = CurveMixedModel.from_state(state)
         return translator
@@ -305,72 +326,3 @@ class PairedMixedModel(MixedModel):
 
     name: ClassVar[str] = "paired_mixed_model"
     uses_pairs: ClassVar[bool] = True
-
-
-def cautious(model: CurveMixedModel, found: Prediction) -> Prediction:
-    """Shorten the move of each part by how uncertain it is: positive-part shrinkage (Stein) towards no
-    change.
-
-    The shrinkage of the mixed model rests on variances that six categories tell little about; this one takes
-    each file's move and the variance of its estimate.
-
-    Parameters
-    ----------
-    model : CurveMixedModel
-    found : Prediction
-
-    Returns
-    -------
-    Prediction
-        With another ``target``.
-    """
-    target = found.target.copy()
-    for place in model.space.slices.values():
-        size = (found.shift[:, place] ** 2).sum(axis=1)
-        doubt = found.shift_variance[:, place].sum(axis=1)
-        share = CAUTION * doubt / np.maximum(size + CAUTION * doubt, 1e-12)
-        target[:, place] -= share[:, None] * found.shift[:, place]
-    return replace(found, target=target)
-
-
-def failed_fits(model: CurveMixedModel, found: Prediction) -> np.ndarray:
-    """Tell whose aligning torque is unlike any tire's: a fit that failed, not a bias, (n,)."""
-    place = model.space.slices["aligning torque"]
-    return np.sqrt((found.surprise[:, place] ** 2).mean(axis=1)) > ODD_TORQUE
-
-
-def without_failed_fits(model: CurveMixedModel, found: Prediction) -> Prediction:
-    """Where the aligning torque's fit failed, take what the target would measure of such a tire instead."""
-    failed, place = failed_fits(model, found), model.space.slices["aligning torque"]
-    target = found.target.copy()
-    target[failed, place] = found.expected[failed, place]
-    return replace(found, target=target)
-
-
-def expected_gain(model: CurveMixedModel, found: Prediction) -> tuple[np.ndarray, np.ndarray]:
-    """Expected squared error of the translation over that of no change, and the probability that it is
-    larger.
-
-    Parameters
-    ----------
-    model : CurveMixedModel
-    found : Prediction
-
-    Returns
-    -------
-    ratio, harm : ndarray, shape (n,)
-        Over the features of lateral and longitudinal force.
-    """
-    after = np.zeros(len(found.source))
-    move = np.zeros_like(after)
-    doubt = np.zeros_like(after)
-    for name in _JUDGED:
-        place, back = model.space.slices[name], model.space.back[name]
-        weight = back @ back.T / back.shape[1]
-        step = found.target[:, place] - found.source[:, place]
-        after += found.variance[:, place] @ np.diag(weight)
-        along = step @ weight
-        move += (step * along).sum(axis=1)
-        doubt += (along**2 * found.variance[:, place]).sum(axis=1)
-    harm = norm.cdf(-0.5 * move / np.sqrt(np.maximum(doubt, 1e-12)))
-    return after / np.maximum(after + move, 1e-12), harm

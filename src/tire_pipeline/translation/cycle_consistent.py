@@ -16,6 +16,7 @@ import torch
 from torch import nn
 
 from tire_pipeline.translation.curve_mixed import Prediction
+from tire_pipeline.translation.curve_mixed_fit import Prepared
 from tire_pipeline.translation.curve_translator import MixedModel
 from tire_pipeline.translation.likelihood_environment import Situation, situation_of
 
@@ -39,7 +40,9 @@ class CycleConsistent(MixedModel):
         super().__init__(pairs=pairs, trust=0.0, gate=gate)
         self.rounds = int(rounds)
 
-    def fit(self, training: pd.DataFrame, *, target: str, seed: int = 0) -> Self:
+    def fit(
+        self, training: pd.DataFrame, *, target: str, seed: int = 0, made: Prepared | None = None
+    ) -> Self:
         """Fit the space of scores, then train the networks.
 
         Raises
@@ -47,7 +50,7 @@ class CycleConsistent(MixedModel):
         DomainError
             If the table has no tire of the target, or none of any other category.
         """
-        super().fit(training, target=target, seed=seed)
+        super().fit(training, target=target, seed=seed, made=made)
         own = training["category"].astype(str) == target
         there = _rows(self._situation(training.loc[own]))
         here = _rows(self._situation(training.loc[~own]))

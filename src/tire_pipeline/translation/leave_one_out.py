@@ -8,15 +8,20 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.translation.caution import cautious
 from tire_pipeline.translation.curve_mixed import CurveMixedModel
 from tire_pipeline.translation.curve_mixed_fit import Prepared, fit_curve_mixed_model, prepare
 from tire_pipeline.translation.curve_space import PARTS
-from tire_pipeline.translation.curve_translator import cautious
 from tire_pipeline.translation.mixed_effects import Design, posterior_weights
 
 
 def leave_one_tire_out(
-    training: pd.DataFrame, target: str, *, pairs: bool, model: CurveMixedModel | None = None
+    training: pd.DataFrame,
+    target: str,
+    *,
+    pairs: bool,
+    model: CurveMixedModel | None = None,
+    made: Prepared | None = None,
 ) -> pd.DataFrame:
     """Translate each tire that the target and others measured by a model that has not seen it.
 
@@ -31,6 +36,8 @@ def leave_one_tire_out(
         Whether the other such tires link the categories.
     model : CurveMixedModel, optional
         Already fitted to ``training`` with the same ``pairs``: saves fitting it again.
+    made : Prepared, optional
+        What :func:`.curve_mixed_fit.prepare` gave for the same.
 
     Returns
     -------
@@ -44,8 +51,9 @@ def leave_one_tire_out(
     DomainError
         If no tire of the target was measured by anyone else.
     """
-    made = prepare(training.reset_index(drop=True), pairs=pairs)
-    full = model or fit_curve_mixed_model(training.reset_index(drop=True), pairs=pairs)
+    training = training.reset_index(drop=True)
+    made = made or prepare(training, pairs=pairs)
+    full = model or fit_curve_mixed_model(training, pairs=pairs, made=made)
     own = set(made.rows.loc[made.rows["category"] == target, "tire_id"])
     shared = sorted(own & set(made.rows.loc[made.rows["category"] != target, "tire_id"]))
     if not shared:

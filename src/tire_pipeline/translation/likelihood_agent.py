@@ -12,9 +12,11 @@ import torch
 from stable_baselines3 import PPO
 from torch import nn
 
+from tire_pipeline.translation.caution import failed_fits
 from tire_pipeline.translation.curiosity import Curiosity
 from tire_pipeline.translation.curve_mixed import Prediction
-from tire_pipeline.translation.curve_translator import MixedModel, failed_fits
+from tire_pipeline.translation.curve_mixed_fit import Prepared
+from tire_pipeline.translation.curve_translator import MixedModel
 from tire_pipeline.translation.likelihood_environment import (
     REACH,
     STEPS,
@@ -46,7 +48,9 @@ class LikelihoodAgent(MixedModel):
         super().__init__(pairs=pairs, trust=0.0, gate=gate)
         self.updates = int(updates)
 
-    def fit(self, training: pd.DataFrame, *, target: str, seed: int = 0) -> Self:
+    def fit(
+        self, training: pd.DataFrame, *, target: str, seed: int = 0, made: Prepared | None = None
+    ) -> Self:
         """Fit the densities, then train the policy.
 
         Raises
@@ -54,7 +58,7 @@ class LikelihoodAgent(MixedModel):
         DomainError
             If the table has no tire of the target, or none of any other category.
         """
-        super().fit(training, target=target, seed=seed)
+        super().fit(training, target=target, seed=seed, made=made)
         sources = training.loc[training["category"].astype(str) != target].reset_index(drop=True)
         situation = situation_of(self.model, sources, target)
         curiosity = Curiosity(situation.observation_size, seed) if self.curious else None

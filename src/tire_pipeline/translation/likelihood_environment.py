@@ -37,7 +37,7 @@ class Situation:
     target : ndarray, shape (n, p)
         The target's expectation less the source's.
     context : ndarray, shape (n, c)
-        Source category as indicators, then metadata.
+        Source category as indicators, metadata, probability of each class of tire, and of category and class.
     unit : ndarray, shape (p,)
         Standard deviation of each score.
     """
@@ -62,8 +62,14 @@ def situation_of(model: CurveMixedModel, table: pd.DataFrame, target: str) -> Si
     surprise = np.clip(found.surprise, -4.0, 4.0)
     category = table["category"].to_numpy(dtype=str)
     actor = (category[:, None] == np.array(model.categories)[None, :]).astype(float)
-    context = np.concatenate([actor, np.clip(model.metadata.regressors(table), -4.0, 4.0)], axis=1)
+    metadata = np.clip(model.metadata.regressors(table), -4.0, 4.0)
+    context = np.concatenate([actor, metadata, found.classes, _both(actor, found.classes)], axis=1)
     return Situation(surprise, found.shift / unit, context, unit)
+
+
+def _both(actor: np.ndarray, classes: np.ndarray) -> np.ndarray:
+    """Category and class of tire together, (n, categories x classes)."""
+    return (actor[:, :, None] * classes[:, None, :]).reshape(len(actor), -1)
 
 
 def potential(moved: np.ndarray, situation: Situation, rows: np.ndarray) -> np.ndarray:

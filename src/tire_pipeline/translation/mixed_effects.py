@@ -33,11 +33,14 @@ class Design:
         One column for each tire that more than one row belongs to; other rows are all zero.
     files : ndarray, shape (n,)
         Number of files that a row is the average of.
+    weight : ndarray, shape (n,), optional
+        How often a row counts; 1 if not given.
     """
 
     blocks: dict[str, np.ndarray]
     tire: np.ndarray
     files: np.ndarray
+    weight: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -73,6 +76,7 @@ class _Marginal:
         self.starts = self.ends - sizes
         self.alone = (design.tire.sum(axis=1) == 0).astype(float)
         self.fixed = noise / design.files
+        self.weight = np.ones(len(response)) if design.weight is None else design.weight
 
     def posterior(self, logs: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
         """Mean, covariance, residual variance of each row, and the value."""
@@ -81,14 +85,14 @@ class _Marginal:
             [np.full(e - s, v) for s, e, v in zip(self.starts, self.ends, variances[:-1], strict=True)]
         )
         rest = self.alone * variances[-2] + variances[-1] + self.fixed
-        weighted = self.x / rest[:, None]
+        weighted = self.x * (self.weight / rest)[:, None]
         precision = self.x.T @ weighted
         precision[np.diag_indices_from(precision)] += 1.0 / prior
         factor = cho_factor(precision, lower=True)
         covariance = cho_solve(factor, np.eye(prior.size))
         mean = covariance @ (weighted.T @ self.y)
         gap = self.y - self.x @ mean
-        value = 0.5 * ((gap**2 / rest).sum() + (mean**2 / prior).sum() + np.log(rest).sum())
+        value = 0.5 * ((self.weight * (gap**2 / rest + np.log(rest))).sum() + (mean**2 / prior).sum())
         value += 0.5 * np.log(prior).sum() + np.log(np.diag(factor[0])).sum()
         return mean, covariance, rest, float(value)
 
@@ -101,7 +105,7 @@ class _Marginal:
             slope[k] = 0.5 * ((end - start) - square[start:end].sum() / variances[k])
         gap = self.y - self.x @ mean
         second = gap**2 + np.einsum("ij,ij->i", self.x @ covariance, self.x)
-        by_rest = 0.5 * (1.0 / rest - second / rest**2)
+        by_rest = 0.5 * self.weight * (1.0 / rest - second / rest**2)
         slope[-2] += (by_rest * self.alone).sum() * variances[-2]
         slope[-1] = by_rest.sum() * variances[-1]
         return value, slope

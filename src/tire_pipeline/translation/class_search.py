@@ -1,0 +1,248 @@
+"""Find the classes of tires by expectation maximisation, and how many there are by the evidence."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import logsumexp
+from sklearn.cluster import KMeans
+from sklearn.mixture import GaussianMixture
+
+from tire_pipeline.translation.mixed_effects import Design, Fitted, posterior_weights
+from tire_pipeline.translation.tire_classes import TireClasses, fit_shares, log_density
+
+COUNTS = (1, 2, 3, 4)
+"""Numbers of classes that are tried. More of them were found on tuning fleets where there are four, and then
+the groups of different categories were laid over each other wrongly; fewer do little harm."""
+
+_STEPS = 25
+_LITTLE = 0.3  # growth of the evidence at which the climb ends
+_SHARE_COST = 2.0  # parameters that a class's share counts as: slopes over the metadata are penalised
+_TIRES_A_CLASS = 15  # fewer tires tell no classes
+_LEAST_ROW = 0.01  # probability below which a cell is not laid out for a class
+_LEAST_OWN = 1e-3
+_STARTS = 2
+
+
+@dataclass(frozen=True)
+class Question:
+    """What the search needs to know.
+
+    Attributes
+    ----------
+    design : Design
+        Cells, without classes; must have the block ``category``.
+    response : ndarray, shape (n, q)
+        Scores that tell classes apart, in their standard deviations.
+    tire : ndarray of int, shape (n,)
+        Which cells are of one tire, as far as that may be used.
+    metadata : ndarray, shape (n, d)
+    noise, alone : ndarray, shape (q,)
+        Variance of one file's noise, and of what a tire does in one category alone.
+    variances : sequence of dict, q
+        By block, and ``tire``: where the search begins.
+    scores : ndarray of int, shape (q,)
+        Which scores these are.
+    linked : ndarray of bool, shape (q, q)
+        Scores that may go together within a class; what links others is the class.
+    """
+
+    design: Design
+    response: np.ndarray
+    tire: np.ndarray
+    metadata: np.ndarray
+    noise: np.ndarray
+    alone: np.ndarray
+    variances: tuple[Mapping[str, float], ...]
+    scores: np.ndarray
+    linked: np.ndarray
+
+
+def with_classes(blocks: Mapping[str, np.ndarray], coded: np.ndarray) -> dict[str, np.ndarray]:
+    """Add the regressors of classes, (n, k), and of what each category does to each class."""
+    actor = blocks["category"]
+    both = (actor[:, :, None] * coded[:, None, :]).reshape(len(actor), -1)
+    return {**blocks, "class": coded, "category_class": both}
+
+
+@dataclass
+class _State:
+    probability: np.ndarray  # (n, k), the same for all cells of a tire
+    own: np.ndarray
+    variances: list[dict[str, float]]
+    shares: np.ndarray
+    evidence: float = -np.inf
+
+
+def find_classes(question: Question, seed: int = 0) -> tuple[TireClasses | None, np.ndarray]:
+    """Find the classes.
+
+    Parameters
+    ----------
+    question : Question
+    seed : int
+        Of the starts.
+
+    Returns
+    -------
+    TireClasses or None
+        None if one class explains the scores as well as several.
+    probability : ndarray, shape (n, k)
+        Of each cell's tire.
+    """
+    best: _State | None = None
+    tires = int(question.tire.max()) + 1
+    for count in COUNTS:
+        if count > max(1, tires // _TIRES_A_CLASS):
+            break
+        found = None
+        for start in _starts(question, count, seed):
+            state = _climb(question, start)
+            if found is None or state.evidence > found.evidence:
+                found = state
+        assert found is not None
+        if best is None or found.evidence > best.evidence:
+            best = found
+        elif count > best.probability.shape[1] + 1:
+            break
+    assert best is not None
+    count = best.probability.shape[1]
+    if count == 1:
+        return None, np.ones((len(question.response), 1))
+    usual = best.probability.mean(axis=0)
+    return TireClasses(question.scores, best.shares, usual, best.own), best.probability
+
+
+def _per_tire(values: np.ndarray, tire: np.ndarray) -> np.ndarray:
+    total = np.zeros((tire.max() + 1, *values.shape[1:]))
+    np.add.at(total, tire, values)
+    return total / np.bincount(tire).reshape(-1, *[1] * (values.ndim - 1))
+
+
+def _starts(question: Question, count: int, seed: int) -> list[np.ndarray]:
+    """Probabilities to begin with: groups of what the category leaves unexplained."""
+    n = len(question.response)
+    if count == 1:
+        return [np.ones((n, 1))]
+    fitted = [
+        posterior_weights(question.design, y, v)
+        for y, v in zip(question.response.T, question.variances, strict=True)
+    ]
+    blocks = question.design.blocks
+    known = np.concatenate(
+        [b if name in ("level", "category") else np.zeros_like(b) for name, b in blocks.items()], axis=1
+    )
+    gap = question.response - np.stack([known @ f.mean[: known.shape[1]] for f in fitted], axis=1)
+    gap = _per_tire(gap, question.tire)
+    spread = gap.std(axis=0)
+    tame = np.clip(gap, -4.0 * spread, 4.0 * spread)
+    means = KMeans(count, n_init=_STARTS, random_state=seed).fit_predict(tame)
+    groups = GaussianMixture(count, covariance_type="diag", n_init=_STARTS, random_state=seed).fit(tame)
+    return [np.eye(count)[means][question.tire], groups.predict_proba(tame)[question.tire]]
+
+
+def _climb(question: Question, probability: np.ndarray) -> _State:
+    """Expectation maximisation from some probabilities."""
+    variances = [{**v, "class": 1.0, "category_class": 0.02} for v in question.variances]
+    start = np.diag([v["tire"] for v in variances])
+    state = _State(probability, start, variances, fit_shares(question.metadata, probability))
+    before = -np.inf
+    for _ in range(_STEPS):
+        state = _step(question, state)
+        if abs(state.evidence - before) < _LITTLE:
+            break
+        before = state.evidence
+    return state
+
+
+def _step(question: Question, state: _State) -> _State:
+    """One maximisation of the effects and one expectation of the classes."""
+    probability = state.probability
+    n, count = probability.shape
+    usual = probability.mean(axis=0)
+    cell, kind = np.nonzero(probability > _LEAST_ROW)
+    coded = np.eye(count) - usual
+    design = question.design
+    laid = Design(
+        with_classes({name: block[cell] for name, block in design.blocks.items()}, coded[kind]),
+        design.tire[cell],
+        design.files[cell],
+        probability[cell, kind],
+    )
+    every = [with_classes(design.blocks, np.tile(code, (n, 1))) for code in coded]
+    regressors = np.stack([np.concatenate(list(blocks.values()), axis=1) for blocks in every], axis=1)
+    width = regressors.shape[2]
+    fitted, gaps, penalty = [], [], 0.0
+    for k, variances in enumerate(state.variances):
+        one = posterior_weights(
+            laid,
+            question.response[cell, k],
+            {**variances, "tire_category": question.alone[k], "noise": question.noise[k]},
+        )
+        fitted.append(one)
+        gaps.append(question.response[:, [k]] - regressors @ one.mean[:width])
+        penalty += _occam(laid, one)
+    gap = _per_tire(np.stack(gaps, axis=2), question.tire)
+    files = question.design.files
+    alone = question.alone[None, :] + question.noise[None, :] / files[:, None]
+    alone = _per_tire(alone, question.tire) / np.bincount(question.tire)[:, None]
+    tires = np.unique(question.tire, return_index=True)[1]
+    metadata = question.metadata[tires]
+    x = np.concatenate([np.ones((len(metadata), 1)), metadata], axis=1) @ state.shares
+    prior = x - logsumexp(x, axis=1, keepdims=True)
+    logs = prior + log_density(gap, state.own, alone)
+    evidence = logsumexp(logs, axis=1, keepdims=True)
+    new = np.exp(logs - evidence)
+    complexity = _SHARE_COST * 0.5 * np.log(len(metadata)) * (count - 1)
+    own = _own_covariance(gap, new, alone, question.linked)
+    updated = _updated(laid, fitted, own, question.noise)
+    return _State(
+        new[question.tire],
+        own,
+        updated,
+        fit_shares(metadata, new, state.shares, steps=8),
+        float(evidence.sum() + penalty - complexity),
+    )
+
+
+def _occam(design: Design, fitted: Fitted) -> float:
+    """What the weights of the effects cost: logarithm of their prior times their posterior's volume."""
+    prior = np.concatenate([np.full(b.shape[1], fitted.variances[n]) for n, b in design.blocks.items()])
+    own = slice(0, prior.size)
+    volume = np.linalg.slogdet(fitted.covariance[own, own])[1]
+    return float(0.5 * (volume - np.log(prior).sum() - (fitted.mean[own] ** 2 / prior).sum()))
+
+
+def _own_covariance(
+    gap: np.ndarray, probability: np.ndarray, alone: np.ndarray, linked: np.ndarray
+) -> np.ndarray:
+    total = np.einsum("nk,nka,nkb->ab", probability, gap, gap) / len(gap) - np.diag(alone.mean(axis=0))
+    values, axes = np.linalg.eigh(total * linked)
+    return np.asarray((axes * np.maximum(values, _LEAST_OWN)) @ axes.T)
+
+
+def _updated(
+    design: Design, fitted: list[Fitted], own: np.ndarray, noise: np.ndarray
+) -> list[dict[str, float]]:
+    """Variances of the effects; what a category does to a class is pooled over the scores."""
+    squares: list[dict[str, float]] = []
+    for one in fitted:
+        square = one.mean**2 + np.diag(one.covariance)
+        start, found = 0, {}
+        for name, block in design.blocks.items():
+            stop = start + block.shape[1]
+            found[name] = max(float(square[start:stop].mean()), 1e-6)
+            start = stop
+        squares.append(found)
+    common = float(np.mean([s["category_class"] / v for s, v in zip(squares, noise, strict=True)]))
+    return [
+        {
+            **found,
+            "level": one.variances["level"],
+            "category_class": common * float(v),
+            "tire": max(float(own[k, k]), 1e-4),
+        }
+        for k, (found, one, v) in enumerate(zip(squares, fitted, noise, strict=True))
+    ]
