@@ -32,6 +32,8 @@ FORCES = ("fx", "fy")
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
 _RATE = 50.0
+_BRIDGED = 3
+_LONG_STEP = 1.0
 
 
 @dataclass
@@ -75,6 +77,13 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     notes: list[str] = []
     arrays = _arrays(recording)
     time = _time(arrays)
+    if time is not None:
+        _bridge(arrays, notes)
+        if float(np.nanmedian(np.diff(time))) > _LONG_STEP:
+            notes.append(
+                f"there are {float(np.nanmedian(np.diff(time))):.3g} s from sample to sample; if that is "
+                "wrong, the unit of time is"
+            )
     rows = _usable(arrays, time, notes)
     arrays = {n: a[rows] for n, a in arrays.items()}
     time = None if time is None else time[rows]
@@ -97,6 +106,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
             arrays[name] = np.zeros(rows.size)
             notes.append(f"{name} is not recorded and taken as zero")
     _overlap(tire, arrays)
+    _dead_forces(arrays, notes)
     start = _pieces(time, rows, notes)
     arrays, time, start, rows = _binned(arrays, time, start, rows)
     if time is not None:
@@ -131,6 +141,8 @@ def _arrays(recording: pd.DataFrame) -> dict[str, Array]:
                 raise RecordingError(
                     f"column {name} is not numeric", where=str(name), todo="convert it"
                 ) from None
+    if len(recording) == 0:
+        raise RecordingError("the recording has no rows", todo="record again, or check how it was read")
     for name in [n for n, a in arrays.items() if n != "time" and not np.isfinite(a).any()]:
         del arrays[name]
     if not any(n in arrays for n in FORCES):
@@ -151,6 +163,43 @@ def _arrays(recording: pd.DataFrame) -> dict[str, Array]:
             todo="use a longer recording",
         )
     return arrays
+
+
+def _dead_forces(arrays: dict[str, Array], notes: list[str]) -> None:
+    """Take out forces that never change; raise if none is left."""
+    dead = [n for n in FORCES if n in arrays and np.ptp(arrays[n]) == 0.0]
+    if not dead:
+        return
+    values = ", ".join(f"{n} is {arrays[n][0]:.4g} N throughout" for n in dead)
+    for name in dead:
+        del arrays[name]
+    if not any(n in arrays for n in FORCES):
+        raise RecordingError(
+            f"no force was measured: {values}", where=", ".join(dead), todo="check that the sensor was on"
+        )
+    notes.append(f"{values} and left out")
+
+
+def _bridge(arrays: dict[str, Array], notes: list[str]) -> None:
+    """Put straight lines over holes of up to three samples, so that the time base stays even."""
+    filled = np.zeros(arrays["normal_load"].size, bool)
+    for name in (*INPUTS, *FORCES):
+        if name not in arrays:
+            continue
+        x = arrays[name]
+        missing = ~np.isfinite(x)
+        if not missing.any() or missing.all():
+            continue
+        edges = np.flatnonzero(np.diff(np.r_[0, missing.astype(np.int8), 0]))
+        known = np.flatnonzero(~missing)
+        for first, last in zip(edges[::2], edges[1::2], strict=True):
+            if last - first <= _BRIDGED and first > 0 and last < x.size:
+                filled[first:last] = True
+        holes = np.flatnonzero(filled & missing)
+        arrays[name] = x.copy()
+        arrays[name][holes] = np.interp(holes, known, x[known])
+    if filled.any():
+        notes.append(f"{int(filled.sum())} samples in holes of up to {_BRIDGED} were put on straight lines")
 
 
 def _time(arrays: Mapping[str, Array]) -> Array | None:
