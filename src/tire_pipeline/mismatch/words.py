@@ -92,6 +92,7 @@ def summary(
     ranges : mapping, optional
         Axis -> (lowest, highest) recorded, SI, to say "above" and "below" where a stretch ends there.
     """
+    fit = {o: f for o, f in fit.items() if o in ("fx", "fy")}
     if verdict == "agrees":
         return _agreement(fit)
     exact = bool(effects) and not any(np.isfinite(e.share) for e in effects)
