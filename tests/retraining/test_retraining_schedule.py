@@ -95,6 +95,17 @@ def test_a_bad_file_does_not_start_runs_for_ever(folder, instance):
     assert _requests(instance) == []
 
 
+def test_a_folder_that_is_absent_is_said_in_one_line(instance, monkeypatch, tmp_path):
+    from tire_pipeline.datasets import FolderDataset
+
+    absent = tmp_path / "not mounted"
+    monkeypatch.setattr(schedule, "new_files_of", lambda *_: FolderDataset(path=str(absent)).load())
+    assert f"{absent}: this folder is not there" in _ask(instance).skip_message
+    monkeypatch.setattr(schedule, "new_files_of", lambda *_: 1 / 0)  # what nobody expected stays loud
+    with pytest.raises(ZeroDivisionError):
+        _ask(instance)
+
+
 def test_sensor_and_nightly_run_are_on_when_it_starts():
     loaded = schedule.definitions
     assert {sensor.name for sensor in loaded.sensors} == {"arrivals"}

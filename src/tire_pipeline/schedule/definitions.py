@@ -13,6 +13,7 @@ from pydantic import Field
 from tire_pipeline.classifiers.tuning import ANN_GRID
 from tire_pipeline.pipelines.prove_concealed.nodes import ProveConcealedParameters
 from tire_pipeline.pipelines.reproduce_thesis.parameters import GridParameters
+from tire_pipeline.run_errors import one_line
 from tire_pipeline.schedule.arrivals import new_files_of
 
 ROOT = Path(os.environ.get("TIRE_PIPELINE_ROOT", Path.cwd()))
@@ -93,7 +94,13 @@ def arrivals(context: dg.SensorEvaluationContext) -> dg.SensorResult | dg.SkipRe
     """One run for all that has arrived, once it has stopped growing and no other run is underway."""
     if context.instance.get_runs(filters=dg.RunsFilter(job_name=JOB, statuses=UNDERWAY), limit=1):
         return dg.SkipReason("a run is underway; what arrives meanwhile is for the next")
-    found = new_files_of(ROOT, KedroRun())
+    try:
+        found = new_files_of(ROOT, KedroRun())
+    except Exception as error:  # a folder that is not mounted yet is no reason for a traceback every 30 s
+        line = one_line(error)
+        if line is None:
+            raise
+        return dg.SkipReason(line)
     if found.growing:
         return dg.SkipReason(f"{len(found.growing)} files still grow, {found.growing[0]} for one")
     if not found:
