@@ -1,4 +1,4 @@
-# make run | make test | make viz | make long | make bench | make lint
+# make run | make test | make viz | make long | make bench | make lint | make coverage | make audit | make schedule
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
@@ -6,7 +6,7 @@ DATA := data
 export OMP_NUM_THREADS ?= 2
 export PYTHONUNBUFFERED = 1
 
-.PHONY: run test lint long bench viz viz-page schedule install
+.PHONY: run test lint long bench coverage audit viz viz-page schedule install
 
 run: install
 	@if [ -z "$$(find $(DATA)/01_raw/tir -iname '*.tir' -print -quit 2>/dev/null)" ]; then \
@@ -26,6 +26,20 @@ lint: install
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+# The domain folders, at least 90% together; then folder by folder.
+coverage: install
+	$(BIN)/python -m pytest -m "not long" --cov --cov-report=term
+	@for folder in src/tire_pipeline/*/; do \
+		total=$$($(BIN)/coverage report --fail-under=0 --format=total --include="$$folder*" 2>/dev/null) \
+			&& echo "$$folder $$total%"; \
+	done; true
+
+# Known vulnerabilities of the pinned versions; needs PyPI's JSON interface, and fails where it cannot be asked.
+audit:
+	@test -x $(VENV)/audit/bin/pip-audit || { $(PYTHON) -m venv $(VENV)/audit && \
+		$(VENV)/audit/bin/python -m pip install --quiet --disable-pip-version-check pip-audit==2.10.1; }
+	$(VENV)/audit/bin/pip-audit -r requirements.lock --no-deps --disable-pip --strict --vulnerability-service pypi
 
 bench: install
 	@for file in benchmarks/bench_*.py; do echo "== $$file"; $(BIN)/python $$file || exit 1; done
