@@ -116,8 +116,8 @@ def _summary(hidden: pd.DataFrame) -> list[str]:
         f"{fleets} fleets ({kinds}; number of seeds: {seeds}), 100 hidden tires each, "
         "without the compound class in the metadata.",
         f"The mixed model {harm}: its largest ratio anywhere is {largest.max():.2f} ({where}).",
-        "The metadata, which is known to be right, is the compass. Nominal pressure is part of it, and in "
-        "this fleet it follows the compound; where it does not, expect less (see docs/translation.md).",
+        "The metadata, which is known to be right, is the compass; classes of tires that no metadata "
+        "names are found from the curves, the same for all actors (see docs/translation.md).",
     ]
 
 

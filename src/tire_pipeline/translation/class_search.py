@@ -42,7 +42,7 @@ class Question:
     noise, alone : ndarray, shape (q,)
         Variance of one file's noise, and of what a tire does in one category alone.
     variances : sequence of dict, q
-        By block, and ``tire``: where the search begins.
+        As in :attr:`.mixed_effects.Fitted.variances`, without classes: where the search begins.
     scores : ndarray of int, shape (q,)
         Which scores these are.
     linked : ndarray of bool, shape (q, q)

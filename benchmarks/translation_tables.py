@@ -1,0 +1,129 @@
+"""Write the figures of docs/translation.md from ``benchmarks/results/translation.csv``, none by hand.
+
+python benchmarks/translation_tables.py          # prints
+python benchmarks/translation_tables.py --write  # puts them between the marks in docs/translation.md
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import pandas as pd
+
+from tire_pipeline.reporting.translation_page import check_goals
+
+ROOT = Path(__file__).parent.parent
+RESULTS = ROOT / "benchmarks" / "results" / "translation.csv"
+PAGE = ROOT / "docs" / "translation.md"
+BEGIN, END = "<!-- from translation_tables.py -->", "<!-- end -->"
+
+RATIOS = ["ratio_forces", "ratio_cornering_stiffness", "ratio_peak_friction"]
+MORE = ["ratio_forces_camber", "ratio_fx", "ratio_mz"]
+MAIN = ("mixed_model", "paired_mixed_model")
+
+
+def _slashed(values: pd.Series) -> str:
+    return " / ".join(f"{value:.3f}" for value in values)
+
+
+def _markdown(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in rows)])
+
+
+def by_fleet(hidden: pd.DataFrame) -> str:
+    """Ratios of the two mixed models, the floor and the oracle, by kind and size."""
+    rows = []
+    for (kind, size), own in hidden.groupby(["kind", "bias_size"]):
+        for name in (*MAIN, "floor", "oracle"):
+            mine = own[own["translator"] == name]
+            if mine.empty:
+                continue
+            rows.append(
+                (
+                    str(kind),
+                    f"{size:g}",
+                    name,
+                    str(len(mine)),
+                    _slashed(mine[RATIOS].mean()),
+                    _slashed(mine[RATIOS].max()),
+                    f"{mine['improved'].mean():.2f}",
+                )
+            )
+    return _markdown(("kind", "size", "translator", "seeds", "mean ratios", "worst ratios", "improved"), rows)
+
+
+def all_translators(hidden: pd.DataFrame) -> str:
+    """Every translator on the additive fleets of the calibrated bias."""
+    own = hidden[(hidden["kind"] == "additive") & (hidden["bias_size"] == 1.0)]
+    rows = []
+    for name in own["translator"].unique():
+        mine = own[own["translator"] == name]
+        worst = _slashed(mine[RATIOS].max())
+        means = (_slashed(mine[RATIOS].mean()), worst, _slashed(mine[MORE].mean()))
+        rows.append((str(name), str(len(mine)), *means, f"{mine['improved'].mean():.2f}"))
+    head = ("translator", "seeds", "mean ratios", "worst ratios", "with camber / fx / mz", "improved")
+    return _markdown(head, rows)
+
+
+def bands_and_refusals(hidden: pd.DataFrame) -> str:
+    """Coverage of the bands; how often a file was left alone, and rightly."""
+    names = ["coverage_fy", "coverage_fx", "coverage_mz"]
+    refusals = ["left_alone", "harmful", "refusal_precision", "refusal_recall"]
+    rows = []
+    for (kind, size, name), own in hidden[hidden["translator"].isin(MAIN)].groupby(
+        ["kind", "bias_size", "translator"]
+    ):
+        means = own[[*names, *refusals]].mean()
+        cells = ["" if pd.isna(value) else f"{value:.2f}" for value in means]
+        rows.append((str(kind), f"{size:g}", str(name), *cells))
+    head = ("kind", "size", "translator", "fy", "fx", "mz", "left alone", "would grow", "precision", "recall")
+    return _markdown(head, rows)
+
+
+def goals(hidden: pd.DataFrame) -> str:
+    """Goals of the issue beside what was measured."""
+    found = check_goals(hidden)
+    return _markdown(tuple(found.columns), [tuple(map(str, row)) for row in found.to_numpy()])
+
+
+def tables(measured: pd.DataFrame) -> str:
+    """All tables, as markdown."""
+    hidden = measured[measured["set"] == "hidden"]
+    fleets = len(hidden[["kind", "bias_size", "seed"]].drop_duplicates())
+    refusals = hidden[hidden["translator"].isin(MAIN)].dropna(subset=["left_alone"])
+    left, grown = refusals["left_alone"].sum(), refusals["harmful"].sum()
+    right = (refusals["left_alone"] * refusals["refusal_precision"].fillna(0.0)).sum()
+    parts = [
+        f"{fleets} fleets. Ratios are forces / cornering stiffness / peak friction; worst: of the seeds, "
+        "each ratio by itself.",
+        by_fleet(hidden),
+        "Every translator, additive fleets at the calibrated bias:",
+        all_translators(hidden),
+        "Bands (share of the target's points inside) and files left alone (*would grow*: share of files "
+        "whose error a translation makes larger). Over all fleets a file was left alone rightly in "
+        f"{right / max(left, 1e-9):.2f} of the cases (precision), and of those whose error would have grown "
+        f"{right / max(grown, 1e-9):.2f} were left alone (recall).",
+        bands_and_refusals(hidden),
+        "Goals:",
+        goals(hidden),
+    ]
+    return "\n\n".join(parts)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--results", type=Path, default=RESULTS)
+    parser.add_argument("--write", action="store_true")
+    asked = parser.parse_args()
+    text = tables(pd.read_csv(asked.results))
+    print(text)
+    if asked.write:
+        page = PAGE.read_text()
+        before, rest = page.split(BEGIN)
+        PAGE.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{rest.split(END, 1)[1]}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,128 @@
+"""Classes of tires that no metadata names."""
+
+import numpy as np
+import pytest
+
+from tire_pipeline.translation.class_search import Question, find_classes, with_classes
+from tire_pipeline.translation.mixed_effects import Design, _Marginal, posterior_weights
+from tire_pipeline.translation.tire_classes import TireClasses, fit_shares, log_density
+
+VARIANCES = {
+    "level": 100.0,
+    "metadata": 0.3,
+    "size": 0.05,
+    "category": 0.5,
+    "tire": 1.0,
+    "tire_category": 0.005,
+    "noise": 0.01,
+}
+CENTRES = np.array([[-1.5, -1.5, -1.5], [0.0, 0.0, 0.0], [1.8, 1.8, 1.8]])
+BIAS = np.array([[0.0, 0.0, 0.0], [0.7, -0.5, 0.2]])
+
+
+def _question(rng, *, grouped, tires=240):
+    """No tire is measured by both categories; which tires a category gets is chance and hence unbalanced."""
+    actor = rng.integers(0, 2, tires)
+    x = rng.normal(size=(tires, 1))
+    kind = np.digitize(0.5 * x[:, 0] + rng.normal(size=tires), [-0.5, 0.5])
+    response = BIAS[actor] + 0.3 * rng.normal(size=(tires, 3))
+    response += CENTRES[kind] if grouped else rng.normal(size=(tires, 3))
+    blocks = {
+        "level": np.ones((tires, 1)),
+        "metadata": x,
+        "size": np.zeros((tires, 1)),
+        "category": np.eye(2)[actor],
+    }
+    question = Question(
+        Design(blocks, np.zeros((tires, 0)), np.ones(tires)),
+        response,
+        np.arange(tires),
+        x,
+        np.full(3, 0.01),
+        np.full(3, 0.005),
+        (VARIANCES,) * 3,
+        np.arange(3),
+        np.eye(3, dtype=bool),
+    )
+    return question, kind
+
+
+def test_classes_are_found():
+    question, kind = _question(np.random.default_rng(4), grouped=True)
+    classes, probability = find_classes(question)
+    assert classes is not None
+    assert classes.count == 3
+    found = probability.argmax(axis=1)
+    order = np.argsort([question.response[found == k].mean() for k in range(classes.count)])
+    assert (np.argsort(order)[found] == kind).mean() > 0.95
+
+
+def _bias_error(design, response, variances):
+    weights = [posterior_weights(design, y, variances).mean for y in response.T]
+    return [w[4] - w[3] - true for w, true in zip(weights, BIAS[1] - BIAS[0], strict=True)]
+
+
+def test_classes_make_the_bias_sharper():
+    plain, sharp = [], []
+    for seed in range(4):
+        question, _ = _question(np.random.default_rng(seed), grouped=True)
+        classes, probability = find_classes(question)
+        blocks = with_classes(question.design.blocks, classes.coded(probability))
+        design = Design(blocks, question.design.tire, question.design.files)
+        plain += _bias_error(question.design, question.response, VARIANCES)
+        known = {**VARIANCES, "tire": 0.1, "class": 1.0, "category_class": 0.01}
+        sharp += _bias_error(design, question.response, known)
+    assert np.std(sharp) < 0.5 * np.std(plain)
+
+
+def test_tires_without_groups_are_of_one_class():
+    question, _ = _question(np.random.default_rng(5), grouped=False)
+    classes, probability = find_classes(question)
+    assert classes is None
+    assert probability.shape == (len(question.response), 1)
+
+
+def test_few_tires_tell_no_classes():
+    question, _ = _question(np.random.default_rng(6), grouped=True, tires=20)
+    assert find_classes(question)[0] is None
+
+
+def test_classes_come_back_from_their_state():
+    rng = np.random.default_rng(7)
+    classes = TireClasses(np.array([2, 5]), rng.normal(size=(3, 2)), np.array([0.4, 0.6]), np.eye(2))
+    back = TireClasses.from_state(classes.to_state())
+    metadata, gap = rng.normal(size=(4, 2)), rng.normal(size=(4, 2, 2))
+    first, again = (c.probability(metadata, gap, np.ones((4, 2))) for c in (classes, back))
+    np.testing.assert_array_equal(first, again)
+    np.testing.assert_allclose(first.sum(axis=1), 1.0)
+
+
+def test_density_is_that_of_a_gaussian():
+    own, alone = np.array([[1.0, 0.3], [0.3, 0.5]]), np.array([[0.1, 0.2]])
+    gaps = np.array([[[0.4, -0.2], [0.0, 0.0]]])
+    covariance = own + np.diag(alone[0])
+    expected = -0.5 * gaps[0, 0] @ np.linalg.inv(covariance) @ gaps[0, 0]
+    found = log_density(gaps, own, alone)[0]
+    assert found[0] - found[1] == pytest.approx(expected)
+    assert found[1] == pytest.approx(-0.5 * np.log(np.linalg.det(covariance)))
+
+
+def test_shares_follow_the_metadata():
+    rng = np.random.default_rng(8)
+    x = rng.normal(size=(400, 1))
+    likely = 1.0 / (1.0 + np.exp(-2.0 * x[:, 0]))
+    weights = fit_shares(x, np.stack([1.0 - likely, likely], axis=1))
+    assert weights[1, 1] - weights[1, 0] == pytest.approx(2.0, abs=0.15)
+
+
+def test_a_row_that_counts_twice_is_two_rows():
+    rng = np.random.default_rng(9)
+    x, y = rng.normal(size=(12, 2)), rng.normal(size=12)
+    logs = np.log([0.5, 0.2, 0.1])
+    once = Design({"metadata": x}, np.zeros((12, 0)), np.ones(12), np.r_[2.0, np.ones(11)])
+    twice = Design({"metadata": np.r_[x[:1], x]}, np.zeros((13, 0)), np.ones(13))
+    one, two = (
+        _Marginal(d, v, 0.05).value_and_gradient(logs) for d, v in ((once, y), (twice, np.r_[y[:1], y]))
+    )
+    assert one[0] == pytest.approx(two[0])
+    np.testing.assert_allclose(one[1], two[1])
