@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from tire_pipeline.mismatch.report import MismatchReport
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
+_FEW = 600
 _STYLE: Any = {
     "font.size": 9,
     "axes.spines.top": False,
@@ -56,9 +57,11 @@ def time_line(report: MismatchReport, output: str) -> Figure:
                 )
         floor = s[f"floor_{output}"]
         axes.axhspan(-floor, floor, color="#BBBBBB", alpha=0.6, lw=0, label="noise (1 sigma)")
-        axes.plot(x, s[f"before_{output}"], color=_BEFORE, lw=0.5, label="before", rasterized=True)
+        few = x.size < _FEW
+        look: Any = {"lw": 0.9 if few else 0.5, "marker": "." if few else None, "rasterized": True}
+        axes.plot(x, s[f"before_{output}"], color=_BEFORE, label="before", **look)
         if report.corrected.changes:
-            axes.plot(x, s[f"after_{output}"], color=_AFTER, lw=0.5, label="after", rasterized=True)
+            axes.plot(x, s[f"after_{output}"], color=_AFTER, label="after", **look)
         axes.set_xlabel("time (s)" if s["time"] is not None else "point")
         axes.set_ylabel(f"{output.capitalize()} recorded - simulated (N)")
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, 1.18), ncol=6, frameon=False)
@@ -73,27 +76,40 @@ def operating_map(report: MismatchReport, output: str) -> Figure:
     small = float(np.max(s["normal_load"])) < 100.0
     load = s["normal_load"] if small else s["normal_load"] / 1e3
     kinds = ["before"] + (["after"] if report.corrected.changes else [])
-    x_edges = np.linspace(slip.min() * factor, slip.max() * factor + 1e-9, 25)
-    y_edges = np.linspace(load.min(), load.max() + 1e-9, 9)
-    count, *_ = np.histogram2d(slip * factor, load, [x_edges, y_edges])
-    maps = []
+    points = slip.size < _FEW
+    maps: list[Any] = []
+    edges = (
+        np.linspace(slip.min() * factor, slip.max() * factor + 1e-9, 25),
+        np.linspace(load.min(), load.max() + 1e-9, 9),
+    )
     for kind in kinds:
-        total, *_ = np.histogram2d(slip * factor, load, [x_edges, y_edges], weights=s[f"{kind}_{output}"])
-        maps.append(np.where(count >= 3, total / np.maximum(count, 1), np.nan))
-    limit = max(float(np.nanmax(np.abs(maps[0]))), s[f"floor_{output}"])
+        values = s[f"{kind}_{output}"]
+        maps.append(values if points else _means(slip * factor, load, values, edges))
+    limit = max(float(np.nanmax(np.abs(maps[0]), initial=0.0)), s[f"floor_{output}"])
+    colours: Any = {"cmap": "RdBu_r", "vmin": -limit, "vmax": limit, "rasterized": True}
     with matplotlib.rc_context(_STYLE):
         figure = Figure(figsize=(4.6 * len(kinds), 2.9), layout="constrained")
         axes = np.atleast_1d(figure.subplots(1, len(kinds), sharey=True))
         for ax, kind, values in zip(axes, kinds, maps, strict=True):
-            mesh = ax.pcolormesh(
-                x_edges, y_edges, values.T, cmap="RdBu_r", vmin=-limit, vmax=limit, rasterized=True
-            )
+            if points:
+                mesh: Any = ax.scatter(
+                    slip * factor, load, c=values, s=28, edgecolors="#888888", linewidths=0.4, **colours
+                )
+            else:
+                mesh = ax.pcolormesh(*edges, values.T, **colours)
             ax.set_title(kind)
             ax.set_xlabel(unit)
             ax.grid(False)
         axes[0].set_ylabel("normal load (N)" if small else "normal load (kN)")
-        figure.colorbar(mesh, ax=axes, label=f"mean {output.capitalize()} recorded - simulated (N)")
+        figure.colorbar(mesh, ax=axes, label=f"{output.capitalize()} recorded - simulated (N)")
     return figure
+
+
+def _means(x: Any, y: Any, values: Any, edges: tuple[Any, Any]) -> Any:
+    """Means over cells with three samples or more."""
+    count, *_ = np.histogram2d(x, y, list(edges))
+    total, *_ = np.histogram2d(x, y, list(edges), weights=values)
+    return np.where(count >= 3, total / np.maximum(count, 1), np.nan)
 
 
 def drawings(report: MismatchReport) -> list[dict[str, Any]]:
@@ -108,13 +124,15 @@ def drawings(report: MismatchReport) -> list[dict[str, Any]]:
         out.append(
             {
                 "svg": svg(operating_map(report, o)),
-                "caption": f"{name} over slip and load: mean of recorded minus simulated force.",
+                "caption": f"{name} over slip and load: recorded minus simulated force (cells: means).",
             }
         )
         out.append(
             {
                 "svg": svg(time_line(report, o)),
-                "caption": f"{name} over time. The bars at the top say when each effect is above the noise.",
+                "caption": f"{name} over time. The bars at the top say when each effect is above the noise."
+                if report.series["time"] is not None
+                else f"{name} over the points in their order.",
             }
         )
     return out
