@@ -52,7 +52,11 @@ def _acts(data: Data, effect: Effect, name: str) -> bool:
 
 
 def derivatives(
-    data: Data, changes: Sequence[Change], index: int, free: Sequence[str]
+    data: Data,
+    changes: Sequence[Change],
+    index: int,
+    free: Sequence[str],
+    here: dict[str, Array] | None = None,
 ) -> Iterator[tuple[str, dict[str, Array]]]:
     """Yield d force / d parameter for the floating parameters of ``changes[index]``.
 
@@ -63,33 +67,33 @@ def derivatives(
         The effects that are in, with the parameters at which to differentiate.
     index : int
     free : sequence of str
+    here : dict of ndarray, optional
+        Forces with ``changes``, if they are known.
     """
     name, values = changes[index]
+    here = simulate(data, changes) if here is None else here
     effect = catalogue()[name]
     for parameter in effect.parameters:
         if parameter.name not in free:
             continue
         at = values[parameter.name]
         h = parameter.step
-        sides = []
-        for value in (at + h, at - h):
-            moved = dict(values)
-            moved[parameter.name] = float(np.clip(value, parameter.low, parameter.high))
-            swapped = [*changes[:index], (name, moved), *changes[index + 1 :]]
-            sides.append((moved[parameter.name], simulate(data, swapped)))
-        (up, f_up), (down, f_down) = sides
-        if up == down:
-            continue
-        yield parameter.name, {o: (f_up[o] - f_down[o]) / (up - down) for o in data.outputs}
+        moved = dict(values)
+        moved[parameter.name] = at + h if at + h <= parameter.high else at - h
+        there = simulate(data, [*changes[:index], (name, moved), *changes[index + 1 :]])
+        change = moved[parameter.name] - at
+        yield parameter.name, {o: (there[o] - here[o]) / change for o in data.outputs}
 
 
-def screening_columns(data: Data, changes: Sequence[Change], variant: Variant) -> dict[str, Array]:
+def screening_columns(
+    data: Data, changes: Sequence[Change], variant: Variant, now: dict[str, Array] | None = None
+) -> dict[str, Array]:
     """Return the columns with which a form is screened, shape (n, k) for each output.
 
     At a start where the effect is absent these are the derivatives; elsewhere the whole difference
     that the start makes comes first.
     """
-    now = simulate(data, changes)
+    now = simulate(data, changes) if now is None else now
     with_it = [*changes, (variant.name, dict(variant.start))]
     whole = simulate(data, with_it)
     parts: list[dict[str, Array]] = []
@@ -97,7 +101,8 @@ def screening_columns(data: Data, changes: Sequence[Change], variant: Variant) -
     force = {o: float(np.sqrt(np.mean(now[o] ** 2))) for o in data.outputs}
     if any(size[o] > 1e-7 * max(force.values()) for o in data.outputs):
         parts.append({o: whole[o] - now[o] for o in data.outputs})
-    for name, column in derivatives(data, with_it, len(changes), variant.free):
+    free = [n for n in variant.free if n not in variant.effect.scanned]
+    for name, column in derivatives(data, with_it, len(changes), free, whole):
         step = next(p.step for p in variant.effect.parameters if p.name == name)
         parts.append({o: c * step for o, c in column.items()})
     if not parts:

@@ -23,6 +23,7 @@ from tire_pipeline.mismatch.proof import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.remainder import remainder
 from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFit, Remainder
+from tire_pipeline.mismatch.restart import search_all, unlike
 from tire_pipeline.mismatch.search import Search
 from tire_pipeline.mismatch.simulate import simulate
 from tire_pipeline.mismatch.thinning import refit_on_all, thinned
@@ -62,7 +63,7 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame) -> MismatchReport:
     steps = (
         ("check", lambda: state.update(prepared=prepare(tire, recording))),
         ("noise", lambda: state.update(search=searching.begin(thinned(state["prepared"].data)))),
-        ("search", lambda: searching.run(state["search"])),
+        ("search", lambda: search_all(state["search"])),
         ("refit", lambda: _refit(state["search"], state["prepared"])),
         ("report", lambda: state.update(report=_report(state["prepared"], state["search"]))),
     )
@@ -86,12 +87,14 @@ def _refit(search: Search, prepared: Prepared) -> None:
 def _report(prepared: Prepared, search: Search) -> MismatchReport:
     data = search.data
     left = remainder(search)
-    if _unlike(search, left):
+    if unlike(search, left.nats):
         search.refused.update(
             {n: "what it leaves is too large for this to be the cause" for n in search.fit.names}
         )
         search.fit, search.gates = Fit([], []), []
         left = replace(remainder(search), significant=True)
+    if search.unnamed:
+        left = replace(left, significant=True)
     fit = prove(search)
     before = {o: data.recorded[o] - data.base[o] for o in data.outputs}
     effects = [_exact(f, prepared) for f in prepared.findings]
@@ -136,16 +139,6 @@ def _report(prepared: Prepared, search: Search) -> MismatchReport:
         candidates=_candidates(search),
         series=_series(search),
     )
-
-
-def _unlike(search: Search, left: Remainder) -> bool:
-    """Whether the effects leave so much that something else, which resembles them, must be the cause."""
-    if not search.gates or left.statistic < settings.REMAINDER_LIMIT:
-        return False
-    if "nonuniformity" in search.fit.names:
-        return False  # its higher harmonics are left, and no other cause follows the wheel's angle
-    evidence = max(g.frozen if catalogue()[g.name].own_inputs else g.gain for g in search.gates)
-    return left.nats > settings.UNLIKE * evidence
 
 
 def _exact(finding: Finding, prepared: Prepared) -> EffectReport:

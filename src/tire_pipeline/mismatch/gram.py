@@ -14,9 +14,11 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
 from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.effects.shared import njit
 from tire_pipeline.mismatch.noise import Noise
 
 Array = np.ndarray
+_ROWS = 512
 
 
 @dataclass
@@ -25,8 +27,9 @@ class Sums:
 
     Parameters
     ----------
-    ne, nr : dict of ndarray, shapes (blocks, q, k), (blocks, q)
-        Nuisance times effects, nuisance times residual.
+    ne, nr : dict of ndarray, shapes (blocks or 1, q, k), (blocks or 1, q)
+        Nuisance times effects, nuisance times residual; over the whole recording where sweeps are
+        not left out.
     ee, er, rr : ndarray, shapes (blocks, k, k), (blocks, k), (blocks,)
         Sums over outputs.
     """
@@ -46,6 +49,35 @@ class Sums:
             self.er[:, columns],
             self.rr,
         )
+
+
+def _product(a: Array, b: Array) -> Array:
+    """Return ``a.T @ b``, in pieces that stay in the processor's cache."""
+    out = np.zeros((a.shape[1], b.shape[1]))
+    for first in range(0, a.shape[0], _ROWS):
+        out += a[first : first + _ROWS].T @ b[first : first + _ROWS]
+    return out
+
+
+@njit(cache=True)
+def _block_products(x: Array, edges: Array) -> Array:
+    """Return ``x.T @ x`` over each stretch of rows between two edges, for few columns."""
+    k = x.shape[1]
+    out = np.zeros((edges.size - 1, k, k))
+    for b in range(edges.size - 1):
+        for i in range(edges[b], edges[b + 1]):
+            for p in range(k):
+                for q in range(p + 1):
+                    out[b, p, q] += x[i, p] * x[i, q]
+        for p in range(k):
+            for q in range(p):
+                out[b, q, p] = out[b, p, q]
+    return out
+
+
+def _pieces(shown: Array) -> int:
+    """How many pieces each sweep is cut into, so that there are 60 or more."""
+    return max(1, int(np.ceil(60 / max(len(shown), 1))))
 
 
 class System:
@@ -73,8 +105,10 @@ class System:
     ) -> None:
         self.data, self.noise, self.block = data, noise, block
         self.count = int(block.max()) + 1
-        self._order = np.argsort(block, kind="stable")
-        self._edges = np.searchsorted(block[self._order], np.arange(self.count + 1))
+        self._order: Any = np.argsort(block, kind="stable")
+        if np.all(np.diff(self._order) == 1):
+            self._order = slice(None)
+        self._edges = np.searchsorted(np.sort(block), np.arange(self.count + 1))
         self.white = {o: noise[o].whiten(columns[o], data.start)[self._order] for o in data.outputs}
         self._gram = {o: self._by_block(w, w) for o, w in self.white.items()}
         self.scale = scale
@@ -139,14 +173,14 @@ class System:
         e = {o: np.zeros((x.size, 0)) for o, x in r.items()} if columns is None else self.whiten(columns)
         return self._sums(r, e)
 
-    def _sums(self, r: dict[str, Array], e: dict[str, Array]) -> Sums:
+    def _sums(self, r: dict[str, Array], e: dict[str, Array], *, by_sweep: bool = False) -> Sums:
         k = next(iter(e.values())).shape[1]
         ne, nr = {}, {}
         ee, er, rr = np.zeros((self.count, k, k)), np.zeros((self.count, k)), np.zeros(self.count)
         for o, x in r.items():
             both = np.column_stack([e[o], x])
-            cross = self._by_block(self.white[o], both)
-            own = self._by_block(both, both)
+            cross = self._by_block(self.white[o], both) if by_sweep else _product(self.white[o], both)[None]
+            own = _block_products(np.ascontiguousarray(both), self._edges)
             ne[o], nr[o] = cross[:, :, :k], cross[:, :, k]
             ee += own[:, :k, :k]
             er += own[:, :k, k]
@@ -176,34 +210,46 @@ class System:
     def held_out(
         self,
         residual: dict[str, Array],
-        columns: dict[str, Array] | None = None,
-        shown: Array | None = None,
-    ) -> tuple[Array, Array]:
-        """Return the whitened squared error of each sweep, predicted from all the others.
+        columns: dict[str, Array] | None,
+        shown: Array,
+        *,
+        plain: bool,
+    ) -> Array:
+        """Return the whitened squared error of pieces of sweeps, each predicted from all other sweeps.
 
         Parameters
         ----------
         residual : dict of ndarray, shape (n,)
             N.
         columns : dict of ndarray, shape (n, k), optional
-            Effects' columns.
-        shown : ndarray of int, optional
-            Sweeps for the second result.
-
-        Returns
-        -------
-        errors : ndarray, shape (blocks,)
-        pieces : ndarray
-            The errors of the sweeps of ``shown``, cut into equal pieces so that there are 60 or
-            more of them; each is predicted without its whole sweep.
+            Effects' columns; their parameters are fitted with the nuisance beside them.
+        shown : ndarray of int
+            The sweeps; they are cut into equal pieces so that there are 60 or more.
+        plain : bool
+            Predict by the effects alone; else by effects and nuisance.
         """
         r = self.whiten(residual)
         e = {o: np.zeros((x.size, 0)) for o, x in r.items()} if columns is None else self.whiten(columns)
-        sums = self._sums(r, e)
+        x, nuisance = self._left_out_fits(self._sums(r, e, by_sweep=True))
+        out: list[float] = []
+        for b in shown:
+            rows = slice(self._edges[b], self._edges[b + 1])
+            error = np.zeros(rows.stop - rows.start)
+            for o in r:
+                left = r[o][rows] - e[o][rows] @ x[b]
+                if not plain:
+                    a_ne, a_nr = nuisance[o]
+                    left = left - self.white[o][rows] @ ((a_nr[b] - a_ne[b] @ x[b]) * self.scale[o])
+                error += left**2
+            out += [float(piece.sum()) for piece in np.array_split(error, _pieces(shown))]
+        return np.array(out)
+
+    def _left_out_fits(self, sums: Sums) -> tuple[Array, dict[str, tuple[Array, Array]]]:
+        """Return the effects' parameters, shape (blocks, k), and the nuisance's, with each sweep left out."""
         k = sums.er.shape[1]
         ee = sums.ee.sum(axis=0)[None] - sums.ee
         er = sums.er.sum(axis=0)[None] - sums.er
-        kept = {}
+        nuisance = {}
         for o in sums.nr:
             s = self.scale[o]
             ne = (sums.ne[o].sum(axis=0)[None] - sums.ne[o]) * s[None, :, None]
@@ -213,27 +259,22 @@ class System:
             a_nr = (inverse @ nr[:, :, None])[:, :, 0]
             ee = ee - ne.transpose(0, 2, 1) @ a_ne
             er = er - (ne.transpose(0, 2, 1) @ a_nr[:, :, None])[:, :, 0]
-            kept[o] = (a_ne, a_nr)
+            nuisance[o] = (a_ne, a_nr)
         x = np.zeros((self.count, k))
         if k:
             size = np.sqrt(np.maximum(np.einsum("bii->bi", ee), 1e-300))
             scaled = ee / size[:, :, None] / size[:, None, :] + 1e-7 * np.eye(k)
             x = np.linalg.solve(scaled, (er / size)[:, :, None])[:, :, 0] / size
-        pieces = [] if shown is None else [max(1, int(np.ceil(60 / max(len(shown), 1))))] * len(shown)
-        cut: list[float] = []
-        errors = np.zeros(self.count)
-        chosen = {} if shown is None else dict(zip(shown.tolist(), pieces, strict=True))
-        for b in range(self.count):
-            rows = slice(self._edges[b], self._edges[b + 1])
-            parts = np.zeros(chosen.get(b, 1))
-            for o, (a_ne, a_nr) in kept.items():
-                c = (a_nr[b] - a_ne[b] @ x[b]) * self.scale[o]
-                error = (r[o][rows] - self.white[o][rows] @ c - e[o][rows] @ x[b]) ** 2
-                parts += [float(piece.sum()) for piece in np.array_split(error, parts.size)]
-            errors[b] = parts.sum()
-            if b in chosen:
-                cut += parts.tolist()
-        return errors, np.array(cut)
+        return x, nuisance
+
+    def cut(self, values: Array, shown: Array) -> Array:
+        """Return the sums of some values over the pieces that :meth:`held_out` cuts its sweeps into."""
+        ordered = values[self._order]
+        out: list[float] = []
+        for b in shown:
+            rows = ordered[self._edges[b] : self._edges[b + 1]]
+            out += [float(piece.sum()) for piece in np.array_split(rows, _pieces(shown))]
+        return np.array(out)
 
     def fitted(self, residual: dict[str, Array], columns: dict[str, Array] | None = None) -> dict[str, Array]:
         """Return the coefficients of the nuisance columns in a fit with the effects' columns."""

@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import solve_toeplitz
 from scipy.optimize import nnls
-from scipy.signal import lfilter
 
 from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.effects.shared import njit
 
 Array = np.ndarray
 _MEDIAN_OF_CHI2 = 0.4549
@@ -55,12 +55,28 @@ class Noise:
         taps, size = self._filter
         if taps.size == 1:
             return scaled
-        out = lfilter(taps, [1.0], scaled, axis=0) / size
+        out = _filtered(np.ascontiguousarray(scaled.reshape(scaled.shape[0], -1)), taps / size)
+        out = out.reshape(scaled.shape)
         firsts = np.flatnonzero(start)
         heads = (firsts[:, None] + np.arange(_ORDER)[None, :]).ravel()
         heads = heads[heads < x.shape[0]]
         out[heads] = 0.0 if firsts.size * _ORDER < 0.05 * x.shape[0] else scaled[heads]
         return out
+
+
+@njit(cache=True)
+def _filtered(x: Array, taps: Array) -> Array:
+    """Filter the columns of x, shape (n, k), by a finite impulse response that begins at rest."""
+    n, k = x.shape
+    out = np.empty_like(x)
+    for j in range(k):
+        column = x[:, j].copy()
+        total = taps[0] * column
+        for m in range(1, taps.size):
+            for i in range(m, n):
+                total[i] += taps[m] * column[i - m]
+        out[:, j] = total
+    return out
 
 
 def estimate_noise(data: Data, residual: dict[str, Array]) -> dict[str, Noise]:

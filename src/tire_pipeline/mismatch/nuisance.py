@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.simulate import plain_forces
 
@@ -30,6 +31,9 @@ _COEFFICIENTS = {
 _POINTS = ("slip_angle", "slip_ratio", "camber", "normal_load")
 _LENGTHS = {"slip": 0.25, "normal_load": 0.8, "camber": 0.9}
 _MOST_POINTS = 130
+_NEAR, _FAR = 0.85, 1.3
+_SHIFT_OF_FX = 2.5
+"""Braking and driving are no mirror images: a fit makes up for their difference by a shift at zero slip."""
 
 
 @dataclass(frozen=True)
@@ -66,11 +70,14 @@ def make_nuisance(data: Data) -> Nuisance:
     for name in data.outputs:
         largest = largest_force(data, name)
         here = {n: data.get(n) for n in _POINTS}
-        jacobian, basis = _jacobian(data, name, here), _orthonormal(_jacobian(data, name, here))
+        jacobian = _jacobian(data, name, here)
+        basis = _halves(data, name, here, jacobian)
         b, b_grid = _gaussian_process(data, name, here, grid)
         c = np.hstack([jacobian, _shifts(data, name, here)])
         c_grid = np.hstack([_jacobian(data, name, grid), _shifts(data, name, grid)])
         b = b - c @ _solve(c_grid, b_grid)
+        if name == "fx":
+            basis = np.hstack([basis, _SHIFT_OF_FX * _orthonormal(_shifts(data, name, here))])
         coefficients[name] = basis * largest
         flexible[name] = b * largest
     return Nuisance(coefficients, flexible)
@@ -137,6 +144,17 @@ def _jacobian(data: Data, name: str, at: dict[str, Array]) -> Array:
     return np.column_stack(columns) if columns else np.zeros((at["normal_load"].size, 0))
 
 
+def _halves(data: Data, name: str, here: dict[str, Array], jacobian: Array) -> Array:
+    """Directions of the coefficients that keep the mirror symmetry, and those that break it, made smaller."""
+    mirrored = {n: -a if n in ("slip_angle", "camber") else a for n, a in here.items()}
+    image = _jacobian(data, name, mirrored) * (-1.0 if name == "fy" else 1.0)
+    kept, broken = 0.5 * (jacobian + image), 0.5 * (jacobian - image)
+    least = 1e-2 * np.sqrt(np.mean(jacobian**2, axis=0))
+    broken = broken[:, np.sqrt(np.mean(broken**2, axis=0)) > least]
+    kept = kept[:, np.sqrt(np.mean(kept**2, axis=0)) > least]
+    return np.hstack([_orthonormal(kept), settings.ASYMMETRY_SHARE * _orthonormal(broken)])
+
+
 def _orthonormal(columns: Array) -> Array:
     """Return columns of RMS 1 that span what is well determined of the given ones."""
     n = columns.shape[0]
@@ -150,20 +168,28 @@ def _orthonormal(columns: Array) -> Array:
     return (columns[:, keep] / size[keep]) @ (vectors[:, good] / np.sqrt(values[good]))
 
 
-def _coordinates(data: Data, at: dict[str, Array]) -> Array:
-    """Own inputs, each divided by the length over which the misfit may change."""
-    parts = []
+def _coordinates(data: Data, at: dict[str, Array]) -> tuple[Array, Array]:
+    """Own inputs, each over the length in which the misfit may change, and their signs in a mirror.
+
+    In a mirror that stands along the wheel plane, slip angle and camber change their sign.
+    """
+    parts, mirror = [], []
     for slip, force in (("slip_angle", "fy"), ("slip_ratio", "fx")):
         if data.varies(slip):
             half = _slip_at_half(data, force)
             parts.append(2.0 / np.pi * np.arctan(at[slip] / half) / _LENGTHS["slip"])
+            mirror.append(-1.0 if slip == "slip_angle" else 1.0)
     if data.varies("normal_load"):
         low, high = np.quantile(data.get("normal_load"), [0.005, 0.995])
         load = (at["normal_load"] - 0.5 * (low + high)) / (0.5 * (high - low))
         parts.append(load / _LENGTHS["normal_load"])
+        mirror.append(1.0)
     if data.varies("camber") and data.knows_camber:
         parts.append(at["camber"] / np.quantile(np.abs(data.get("camber")), 0.99) / _LENGTHS["camber"])
-    return np.column_stack(parts) if parts else np.zeros((at["normal_load"].size, 1))
+        mirror.append(-1.0)
+    if not parts:
+        return np.zeros((at["normal_load"].size, 1)), np.ones(1)
+    return np.column_stack(parts), np.array(mirror)
 
 
 def _slip_at_half(data: Data, force: str) -> float:
@@ -188,16 +214,18 @@ def _gaussian_process(
     """Nystrom features of a squared-exponential kernel at inducing points spread over data and grid.
 
     The misfit is small where the force itself is nil: at zero slip (and zero camber), at small load.
+    A tire is its own mirror image but for ply steer and conicity, which the fit of a file takes up:
+    the misfit of Fy changes its sign in the mirror, that of Fx does not, and what breaks this is
+    ``ASYMMETRY_SHARE`` of it.
     """
-    x, y = _coordinates(data, here), _coordinates(data, grid)
+    (x, mirror), (y, _) = _coordinates(data, here), _coordinates(data, grid)
     pick = np.random.default_rng(0).permutation(data.size)[:3000]
-    centres = _spread(np.vstack([x[pick], y]), 0.85, _MOST_POINTS)
-    kernel = _kernel(centres, centres) + 1e-6 * np.eye(len(centres))
-    values, vectors = np.linalg.eigh(kernel)
-    good = values > 1e-3 * values.max()
-    to_features = vectors[:, good] / np.sqrt(values[good])
+    points = np.vstack([x[pick], y])
+    sign = -1.0 if name == "fy" else 1.0
+    kernels = [_Mirrored(points, mirror, sign, _NEAR, 1.0)]
+    if mirror.min() < 0.0:
+        kernels.append(_Mirrored(points, mirror, -sign, _FAR, settings.ASYMMETRY_SHARE))
     top = np.quantile(data.get("normal_load"), 0.99)
-
     slip, half = ("slip_angle" if name == "fy" else "slip_ratio"), _slip_at_half(data, name)
     lean = max(float(np.quantile(np.abs(data.get("camber")), 0.99)), 0.01)
 
@@ -206,9 +234,55 @@ def _gaussian_process(
         used = np.abs(point[slip]) / (np.abs(point[slip]) + 0.5 * half)
         if name == "fy":
             used = np.minimum(used + 0.3 * np.abs(point["camber"]) / lean * data.varies("camber"), 1.0)
-        return _kernel(at, centres) @ to_features * (size * np.maximum(used, 0.1))[:, None]
+        waves = np.hstack([k.features(at) for k in kernels])
+        return waves * (size * np.maximum(used, 0.1))[:, None]
 
     return features(x, here), features(y, grid)
+
+
+class _Mirrored:
+    """Features of a Gaussian process that is even (sign 1) or odd (sign -1) under a mirror.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, d)
+        Where inducing points may lie.
+    mirror : ndarray, shape (d,)
+        Signs of the coordinates in the mirror.
+    sign : float
+    apart : float
+        Distance of the inducing points.
+    size : float
+        Standard deviation.
+    """
+
+    def __init__(self, points: Array, mirror: Array, sign: float, apart: float, size: float) -> None:
+        self.mirror, self.sign, self.plain = mirror, sign, bool(mirror.min() > 0.0)
+        turned = np.flatnonzero(mirror < 0.0)
+        if turned.size:  # one half of the space stands for both
+            points = np.where((points[:, turned[0]] < 0.0)[:, None], points * mirror, points)
+        self.centres = _spread(points, apart, _MOST_POINTS)
+        kernel = self._kernel(self.centres) + 1e-6 * np.eye(len(self.centres))
+        values, vectors = np.linalg.eigh(kernel)
+        good = values > 1e-3 * values.max()
+        self.to_features = size * vectors[:, good] / np.sqrt(values[good])
+
+    def _kernel(self, x: Array) -> Array:
+        plain = _kernel(x, self.centres)
+        if self.plain:
+            return plain
+        both = plain + self.sign * _kernel(x, self.centres * self.mirror)
+        if self.sign < 0.0:
+            return both
+        return both / np.sqrt(np.outer(self._twice(x), self._twice(self.centres)))
+
+    def _twice(self, x: Array) -> Array:
+        """How much of a point its mirror image is, plus one."""
+        return 1.0 + np.exp(-0.5 * ((x - x * self.mirror) ** 2).sum(axis=1))
+
+    def features(self, x: Array) -> Array:
+        """Return the features at points, shape (n, m)."""
+        return self._kernel(x) @ self.to_features
 
 
 def _kernel(a: Array, b: Array) -> Array:

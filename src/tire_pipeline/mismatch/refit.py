@@ -89,9 +89,9 @@ def refit(
     )
     free = [tuple(v.free) for v in variants]
     best = objective(system, changes)
-    for _ in range(steps):
+    for step in range(steps):
         changes, best, progress = _step(system, changes, free, best)
-        moved = _scan(system, changes, free, best)
+        moved = _scan(system, changes, free, best, 50.0 if step == 0 else 800.0)
         if moved is not None:
             changes, gained = moved
             progress = max(progress, best - gained)
@@ -123,8 +123,9 @@ def _columns(
 ) -> tuple[list[tuple[int, str]], dict[str, Array]]:
     labels: list[tuple[int, str]] = []
     parts: list[dict[str, Array]] = []
+    here = simulate(data, changes)
     for i in range(len(changes)):
-        for name, column in derivatives(data, changes, i, free[i]):
+        for name, column in derivatives(data, changes, i, free[i], here):
             labels.append((i, name))
             parts.append(column)
     if not parts:
@@ -162,7 +163,7 @@ def _moved(changes: list[Change], labels: list[tuple[int, str]], delta: Array) -
 
 
 def _scan(
-    system: System, changes: list[Change], free: list[tuple[str, ...]], best: float
+    system: System, changes: list[Change], free: list[tuple[str, ...]], best: float, part: float
 ) -> tuple[list[Change], float] | None:
     """Search along parameters whose effect is too far from linear: the moment of a surface change."""
     found = None
@@ -171,7 +172,7 @@ def _scan(
             continue
         time = system.data.time
         assert time is not None  # the effect needs a time line
-        width = (time[-1] - time[0]) / 50.0
+        width = max((time[-1] - time[0]) / part, 0.11)
         while width > 0.05:
             for sign in (1.0, -1.0):
                 trial: list[Any] = [(n, dict(p)) for n, p in changes]

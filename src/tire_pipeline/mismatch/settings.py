@@ -18,11 +18,21 @@ LOOSE = 12.0
 MISFIT_SHARES = (0.001, 0.002, 0.004, 0.006, 0.009, 0.013)
 """Sizes of the flexible form that are tried, over the largest force; the likeliest is taken."""
 
+ASYMMETRY_SHARE = 0.12
+"""What part of the misfit may break the tire's mirror symmetry (slip angle and camber turned over): a clean
+tire breaks it by 0.1 to 0.2 of the misfit in the clean tuning cases."""
+
 LEAST_GAIN = 8.0
 """Least improvement of the Bayes information criterion (in nats, effective sample size) for an effect."""
 
-LEAST_GAIN_MORE = 15.0
-"""The same for each effect of a set of two or more."""
+LEAST_GAIN_MORE = 10.0
+"""The same for each effect of a set of two."""
+
+LEAST_GAIN_MANY = 40.0
+"""The same for each effect of a set of three: what two forms get wrong may look like a third effect."""
+
+SECOND_LAG = 0.05
+"""Least evidence of a lag (relaxation, delay, low pass) beside another one, as a part of the other's."""
 
 TIE = 8.0
 """Nats within which two explanations are as good as each other."""
@@ -48,6 +58,18 @@ that is worth so many nats; or if it is larger than the next share of the larges
 fitted formula's own misfit."""
 
 REMAINDER_SHARE = 0.025
+
+UNNAMED_PART = 0.3
+UNNAMED_LEAST = 30.0
+UNNAMED_OF_ALL = 0.015
+"""A name is withdrawn if a form without a name is as likely in its place (by TIE), or adds on top of all
+named effects more than UNNAMED_PART of the effect's own evidence, UNNAMED_LEAST nats, and UNNAMED_OF_ALL of
+the strongest effect's evidence (a strong effect's form is never right to the last per cent).
+On the tuning cases true effects were met by 0 to 0.3 of their evidence, false names by 0.3 to 30 times."""
+
+OTHER_START = 0.15
+"""An effect is tried first, where the likeliest one led to nothing, if the screen gives it this part of the
+likeliest one's evidence."""
 
 UNLIKE = 0.2
 """If what is left is worth more than this part of the evidence for the named effects, they only resemble the

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from tire_pipeline.mismatch.effects.base import State
-from tire_pipeline.mismatch.effects.shared import first_order
+from tire_pipeline.mismatch.effects.shared import first_order, harmonic_power
 from tire_pipeline.mismatch.simulated import Simulated
 
 Array = np.ndarray
@@ -106,8 +106,10 @@ class States(Simulated):
         per_metre = np.arange(1.0 / (1.04 * self.radius), 1.0 / (0.9 * self.radius), 0.8 / span)
         if per_metre.size > 4000:
             per_metre = np.linspace(per_metre[0], per_metre[-1], 4000)
-        power = np.array([np.abs(np.sum(residual * np.exp(-1j * rolled * k))) for k in per_metre])
-        self.fixed["radius"] = float(1.0 / per_metre[int(np.argmax(power))])
+        power = harmonic_power(residual, rolled, per_metre[0], per_metre[1] - per_metre[0], per_metre.size)
+        best, step = per_metre[int(np.argmax(power))], (per_metre[1] - per_metre[0]) / 20.0
+        power = harmonic_power(residual, rolled, best - 20.0 * step, step, 41)
+        self.fixed["radius"] = float(1.0 / (best + (int(np.argmax(power)) - 20) * step))
         return [self.fixed["radius"]]
 
     def relax(self, state: State, names: set[str]) -> None:

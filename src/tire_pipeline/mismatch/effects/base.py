@@ -109,6 +109,8 @@ class Effect:
         True if it lags or shifts in time, so that half a sample of it is a matter of how the rig samples.
     needed : tuple of str
         Parameters that are never dropped for being small: without them it is another effect.
+    scanned : tuple of str
+        Parameters that the starts scan, so that the screen need not move them.
     unusual : bool
         True if in a tie the other explanation is named first.
     parameters : tuple of Parameter
@@ -128,6 +130,7 @@ class Effect:
     own_inputs = False
     dynamic = False
     needed: tuple[str, ...] = ()
+    scanned: tuple[str, ...] = ()
     unusual = False
     parameters: tuple[Parameter, ...] = ()
     looks_like: Mapping[str, str] = {}

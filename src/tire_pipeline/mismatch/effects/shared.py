@@ -51,6 +51,31 @@ def _ramp(before: float, now: float, gain: float) -> float:
     return now - (now - before) * (1.0 - share)
 
 
+@njit(cache=True)
+def harmonic_power(signal: np.ndarray, way: np.ndarray, first: float, step: float, count: int) -> np.ndarray:
+    """Return ``|sum(signal exp(-i way k))|`` at the wave numbers ``first, first + step, ...``.
+
+    Parameters
+    ----------
+    signal, way : ndarray, shape (n,)
+    first, step : float
+        Radians a unit of way.
+    count : int
+
+    Returns
+    -------
+    ndarray, shape (count,)
+    """
+    total = np.zeros(count, dtype=np.complex128)
+    for i in range(signal.size):
+        now = signal[i] * np.exp(-1j * way[i] * first)
+        turn = np.exp(-1j * way[i] * step)
+        for k in range(count):
+            total[k] += now
+            now *= turn
+    return np.abs(total)
+
+
 def delayed(time: np.ndarray, signal: np.ndarray, delay: float, start: np.ndarray) -> np.ndarray:
     """Return ``signal(time - delay)`` by linear interpolation, held at the ends of each piece."""
     firsts = np.flatnonzero(start)

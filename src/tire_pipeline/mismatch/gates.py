@@ -1,0 +1,182 @@
+"""The gates: what one effect of a set has to show for itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.stats import wilcoxon
+
+from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.candidates import Variant
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.gram import System
+from tire_pipeline.mismatch.refit import Fit, refit, residual
+from tire_pipeline.mismatch.shapes import with_shapes
+from tire_pipeline.mismatch.simulate import simulate
+from tire_pipeline.mismatch.state import Search
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Gates:
+    """What one effect of a set has to show for itself.
+
+    Parameters
+    ----------
+    gain : float
+        Nats by which the set is likelier with it, after the price of its parameters.
+    p_value : float
+        Wilcoxon over sweeps: held-out error with and without it.
+    share : float
+        Share of the held-out mismatch that it removes.
+    loose, frozen : float
+        The gain with coefficients nearly free, and with coefficients frozen.
+    in_bounds : bool
+    """
+
+    name: str
+    gain: float
+    p_value: float
+    share: float
+    loose: float
+    frozen: float
+    in_bounds: bool
+    blocks: int
+    least_gain: float
+
+    def why_not(self, level: float) -> str:
+        """Return the first gate that is shut, in words."""
+        if self.gain <= self.least_gain:
+            return "does not pay for itself"
+        if self.p_value >= level:
+            return f"held-out sweeps are not better with it (p {self.p_value:.2g})"
+        if self.share <= settings.LEAST_SHARE:
+            return f"removes only {100.0 * self.share:.1f}% of the mismatch"
+        if self.loose <= settings.LEAST_GAIN:
+            return "a refit of the coefficients explains as much"
+        return "its parameters are outside of physical bounds"
+
+    def passed(self, level: float) -> bool:
+        """Whether all gates are open."""
+        return (
+            self.gain > self.least_gain
+            and self.p_value < level
+            and self.share > settings.LEAST_SHARE
+            and self.loose > settings.LEAST_GAIN
+            and self.in_bounds
+        )
+
+
+def gates_of(search: Search, fit: Fit) -> list[Gates]:
+    """Judge each effect of a set: the set with it against the set without it, refitted."""
+    out = []
+    rest = residual(search.data, fit.changes)
+    total = mismatch_of(search, residual(search.data, []))
+    least = (settings.LEAST_GAIN, settings.LEAST_GAIN_MORE, settings.LEAST_GAIN_MANY)
+    for i, name in enumerate(fit.names):
+        others = [
+            Variant(n, p, f)
+            for j, ((n, p), f) in enumerate(zip(fit.changes, fit.free, strict=True))
+            if j != i
+        ]
+        start = [c for j, c in enumerate(fit.changes) if j != i]
+        system = with_shapes(search, search.system, fit.changes, i)
+        loose = with_shapes(search, search.loose, fit.changes, i)
+        frozen = with_shapes(search, search.frozen, fit.changes, i)
+        count = len(fit.free[i]) + (name == "nonuniformity")
+        reduced = refit(search.system, others, steps=3, start=start) if others else Fit([], [])
+        rest_without = residual(search.data, reduced.changes)
+        gains = []
+        for s in (system, loose, frozen):
+            with_it = s.reduce(s.sums(rest, fit.columns if fit.labels else None))
+            without = s.reduce(s.sums(rest_without, reduced.columns if reduced.labels else None))
+            gain = 0.5 * (_best(without) - _best(with_it)) / search.inflation - search.price * count
+            gains.append(float(gain))
+        judges = ((search.system, True), (search.frozen, False))
+        own = catalogue()[name].own_inputs or (name == "camber" and search.data.knows_camber)
+        own_part = _shown(search, fit, i)
+        p_values = [_p_value(s, own_part, (rest_without, reduced), (rest, fit), plain) for s, plain in judges]
+        out.append(
+            Gates(
+                name=name,
+                gain=gains[0],
+                p_value=min(1.0, len(judges) * min(p_values)),
+                share=(mismatch_of(search, rest_without) - mismatch_of(search, rest)) / max(total, 1e-12),
+                loose=gains[0] if own else gains[1],
+                frozen=gains[2],
+                in_bounds=not fit.at_bound,
+                blocks=search.system.count,
+                least_gain=least[min(len(fit.names), 3) - 1],
+            )
+        )
+    return [_of_one_kind(gate, out) for gate in out]
+
+
+def _of_one_kind(gate: Gates, gates: list[Gates]) -> Gates:
+    """Ask more of a lag beside a stronger lag: what one form of it gets wrong looks like another form."""
+    if not catalogue()[gate.name].dynamic:
+        return gate
+    others = [g.gain for g in gates if g is not gate and catalogue()[g.name].dynamic]
+    least = max(gate.least_gain, settings.SECOND_LAG * max(others, default=0.0))
+    return replace(gate, least_gain=least)
+
+
+def mismatch_of(search: Search, rest: dict[str, Array]) -> float:
+    """Mean square of a residual over the noise, outputs added."""
+    return float(sum(np.mean(r**2) / search.noise[o].floor ** 2 for o, r in rest.items()))
+
+
+def _shown(search: Search, fit: Fit, index: int) -> tuple[Array, Array]:
+    """Return the energy of an effect at each sample, and the sweeps in which it shows.
+
+    By what it does in the fit, not by how well it does it.
+    """
+    whole = simulate(search.data, fit.changes)
+    without = simulate(search.data, [c for j, c in enumerate(fit.changes) if j != index])
+    energy = np.zeros(search.data.size)
+    for o in search.data.outputs:
+        energy += ((whole[o] - without[o]) / search.noise[o].sigma) ** 2
+    sums = np.bincount(search.block, energy, search.system.count)
+    return energy, np.flatnonzero(sums > 0.1 * np.mean(sums))
+
+
+def _p_value(
+    system: System,
+    part: tuple[Array, Array],
+    without: tuple[dict[str, Array], Fit],
+    with_it: tuple[dict[str, Array], Fit],
+    plain: bool,
+) -> float:
+    """Wilcoxon over pieces of held-out sweeps in which the effect shows."""
+    energy, shown = part
+    errors = []
+    for rest, fit in (without, with_it):
+        errors.append(system.held_out(rest, fit.columns if fit.labels else None, shown, plain=plain))
+    strong = system.cut(energy, shown)
+    strong_ones = strong > 0.1 * strong.mean()
+    return _wilcoxon(errors[0][strong_ones], errors[1][strong_ones])
+
+
+def _best(reduced: tuple[Array, Array, float]) -> float:
+    info, score, left = reduced
+    if score.size == 0:
+        return left
+    return left - float(score @ np.linalg.lstsq(info, score, rcond=1e-12)[0])
+
+
+def _wilcoxon(before: Array, after: Array) -> float:
+    d = before - after
+    if d.size < 5 or np.all(d == 0.0):
+        return 1.0
+    return float(wilcoxon(d, alternative="greater").pvalue)
+
+
+def accepted(search: Search, fit: Fit) -> tuple[bool, list[Gates]]:
+    """Whether all effects of a set pass, Holm-corrected."""
+    gates = gates_of(search, fit)
+    count = len({v.name for v in search.variants})
+    ordered = sorted(g.p_value for g in gates)
+    levels = {p: settings.LEVEL / max(count - k, 1) for k, p in enumerate(ordered)}
+    return all(g.passed(levels[g.p_value]) for g in gates), gates

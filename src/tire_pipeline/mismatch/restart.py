@@ -1,0 +1,112 @@
+"""Other beginnings: where the likeliest first effect leads to nothing that holds, the next ones are tried."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.candidates import Variant
+from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
+from tire_pipeline.mismatch.remainder import excess
+from tire_pipeline.mismatch.screening import gain_of, prune, screen
+from tire_pipeline.mismatch.search import run
+from tire_pipeline.mismatch.shapes import with_shapes
+from tire_pipeline.mismatch.state import Search, rescale
+
+_FOUND = ("fit", "gates", "doubts", "unnamed", "system", "loose", "frozen", "inflation", "misfit", "refused")
+
+
+def unlike(search: Search, nats: float) -> bool:
+    """Whether the effects leave so much that something else, which resembles them, must be the cause.
+
+    Parameters
+    ----------
+    search : Search
+    nats : float
+        What is left above white noise.
+    """
+    if not search.gates or nats < settings.REMAINDER_NATS:
+        return False
+    if "nonuniformity" in search.fit.names:
+        return False  # its higher harmonics are left, and no other cause follows the wheel's angle
+    return nats > settings.UNLIKE * max(g.gain for g in search.gates)
+
+
+def search_all(search: Search) -> None:
+    """Search from the likeliest effect; if that does not hold, from the next ones, two at most.
+
+    Two effects together can look like a third one, which then goes in first and bars the way.
+    """
+    run(search)
+    if _holds(search):
+        return
+    before = search.fit.names[:1] or search.withdrawn[:1]
+    empty = replace(search, fit=Fit([], []), gates=[], refused={}, unnamed="", withdrawn=[], log=[])
+    rescale(empty)
+    best: Search | None = None
+    most = _gain_of_first(empty)
+    for variant in _others(search, set(before)):
+        trial = _from(empty, variant)
+        if trial is None or not trial.fit.names or not _holds(trial):
+            continue
+        gain = _gain(empty, trial.fit)
+        if gain > most:
+            best, most = trial, gain
+    if best is not None:
+        search.log += ["another beginning:", *best.log]
+        for name in (
+            "fit",
+            "gates",
+            "unnamed",
+            "system",
+            "loose",
+            "frozen",
+            "inflation",
+            "misfit",
+            "refused",
+        ):
+            setattr(search, name, getattr(best, name))
+
+
+def _holds(search: Search) -> bool:
+    system = with_shapes(search, search.loose, search.fit.changes)
+    columns = search.fit.columns if search.fit.labels else None
+    _, nats = excess(search, system.left(residual(search.data, search.fit.changes), columns))
+    if not search.fit.names:
+        return nats < settings.REMAINDER_NATS and not search.unnamed
+    return not search.unnamed and not unlike(search, nats)
+
+
+def _others(search: Search, barred: set[str]) -> list[Variant]:
+    """Return the best forms of the next effects of the first screen."""
+    out: list[Variant] = []
+    top = search.first[0][0] if search.first else 0.0
+    for gain, variant in search.first:
+        if variant.name in barred or gain < max(settings.OTHER_START * top, settings.LEAST_GAIN):
+            continue
+        barred = {*barred, variant.name}
+        out.append(variant)
+    return out[:2]
+
+
+def _from(empty: Search, variant: Variant) -> Search | None:
+    """Search with one effect put in first, if it and the best second one may beat the likeliest effect."""
+    trial = replace(empty, refused={}, withdrawn=[], log=[])
+    trial.fit = prune(trial, refit(empty.system, [variant], start=[(variant.name, variant.start)]))
+    second = screen(trial, with_shapes(trial, trial.system, trial.fit.changes))
+    if not second or _gain(empty, trial.fit) + second[0][0] < _gain_of_first(empty):
+        return None
+    rescale(trial)
+    run(trial)
+    return trial
+
+
+def _gain_of_first(search: Search) -> float:
+    """Evidence that the first screen gave to the likeliest effect."""
+    return search.first[0][0] if search.first else 0.0
+
+
+def _gain(search: Search, fit: Fit) -> float:
+    """Evidence of a fit by the weights of a search, nats."""
+    at = replace(fit, objective=objective(search.system, fit.changes))
+    return gain_of(search, at, objective(search.system, []))

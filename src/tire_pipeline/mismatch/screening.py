@@ -1,0 +1,126 @@
+"""Screen all forms by score tests, refit sets of them, and drop parameters that do not pay."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tire_pipeline.mismatch.candidates import Variant, screening_columns
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.gram import System
+from tire_pipeline.mismatch.refit import Fit, refit, residual
+from tire_pipeline.mismatch.simulate import simulate
+from tire_pipeline.mismatch.state import Search
+
+Array = np.ndarray
+
+
+def screen(search: Search, extra: System | None = None) -> list[tuple[float, Variant]]:
+    """Score each form against what the accepted effects leave: nats after the price of its parameters."""
+    system = extra or search.system
+    rest = residual(search.data, search.fit.changes)
+    own = search.fit.columns if search.fit.labels else None
+    out = []
+    now = simulate(search.data, search.fit.changes)
+    for v in search.variants:
+        if v.name in search.fit.names:
+            continue
+        columns = screening_columns(search.data, search.fit.changes, v, now)
+        if columns[search.data.outputs[0]].shape[1] == 0:
+            continue
+        joined = columns if own is None else {o: np.hstack([own[o], columns[o]]) for o in columns}
+        skip = 0 if own is None else own[search.data.outputs[0]].shape[1]
+        info, score, _ = system.reduce(system.sums(rest, joined))
+        gain = best_gain(info, score, skip, search)
+        out.append((gain, v))
+    out.sort(key=lambda t: -t[0])
+    for gain, v in out:
+        search.screened[v.name] = max(search.screened.get(v.name, -np.inf), gain)
+    return out
+
+
+def best_gain(info: Array, score: Array, skip: int, search: Search) -> float:
+    """Return the best gain over nested choices of the columns after the first ``skip``."""
+    k = score.size
+    if skip:
+        head = info[:skip, :skip] + 1e-9 * np.diag(np.diag(info)[:skip]) + 1e-12 * np.eye(skip)
+        solved = np.linalg.solve(head, np.column_stack([info[:skip, skip:], score[:skip]]))
+        score = score[skip:] - info[skip:, :skip] @ solved[:, -1]
+        info = info[skip:, skip:] - info[skip:, :skip] @ solved[:, :-1]
+        k -= skip
+    size = np.sqrt(np.maximum(np.diag(info), 0.0))
+    live = np.flatnonzero(size > 1e-3)
+    if live.size == 0:
+        return -np.inf
+    m = info[np.ix_(live, live)] / size[live][:, None] / size[live][None, :]
+    s = score[live] / size[live]
+    chosen: list[int] = []
+    best, quality = -np.inf, 0.0
+    for _ in range(live.size):
+        trials = []
+        for j in range(live.size):
+            if j in chosen:
+                continue
+            c = [*chosen, j]
+            sub = m[np.ix_(c, c)] + 1e-6 * np.eye(len(c))
+            trials.append((float(s[c] @ np.linalg.solve(sub, s[c])), j))
+        quality, j = max(trials)
+        chosen.append(j)
+        best = max(best, 0.5 * quality / search.inflation - search.price * len(chosen))
+    return best
+
+
+def gain_of(search: Search, fit: Fit, against: float) -> float:
+    """Nats by which a fit is likelier than an objective without its effects, parameters paid."""
+    return 0.5 * (against - fit.objective) / search.inflation - search.price * fit.parameters
+
+
+def prune(search: Search, fit: Fit) -> Fit:
+    """Drop parameters that do not pay for themselves, smallest t first."""
+    for _ in range(8):
+        if not fit.labels or fit.sums is None:
+            return fit
+        t2 = []
+        for row, (i, name) in enumerate(fit.labels):
+            effect = catalogue()[fit.changes[i][0]]
+            zero = effect.zeros(search.data)[name]
+            variance = max(float(fit.covariance[row, row]), 1e-300)
+            t2.append((fit.changes[i][1][name] - zero) ** 2 / variance / search.inflation)
+        order = np.argsort(t2)
+        dropped = False
+        for row in order:
+            i, name = fit.labels[row]
+            if len(fit.free[i]) < 2 or name in {"reference", "lag", "moment", "length", "radius"}:
+                continue
+            if name in catalogue()[fit.names[i]].needed:
+                continue
+            if (fit.names[i] == "combined_slip" and zero_of(search, fit, i, name) == 0.0) or t2[
+                row
+            ] > 2.0 * search.price:
+                continue
+            changes = [(n, dict(p)) for n, p in fit.changes]
+            changes[i][1][name] = catalogue()[changes[i][0]].zeros(search.data)[name]
+            free = [tuple(f for f in fs if (j, f) != (i, name)) for j, fs in enumerate(fit.free)]
+            shorter = [Variant(n, p, f) for (n, p), f in zip(changes, free, strict=True)]
+            trial = refit(search.system, shorter, steps=2, start=changes)
+            if 0.5 * (trial.objective - fit.objective) / search.inflation < search.price:
+                fit, dropped = trial, True
+                break
+        if not dropped:
+            return fit
+    return fit
+
+
+def zero_of(search: Search, fit: Fit, index: int, name: str) -> float:
+    """Return the value of a parameter at which its effect is absent."""
+    return catalogue()[fit.names[index]].zeros(search.data)[name]
+
+
+def without(search: Search, fit: Fit, index: int, steps: int = 3) -> Fit:
+    """Refit a set without one of its effects."""
+    forms_left = [
+        Variant(n, p, f)
+        for j, ((n, p), f) in enumerate(zip(fit.changes, fit.free, strict=True))
+        if j != index
+    ]
+    start = [c for j, c in enumerate(fit.changes) if j != index]
+    return refit(search.system, forms_left, steps=steps, start=start) if forms_left else Fit([], [])

@@ -1,0 +1,55 @@
+"""What the form of an accepted effect may get wrong before a second effect is believed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.gram import System
+from tire_pipeline.mismatch.simulate import Change, simulate
+from tire_pipeline.mismatch.state import Search
+
+Array = np.ndarray
+
+
+def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str, Array]:
+    """Columns for what the form of an accepted effect may get wrong: its own part times own inputs."""
+    whole = simulate(data, changes)
+    without = simulate(data, [c for j, c in enumerate(changes) if j != index])
+    load = data.load_excess(data.get("normal_load"))
+    load = load / max(float(np.max(np.abs(load))), 1e-9)
+    out = {}
+    for o in data.outputs:
+        part = whole[o] - without[o]
+        slip = np.abs(data.get("slip_angle" if o == "fy" else "slip_ratio"))
+        use = slip / (slip + max(float(np.quantile(slip, 0.9)) / 3.0, 1e-6))
+        use = 2.0 * use / max(float(use.max()), 1e-9) - 1.0
+        columns = [part * use, part * load, part * (2.0 * use**2 - 1.0), part * use * load, part]
+        if catalogue()[changes[index][0]].dynamic:
+            shift = 0.5 / settings.SHAPE_SHARE
+            columns += [shift * _change(data, whole[o]), shift * _change(data, part)]
+        out[o] = np.column_stack(columns)
+    return out
+
+
+def _change(data: Data, x: Array) -> Array:
+    """Change of a force over one sample: what half a sample of time shift could do, twice."""
+    d = np.zeros_like(x)
+    d[1:-1] = 0.5 * (x[2:] - x[:-2])
+    d[data.start] = 0.0
+    d[np.flatnonzero(data.start)[1:] - 1] = 0.0
+    return d
+
+
+def with_shapes(search: Search, system: System, changes: Sequence[Change], skip: int | None = None) -> System:
+    """Extend a system by the shape columns of the effects, but not of number ``skip``."""
+    parts = [shape_columns(search.data, changes, i) for i in range(len(changes)) if i != skip]
+    if not parts:
+        return system
+    columns = {o: np.hstack([p[o] for p in parts]) for o in search.data.outputs}
+    scale = {o: np.full(c.shape[1], settings.SHAPE_SHARE) for o, c in columns.items()}
+    return system.extended(columns, scale)

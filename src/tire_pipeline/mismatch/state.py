@@ -1,0 +1,155 @@
+"""What a search knows of one recording: noise, misfit, accepted effects; and how its weights are set."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.blocks import sweeps
+from tire_pipeline.mismatch.candidates import Variant, variants
+from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.gram import System
+from tire_pipeline.mismatch.noise import Noise, estimate_noise, refined
+from tire_pipeline.mismatch.nuisance import largest_force, make_nuisance
+from tire_pipeline.mismatch.refit import Fit, residual
+
+if TYPE_CHECKING:
+    from tire_pipeline.mismatch.doubts import Doubt
+    from tire_pipeline.mismatch.gates import Gates
+
+Array = np.ndarray
+
+
+@dataclass
+class Search:
+    """State of a search over one recording."""
+
+    data: Data
+    noise: dict[str, Noise]
+    block: Array
+    system: System
+    loose: System
+    inflation: float
+    variants: list[Variant]
+    absent: dict[str, str]
+    largest: dict[str, float]
+    misfit: float
+    fit: Fit
+    frozen: System = None  # type: ignore[assignment]
+    columns: dict[str, Array] = field(default_factory=dict)
+    sizes: dict[str, tuple[int, int]] = field(default_factory=dict)
+    gates: list[Gates] = field(default_factory=list)
+    screened: dict[str, float] = field(default_factory=dict)
+    refused: dict[str, str] = field(default_factory=dict)
+    first: list[tuple[float, Variant]] = field(default_factory=list)
+    unnamed: str = ""
+    withdrawn: list[str] = field(default_factory=list)
+    doubts: list[Doubt] = field(default_factory=list)
+    log: list[str] = field(default_factory=list)
+
+    @property
+    def price(self) -> float:
+        """Nats that one more parameter costs."""
+        rows = self.data.size * len(self.data.outputs)
+        return 0.5 * float(np.log(max(rows / self.inflation, 8.0)))
+
+
+def begin(data: Data) -> Search:
+    """Estimate noise and misfit, and set up the sums."""
+    rest = {o: data.recorded[o] - data.base[o] for o in data.outputs}
+    noise = estimate_noise(data, rest)
+    block = sweeps(data)
+    found, absent = variants(data)
+    search = Search(
+        data=data,
+        noise=noise,
+        block=block,
+        system=None,  # type: ignore[arg-type]
+        loose=None,  # type: ignore[arg-type]
+        inflation=1.0,
+        variants=found,
+        absent=absent,
+        largest={o: largest_force(data, o) for o in data.outputs},
+        misfit=settings.MISFIT_SHARES[-1],
+        fit=Fit([], []),
+    )
+    _assemble(search)
+    return search
+
+
+def _assemble(search: Search) -> None:
+    """Build the nuisance columns, and the system with noise estimated without what they explain."""
+    data = search.data
+    nuisance = make_nuisance(data)
+    search.columns = {o: np.hstack([nuisance.coefficients[o], nuisance.flexible[o]]) for o in data.outputs}
+    search.sizes = {
+        o: (nuisance.coefficients[o].shape[1], nuisance.flexible[o].shape[1]) for o in data.outputs
+    }
+    _weigh(search)
+    renoise(search, search.fit)
+
+
+def _scale(search: Search, share: float, factor: float = 1.0) -> dict[str, Array]:
+    """Prior standard deviations of the nuisance columns for a size of the flexible form."""
+    move = factor * max(settings.COEFFICIENT_SHARE, settings.COEFFICIENT_PART * share)
+    return {o: np.r_[np.full(c, move), np.full(m, share)] for o, (c, m) in search.sizes.items()}
+
+
+def _weigh(search: Search) -> None:
+    """Whiten by the noise as it is known now."""
+    start = _scale(search, settings.MISFIT_SHARES[0])
+    search.system = System(search.data, search.noise, search.block, search.columns, start)
+    rescale(search)
+
+
+def renoise(search: Search, fit: Fit) -> None:
+    """Estimate the noise again from what a fit and the nuisance leave: what they explain is not noise."""
+    rest = residual(search.data, fit.changes)
+    c = search.loose.fitted(rest, fit.columns if fit.labels else None)
+    calm = {o: r - search.columns[o] @ c[o] for o, r in rest.items()}
+    first = estimate_noise(search.data, calm)
+    search.noise = {o: refined(search.data, n, calm[o]) for o, n in first.items()}
+    _weigh(search)
+
+
+def rescale(search: Search) -> None:
+    """Take the likeliest size of the flexible form for what the accepted effects leave."""
+    base = search.system
+    sums = base.sums(residual(search.data, search.fit.changes))
+    for _ in range(2):  # the size depends on the inflation, and the other way round
+        best = (-np.inf, settings.MISFIT_SHARES[0])
+        for share in settings.MISFIT_SHARES:
+            trial = base.rescaled(_scale(search, share))
+            _, _, left = trial.reduce(sums)
+            value = -0.5 * left / search.inflation - 0.5 * trial.log_determinant()
+            best = max(best, (value, share))
+        before = (search.misfit, search.inflation)
+        search.misfit = best[1]
+        search.system = base.rescaled(_scale(search, best[1]))
+        search.loose = base.rescaled(_scale(search, max(best[1], 0.009), settings.LOOSE))
+        search.frozen = base.rescaled(_scale(search, best[1], 1e-3))
+        search.inflation = _inflation(search)
+        if before[0] == search.misfit and abs(before[1] / search.inflation - 1.0) < 0.2:
+            break
+
+
+def _inflation(search: Search) -> float:
+    """How many whitened samples make one independent one: size and colour that the noise model missed."""
+    left = search.loose.left(residual(search.data, search.fit.changes), search.fit.columns or None)
+    total, weight = 0.0, 0.0
+    for white in left.values():
+        size = float(np.median(white**2) / 0.4549)
+        x = np.clip(white, -4.0 * np.sqrt(size), 4.0 * np.sqrt(size))
+        colour = 1.0
+        if search.data.time is not None:
+            lags = [float(np.mean(x[k:] * x[:-k])) / max(float(np.mean(x**2)), 1e-12) for k in range(1, 13)]
+            for value in lags:
+                if value < 0.02:
+                    break
+                colour += 2.0 * value
+        total += max(size, 0.5) * colour
+        weight += 1.0
+    return float(np.clip(total / weight, 1.0, 25.0))

@@ -1,0 +1,120 @@
+"""Forms without a name: what an input does by its rate, its memory or its play.
+
+An effect of the catalogue may resemble a cause that is not in it. Every input of the tire can act on
+friction and stiffness through how fast it changes and through what it was some seconds ago, and can
+reach the tire through a joint with play. If such a form explains the recording better than a named
+effect, the name is not proven.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.effects.shared import first_order, njit
+from tire_pipeline.mismatch.simulate import Change, plain_forces, simulate
+
+Array = np.ndarray
+_SLIPS = {"slip_angle": "fy", "slip_ratio": "fx"}
+_LAGS = (1.0, 4.0)
+_PLAYS = {"slip_angle": (0.001, 0.003, 0.008), "slip_ratio": (0.008,)}
+"""Half widths that are tried, rad and 1: well above the noise of the channels."""
+_SMOOTH = 0.1
+
+
+@dataclass(frozen=True)
+class Form:
+    """Columns of one form, shape (n, k) for each output, N."""
+
+    label: str
+    columns: dict[str, Array]
+
+
+@njit(cache=True)
+def play(x: Array, width: float, start: Array) -> Array:
+    """Return what is behind a joint with play: it moves only when pushed.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,)
+    width : float
+        Half of the play, in the unit of ``x``.
+    start : ndarray of bool, shape (n,)
+        First samples of uninterrupted pieces.
+    """
+    out = np.empty_like(x)
+    at = x[0]
+    for i in range(x.size):
+        if start[i]:
+            at = x[i]
+        at = min(max(at, x[i] - width), x[i] + width)
+        out[i] = at
+    return out
+
+
+def forms(data: Data, changes: list[Change]) -> Iterator[Form]:
+    """Yield all forms that the recording can show, around a model with some effects put in."""
+    if data.time is None:
+        return
+    h = 0.01
+    now = simulate(data, changes)
+    ways = []
+    for name, parameter in (("friction_scale", "friction"), ("stiffness_scale", "stiffness")):
+        there = simulate(data, [*changes, (name, {parameter: h})])
+        ways.append({o: (there[o] - now[o]) / h for o in data.outputs})
+    for label, driver in _drivers(data):
+        yield Form(label, {o: np.column_stack([w[o] * driver for w in ways]) for o in data.outputs})
+    for name, output in _SLIPS.items():
+        if not data.varies(name) or output not in data.outputs:
+            continue
+        for width in _PLAYS[name]:
+            moved = _with_play(data, name, width)
+            yield Form(f"play of {width:g} in {name}", {o: moved[o][:, None] for o in data.outputs})
+
+
+def _with_play(data: Data, name: str, width: float) -> dict[str, Array]:
+    """Return what play in an input does to the model's forces, N."""
+    at = {n: data.get(n) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
+    at[name] = play(at[name], width, data.start)
+    moved = plain_forces(data.tire, speed=data.model_speed, pressure=data.model_pressure, **at)
+    return {o: moved[o] - data.all_base[o] for o in data.outputs}
+
+
+def _drivers(data: Data) -> Iterator[tuple[str, Array]]:
+    """Yield rates and memories of the inputs, each of about unit size."""
+    for name in ("slip_angle", "slip_ratio", "normal_load"):
+        if not data.varies(name):
+            continue
+        x = data.get(name)
+        rate = _rate(data, x)
+        if name in _SLIPS:
+            yield f"rate of {name}", _unit(np.abs(rate))
+            yield f"rise of {name}", _unit(np.sign(x) * rate)
+            level = np.abs(x)
+            level = level / (level + float(np.quantile(level, 0.9)) / 3.0)
+        else:
+            yield f"rate of {name}", _unit(rate)
+            level = x
+        for lag in _LAGS:
+            gain = 1.0 - np.exp(-data.step / lag)
+            yield f"memory of {name} over {lag:g} s", _unit(first_order(level, gain, data.start) - level)
+
+
+def _rate(data: Data, x: Array) -> Array:
+    """Rate of change over a tenth of a second, bounded where steps are faster than sampling shows."""
+    smooth = data._running_mean(x, _SMOOTH)
+    d = np.zeros_like(x)
+    d[1:-1] = smooth[2:] - smooth[:-2]
+    d[data.start] = 0.0
+    d[np.flatnonzero(data.start)[1:] - 1] = 0.0
+    return d / (2.0 * float(np.median(data.step)))
+
+
+def _unit(x: Array) -> Array:
+    """Scale by the 95% quantile of the size, and saturate softly beyond it."""
+    size = np.abs(x)
+    top = float(np.quantile(size[size > 1e-3 * size.max(initial=0.0)], 0.9)) if np.any(size > 0.0) else 1.0
+    return np.tanh(x / max(top, 1e-12))

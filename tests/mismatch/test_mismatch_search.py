@@ -1,0 +1,70 @@
+import numpy as np
+import pytest
+
+from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.checks import prepare
+from tire_pipeline.mismatch.effects.shared import harmonic_power
+from tire_pipeline.mismatch.nuisance import make_nuisance
+from tire_pipeline.mismatch.search import begin
+from tire_pipeline.mismatch.unnamed import forms, play
+
+
+def test_play_follows_only_when_pushed():
+    x = np.array([0.0, 0.5, 1.5, 3.0, 2.5, 1.5, 0.0])
+    start = np.array([True, False, False, False, False, False, False])
+    np.testing.assert_allclose(play(x, 1.0, start), [0.0, 0.0, 0.5, 2.0, 2.0, 2.0, 1.0])
+    start[4] = True
+    np.testing.assert_allclose(play(x, 1.0, start), [0.0, 0.0, 0.5, 2.0, 2.5, 2.5, 1.0])
+
+
+def test_harmonic_power_is_the_plain_sum():
+    rng = np.random.default_rng(0)
+    signal, way = rng.normal(size=300), np.cumsum(rng.uniform(0.1, 0.3, 300))
+    plain = [abs(np.sum(signal * np.exp(-1j * way * k))) for k in 2.0 + 0.05 * np.arange(40)]
+    np.testing.assert_allclose(harmonic_power(signal, way, 2.0, 0.05, 40), plain, rtol=1e-9)
+
+
+def test_misfit_breaks_the_mirror_only_a_little(tire, record):
+    """At mirrored points the flexible form of Fy is opposite, but for the small part that is allowed."""
+    recording = record(1)
+    mirrored = recording.assign(slip_angle=-recording["slip_angle"], fy=-recording["fy"])
+    here = make_nuisance(prepare(tire, recording).data).flexible["fy"]
+    there = make_nuisance(prepare(tire, mirrored).data).flexible["fy"]
+    covariance = np.sum(here * there, axis=1)
+    own = np.sum(here * here, axis=1)
+    strong = own > np.median(own)
+    assert np.median(covariance[strong] / own[strong]) < -0.8
+
+
+def test_sums_over_sweeps_add_up(tire, record):
+    search = begin(prepare(tire, record(2)).data)
+    data, system = search.data, search.system
+    rest = {o: data.recorded[o] - data.base[o] for o in data.outputs}
+    columns = {o: np.column_stack([data.base[o], data.get("normal_load")]) for o in data.outputs}
+    whole = system.sums(rest, columns)
+    parts = system._sums(system.whiten(rest), system.whiten(columns), by_sweep=True)
+    np.testing.assert_allclose(parts.ne["fy"].sum(axis=0), whole.ne["fy"].sum(axis=0), rtol=1e-9)
+    np.testing.assert_allclose(parts.ee, whole.ee)
+
+
+def test_forms_without_a_name_need_a_time_line(tire, record):
+    recording = record(3)
+    labels = [f.label for f in forms(prepare(tire, recording).data, [])]
+    assert "rate of slip_angle" in labels
+    assert any("play" in x for x in labels)
+    assert list(forms(prepare(tire, recording.iloc[::60].drop(columns="time")).data, [])) == []
+
+
+@pytest.mark.parametrize("width", [0.003, 0.008])
+def test_backlash_does_not_become_a_delay(tire, record, width):
+    recording = record(4)
+    data = prepare(tire, recording).data
+    alpha = recording["slip_angle"].to_numpy()
+    start = np.zeros(alpha.size, bool)
+    start[0] = True
+    load = recording["normal_load"].to_numpy()
+    behind = tire.forces(slip_angle=play(data.get("slip_angle"), width, start), normal_load=load).fy
+    straight = tire.forces(slip_angle=data.get("slip_angle"), normal_load=load).fy
+    report = explain_mismatch(tire, recording.assign(fy=recording["fy"] + behind - straight))
+    assert report.effects == []
+    assert report.verdict == "unexplained"
