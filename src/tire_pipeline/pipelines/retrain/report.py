@@ -24,7 +24,9 @@ def build_retraining_report(
     came = ", ".join(f"{count} {status}" for status, count in counts.items()) or "no change"
     model = shelf.release.current or "none"
     moved = drift[drift["verdict"] == DRIFT]
-    seen = f"{len(moved)} of {len(drift)} comparisons show drift." if len(drift) else "No incoming files."
+    seen = f"{len(moved)} of {len(drift)} comparisons show drift."
+    if drift.empty:
+        seen = "Nothing to compare: no incoming files, or none before them."
     history = pd.DataFrame(history_rows(shelf.release))
     return render_page(
         "Retraining",
@@ -50,7 +52,7 @@ def build_retraining_report(
                 ],
                 heading="Drift of incoming files, per category",
             ),
-            Table(moved if len(moved) else drift.head(20)),
+            *([] if drift.empty else [Table(moved if len(moved) else drift.head(20))]),
             Table(
                 files[files["status"] != "read"],
                 heading="Files that wait, cannot be read or are gone",
