@@ -85,7 +85,7 @@ def _cases():
             if which == "tydex" and timed:
                 continue
             why = HARD.get((which, what))
-            marks = pytest.mark.xfail(reason=why, strict=False) if why else ()
+            marks = pytest.mark.xfail(reason=why, strict=True) if why else ()
             yield pytest.param(which, what, marks=marks, id=f"{which}: {what}")
 
 
