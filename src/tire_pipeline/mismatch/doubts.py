@@ -56,7 +56,7 @@ def doubts(search: Search) -> list[Doubt]:
         search.log.append(
             f"unnamed for {name} gain {gain:.1f}: {place:.1f} {label}; on top {top:.1f} {top_label}"
         )
-        instead = place - gain + min(settings.TIE, settings.UNNAMED_PART * gain)
+        instead = place - gain
         allowed = (settings.UNNAMED_PART * gain, settings.UNNAMED_LEAST, settings.UNNAMED_OF_ALL * most)
         beyond = top - max(allowed)
         part = max(place, top, 0.0) / max(gain, 1.0)

@@ -114,7 +114,7 @@ def finish(system: System, changes: list[Change], free: list[tuple[str, ...]], b
         labels=labels,
         columns=columns,
         sums=sums,
-        at_bound=_at_bound(changes, free),
+        at_bound=_at_bound(system.data, changes, free),
     )
 
 
@@ -194,8 +194,10 @@ def _inverse(info: Array) -> Array:
     return np.linalg.pinv(scaled, rcond=1e-10, hermitian=True) / size[:, None] / size[None, :]
 
 
-def _at_bound(changes: list[Change], free: list[tuple[str, ...]]) -> bool:
+def _at_bound(data: Data, changes: list[Change], free: list[tuple[str, ...]]) -> bool:
     for (name, values), names in zip(changes, free, strict=True):
+        if catalogue()[name].outside(data, values):
+            return True
         for p in catalogue()[name].parameters:
             if p.name not in names or (p.name in {"fy", "fx"} and name == "clipping"):
                 continue

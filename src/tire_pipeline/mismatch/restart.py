@@ -44,7 +44,8 @@ def search_all(search: Search) -> None:
     empty = replace(search, fit=Fit([], []), gates=[], refused={}, unnamed="", withdrawn=[], log=[])
     rescale(empty)
     best: Search | None = None
-    most = _gain_of_first(empty)
+    named = bool(search.fit.names or search.withdrawn)
+    most = _gain_of_first(empty) if named else settings.LEAST_GAIN
     for variant in _others(search, set(before)):
         trial = _from(empty, variant)
         if trial is None or not trial.fit.names or not _holds(trial):
@@ -54,17 +55,7 @@ def search_all(search: Search) -> None:
             best, most = trial, gain
     if best is not None:
         search.log += ["another beginning:", *best.log]
-        for name in (
-            "fit",
-            "gates",
-            "unnamed",
-            "system",
-            "loose",
-            "frozen",
-            "inflation",
-            "misfit",
-            "refused",
-        ):
+        for name in _FOUND:
             setattr(search, name, getattr(best, name))
 
 
@@ -73,7 +64,8 @@ def _holds(search: Search) -> bool:
     columns = search.fit.columns if search.fit.labels else None
     _, nats = excess(search, system.left(residual(search.data, search.fit.changes), columns))
     if not search.fit.names:
-        return nats < settings.REMAINDER_NATS and not search.unnamed
+        seen = _gain_of_first(search) > 2.0 * settings.LEAST_GAIN
+        return nats < settings.REMAINDER_NATS and not search.unnamed and not seen
     return not search.unnamed and not unlike(search, nats)
 
 

@@ -101,6 +101,17 @@ def _drivers(data: Data) -> Iterator[tuple[str, Array]]:
         for lag in _LAGS:
             gain = 1.0 - np.exp(-data.step / lag)
             yield f"memory of {name} over {lag:g} s", _unit(first_order(level, gain, data.start) - level)
+            if name in _SLIPS:
+                yield f"state of {name} over {lag:g} s", _from_rest(level, gain)
+
+
+def _from_rest(level: Array, gain: Array) -> Array:
+    """Follow a level with a lag, from nil at the first sample."""
+    first = np.zeros(level.size, bool)
+    first[0] = True
+    begun = level.copy()
+    begun[0] = 0.0
+    return _unit(first_order(begun, gain, first))
 
 
 def _rate(data: Data, x: Array) -> Array:

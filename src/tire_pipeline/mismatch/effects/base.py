@@ -146,6 +146,10 @@ class Effect:
                 return f"{name} is not recorded or does not vary"
         return None
 
+    def outside(self, data: object, p: Parameters) -> bool:
+        """Whether parameters are outside of what this recording can show; bounds are checked besides."""
+        return False
+
     def starts(self, data: object) -> list[dict[str, float]]:
         """Return the parameter values to start from: one dict for each form worth trying."""
         return [self.zeros(data)]

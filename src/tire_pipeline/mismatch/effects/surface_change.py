@@ -34,6 +34,12 @@ class SurfaceChange(Effect):
         first, last = data.time[0], data.time[-1]  # type: ignore[attr-defined]
         return [{"friction": 0.0, "moment": float(m)} for m in np.linspace(first, last, 26)[1:-1]]
 
+    def outside(self, data: object, p: Parameters) -> bool:
+        """Ask for a twentieth of the recording before and after: at its ends it is something that settles."""
+        first, last = data.time[0], data.time[-1]  # type: ignore[attr-defined]
+        edge = 0.05 * (last - first)
+        return bool(not first + edge < p["moment"] < last - edge)
+
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Step the friction, over 0.2 s so that the moment can be refined."""
         ramp = np.clip((data.time - p["moment"]) / 0.2 + 0.5, 0.0, 1.0)  # type: ignore[attr-defined]
