@@ -1,0 +1,73 @@
+"""The page of translators says what the measured table says, be it good or bad."""
+
+import pandas as pd
+import pytest
+
+from tire_pipeline.reporting.translation_page import MORE, RATIOS, check_goals, translation_page
+
+SHARES = ["coverage_fy", "coverage_fx", "coverage_mz", "left_alone", "harmful"]
+SHARES += ["refusal_precision", "refusal_recall"]
+LEVELS = {"no_change": 1.0, "mixed_model": 0.2, "paired_mixed_model": 0.12, "oracle": 0.1, "floor": 0.1}
+
+
+def measured(**levels: float) -> pd.DataFrame:
+    """Every kind at two sizes; each translator's ratios are one number."""
+    rows = []
+    for kind in ("additive", "interacting", "drifting"):
+        for size in (1.0, 0.0):
+            for name, level in {**LEVELS, **levels}.items():
+                row = {"set": "hidden", "kind": kind, "bias_size": size, "seed": 1, "translator": name}
+                row |= {column: level for column in (*RATIOS, *MORE)} | dict.fromkeys(SHARES, 0.5)
+                rows.append({**row, "improved": 0.95})
+    other = {**rows[0], "set": "four", "ratio_forces": 99.0}
+    return pd.DataFrame([*rows, other])
+
+
+def goals(table: pd.DataFrame) -> pd.DataFrame:
+    return check_goals(table[table["set"] == "hidden"]).set_index(["translator", "fleet", "goal"])["met"]
+
+
+def test_goals_are_met_exactly_at_their_bounds():
+    met = goals(measured(paired_mixed_model=0.15, mixed_model=0.30))
+    assert met["paired_mixed_model", "additive", "at most 1.5 x floor"] == "yes"
+    assert met["mixed_model", "drifting", "at most 3 x floor"] == "yes"
+    missed = goals(measured(paired_mixed_model=0.16, mixed_model=0.31))
+    assert missed["paired_mixed_model", "additive", "at most 1.5 x floor"] == "no"
+    assert missed["mixed_model", "drifting", "at most 3 x floor"] == "no"
+
+
+@pytest.mark.parametrize(
+    ("level", "word", "met"), [(1.0, "never does harm", "yes"), (1.01, "does harm", "no")]
+)
+def test_harm_is_said(level, word, met):
+    table = measured(mixed_model=level)
+    page = translation_page(table)
+    assert f"The mixed model {word}" in page
+    assert f"{level:.2f}" in page
+    assert "99" not in page.split("<svg")[0]  # only hidden tires count
+    assert goals(table)["mixed_model", "all kinds and sizes", "no ratio above 1"] == met
+
+
+def test_a_translator_that_was_not_measured_has_no_goal():
+    assert "likelihood_agent" not in goals(measured()).index.get_level_values(0)
+    assert "likelihood_agent" in goals(measured(likelihood_agent=0.2)).index.get_level_values(0)
+
+
+def test_bias_and_truth_are_shown_with_intervals():
+    bias = pd.DataFrame(
+        {
+            "actor": ["B", "C", "C"],
+            "reference": "A",
+            "output": "lateral",
+            "region": ["friction level, 4000 N", "cornering stiffness, 4000 N", "ply steer"],
+            "bias": [-0.05, 0.2, 0.9],
+            "low": [-0.06, 0.1, 0.8],
+            "high": [-0.04, 0.3, 1.0],
+        }
+    )
+    truth = bias.head(2).assign(true_bias=[-0.055, 0.4], inside=[True, False])
+    page = translation_page(measured(), bias=bias, beside_truth=truth, note="measured on one day")
+    assert "50% of 2 lie inside" in page
+    assert page.index("+20.0 %") < page.index("-5.0 %")  # largest first
+    assert "+90.0 %" not in page  # other regions are not listed
+    assert "measured on one day" in page
