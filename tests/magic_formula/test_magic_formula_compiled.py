@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -105,6 +106,7 @@ def test_without_numba_the_results_are_the_same():
 def test_the_gradients_are_of_these_equations(family):
     # else: python -m tire_pipeline.magic_formula.derive
     assert derive.source_stamp() == MODULES[family].STAMP
+    assert Path(MODULES[family].__file__).read_text("utf-8") == derive.module_source(family)
 
 
 @pytest.mark.slow
