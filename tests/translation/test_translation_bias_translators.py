@@ -141,6 +141,20 @@ def test_verdicts(paired, hidden):
     pd.testing.assert_frame_equal(result.table.iloc[unchanged], rows.iloc[unchanged])
 
 
+def test_a_category_whose_bias_may_be_chance_is_left_alone(paired, hidden):
+    rows = hidden.head(10)
+    doubtful = translator_from_state(paired.to_state())
+    first = str(rows["category"].iloc[0])
+    doubtful.doubt = np.where(np.array(doubtful.model.categories) == first, 0.3, 0.0)
+    result = doubtful.translation(rows, bands=False)
+    own = (rows["category"].astype(str) == first).to_numpy()
+    assert (result.report.loc[own, "verdict"] == UNBIASED).all()
+    assert "told from chance" in result.report["reason"].iloc[0]
+    pd.testing.assert_frame_equal(result.table[own], rows[own])
+    usual = paired.translation(rows, bands=False).report["verdict"]
+    assert (usual[own] == TRANSLATED).any()
+
+
 def test_bands_hold_the_translated_curve(paired, hidden):
     result = paired.translation(hidden)
     for band in result.bands.values():
