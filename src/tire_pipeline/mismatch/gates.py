@@ -155,7 +155,7 @@ def _p_value(
     for rest, fit in (without, with_it):
         errors.append(system.held_out(rest, fit.columns if fit.labels else None, shown, plain=plain))
     strong = system.cut(energy, shown)
-    strong_ones = strong > 0.1 * strong.mean()
+    strong_ones = strong > 0.1 * (strong.mean() if strong.size else 0.0)
     return _wilcoxon(errors[0][strong_ones], errors[1][strong_ones])
 
 

@@ -32,6 +32,9 @@ _POINTS = ("slip_angle", "slip_ratio", "camber", "normal_load")
 _LENGTHS = {"slip": 0.25, "normal_load": 0.8, "camber": 0.9}
 _MOST_POINTS = 130
 _NEAR, _FAR = 0.85, 1.3
+_LEAST_ON_GRID = 1e-3
+"""Columns smaller on the grid than so much of what they are on the recording are not known there: a slip that
+does not vary but for noise has no range to spread a grid over."""
 _SHIFT_OF_FX = 2.5
 """Braking and driving are no mirror images: a fit makes up for their difference by a shift at zero slip."""
 
@@ -75,12 +78,18 @@ def make_nuisance(data: Data) -> Nuisance:
         b, b_grid = _gaussian_process(data, name, here, grid)
         c = np.hstack([jacobian, _shifts(data, name, here)])
         c_grid = np.hstack([_jacobian(data, name, grid), _shifts(data, name, grid)])
-        b = b - c @ _solve(c_grid, b_grid)
+        known = _size(c_grid) > _LEAST_ON_GRID * _size(c)
+        b = b - c[:, known] @ _solve(c_grid[:, known], b_grid)
         if name == "fx":
             basis = np.hstack([basis, _SHIFT_OF_FX * _orthonormal(_shifts(data, name, here))])
         coefficients[name] = basis * largest
         flexible[name] = b * largest
     return Nuisance(coefficients, flexible)
+
+
+def _size(columns: Array) -> Array:
+    """Root mean square of each column."""
+    return np.sqrt(np.mean(columns**2, axis=0)) if columns.size else np.zeros(columns.shape[1])
 
 
 def _solve(a: Array, b: Array) -> Array:
