@@ -72,7 +72,7 @@ def explained(read: Read, method: str) -> bytes:
             report = BASELINES[method](tire, recording)
             prediction = report.predict(inputs)
         answer = report.to_dict()
-    except RecordingError as error:
+    except (RecordingError, np.linalg.LinAlgError) as error:  # counts as a miss, with its text in the table
         answer = {"verdict": "refused", "effects": [], "fit": {}, "problem": str(error)}
     kept = {key: answer.get(key) for key in ("verdict", "effects", "fit", "problem", "next_experiment")}
     return pack(
