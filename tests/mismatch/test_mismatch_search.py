@@ -68,3 +68,18 @@ def test_backlash_does_not_become_a_delay(tire, record, width):
     report = explain_mismatch(tire, recording.assign(fy=recording["fy"] + behind - straight))
     assert report.effects == []
     assert report.verdict == "unexplained"
+
+
+def test_a_slip_that_is_noise_only_makes_no_huge_columns(tire, record):
+    """The even grid has no range of such a slip; coefficients that need one are not fitted there."""
+    braked = tire.replace(
+        PCX1=1.6, PDX1=1.1, PEX1=0.1, PKX1=22.0, PKX3=0.2, PVX1=1e-3, PHX1=3e-7, RBX1=12.0, RBX2=9.0, RCX1=1.0
+    )
+    recording = record(4)
+    noise = np.random.default_rng(4).normal(0.0, 3e-4, (2, len(recording)))
+    recording = recording.assign(slip_ratio=noise[0], fx=22.0 * 4000.0 * noise[1])
+    data = prepare(braked, recording).data
+    assert not data.varies("slip_ratio")
+    columns = make_nuisance(data).flexible["fx"]
+    largest = max(np.abs(data.base[o]).max() for o in data.outputs)
+    assert np.sqrt(np.mean(columns**2, axis=0)).max() < 10.0 * largest
