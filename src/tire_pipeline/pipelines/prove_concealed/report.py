@@ -26,7 +26,7 @@ def proof_page(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, An
     wide = scores.pivot_table(index="name", columns="method", values="value", sort=False).reset_index()
     parts.append(Table(wide, "The same cases, the same scorer.", heading="Beside the baselines"))
     for key, words in (("by_strength", "By strength of the effect"), ("by_effect", "By effect")):
-        table = pd.DataFrame(details["explain_mismatch"][key])
+        table = pd.DataFrame(details["explain_mismatch"][key]).dropna(axis="columns", how="all")
         if len(table):
             parts.append(Table(table, heading=words))
     if len(misses):
