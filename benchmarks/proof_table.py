@@ -11,11 +11,12 @@ import shutil
 from pathlib import Path
 
 import pandas as pd
+from doc_tables import markdown, write_between
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benchmarks" / "results"
 PAGE = ROOT / "docs" / "concealed.md"
-BEGIN, END = "<!-- from proof_table.py -->", "<!-- end -->"
+BEGIN = "<!-- from proof_table.py -->"
 OWN = "explain_mismatch"
 
 
@@ -31,7 +32,7 @@ def table(scores: pd.DataFrame) -> str:
     own = scores[scores["method"] == OWN].set_index("name")
     others = scores[scores["method"] != OWN].pivot(index="name", columns="method", values="value")
     head = ["score", "value", "95% interval", "n", "goal", "met", *others.columns]
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    rows = []
     for name, row in own.iterrows():
         goal = row["target"] if isinstance(row["target"], str) else ""
         met = {"True": "yes", "False": "no"}.get(str(row["met"]), "")
@@ -44,8 +45,8 @@ def table(scores: pd.DataFrame) -> str:
             met,
             *(f"{value:.2f}" if pd.notna(value) else "" for value in others.loc[name]),
         ]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+        rows.append(cells)
+    return markdown(head, rows)
 
 
 def main() -> None:
@@ -58,8 +59,7 @@ def main() -> None:
     text = table(pd.read_csv(RESULTS / "proof_scores.csv"))
     print(text)
     if asked.write:
-        before, rest = PAGE.read_text().split(BEGIN)
-        PAGE.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{rest.split(END, 1)[1]}")
+        write_between(PAGE, BEGIN, text)
 
 
 if __name__ == "__main__":

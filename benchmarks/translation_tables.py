@@ -10,13 +10,14 @@ import argparse
 from pathlib import Path
 
 import pandas as pd
+from doc_tables import markdown, write_between
 
 from tire_pipeline.reporting.translation_page import check_goals
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benchmarks" / "results" / "translation.csv"
 PAGE = ROOT / "docs" / "translation.md"
-BEGIN, END = "<!-- from translation_tables.py -->", "<!-- end -->"
+BEGIN = "<!-- from translation_tables.py -->"
 
 RATIOS = ["ratio_forces", "ratio_cornering_stiffness", "ratio_peak_friction"]
 MORE = ["ratio_forces_camber", "ratio_fx", "ratio_mz"]
@@ -25,11 +26,6 @@ MAIN = ("mixed_model", "paired_mixed_model")
 
 def _slashed(values: pd.Series) -> str:
     return " / ".join(f"{value:.3f}" for value in values)
-
-
-def _markdown(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in rows)])
 
 
 def by_fleet(hidden: pd.DataFrame) -> str:
@@ -51,7 +47,7 @@ def by_fleet(hidden: pd.DataFrame) -> str:
                     f"{mine['improved'].mean():.2f}",
                 )
             )
-    return _markdown(("kind", "size", "translator", "seeds", "mean ratios", "worst ratios", "improved"), rows)
+    return markdown(("kind", "size", "translator", "seeds", "mean ratios", "worst ratios", "improved"), rows)
 
 
 def all_translators(hidden: pd.DataFrame) -> str:
@@ -64,7 +60,7 @@ def all_translators(hidden: pd.DataFrame) -> str:
         means = (_slashed(mine[RATIOS].mean()), worst, _slashed(mine[MORE].mean()))
         rows.append((str(name), str(len(mine)), *means, f"{mine['improved'].mean():.2f}"))
     head = ("translator", "seeds", "mean ratios", "worst ratios", "with camber / fx / mz", "improved")
-    return _markdown(head, rows)
+    return markdown(head, rows)
 
 
 def bands_and_refusals(hidden: pd.DataFrame) -> str:
@@ -79,13 +75,13 @@ def bands_and_refusals(hidden: pd.DataFrame) -> str:
         cells = ["" if pd.isna(value) else f"{value:.2f}" for value in means]
         rows.append((str(kind), f"{size:g}", str(name), *cells))
     head = ("kind", "size", "translator", "fy", "fx", "mz", "left alone", "would grow", "precision", "recall")
-    return _markdown(head, rows)
+    return markdown(head, rows)
 
 
 def goals(hidden: pd.DataFrame) -> str:
     """Goals of the issue beside what was measured."""
     found = check_goals(hidden)
-    return _markdown(tuple(found.columns), [tuple(map(str, row)) for row in found.to_numpy()])
+    return markdown(tuple(found.columns), [tuple(map(str, row)) for row in found.to_numpy()])
 
 
 def tables(measured: pd.DataFrame) -> str:
@@ -120,9 +116,7 @@ def main() -> None:
     text = tables(pd.read_csv(asked.results))
     print(text)
     if asked.write:
-        page = PAGE.read_text()
-        before, rest = page.split(BEGIN)
-        PAGE.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{rest.split(END, 1)[1]}")
+        write_between(PAGE, BEGIN, text)
 
 
 if __name__ == "__main__":

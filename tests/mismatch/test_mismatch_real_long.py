@@ -1,7 +1,9 @@
 """Long recordings: searched in stretches, refitted on all."""
 
+import importlib.util
+from pathlib import Path
+
 import numpy as np
-import pandas as pd
 import pytest
 
 from tire_pipeline.mismatch import explain_mismatch
@@ -9,27 +11,16 @@ from tire_pipeline.mismatch.checks import prepare
 from tire_pipeline.mismatch.search import begin, run
 from tire_pipeline.mismatch.thinning import MOST_SAMPLES, portions, refit_on_all, thinned
 
+FILE = Path(__file__).resolve().parents[2] / "benchmarks" / "bench_mismatch.py"
+
 
 @pytest.fixture(scope="module")
 def long_recording(tire):
-    """60,000 samples; friction falls with pressure."""
-    rng = np.random.default_rng(0)
-    n = 60_000
-    t = np.arange(n) / 50.0
-    alpha = 0.16 * np.sin(2.0 * np.pi * t / 7.0)
-    load = np.array([3000.0, 5500.0, 1800.0, 4200.0])[(t // 14.0).astype(int) % 4]
-    pressure = np.array([2.2e5, 2.2e5, 1.8e5, 2.6e5])[(t // 56.0).astype(int) % 4]
-    m = 1.0 - 0.3 * (pressure / 2.2e5 - 1.0)
-    return pd.DataFrame(
-        {
-            "time": t,
-            "slip_angle": alpha + 1e-4 * rng.standard_normal(n),
-            "normal_load": load + 8.0 * rng.standard_normal(n),
-            "speed": 16.7 + 0.02 * rng.standard_normal(n),
-            "pressure": pressure + 300.0 * rng.standard_normal(n),
-            "fy": tire.forces(slip_angle=alpha / m, normal_load=load).fy * m + 25.0 * rng.standard_normal(n),
-        }
-    )
+    """60,000 samples as the benchmark makes them; friction falls with pressure."""
+    spec = importlib.util.spec_from_file_location("bench_mismatch", FILE)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.recording(tire, 60_000)
 
 
 def test_portions_hold_every_sample_once(tire, long_recording):

@@ -8,10 +8,10 @@ import numpy as np
 from scipy.stats import wilcoxon
 
 from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.gram import System
-from tire_pipeline.mismatch.refit import Fit, refit, residual
+from tire_pipeline.mismatch.refit import Fit, residual
+from tire_pipeline.mismatch.screening import without
 from tire_pipeline.mismatch.shapes import with_shapes
 from tire_pipeline.mismatch.simulate import simulate
 from tire_pipeline.mismatch.state import Search
@@ -76,23 +76,17 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
     total = mismatch_of(search, residual(search.data, []))
     least = (settings.LEAST_GAIN, settings.LEAST_GAIN_MORE, settings.LEAST_GAIN_MANY)
     for i, name in enumerate(fit.names):
-        others = [
-            Variant(n, p, f)
-            for j, ((n, p), f) in enumerate(zip(fit.changes, fit.free, strict=True))
-            if j != i
-        ]
-        start = [c for j, c in enumerate(fit.changes) if j != i]
         system = with_shapes(search, search.system, fit.changes, i)
         loose = with_shapes(search, search.loose, fit.changes, i)
         frozen = with_shapes(search, search.frozen, fit.changes, i)
         count = len(fit.free[i]) + (name == "nonuniformity")
-        reduced = refit(search.system, others, steps=3, start=start) if others else Fit([], [])
+        reduced = without(search, fit, i)
         rest_without = residual(search.data, reduced.changes)
         gains = []
         for s in (system, loose, frozen):
             with_it = s.reduce(s.sums(rest, fit.columns if fit.labels else None))
-            without = s.reduce(s.sums(rest_without, reduced.columns if reduced.labels else None))
-            gain = 0.5 * (_best(without) - _best(with_it)) / search.inflation - search.price * count
+            left = s.reduce(s.sums(rest_without, reduced.columns if reduced.labels else None))
+            gain = 0.5 * (_best(left) - _best(with_it)) / search.inflation - search.price * count
             gains.append(float(gain))
         judges = ((search.system, True), (search.frozen, False))
         own = catalogue()[name].own_inputs or (name == "camber" and search.data.knows_camber)

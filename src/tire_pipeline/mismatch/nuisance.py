@@ -56,6 +56,16 @@ class Nuisance:
     coefficients: dict[str, Array]
     flexible: dict[str, Array]
 
+    @property
+    def columns(self) -> dict[str, Array]:
+        """Both side by side, shape (n, k + m)."""
+        return {o: np.hstack([self.coefficients[o], self.flexible[o]]) for o in self.coefficients}
+
+    @property
+    def sizes(self) -> dict[str, tuple[int, int]]:
+        """Numbers of columns, k and m."""
+        return {o: (self.coefficients[o].shape[1], self.flexible[o].shape[1]) for o in self.coefficients}
+
 
 def make_nuisance(data: Data) -> Nuisance:
     """Build the columns.

@@ -110,7 +110,7 @@ def finish(system: System, changes: list[Change], free: list[tuple[str, ...]], b
         changes=changes,
         free=free,
         objective=best,
-        covariance=_inverse(info),
+        covariance=inverse(info),
         labels=labels,
         columns=columns,
         sums=sums,
@@ -186,12 +186,13 @@ def _scan(
     return found
 
 
-def _inverse(info: Array) -> Array:
+def inverse(info: Array, rcond: float = 1e-10) -> Array:
+    """Pseudo-inverse of an information matrix, scaled; directions below ``rcond`` are left out."""
     if info.size == 0:
         return np.zeros((0, 0))
     size = np.sqrt(np.maximum(np.diag(info), 1e-300))
     scaled = info / size[:, None] / size[None, :]
-    return np.linalg.pinv(scaled, rcond=1e-10, hermitian=True) / size[:, None] / size[None, :]
+    return np.linalg.pinv(scaled, rcond=rcond, hermitian=True) / size[:, None] / size[None, :]
 
 
 def _at_bound(data: Data, changes: list[Change], free: list[tuple[str, ...]]) -> bool:

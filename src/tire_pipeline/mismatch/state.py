@@ -82,25 +82,31 @@ def begin(data: Data) -> Search:
 
 def _assemble(search: Search) -> None:
     """Build the nuisance columns, and the system with noise estimated without what they explain."""
-    data = search.data
-    nuisance = make_nuisance(data)
-    search.columns = {o: np.hstack([nuisance.coefficients[o], nuisance.flexible[o]]) for o in data.outputs}
-    search.sizes = {
-        o: (nuisance.coefficients[o].shape[1], nuisance.flexible[o].shape[1]) for o in data.outputs
-    }
+    nuisance = make_nuisance(search.data)
+    search.columns, search.sizes = nuisance.columns, nuisance.sizes
     _weigh(search)
     renoise(search, search.fit)
 
 
-def _scale(search: Search, share: float, factor: float = 1.0) -> dict[str, Array]:
-    """Prior standard deviations of the nuisance columns for a size of the flexible form."""
+def nuisance_scale(sizes: dict[str, tuple[int, int]], share: float, factor: float = 1.0) -> dict[str, Array]:
+    """Prior standard deviations of the nuisance columns for a size of the flexible form.
+
+    Parameters
+    ----------
+    sizes : dict
+        For each output the numbers of columns of the coefficients and of the flexible form.
+    share : float
+        Size of the flexible form, over the largest force.
+    factor : float
+        On what the coefficients may move.
+    """
     move = factor * max(settings.COEFFICIENT_SHARE, settings.COEFFICIENT_PART * share)
-    return {o: np.r_[np.full(c, move), np.full(m, share)] for o, (c, m) in search.sizes.items()}
+    return {o: np.r_[np.full(c, move), np.full(m, share)] for o, (c, m) in sizes.items()}
 
 
 def _weigh(search: Search) -> None:
     """Whiten by the noise as it is known now."""
-    start = _scale(search, settings.MISFIT_SHARES[0])
+    start = nuisance_scale(search.sizes, settings.MISFIT_SHARES[0])
     search.system = System(search.data, search.noise, search.block, search.columns, start)
     rescale(search)
 
@@ -122,15 +128,15 @@ def rescale(search: Search) -> None:
     for _ in range(2):  # the size depends on the inflation, and the other way round
         best = (-np.inf, settings.MISFIT_SHARES[0])
         for share in settings.MISFIT_SHARES:
-            trial = base.rescaled(_scale(search, share))
+            trial = base.rescaled(nuisance_scale(search.sizes, share))
             _, _, left = trial.reduce(sums)
             value = -0.5 * left / search.inflation - 0.5 * trial.log_determinant()
             best = max(best, (value, share))
         before = (search.misfit, search.inflation)
         search.misfit = best[1]
-        search.system = base.rescaled(_scale(search, best[1]))
-        search.loose = base.rescaled(_scale(search, max(best[1], 0.009), settings.LOOSE))
-        search.frozen = base.rescaled(_scale(search, best[1], 1e-3))
+        search.system = base.rescaled(nuisance_scale(search.sizes, best[1]))
+        search.loose = base.rescaled(nuisance_scale(search.sizes, max(best[1], 0.009), settings.LOOSE))
+        search.frozen = base.rescaled(nuisance_scale(search.sizes, best[1], 1e-3))
         search.inflation = _inflation(search)
         if before[0] == search.misfit and abs(before[1] / search.inflation - 1.0) < 0.2:
             break

@@ -6,22 +6,23 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.candidates import derivatives
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.noise import estimate_noise
 from tire_pipeline.mismatch.nuisance import make_nuisance
-from tire_pipeline.mismatch.refit import Fit, finish, objective, residual
+from tire_pipeline.mismatch.refit import Fit, finish, inverse, objective, residual
 from tire_pipeline.mismatch.search import Search
 from tire_pipeline.mismatch.simulate import Change
+from tire_pipeline.mismatch.state import nuisance_scale
 from tire_pipeline.progress import track
 
 Array = np.ndarray
 MOST_SAMPLES = 18_000
 _STRETCH = 40.0
 _FARTHEST = 6.0
+_RCOND = 1e-8
 _FIXED = {"radius", "moment"}
 
 
@@ -92,23 +93,17 @@ def refit_on_all(search: Search, data: Data) -> Fit:
         score += part_score
     live = np.array([name not in _FIXED for _, name in fit.labels]) & (np.diag(information) > 0.0)
     delta = np.zeros(k)
-    delta[live] = _inverse(information[np.ix_(live, live)]) @ score[live]
+    delta[live] = inverse(information[np.ix_(live, live)], _RCOND) @ score[live]
     before = np.sqrt(np.maximum(np.diag(fit.covariance), 0.0) * search.inflation)
     changes = _moved(fit, np.clip(delta, -_FARTHEST * before, _FARTHEST * before))
     out = finish(search.system, changes, fit.free, objective(search.system, changes))
     if out.labels == fit.labels and fit.sums is not None:
-        noise = np.diag(_inverse(fit.sums.ee.sum(axis=0)))
+        noise = np.diag(inverse(fit.sums.ee.sum(axis=0), _RCOND))
         gone = np.where(live, noise * (1.0 - search.data.size / data.size), 0.0)
         variance = np.diag(fit.covariance)
         shrink = np.sqrt(np.clip(1.0 - gone / np.maximum(variance, 1e-300), 0.0, 1.0))
         out.covariance = fit.covariance * shrink[:, None] * shrink[None, :]
     return out
-
-
-def _inverse(matrix: Array) -> Array:
-    size = np.sqrt(np.maximum(np.diag(matrix), 1e-300))
-    scaled = matrix / size[:, None] / size[None, :]
-    return np.asarray(np.linalg.pinv(scaled, rcond=1e-8, hermitian=True) / size[:, None] / size[None, :])
 
 
 def _normal_equations(search: Search, data: Data) -> tuple[Array, Array]:
@@ -121,14 +116,9 @@ def _normal_equations(search: Search, data: Data) -> tuple[Array, Array]:
             for o in data.outputs:
                 columns[o].append(found[name][o] if name in found else np.zeros(data.size))
     nuisance = make_nuisance(data)
-    move = max(settings.COEFFICIENT_SHARE, settings.COEFFICIENT_PART * search.misfit)
-    beside, scale = {}, {}
-    for o in data.outputs:
-        c, m = nuisance.coefficients[o], nuisance.flexible[o]
-        beside[o] = np.hstack([c, m])
-        scale[o] = np.r_[np.full(c.shape[1], move), np.full(m.shape[1], search.misfit)]
+    scale = nuisance_scale(nuisance.sizes, search.misfit)
     noise = estimate_noise(data, rest)
-    system = System(data, noise, np.zeros(data.size, int), beside, scale)
+    system = System(data, noise, np.zeros(data.size, int), nuisance.columns, scale)
     sums = system.sums(rest, {o: np.column_stack(c) for o, c in columns.items()})
     information, score, _ = system.reduce(sums)
     return information, score
