@@ -1,9 +1,13 @@
 """Classes of tires that no metadata names."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from tire_pipeline.translation.class_search import Question, find_classes, with_classes
+from tire_pipeline.translation.class_question import Question
+from tire_pipeline.translation.class_search import find_classes, with_classes
+from tire_pipeline.translation.class_starts import starts
 from tire_pipeline.translation.mixed_effects import Design, _Marginal, posterior_weights
 from tire_pipeline.translation.tire_classes import TireClasses, fit_shares, log_density
 
@@ -73,6 +77,32 @@ def test_classes_make_the_bias_sharper():
         known = {**VARIANCES, "tire": 0.1, "class": 1.0, "category_class": 0.01}
         sharp += _bias_error(design, question.response, known)
     assert np.std(sharp) < 0.5 * np.std(plain)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_category_that_moves_its_classes_past_each_other_is_laid_over_the_others(seed):
+    """Groups of all tires together put the second category's first and last class over each other's."""
+    question, kind = _question(np.random.default_rng(seed), grouped=True)
+    second = question.design.blocks["category"][:, 1]
+    passing = np.array([[1.5, 1.5, 0.0], [0.0, 0.0, 0.0], [-1.8, -1.8, 0.0]])
+    question = replace(question, response=question.response + second[:, None] * passing[kind])
+    classes, probability = find_classes(question)
+    assert classes is not None
+    assert classes.count == 3
+    first, found = second == 0.0, probability.argmax(axis=1)
+    name = np.array([np.bincount(kind[first & (found == k)]).argmax() for k in range(3)])
+    assert (name[found] == kind)[second > 0.0].mean() > 0.95
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_every_start_gives_each_tire_probabilities(count):
+    question, _ = _question(np.random.default_rng(10), grouped=True)
+    fewer = np.eye(2)[np.arange(240) % 2]
+    every = starts(question, count, fewer if count == 3 else None, 0)
+    assert len(every) == {1: 1, 2: 4, 3: 6}[count]
+    for start in every:
+        assert start.shape == (240, count)
+        np.testing.assert_allclose(start.sum(axis=1), 1.0)
 
 
 def test_tires_without_groups_are_of_one_class():

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import logsumexp
-from sklearn.cluster import KMeans
-from sklearn.mixture import GaussianMixture
 
+from tire_pipeline.translation.class_question import Question, per_tire
+from tire_pipeline.translation.class_starts import starts
 from tire_pipeline.translation.mixed_effects import Design, Fitted, posterior_weights
-from tire_pipeline.translation.tire_classes import TireClasses, fit_shares, log_density
+from tire_pipeline.translation.tire_classes import TireClasses, fit_shares, log_density, log_shares
 
 COUNTS = (1, 2, 3, 4)
 """Numbers of classes that are tried. More of them were found on tuning fleets where there are four, and then
@@ -23,41 +23,6 @@ _SHARE_COST = 2.0  # parameters that a class's share counts as: slopes over the 
 _TIRES_A_CLASS = 15  # fewer tires tell no classes
 _LEAST_ROW = 0.01  # probability below which a cell is not laid out for a class
 _LEAST_OWN = 1e-3
-_STARTS = 2
-
-
-@dataclass(frozen=True)
-class Question:
-    """What the search needs to know.
-
-    Attributes
-    ----------
-    design : Design
-        Cells, without classes; must have the block ``category``.
-    response : ndarray, shape (n, q)
-        Scores that tell classes apart, in their standard deviations.
-    tire : ndarray of int, shape (n,)
-        Which cells are of one tire, as far as that may be used.
-    metadata : ndarray, shape (n, d)
-    noise, alone : ndarray, shape (q,)
-        Variance of one file's noise, and of what a tire does in one category alone.
-    variances : sequence of dict, q
-        As in :attr:`.mixed_effects.Fitted.variances`, without classes: where the search begins.
-    scores : ndarray of int, shape (q,)
-        Which scores these are.
-    linked : ndarray of bool, shape (q, q)
-        Scores that may go together within a class; what links others is the class.
-    """
-
-    design: Design
-    response: np.ndarray
-    tire: np.ndarray
-    metadata: np.ndarray
-    noise: np.ndarray
-    alone: np.ndarray
-    variances: tuple[Mapping[str, float], ...]
-    scores: np.ndarray
-    linked: np.ndarray
 
 
 def with_classes(blocks: Mapping[str, np.ndarray], coded: np.ndarray) -> dict[str, np.ndarray]:
@@ -93,16 +58,16 @@ def find_classes(question: Question, seed: int = 0) -> tuple[TireClasses | None,
         Of each cell's tire.
     """
     best: _State | None = None
+    fewer: np.ndarray | None = None
     tires = int(question.tire.max()) + 1
     for count in COUNTS:
         if count > max(1, tires // _TIRES_A_CLASS):
             break
-        found = None
-        for start in _starts(question, count, seed):
-            state = _climb(question, start)
-            if found is None or state.evidence > found.evidence:
-                found = state
-        assert found is not None
+        climbed = [_climb(question, start) for start in starts(question, count, fewer, seed)]
+        found = max(climbed, key=lambda state: state.evidence)
+        if count > 1:
+            found = _laid_anew(question, found)
+        fewer = found.probability
         if best is None or found.evidence > best.evidence:
             best = found
         elif count > best.probability.shape[1] + 1:
@@ -115,32 +80,17 @@ def find_classes(question: Question, seed: int = 0) -> tuple[TireClasses | None,
     return TireClasses(question.scores, best.shares, usual, best.own), best.probability
 
 
-def _per_tire(values: np.ndarray, tire: np.ndarray) -> np.ndarray:
-    total = np.zeros((tire.max() + 1, *values.shape[1:]))
-    np.add.at(total, tire, values)
-    return total / np.bincount(tire).reshape(-1, *[1] * (values.ndim - 1))
-
-
-def _starts(question: Question, count: int, seed: int) -> list[np.ndarray]:
-    """Probabilities to begin with: groups of what the category leaves unexplained."""
-    n = len(question.response)
-    if count == 1:
-        return [np.ones((n, 1))]
-    fitted = [
-        posterior_weights(question.design, y, v)
-        for y, v in zip(question.response.T, question.variances, strict=True)
-    ]
-    blocks = question.design.blocks
-    known = np.concatenate(
-        [b if name in ("level", "category") else np.zeros_like(b) for name, b in blocks.items()], axis=1
-    )
-    gap = question.response - np.stack([known @ f.mean[: known.shape[1]] for f in fitted], axis=1)
-    gap = _per_tire(gap, question.tire)
-    spread = gap.std(axis=0)
-    tame = np.clip(gap, -4.0 * spread, 4.0 * spread)
-    means = KMeans(count, n_init=_STARTS, random_state=seed).fit_predict(tame)
-    groups = GaussianMixture(count, covariance_type="diag", n_init=_STARTS, random_state=seed).fit(tame)
-    return [np.eye(count)[means][question.tire], groups.predict_proba(tame)[question.tire]]
+def _laid_anew(question: Question, state: _State) -> _State:
+    """Forget, one category after the other, which tires are of which class, and climb again."""
+    actor = question.design.blocks["category"].argmax(axis=1)
+    for category in np.unique(actor):
+        own = actor == category
+        probability = state.probability.copy()
+        probability[own] = np.exp(log_shares(question.metadata[own], state.shares))
+        again = _climb(question, probability)
+        if again.evidence > state.evidence + _LITTLE:
+            state = again
+    return state
 
 
 def _climb(question: Question, probability: np.ndarray) -> _State:
@@ -184,15 +134,12 @@ def _step(question: Question, state: _State) -> _State:
         fitted.append(one)
         gaps.append(question.response[:, [k]] - regressors @ one.mean[:width])
         penalty += _occam(laid, one)
-    gap = _per_tire(np.stack(gaps, axis=2), question.tire)
+    gap = per_tire(np.stack(gaps, axis=2), question.tire)
     files = question.design.files
     alone = question.alone[None, :] + question.noise[None, :] / files[:, None]
-    alone = _per_tire(alone, question.tire) / np.bincount(question.tire)[:, None]
-    tires = np.unique(question.tire, return_index=True)[1]
-    metadata = question.metadata[tires]
-    x = np.concatenate([np.ones((len(metadata), 1)), metadata], axis=1) @ state.shares
-    prior = x - logsumexp(x, axis=1, keepdims=True)
-    logs = prior + log_density(gap, state.own, alone)
+    alone = per_tire(alone, question.tire) / np.bincount(question.tire)[:, None]
+    metadata = question.metadata[question.one_cell]
+    logs = log_shares(metadata, state.shares) + log_density(gap, state.own, alone)
     evidence = logsumexp(logs, axis=1, keepdims=True)
     new = np.exp(logs - evidence)
     complexity = _SHARE_COST * 0.5 * np.log(len(metadata)) * (count - 1)

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.class_search import Question, find_classes, with_classes
+from tire_pipeline.translation.class_question import Question
+from tire_pipeline.translation.class_search import find_classes, with_classes
 from tire_pipeline.translation.curve_mixed import CurveMixedModel, design_blocks
 from tire_pipeline.translation.curve_space import Cells, CurveSpace, fit_curve_space
 from tire_pipeline.translation.metadata import Metadata

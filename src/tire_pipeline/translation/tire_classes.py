@@ -48,8 +48,7 @@ class TireClasses:
 
     def prior(self, metadata: np.ndarray) -> np.ndarray:
         """Logarithms of the shares among tires of such metadata, (n, k)."""
-        logits = np.concatenate([np.ones((len(metadata), 1)), metadata], axis=1) @ self.shares
-        return np.asarray(logits - logsumexp(logits, axis=1, keepdims=True))
+        return log_shares(metadata, self.shares)
 
     def coded(self, probability: np.ndarray) -> np.ndarray:
         """Regressors, (n, k): probabilities less the usual shares, so that zero is the mean tire."""
@@ -90,6 +89,11 @@ class TireClasses:
 
 def _normalised(logs: np.ndarray) -> np.ndarray:
     return np.asarray(logs - logsumexp(logs, axis=1, keepdims=True))
+
+
+def log_shares(metadata: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """Logarithms of the classes' shares, (n, k), for weights (1 + d, k) of metadata (n, d) after a 1."""
+    return _normalised(np.concatenate([np.ones((len(metadata), 1)), metadata], axis=1) @ weights)
 
 
 def log_density(gap: np.ndarray, own: np.ndarray, alone: np.ndarray) -> np.ndarray:
