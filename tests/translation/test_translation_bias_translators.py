@@ -12,6 +12,7 @@ from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
 from tire_pipeline.translation.base import make_translator, translator_from_state
 from tire_pipeline.translation.bias_report import at_each_load, bias_report
+from tire_pipeline.translation.caution import DOUBTFUL, pooled_doubt
 from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel, PairedMixedModel
 from tire_pipeline.translation.cycle_consistent import CycleConsistent
 from tire_pipeline.translation.greedy_forest import GreedyForest
@@ -153,6 +154,24 @@ def test_a_category_whose_bias_may_be_chance_is_left_alone(paired, hidden):
     pd.testing.assert_frame_equal(result.table[own], rows[own])
     usual = paired.translation(rows, bands=False).report["verdict"]
     assert (usual[own] == TRANSLATED).any()
+
+
+@pytest.mark.parametrize(
+    ("own", "left_alone"),
+    [
+        ([0.17, 0.30, 0.30, 0.30, 0.30], [True] * 5),  # without any bias one looks sure by chance
+        ([0.22, 0.22, 0.05, 0.08, 0.12], [False] * 5),  # a bias is there, and two categories have few tires
+        ([0.00, 0.28, 0.28, 0.28, 0.28], [False, True, True, True, True]),  # one is biased
+    ],
+)
+def test_all_categories_together_tell_a_bias_from_chance(own, left_alone):
+    names = ("A", "B", "C", "D", "E", "F")
+    category = np.repeat(names, 2)
+    sure = np.insert(own, 3, 0.5)  # the target's own files are not moved
+    harm = np.stack([sure - 0.02, sure + 0.02], axis=1).ravel()
+    doubt = pooled_doubt(harm, category, names, "D")
+    assert doubt[3] == 0.0
+    assert list(np.delete(doubt, 3) > DOUBTFUL) == left_alone
 
 
 def test_bands_hold_the_translated_curve(paired, hidden):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tire_pipeline.translation.class_question import Question
-from tire_pipeline.translation.class_search import find_classes, with_classes
+from tire_pipeline.translation.class_search import _climb, find_classes, with_classes
 from tire_pipeline.translation.class_starts import starts
 from tire_pipeline.translation.mixed_effects import Design, _Marginal, posterior_weights
 from tire_pipeline.translation.tire_classes import TireClasses, fit_shares, log_density
@@ -92,6 +92,36 @@ def test_a_category_that_moves_its_classes_past_each_other_is_laid_over_the_othe
     first, found = second == 0.0, probability.argmax(axis=1)
     name = np.array([np.bincount(kind[first & (found == k)]).argmax() for k in range(3)])
     assert (name[found] == kind)[second > 0.0].mean() > 0.95
+
+
+def _with_shared_tires(question, rng, shared=10):
+    """The first category's first tires, measured by the second one, too."""
+    design = question.design
+    own = np.flatnonzero(design.blocks["category"][:, 0])[:shared]
+    blocks = {name: np.concatenate([block, block[own]]) for name, block in design.blocks.items()}
+    blocks["category"][-shared:] = [0.0, 1.0]
+    tire = np.concatenate([question.tire, question.tire[own]])
+    moved = question.response[own] + BIAS[1] - BIAS[0] + 0.02 * rng.normal(size=(shared, 3))
+    columns = (tire[:, None] == tire[own][None, :]).astype(float)
+    return replace(
+        question,
+        design=Design(blocks, columns, np.ones(len(tire))),
+        response=np.concatenate([question.response, moved]),
+        tire=tire,
+        metadata=np.concatenate([question.metadata, question.metadata[own]]),
+        noise=np.full(3, 4e-4),
+        alone=np.full(3, 1e-4),
+    ), own
+
+
+def test_tires_that_two_categories_measured_do_not_draw_the_classes_together():
+    """Their noise is small: one effect of such a tire for all classes would leave these no room to differ."""
+    rng = np.random.default_rng(11)
+    question, kind = _question(rng, grouped=True)
+    question, own = _with_shared_tires(question, rng)
+    kind = np.concatenate([kind, kind[own]])
+    unsure = 0.7 * np.eye(3)[kind] + 0.1
+    assert (_climb(question, unsure).probability.argmax(axis=1) == kind).mean() > 0.95
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])

@@ -65,8 +65,6 @@ def find_classes(question: Question, seed: int = 0) -> tuple[TireClasses | None,
             break
         climbed = [_climb(question, start) for start in starts(question, count, fewer, seed)]
         found = max(climbed, key=lambda state: state.evidence)
-        if count > 1:
-            found = _laid_anew(question, found)
         fewer = found.probability
         if best is None or found.evidence > best.evidence:
             best = found
@@ -76,6 +74,7 @@ def find_classes(question: Question, seed: int = 0) -> tuple[TireClasses | None,
     count = best.probability.shape[1]
     if count == 1:
         return None, np.ones((len(question.response), 1))
+    best = _laid_anew(question, best)
     usual = best.probability.mean(axis=0)
     return TireClasses(question.scores, best.shares, usual, best.own), best.probability
 
@@ -115,11 +114,12 @@ def _step(question: Question, state: _State) -> _State:
     cell, kind = np.nonzero(probability > _LEAST_ROW)
     coded = np.eye(count) - usual
     design = question.design
+    share = probability[cell, kind]
     laid = Design(
         with_classes({name: block[cell] for name, block in design.blocks.items()}, coded[kind]),
-        design.tire[cell],
+        _tire_in_class(design.tire[cell], kind, count, share),
         design.files[cell],
-        probability[cell, kind],
+        share,
     )
     every = [with_classes(design.blocks, np.tile(code, (n, 1))) for code in coded]
     regressors = np.stack([np.concatenate(list(blocks.values()), axis=1) for blocks in every], axis=1)
@@ -152,6 +152,17 @@ def _step(question: Question, state: _State) -> _State:
         fit_shares(metadata, new, state.shares, steps=8),
         float(evidence.sum() + penalty - complexity),
     )
+
+
+def _tire_in_class(tire: np.ndarray, kind: np.ndarray, count: int, share: np.ndarray) -> np.ndarray:
+    """Give columns of a tire's own effect, another for each class that it may be of, (rows, tires * k).
+
+    One effect for all of them would have to explain the difference between the classes, and as a tire that
+    several categories measured leaves little noise, it would draw the classes together. A row counts by its
+    share, and so must the effect's prior: hence the root.
+    """
+    own = np.eye(count)[kind] / np.sqrt(share)[:, None]
+    return (tire[:, :, None] * own[:, None, :]).reshape(len(tire), -1)
 
 
 def _occam(design: Design, fitted: Fitted) -> float:

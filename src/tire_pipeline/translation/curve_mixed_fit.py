@@ -157,14 +157,18 @@ def prepare(
 def _classes(
     design: Design, cells: Cells, space: CurveSpace, scale: np.ndarray, metadata: np.ndarray
 ) -> tuple[TireClasses | None, np.ndarray]:
-    """Classes of tires, by the scores of stiffness and friction."""
+    """Classes of tires, by the scores of stiffness and friction.
+
+    What a tire does in one category alone is taken by its share of the noise even where tires that several
+    categories measured could tell: without classes, what a category does to a class would be counted into it.
+    """
     telling = np.concatenate([np.arange(s.start, s.stop) for s in (space.slices[n] for n in CLASS_PARTS)])
     kind = np.concatenate(
         [np.full(space.slices[n].stop - space.slices[n].start, k) for n, k in CLASS_PARTS.items()]
     )
     blocks = {name: design.blocks[name] for name in ("level", "metadata", "size", "category")}
     plain = Design(blocks, design.tire, design.files)
-    fitted = [_fit_score(plain, cells, space, scale, k, GUESS) for k in telling]
+    fitted = [_fit_score(plain, cells, space, scale, k, GUESS, alone_known=True) for k in telling]
     linked = np.concatenate([np.zeros((len(cells.row), 1)), design.tire], axis=1).argmax(axis=1)
     same = np.where(linked > 0, linked, -1 - np.arange(len(cells.row)))
     question = Question(
@@ -212,11 +216,12 @@ def _fit_score(
     k: int,
     guess: dict[str, float],
     pooled: tuple[str, ...] = (),
+    alone_known: bool = False,
 ) -> Fitted:
     noise = float(space.noise[k] / scale[k] ** 2)
     alone = _alone_share(space, k) * noise
     guess = {**guess, "tire_category": alone}
-    estimated = design.tire.shape[1] >= 4
+    estimated = design.tire.shape[1] >= 4 and not alone_known
     return fit_mixed_effects(
         design,
         cells.scores[:, k] / scale[k],

@@ -17,6 +17,7 @@ from tire_pipeline.translation.caution import (
     cautious,
     expected_gain,
     failed_fits,
+    pooled_doubt,
     without_failed_fits,
 )
 from tire_pipeline.translation.curve_bands import curve_bands
@@ -97,16 +98,12 @@ class MixedModel:
         with threadpool_limits(1):  # thousands of small matrices: threads would only wait for each other
             self.model: CurveMixedModel = fit_curve_mixed_model(training, pairs=self.pairs, made=made)
             self.reach = TrainingReach.fit(self.model, training, target)
-            self.doubt = self._doubt(training)
+            found = cautious(self.model, self.model.predict(training, target, trust=self.trust))
+            category = training["category"].to_numpy(dtype=str)
+            harm = expected_gain(self.model, found)[1]
+            self.doubt = pooled_doubt(harm, category, self.model.categories, target)
         self._learn_coefficients(training)
         return self
-
-    def _doubt(self, training: pd.DataFrame) -> np.ndarray:
-        """Mean probability of harm for the files of each category, (categories,)."""
-        found = cautious(self.model, self.model.predict(training, self.target, trust=self.trust))
-        harm = expected_gain(self.model, found)[1]
-        category = training["category"].to_numpy(dtype=str)
-        return np.array([harm[category == name].mean() for name in self.model.categories])
 
     def _learn_coefficients(self, training: pd.DataFrame) -> None:
         values = training.reindex(columns=list(COEFFICIENTS)).fillna(0.0)
