@@ -6,14 +6,9 @@ import numpy as np
 import pytest
 
 from tire_pipeline.concealed import Answer, EffectTruth, score
-from tire_pipeline.concealed.score import (
-    calibration_error,
-    covers,
-    exact_set,
-    false_physics,
-    interval_iou,
-    recovered,
-)
+from tire_pipeline.concealed.measures import calibration_error, interval_iou
+from tire_pipeline.concealed.names import AMBIGUOUS_SETS
+from tire_pipeline.concealed.score import covers, exact_set, false_physics, recovered
 from tire_pipeline.errors import DomainError
 
 
@@ -228,3 +223,19 @@ def test_windows_and_regimes_are_scored_for_rightly_named_strong_effects_only():
 def test_a_case_without_a_report_stops_the_scoring():
     with pytest.raises(DomainError, match="1 of 1 cases have no report"):
         score({}, [answer("a", "nothing")])
+
+
+def test_what_the_same_schedule_cannot_separate_is_acceptable_both_ways():
+    conicity, camber = AMBIGUOUS_SETS[2], AMBIGUOUS_SETS[3]
+    assert set(conicity) == set(camber)
+
+
+def test_the_first_key_is_scored_beside_the_mended_one():
+    answers, reports = [], {}
+    for number, alternative in enumerate(("camber_offset", "force_offset")):
+        truly = truth("plysteer_conicity")
+        answers.append(answer(f"case_{number}", "ambiguous", truly, acceptable=AMBIGUOUS_SETS[2]))
+        reports[f"case_{number}"] = report(entry("plysteer_conicity", alternative))
+    result = score(reports, answers)
+    assert value(result, "ambiguous covered")["value"] == 1.0
+    assert value(result, "ambiguous covered, first key")["value"] == 0.5

@@ -3,9 +3,11 @@ import pytest
 
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.checks import prepare
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import harmonic_power
 from tire_pipeline.mismatch.nuisance import make_nuisance
-from tire_pipeline.mismatch.search import begin
+from tire_pipeline.mismatch.repeating import strongest_length
+from tire_pipeline.mismatch.search import begin, with_shapes
 from tire_pipeline.mismatch.unnamed import forms, play
 
 
@@ -83,3 +85,58 @@ def test_a_slip_that_is_noise_only_makes_no_huge_columns(tire, record):
     columns = make_nuisance(data).flexible["fx"]
     largest = max(np.abs(data.base[o]).max() for o in data.outputs)
     assert np.sqrt(np.mean(columns**2, axis=0)).max() < 10.0 * largest
+
+
+def _seam(data, length):
+    """Narrow pulses, one every so many metres."""
+    return np.exp(-0.5 * (((data.distance / length) % 1.0 - 0.5) / 0.06) ** 2)
+
+
+@pytest.mark.parametrize("length", [4.3, 6.7, 9.1])
+def test_what_repeats_every_so_many_metres_is_found_with_its_length(tire, record, length):
+    data = prepare(tire, record(5)).data
+    noise = np.random.default_rng(5).normal(0.0, 1.0, data.size)
+    assert strongest_length(data, _seam(data, length) + 0.5 * noise) == pytest.approx(length, rel=1e-3)
+
+
+def test_a_short_way_says_nothing_about_what_repeats(tire, record):
+    data = prepare(tire, record(5).iloc[:600]).data
+    assert strongest_length(data, _seam(data, 6.7)) is None
+
+
+def test_a_seam_of_the_drum_gets_no_name(tire, record):
+    """Its pulses have a mean, which alone would be conicity."""
+    recording = record(6)
+    data = prepare(tire, recording).data
+    pulses = 250.0 * _seam(data, 6.7) * data.get("normal_load") / 4000.0
+    report = explain_mismatch(tire, recording.assign(fy=recording["fy"] + pulses))
+    assert report.effects == []
+    assert report.verdict == "unexplained"
+
+
+def test_a_form_of_another_effect_cannot_hide_the_one_that_is_judged(tire, record):
+    """What the form of an effect may get wrong is taken from it without the effect that is in question."""
+    search = begin(prepare(tire, record(7)).data)
+    offset, friction = ("slip_angle_offset", {"offset": 0.02}), ("friction_scale", {"friction": 0.1})
+    both = with_shapes(search, search.system, [friction, offset], 1)
+    alone = with_shapes(search, search.system, [friction])
+    np.testing.assert_allclose(both.white["fy"], alone.white["fy"])
+
+
+def test_what_removes_nothing_does_not_bar_the_way(tire, record, monkeypatch):
+    """The likeliest candidate is set aside if it removes next to nothing, and the next one is tried."""
+    from tire_pipeline.mismatch import search as module
+
+    search = begin(prepare(tire, record(8, friction=1.08)).data)
+    monkeypatch.setattr(module, "_visible", lambda _, fit: "friction_scale" not in fit.names)
+    module.run(search)
+    assert search.fit.names
+    assert "friction_scale" not in search.fit.names
+
+
+def test_combined_slip_does_not_start_where_it_does_nothing(tire, record):
+    """At a coefficient near nil the weighting does not answer to it, and a fit would stay there."""
+    hardly = tire.replace(RBX1=20.0, RBX2=11.0, RBY1=10.0, RBY2=3e-4, RCY1=1.0)
+    data = prepare(hardly, record(9)).data
+    start = catalogue()["combined_slip"].starts(data)[0]
+    assert start == {"RBX1": 20.0, "RBX2": 11.0, "RBY1": 10.0, "RBY2": 10.0}

@@ -55,8 +55,13 @@ KINDS: tuple[str, ...] = ("nothing", "single", "pair", "ambiguous", "artefact", 
 AMBIGUOUS_SETS: tuple[tuple[str, ...], ...] = (
     ("relaxation_length", "time_delay", "low_pass"),
     ("temperature", "wear"),
-    ("plysteer_conicity", "force_offset", "slip_angle_offset"),
+    ("plysteer_conicity", "force_offset", "slip_angle_offset", "camber_offset"),
     ("camber_offset", "plysteer_conicity", "force_offset", "slip_angle_offset"),
 )
 """Names that one recording cannot separate: at a single speed; without the temperature channel and
-without cooling; at a single load and roll direction; and the same with a misread camber."""
+without cooling; at a single load, camber and roll direction; and the same with a misread camber.
+
+The last two are recorded by the same schedule, so what looks alike in one does so in the other. The key of
+the first published proof left ``camber_offset`` out of the third set; ``ambiguous covered, first key`` is
+scored as it was.
+"""

@@ -30,18 +30,22 @@ class Rival:
         How much likelier the accepted effect should be, from that angle and its size.
     lost : float
         How much likelier it is, both fitted.
+    unsure : float
+        Evidence that the accepted effect's own form may get wrong.
     """
 
     name: str
     apart: float
     nats: float
     lost: float
+    unsure: float = 0.0
 
     @property
     def possible(self) -> bool:
         """Whether the recording cannot exclude it."""
         by_design = self.nats < settings.AMBIGUITY_NATS or self.apart < settings.AMBIGUITY_SHARE
-        return by_design and self.lost < max(settings.AMBIGUITY_NATS, settings.AMBIGUITY_LOST * self.nats)
+        least = max(settings.AMBIGUITY_NATS, settings.AMBIGUITY_LOST * self.nats, self.unsure)
+        return by_design and self.lost < least
 
 
 def rivals(search: Search, index: int) -> list[Rival]:
@@ -76,7 +80,9 @@ def rivals(search: Search, index: int) -> list[Rival]:
         trial = prune(search, refit(search.system, [*others, v], start=[*rest, (name, v.start)]))
         apart = _apart(search, trial, part, size, name)
         nats = 0.5 * apart * size / search.inflation
-        out.append(Rival(name, apart, nats, own - gain_of(search, trial, empty)))
+        both_lags = catalogue()[name].dynamic and catalogue()[changes[index][0]].dynamic
+        unsure = settings.SHAPE_SHARE**2 * search.gates[index].gain if both_lags else 0.0
+        out.append(Rival(name, apart, nats, own - gain_of(search, trial, empty), unsure))
     return sorted(out, key=lambda r: r.apart)
 
 

@@ -9,10 +9,11 @@ import numpy as np
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, residual
+from tire_pipeline.mismatch.repeating import Form
 from tire_pipeline.mismatch.screening import best_gain, without
 from tire_pipeline.mismatch.shapes import with_shapes
 from tire_pipeline.mismatch.state import Search
-from tire_pipeline.mismatch.unnamed import forms
+from tire_pipeline.mismatch.unnamed import constant_form, forms
 
 Array = np.ndarray
 
@@ -45,34 +46,53 @@ class Doubt:
 def doubts(search: Search) -> list[Doubt]:
     """Compare each accepted effect with all forms without a name."""
     fit = search.fit
-    system = with_shapes(search, search.system, fit.changes)
-    top, top_label = _best_form(search, system, fit)
+    on_top = _gains(search, with_shapes(search, search.system, fit.changes), fit)
+    top, top_label = max(((gain, label) for label, gain in on_top), default=(-np.inf, ""))
     most = max(g.gain for g in search.gates)
     out = []
     for i, name in enumerate(fit.names):
         reduced = without(search, fit, i)
         gain = search.gates[i].gain
-        place, label = _best_form(search, with_shapes(search, search.system, fit.changes, i), reduced)
+        alone = with_shapes(search, search.system, fit.changes, i)
+        in_place = _gains(search, alone, reduced)
+        place, label = max(((g, label) for label, g in in_place), default=(-np.inf, ""))
+        plain = _gain(search, alone, reduced, constant_form(search.data, reduced.changes))
+        instead, instead_label = _instead(gain, max(gain, plain), in_place, on_top)
         search.log.append(
-            f"unnamed for {name} gain {gain:.1f}: {place:.1f} {label}; on top {top:.1f} {top_label}"
+            f"unnamed for {name} gain {gain:.1f}: {place:.1f} {label} (constant {plain:.1f}, instead "
+            f"{instead:.1f}); on top {top:.1f} {top_label}"
         )
-        instead = place - gain
         allowed = (settings.UNNAMED_PART * gain, settings.UNNAMED_LEAST, settings.UNNAMED_OF_ALL * most)
         beyond = top - max(allowed)
         part = max(place, top, 0.0) / max(gain, 1.0)
-        size, which = (instead, label) if instead > beyond else (beyond, top_label)
+        size, which = (instead, instead_label) if instead > beyond else (beyond, top_label)
         out.append(Doubt(i, which, size, top, part))
     return out
 
 
-def _best_form(search: Search, system: System, fit: Fit) -> tuple[float, str]:
-    """Return the largest gain of a form without a name on top of a fit, and its label."""
-    rest = residual(search.data, fit.changes)
+def _instead(
+    gain: float, least: float, in_place: list[tuple[str, float]], on_top: list[tuple[str, float]]
+) -> tuple[float, str]:
+    """Return by how much the best form that can stand in for an effect beats it, and the form's label.
+
+    A form stands in for the effect if beside it the effect would not pay for itself; else both are there.
+    """
     best = (-np.inf, "")
-    for form in forms(search.data, fit.changes):
-        columns = form.columns
-        if fit.labels:
-            columns = {o: np.hstack([fit.columns[o], c]) for o, c in columns.items()}
-        info, score, _ = system.reduce(system.sums(rest, columns))
-        best = max(best, (best_gain(info, score, len(fit.labels), search), form.label))
+    for (label, place), (_, top) in zip(in_place, on_top, strict=True):
+        if gain + top - place < settings.LEAST_GAIN:
+            best = max(best, (place - least, label))
     return best
+
+
+def _gains(search: Search, system: System, fit: Fit) -> list[tuple[str, float]]:
+    """Return for each form without a name its label and what it gains on top of a fit."""
+    return [(f.label, _gain(search, system, fit, f)) for f in forms(search.data, fit.changes)]
+
+
+def _gain(search: Search, system: System, fit: Fit, form: Form) -> float:
+    """Return the gain of one form on top of a fit."""
+    columns = form.columns
+    if fit.labels:
+        columns = {o: np.hstack([fit.columns[o], c]) for o, c in columns.items()}
+    info, score, _ = system.reduce(system.sums(residual(search.data, fit.changes), columns))
+    return best_gain(info, score, len(fit.labels), search)

@@ -89,7 +89,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
             gain = 0.5 * (_best(left) - _best(with_it)) / search.inflation - search.price * count
             gains.append(float(gain))
         judges = ((search.system, True), (search.frozen, False))
-        own = catalogue()[name].own_inputs or (name == "camber" and search.data.knows_camber)
+        own = catalogue()[name].own_inputs or name == "camber"
         own_part = _shown(search, fit, i)
         p_values = [_p_value(s, own_part, (rest_without, reduced), (rest, fit), plain) for s, plain in judges]
         out.append(
@@ -97,7 +97,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
                 name=name,
                 gain=gains[0],
                 p_value=min(1.0, len(judges) * min(p_values)),
-                share=(mismatch_of(search, rest_without) - mismatch_of(search, rest)) / max(total, 1e-12),
+                share=_removed(search, rest_without, rest, own_part[1]) / max(total, 1e-12),
                 loose=gains[0] if own else gains[1],
                 frozen=gains[2],
                 in_bounds=not fit.at_bound,
@@ -120,6 +120,16 @@ def _of_one_kind(gate: Gates, gates: list[Gates]) -> Gates:
 def mismatch_of(search: Search, rest: dict[str, Array]) -> float:
     """Mean square of a residual over the noise, outputs added."""
     return float(sum(np.mean(r**2) / search.noise[o].floor ** 2 for o, r in rest.items()))
+
+
+def _removed(search: Search, before: dict[str, Array], after: dict[str, Array], shown: Array) -> float:
+    """Mismatch that an effect takes away in the sweeps in which it shows.
+
+    Elsewhere the residuals differ only by how the other effects' parameters moved.
+    """
+    rows = np.isin(search.block, shown)
+    floor = {o: search.noise[o].floor for o in before}
+    return float(sum(np.mean(rows * (before[o] ** 2 - after[o] ** 2)) / floor[o] ** 2 for o in before))
 
 
 def _shown(search: Search, fit: Fit, index: int) -> tuple[Array, Array]:

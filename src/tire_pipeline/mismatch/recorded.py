@@ -64,10 +64,11 @@ class Channels:
         """Return a slow channel without its sensor noise: a running mean over half a second."""
         key = f"smooth {name}"
         if key not in self.fixed:
-            self.fixed[key] = self._running_mean(self.channels[name], 0.5)
+            self.fixed[key] = self.running_mean(self.channels[name], 0.5)
         return self.fixed[key]
 
-    def _running_mean(self, x: Array, seconds: float) -> Array:
+    def running_mean(self, x: Array, seconds: float) -> Array:
+        """Return the mean over so many seconds around each sample, within its piece."""
         if self.time is None or x.size < 8:
             return x
         half = int(max(seconds / max(float(np.median(self.step)), 1e-9), 1.0)) // 2

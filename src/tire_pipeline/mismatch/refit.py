@@ -15,6 +15,8 @@ from tire_pipeline.mismatch.gram import Sums, System
 from tire_pipeline.mismatch.simulate import Change, simulate
 
 Array = np.ndarray
+_DAMPINGS = (1e-6, 0.03, 0.3, 3.0, 30.0)
+"""Levenberg-Marquardt: tried in turn until the objective falls."""
 
 
 @dataclass
@@ -136,16 +138,16 @@ def _columns(
 def _step(
     system: System, changes: list[Change], free: list[tuple[str, ...]], best: float
 ) -> tuple[list[Change], float, float]:
-    """Make one Gauss-Newton step, halved until it helps."""
+    """Make one Gauss-Newton step, damped until it helps (Marquardt 1963)."""
     labels, columns = _columns(system.data, changes, free)
     if not labels:
         return changes, best, 0.0
     info, score, _ = system.reduce(system.sums(residual(system.data, changes), columns))
     size = np.sqrt(np.maximum(np.diag(info), 1e-300))
-    scaled = info / size[:, None] / size[None, :] + 1e-6 * np.eye(size.size)
-    delta = np.linalg.solve(scaled, score / size) / size
-    for share in (1.0, 0.5, 0.2, 0.05):
-        trial = _moved(changes, labels, share * delta)
+    scaled, aim = info / size[:, None] / size[None, :], score / size
+    for damping in _DAMPINGS:
+        delta = np.linalg.solve(scaled + damping * np.eye(size.size), aim) / size
+        trial = _moved(changes, labels, delta)
         value = objective(system, trial)
         if value < best:
             return trial, value, best - value
@@ -158,7 +160,11 @@ def _moved(changes: list[Change], labels: list[tuple[int, str]], delta: Array) -
         parameter = next(p for p in catalogue()[out[i][0]].parameters if p.name == name)
         values = out[i][1]
         width = parameter.high - parameter.low
-        values[name] = float(np.clip(values[name] + np.clip(d, -width, width), parameter.low, parameter.high))
+        if parameter.ratio:
+            there = values[name] * np.exp(np.clip(d / max(values[name], parameter.low), -1.0, 1.0))
+        else:
+            there = values[name] + np.clip(d, -width, width)
+        values[name] = float(np.clip(there, parameter.low, parameter.high))
     return out
 
 

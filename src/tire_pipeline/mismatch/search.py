@@ -22,7 +22,6 @@ __all__ = ["Search", "begin", "gain_of", "objective", "prune", "run", "with_shap
 
 def run(search: Search) -> None:
     """Find the effects beside those that are in; the result is in ``search.fit`` and ``search.gates``."""
-    empty = objective(search.system, [])
     for _ in range(settings.MOST_EFFECTS - len(search.fit.names)):
         extra = with_shapes(search, search.system, search.fit.changes) if search.fit.changes else None
         ranked = screen(search, extra)
@@ -32,20 +31,35 @@ def run(search: Search) -> None:
             search.first = ranked
         if not ranked:
             break
-        fits = _refined(search, ranked)
-        if not fits:
+        if not _one_more(search, ranked):
             break
+        rescale(search)
+        search.fit = _again(search, search.fit)
+    _eliminate(search)
+    _withdraw(search)
+
+
+def _one_more(search: Search, ranked: list[tuple[float, Variant]]) -> bool:
+    """Accept one more effect, or two at once.
+
+    What is likely, also when fitted, but removes next to nothing of the mismatch is set aside, so that it does
+    not bar the way.
+    """
+    empty = objective(search.system, [])
+    while ranked:
+        fits = _refined(search, ranked)
         fits.sort(key=lambda f: -gain_of(search, f, empty))
         search.log.append(
             "refit: " + ", ".join(f"{'+'.join(f.names)} {gain_of(search, f, empty):.0f}" for f in fits[:6])
         )
-        if not _take(search, fits) and not _take(search, _pairs(search, fits)):
-            break
-        rescale(search)
-        empty = objective(search.system, [])
-        search.fit = _again(search, search.fit)
-    _eliminate(search)
-    _withdraw(search)
+        if _take(search, fits) or _take(search, _pairs(search, fits)):
+            return True
+        likely = [f for f in fits if gain_of(search, f, empty) > settings.LEAST_GAIN]
+        hidden = {f.names[-1] for f in likely if not _visible(search, f)}
+        if not hidden:
+            return False
+        ranked = [(gain, v) for gain, v in ranked if v.name not in hidden]
+    return False
 
 
 def _again(search: Search, fit: Fit) -> Fit:

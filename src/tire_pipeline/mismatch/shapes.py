@@ -46,8 +46,9 @@ def _change(data: Data, x: Array) -> Array:
 
 
 def with_shapes(search: Search, system: System, changes: Sequence[Change], skip: int | None = None) -> System:
-    """Extend a system by the shape columns of the effects, but not of number ``skip``."""
-    parts = [shape_columns(search.data, changes, i) for i in range(len(changes)) if i != skip]
+    """Extend a system by the shape columns of the effects, as they are without number ``skip``."""
+    kept = [change for i, change in enumerate(changes) if i != skip]
+    parts = [shape_columns(search.data, kept, i) for i in range(len(kept))]
     if not parts:
         return system
     columns = {o: np.hstack([p[o] for p in parts]) for o in search.data.outputs}

@@ -98,7 +98,7 @@ class States(Simulated):
         if "radius" in self.fixed:
             return [self.fixed["radius"]]
         residual = self.recorded[self.outputs[-1]] - self.base[self.outputs[-1]]
-        residual = residual - self._running_mean(residual, 0.4)
+        residual = residual - self.running_mean(residual, 0.4)
         turns = np.abs(self.get("speed")) * self.step / (2.0 * np.pi * self.radius)
         residual = np.where(turns < 0.4, residual, 0.0)
         rolled = self.distance

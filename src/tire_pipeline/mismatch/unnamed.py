@@ -2,19 +2,19 @@
 
 An effect of the catalogue may resemble a cause that is not in it. Every input of the tire can act on
 friction and stiffness through how fast it changes and through what it was some seconds ago, and can
-reach the tire through a joint with play. If such a form explains the recording better than a named
-effect, the name is not proven.
+reach the tire through a joint with play; and what the tire rolls on may repeat every few metres. If such
+a form explains the recording better than a named effect, the name is not proven.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects.shared import first_order, njit
+from tire_pipeline.mismatch.repeating import Form, repeating_forms
 from tire_pipeline.mismatch.simulate import Change, plain_forces, simulate
 
 Array = np.ndarray
@@ -23,14 +23,6 @@ _LAGS = (1.0, 4.0)
 _PLAYS = {"slip_angle": (0.001, 0.003, 0.008), "slip_ratio": (0.008,)}
 """Half widths that are tried, rad and 1: well above the noise of the channels."""
 _SMOOTH = 0.1
-
-
-@dataclass(frozen=True)
-class Form:
-    """Columns of one form, shape (n, k) for each output, N."""
-
-    label: str
-    columns: dict[str, Array]
 
 
 @njit(cache=True)
@@ -55,18 +47,26 @@ def play(x: Array, width: float, start: Array) -> Array:
     return out
 
 
+def constant_form(data: Data, changes: list[Change]) -> Form:
+    """Friction and stiffness off by a constant: what a form gains only beyond this speaks against a name."""
+    h = 0.01
+    now = simulate(data, changes)
+    ways: dict[str, list[Array]] = {o: [] for o in data.outputs}
+    for name, parameter in (("friction_scale", "friction"), ("stiffness_scale", "stiffness")):
+        there = simulate(data, [*changes, (name, {parameter: h})])
+        for o in data.outputs:
+            ways[o].append((there[o] - now[o]) / h)
+    return Form("a constant", {o: np.column_stack(w) for o, w in ways.items()})
+
+
 def forms(data: Data, changes: list[Change]) -> Iterator[Form]:
     """Yield all forms that the recording can show, around a model with some effects put in."""
     if data.time is None:
         return
-    h = 0.01
-    now = simulate(data, changes)
-    ways = []
-    for name, parameter in (("friction_scale", "friction"), ("stiffness_scale", "stiffness")):
-        there = simulate(data, [*changes, (name, {parameter: h})])
-        ways.append({o: (there[o] - now[o]) / h for o in data.outputs})
+    ways = constant_form(data, changes).columns
     for label, driver in _drivers(data):
-        yield Form(label, {o: np.column_stack([w[o] * driver for w in ways]) for o in data.outputs})
+        yield Form(label, {o: ways[o] * driver[:, None] for o in data.outputs})
+    yield from repeating_forms(data, changes)
     for name, output in _SLIPS.items():
         if not data.varies(name) or output not in data.outputs:
             continue
@@ -116,7 +116,7 @@ def _from_rest(level: Array, gain: Array) -> Array:
 
 def _rate(data: Data, x: Array) -> Array:
     """Rate of change over a tenth of a second, bounded where steps are faster than sampling shows."""
-    smooth = data._running_mean(x, _SMOOTH)
+    smooth = data.running_mean(x, _SMOOTH)
     d = np.zeros_like(x)
     d[1:-1] = smooth[2:] - smooth[:-2]
     d[data.start] = 0.0

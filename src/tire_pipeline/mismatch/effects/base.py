@@ -26,6 +26,8 @@ class Parameter:
         The value at which the parameter does nothing.
     output : str, optional
         ``"fx"`` or ``"fy"`` if it acts on one output alone.
+    ratio : bool
+        Whether it moves by factors: a fit changes it by no more than a factor of e in one step.
     """
 
     name: str
@@ -35,6 +37,7 @@ class Parameter:
     step: float
     zero: float = 0.0
     output: str | None = None
+    ratio: bool = False
 
 
 @dataclass

@@ -20,7 +20,7 @@ class CombinedSlip(Effect):
     source = "MF 5.2 weighting functions (thesis, Appendix A, combined slip); Bayle et al. 1993"
     channels = ("slip_angle", "slip_ratio")
     own_inputs = True
-    parameters = tuple(Parameter(n, "1", 0.0, 80.0, 0.2) for n in _NAMES)
+    parameters = tuple(Parameter(n, "1", 0.5, 400.0, 0.2, ratio=True) for n in _NAMES)
     looks_like = {"friction_scale": "friction acts on pure slip too"}
     experiment = "brake ramps at three slip angles or more"
     order = 40
@@ -33,10 +33,13 @@ class CombinedSlip(Effect):
         return missing
 
     def starts(self, data: object) -> list[dict[str, float]]:
-        """From the file's own values, or typical ones where it has none."""
+        """From the file's own values, or typical ones where it has none.
+
+        Near nil the weighting does not answer to a coefficient at first order, and a fit would stay there.
+        """
         c = data.tire_coefficients  # type: ignore[attr-defined]
         own = {n: float(c.get(n, 0.0)) for n in _NAMES}
-        return [{n: own[n] if own[n] > 0.0 else _TYPICAL[n] for n in _NAMES}]
+        return [{n: own[n] if own[n] > 0.05 * _TYPICAL[n] else _TYPICAL[n] for n in _NAMES}]
 
     def zeros(self, data: object) -> dict[str, float]:
         """Return the file's own values: there the effect is absent."""

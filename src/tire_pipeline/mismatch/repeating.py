@@ -1,0 +1,82 @@
+"""Forms without a name that repeat every so many metres, but not with the wheel: a seam of the drum."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.refit import residual
+from tire_pipeline.mismatch.simulate import Change
+
+Array = np.ndarray
+_LENGTHS = (3.0, 14.0)
+"""What drums and belts measure round, m."""
+_OF_A_TURN = (0.88, 1.06)
+"""Of the tire's circumference: what repeats so often is the wheel's."""
+_HARMONICS = 4
+_PADDED = 4
+
+
+@dataclass(frozen=True)
+class Form:
+    """Columns of one form, shape (n, k) for each output, N."""
+
+    label: str
+    columns: dict[str, Array]
+
+
+def repeating_forms(data: Data, changes: list[Change]) -> Iterator[Form]:
+    """Yield for each output the waves of the length that repeats most clearly in what the effects leave."""
+    if data.time is None or not data.has("speed"):
+        return
+    rest = residual(data, changes)
+    share = data.get("normal_load") / data.load_nominal
+    for output in data.outputs:
+        length = strongest_length(data, rest[output])
+        if length is None:
+            continue
+        phase = 2.0 * np.pi * data.distance / length
+        waves = [f(k * phase) * share for k in range(1, _HARMONICS + 1) for f in (np.cos, np.sin)]
+        own = np.column_stack(waves)
+        yield Form(
+            f"repeats every {length:.2f} m in {output}",
+            {o: own if o == output else np.zeros_like(own) for o in data.outputs},
+        )
+
+
+def strongest_length(data: Data, rest: Array) -> float | None:
+    """Return the length (m) at which a residual has most power in its first two harmonics together.
+
+    The product of both is taken (harmonic product spectrum, Schroeder 1968): a wave that is the wheel's own
+    second harmonic has no first one at twice the length.
+
+    Parameters
+    ----------
+    data : Data
+    rest : ndarray, shape (n,)
+
+    Returns
+    -------
+    float or None
+        None if too little was rolled, or sampling is too coarse to tell.
+    """
+    rolled = data.distance
+    span = float(rolled[-1] - rolled[0])
+    step = float(np.quantile(np.diff(rolled), 0.75))
+    if span < 20.0 * _LENGTHS[1] or not 0.0 < step < _LENGTHS[0] / 6.0:
+        return None
+    even = np.arange(rolled[0], rolled[-1], step)
+    fast = rest - data.running_mean(rest, 1.0)
+    power = np.abs(np.fft.rfft(np.interp(even, rolled, fast), _PADDED * even.size)) ** 2
+    per_metre = np.arange(power.size) / (_PADDED * even.size * step)
+    first = np.flatnonzero((per_metre >= 1.0 / _LENGTHS[1]) & (per_metre <= 1.0 / _LENGTHS[0]))
+    turns = 1.0 / per_metre[first] / (2.0 * np.pi * data.radius)
+    first = first[(turns < _OF_A_TURN[0]) | (turns > _OF_A_TURN[1])]
+    first = first[2 * first < power.size]
+    if first.size == 0:
+        return None
+    best = first[int(np.argmax(power[first] * power[2 * first]))]
+    return float(1.0 / per_metre[best])
