@@ -3,6 +3,7 @@ import pytest
 
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.checks import prepare
+from tire_pipeline.mismatch.doubts import _instead
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import harmonic_power
 from tire_pipeline.mismatch.nuisance import make_nuisance
@@ -140,3 +141,18 @@ def test_combined_slip_does_not_start_where_it_does_nothing(tire, record):
     data = prepare(hardly, record(9)).data
     start = catalogue()["combined_slip"].starts(data)[0]
     assert start == {"RBX1": 20.0, "RBX2": 11.0, "RBY1": 10.0, "RBY2": 10.0}
+
+
+@pytest.mark.parametrize(
+    ("place", "top", "size"),
+    [
+        (60.0, 5.0, 10.0),  # beside the form the effect would not pay: it stands in for it, and is likelier
+        (13.0, 13.0, -np.inf),  # the form explains something else
+        (45.0, 1.0, -5.0),  # it stands in for it, but the effect is likelier
+    ],
+)
+def test_a_form_stands_in_only_for_what_it_leaves_no_room_for(place, top, size):
+    gain = 50.0 if place > 13.0 else 10.2
+    found, label = _instead(gain, gain, [("form", place)], [("form", top)])
+    assert found == size
+    assert label == ("" if np.isinf(size) else "form")

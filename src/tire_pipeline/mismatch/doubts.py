@@ -44,7 +44,10 @@ class Doubt:
 
 
 def doubts(search: Search) -> list[Doubt]:
-    """Compare each accepted effect with all forms without a name."""
+    """Compare each accepted effect with all forms without a name.
+
+    A form that holds a constant has to beat the constant clearly: what is no likelier with a memory has none.
+    """
     fit = search.fit
     on_top = _gains(search, with_shapes(search, search.system, fit.changes), fit)
     top, top_label = max(((gain, label) for label, gain in on_top), default=(-np.inf, ""))
@@ -57,7 +60,7 @@ def doubts(search: Search) -> list[Doubt]:
         in_place = _gains(search, alone, reduced)
         place, label = max(((g, label) for label, g in in_place), default=(-np.inf, ""))
         plain = _gain(search, alone, reduced, constant_form(search.data, reduced.changes))
-        instead, instead_label = _instead(gain, max(gain, plain), in_place, on_top)
+        instead, instead_label = _instead(gain, max(gain, plain + settings.TIE), in_place, on_top)
         search.log.append(
             f"unnamed for {name} gain {gain:.1f}: {place:.1f} {label} (constant {plain:.1f}, instead "
             f"{instead:.1f}); on top {top:.1f} {top_label}"
