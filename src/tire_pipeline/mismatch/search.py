@@ -42,8 +42,8 @@ def run(search: Search) -> None:
 def _one_more(search: Search, ranked: list[tuple[float, Variant]]) -> bool:
     """Accept one more effect, or two at once.
 
-    What is likely, also when fitted, but removes next to nothing of the mismatch is set aside, so that it does
-    not bar the way.
+    What is likely, also when fitted, but removes next to nothing of the mismatch is set aside, so that it
+    does not bar the way.
     """
     empty = objective(search.system, [])
     while ranked:

@@ -16,6 +16,8 @@ from scipy.signal import savgol_coeffs
 Array = np.ndarray
 _WINDOWS = ((9, 4), (15, 4), (25, 4), (35, 4), (61, 2), (121, 2), (241, 2))
 _WIDTH = 1.7
+_NOISE_ONLY = 1.35
+"""A channel that spreads no wider than so many times its noise stands still."""
 
 
 def denoise(x: Array, start: Array) -> Array:
@@ -30,7 +32,7 @@ def denoise(x: Array, start: Array) -> Array:
     Returns
     -------
     ndarray, shape (n,)
-        Unchanged where pieces are shorter than the narrowest window, or if the channel has no
+        The mean where there is nothing but noise. Unchanged where pieces are shorter than the narrowest window, or if the channel has no
         noise (a set point, or a channel held at a slower rate).
     """
     d = x[2:] - 2.0 * x[1:-1] + x[:-2]
@@ -43,6 +45,8 @@ def denoise(x: Array, start: Array) -> Array:
     sigma = _quiet(np.abs(d)) / 0.6745 / np.sqrt(per_variance)
     if sigma < 1e-12 or sigma < 2e-6 * float(np.ptp(x)):
         return x
+    if np.std(x) < _NOISE_ONLY * sigma:
+        return np.full_like(x, np.mean(x))
     firsts = np.flatnonzero(start)
     ends = np.append(firsts[1:], x.size)
     out = x.copy()
