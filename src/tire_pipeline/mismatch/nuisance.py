@@ -35,6 +35,9 @@ _NEAR, _FAR = 0.85, 1.3
 _LEAST_ON_GRID = 1e-3
 """Columns smaller on the grid than so much of what they are on the recording are not known there: a slip that
 does not vary but for noise has no range to spread a grid over."""
+_LEAST_OF_ALL = 1e-4
+"""Columns smaller than so much of the largest one do nothing here, and are not made larger: the coefficients of
+camber in a recording without camber would become a constant force."""
 _SHIFT_OF_FX = 2.5
 """Braking and driving are no mirror images: a fit makes up for their difference by a shift at zero slip."""
 
@@ -178,7 +181,7 @@ def _orthonormal(columns: Array) -> Array:
     """Return columns of RMS 1 that span what is well determined of the given ones."""
     n = columns.shape[0]
     size = np.sqrt(np.mean(columns**2, axis=0)) if columns.size else np.zeros(0)
-    keep = size > 1e-9 * max(float(size.max(initial=0.0)), 1e-30)
+    keep = size > _LEAST_OF_ALL * max(float(size.max(initial=0.0)), 1e-30)
     if not keep.any():
         return np.zeros((n, 0))
     gram = (columns[:, keep] / size[keep]).T @ (columns[:, keep] / size[keep]) / n

@@ -23,6 +23,8 @@ _LAGS = (1.0, 4.0)
 _PLAYS = {"slip_angle": (0.001, 0.003, 0.008), "slip_ratio": (0.008,)}
 """Half widths that are tried, rad and 1: well above the noise of the channels."""
 _SMOOTH = 0.1
+_CELLS = 16
+"""Sizes of slip, and of load, within which a rate is compared with itself."""
 
 
 @njit(cache=True)
@@ -91,7 +93,7 @@ def _drivers(data: Data) -> Iterator[tuple[str, Array]]:
         x = data.get(name)
         rate = _rate(data, x)
         if name in _SLIPS:
-            yield f"rate of {name}", _unit(np.abs(rate))
+            yield f"rate of {name}", _beyond_place(data, _unit(np.abs(rate)), name)
             yield f"rise of {name}", _unit(np.sign(x) * rate)
             level = np.abs(x)
             level = level / (level + float(np.quantile(level, 0.9)) / 3.0)
@@ -103,6 +105,21 @@ def _drivers(data: Data) -> Iterator[tuple[str, Array]]:
             yield f"memory of {name} over {lag:g} s", _unit(first_order(level, gain, data.start) - level)
             if name in _SLIPS:
                 yield f"state of {name} over {lag:g} s", _from_rest(level, gain)
+
+
+def _beyond_place(data: Data, driver: Array, name: str) -> Array:
+    """Take from a driver its mean at each size of slip and load.
+
+    Sweeps turn at their largest slip, so a rate is small there: what the rate does must show where slip and
+    load are the same and the rate is not.
+    """
+    cell = np.zeros(data.size, np.intp)
+    for x in (np.abs(data.get(name)), data.get("normal_load")):
+        edges = np.quantile(x, np.linspace(0.0, 1.0, _CELLS + 1)[1:-1])
+        cell = cell * _CELLS + np.searchsorted(edges, x)
+    count = np.bincount(cell, minlength=_CELLS**2)
+    mean = np.bincount(cell, driver, _CELLS**2) / np.maximum(count, 1)
+    return driver - mean[cell]
 
 
 def _from_rest(level: Array, gain: Array) -> Array:
