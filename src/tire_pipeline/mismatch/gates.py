@@ -109,11 +109,14 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
 
 
 def _of_one_kind(gate: Gates, gates: list[Gates]) -> Gates:
-    """Ask more of a lag beside a stronger lag: what one form of it gets wrong looks like another form."""
-    if not catalogue()[gate.name].dynamic:
-        return gate
-    others = [g.gain for g in gates if g is not gate and catalogue()[g.name].dynamic]
-    least = max(gate.least_gain, settings.SECOND_LAG * max(others, default=0.0))
+    """Ask more of an effect beside a stronger one of its kind: that one's form error looks like it."""
+    effect, least = catalogue()[gate.name], gate.least_gain
+    others = [(catalogue()[g.name], g.gain) for g in gates if g is not gate]
+    if effect.dynamic:
+        lags = [gain for other, gain in others if other.dynamic]
+        least = max(least, settings.SECOND_LAG * max(lags, default=0.0))
+    if effect.scales and any(other.scales and gain > gate.gain for other, gain in others):
+        least = max(least, settings.SECOND_SCALE)
     return replace(gate, least_gain=least)
 
 

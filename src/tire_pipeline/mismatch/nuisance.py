@@ -36,8 +36,8 @@ _LEAST_ON_GRID = 1e-3
 """Columns smaller on the grid than so much of what they are on the recording are not known there: a slip that
 does not vary but for noise has no range to spread a grid over."""
 _LEAST_OF_ALL = 1e-4
-"""Columns smaller than so much of the largest one do nothing here, and are not made larger: the coefficients of
-camber in a recording without camber would become a constant force."""
+"""Columns smaller than so much of the largest one do nothing here, and are not made larger: the coefficients
+of camber in a recording without camber would become a constant force."""
 _SHIFT_OF_FX = 2.5
 """Braking and driving are no mirror images: a fit makes up for their difference by a shift at zero slip."""
 

@@ -34,6 +34,10 @@ LEAST_GAIN_MANY = 40.0
 SECOND_LAG = 0.05
 """Least evidence of a lag (relaxation, delay, low pass) beside another one, as a part of the other's."""
 
+SECOND_SCALE = 20.0
+"""Least gain of an effect that scales the force beside a stronger one: on the tuning cases false ones have up
+to 17 nats (friction beside stiffness, a gain beside combined slip), true ones more."""
+
 TIE = 8.0
 """Nats within which two explanations are as good as each other."""
 

@@ -32,8 +32,8 @@ def denoise(x: Array, start: Array) -> Array:
     Returns
     -------
     ndarray, shape (n,)
-        The mean where there is nothing but noise. Unchanged where pieces are shorter than the narrowest window, or if the channel has no
-        noise (a set point, or a channel held at a slower rate).
+        The mean where there is nothing but noise. Unchanged where pieces are shorter than the narrowest
+        window, or if the channel has no noise (a set point, or a channel held at a slower rate).
     """
     d = x[2:] - 2.0 * x[1:-1] + x[:-2]
     usable = ~(start[2:] | start[1:-1])

@@ -110,6 +110,9 @@ class Effect:
         stand for it.
     dynamic : bool
         True if it lags or shifts in time, so that half a sample of it is a matter of how the rig samples.
+    scales : bool
+        True if it makes the force larger or smaller by the model's own inputs alone, so that what the form of
+        one such effect gets wrong looks like another.
     needed : tuple of str
         Parameters that are never dropped for being small: without them it is another effect.
     scanned : tuple of str
@@ -132,6 +135,7 @@ class Effect:
     needs_time = False
     own_inputs = False
     dynamic = False
+    scales = False
     needed: tuple[str, ...] = ()
     scanned: tuple[str, ...] = ()
     unusual = False

@@ -20,6 +20,7 @@ class CombinedSlip(Effect):
     source = "MF 5.2 weighting functions (thesis, Appendix A, combined slip); Bayle et al. 1993"
     channels = ("slip_angle", "slip_ratio")
     own_inputs = True
+    scales = True
     parameters = tuple(Parameter(n, "1", 0.5, 400.0, 0.2, ratio=True) for n in _NAMES)
     looks_like = {"friction_scale": "friction acts on pure slip too"}
     experiment = "brake ramps at three slip angles or more"

@@ -13,6 +13,7 @@ class Compliance(Effect):
     equation = "slip angle at the wheel = recorded slip angle - steer Fy"
     source = "Milliken and Milliken, Race Car Vehicle Dynamics, ch. 23 (deflection steer)"
     own_inputs = True
+    scales = True
     parameters = (Parameter("steer", "rad/N", -5e-5, 5e-5, 1e-8),)
     looks_like = {
         "stiffness_scale": "a stiffness factor is the same at every load",

@@ -14,6 +14,7 @@ class ForceGain(Effect):
     equation = "F recorded = (1 + gain) F"
     source = "load cell calibration"
     own_inputs = True
+    scales = True
     parameters = (
         Parameter("fy", "1", -0.8, 2.0, 0.01, output="fy"),
         Parameter("fx", "1", -0.8, 2.0, 0.01, output="fx"),

@@ -14,6 +14,7 @@ class FrictionScale(Effect):
     equation = "F = m F0(slip / m), m = 1 + friction; the slope at zero slip stays"
     source = "Pacejka, Tire and Vehicle Dynamics, 3rd ed., similarity method (4.2.1); LMUX, LMUY"
     own_inputs = True
+    scales = True
     parameters = (Parameter("friction", "1", -0.7, 1.0, 0.01),)
     looks_like = {
         "force_gain": "a gain also raises the slope at zero slip, and need not act on both forces",

@@ -15,6 +15,7 @@ class LoadSensitivity(Effect):
     source = "MF 5.2: mu = PDY1 + PDY2 dfz (thesis, Appendix A); Grosch 1996 on load dependence"
     channels = ("normal_load",)
     own_inputs = True
+    scales = True
     parameters = (Parameter("rate", "1", -0.6, 0.6, 0.01),)
     looks_like = {"friction_scale": "a friction factor is the same at every load"}
     experiment = "sweeps to full sliding at four loads or more"

@@ -14,6 +14,7 @@ class StiffnessScale(Effect):
     equation = "F = F0(k slip), k = 1 + stiffness; the peak stays"
     source = "Pacejka, Tire and Vehicle Dynamics, 3rd ed., similarity method (4.2.1); LKX, LKY"
     own_inputs = True
+    scales = True
     parameters = (Parameter("stiffness", "1", -0.7, 1.5, 0.01),)
     looks_like = {
         "compliance": "compliance costs more stiffness where the tire is stiff (large load)",
