@@ -58,7 +58,8 @@ def all_translators(hidden: pd.DataFrame) -> str:
         mine = own[own["translator"] == name]
         worst = _slashed(mine[RATIOS].max())
         means = (_slashed(mine[RATIOS].mean()), worst, _slashed(mine[MORE].mean()))
-        rows.append((str(name), str(len(mine)), *means, f"{mine['improved'].mean():.2f}"))
+        seeds = " ".join(str(seed) for seed in sorted(mine["seed"]))
+        rows.append((str(name), seeds, *means, f"{mine['improved'].mean():.2f}"))
     head = ("translator", "seeds", "mean ratios", "worst ratios", "with camber / fx / mz", "improved")
     return markdown(head, rows)
 
@@ -87,13 +88,15 @@ def goals(hidden: pd.DataFrame) -> str:
 def tables(measured: pd.DataFrame) -> str:
     """All tables, as markdown."""
     hidden = measured[measured["set"] == "hidden"]
-    fleets = len(hidden[["kind", "bias_size", "seed"]].drop_duplicates())
-    refusals = hidden[hidden["translator"].isin(MAIN)].dropna(subset=["left_alone"])
+    main = hidden[hidden["translator"].isin(MAIN)]
+    fleets = len(main[["kind", "bias_size", "seed"]].drop_duplicates())
+    seeds = ", ".join(str(seed) for seed in sorted(main["seed"].unique()))
+    refusals = main.dropna(subset=["left_alone"])
     left, grown = refusals["left_alone"].sum(), refusals["harmful"].sum()
     right = (refusals["left_alone"] * refusals["refusal_precision"].fillna(0.0)).sum()
     parts = [
-        f"{fleets} fleets. Ratios are forces / cornering stiffness / peak friction; worst: of the seeds, "
-        "each ratio by itself.",
+        f"{fleets} fleets of seeds {seeds}. Ratios are forces / cornering stiffness / peak friction; worst: "
+        "of the seeds, each ratio by itself.",
         by_fleet(hidden),
         "Every translator, additive fleets at the calibrated bias:",
         all_translators(hidden),
