@@ -56,6 +56,8 @@ class Gates:
             return f"removes only {100.0 * self.share:.1f}% of the mismatch"
         if self.loose <= settings.LEAST_GAIN:
             return "a refit of the coefficients explains as much"
+        if self.frozen <= settings.LEAST_GAIN:
+            return "with the coefficients as they are it explains nothing"
         return "its parameters are outside of physical bounds"
 
     def passed(self, level: float) -> bool:
@@ -65,6 +67,7 @@ class Gates:
             and self.p_value < level
             and self.share > settings.LEAST_SHARE
             and self.loose > settings.LEAST_GAIN
+            and self.frozen > settings.LEAST_GAIN
             and self.in_bounds
         )
 
