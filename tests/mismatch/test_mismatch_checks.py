@@ -57,6 +57,15 @@ def test_neither_model_nor_simulation(record):
         explain_mismatch(None, record())
 
 
+def test_equations_that_cannot_be_solved_are_said_with_the_step(tire, record, monkeypatch):
+    def broken(_):
+        raise np.linalg.LinAlgError("Singular matrix")
+
+    monkeypatch.setattr("tire_pipeline.mismatch.explain.search_all", broken)
+    with pytest.raises(RecordingError, match=r"step search: .*Singular matrix"):
+        explain_mismatch(tire, record())
+
+
 def test_not_a_frame(tire):
     with pytest.raises(RecordingError, match="DataFrame"):
         explain_mismatch(tire, [1, 2, 3])

@@ -67,8 +67,15 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame) -> MismatchReport:
         ("refit", lambda: _refit(state["search"], state["prepared"])),
         ("report", lambda: state.update(report=_report(state["prepared"], state["search"]))),
     )
-    for _, step in track(steps, "explaining the mismatch"):
-        step()
+    for name, step in track(steps, "explaining the mismatch"):
+        try:
+            step()
+        except np.linalg.LinAlgError as error:
+            raise RecordingError(
+                f"the equations of this recording cannot be solved ({error})",
+                where=f"explain_mismatch, step {name}",
+                todo="leave out channels that hold nothing but noise, and please report the recording",
+            ) from error
     return state["report"]
 
 
