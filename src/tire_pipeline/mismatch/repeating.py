@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
 from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.form import Form
 from tire_pipeline.mismatch.refit import residual
 from tire_pipeline.mismatch.simulate import Change
 
@@ -18,14 +18,6 @@ _OF_A_TURN = (0.88, 1.06)
 """Of the tire's circumference: what repeats so often is the wheel's."""
 _HARMONICS = 4
 _PADDED = 4
-
-
-@dataclass(frozen=True)
-class Form:
-    """Columns of one form, shape (n, k) for each output, N."""
-
-    label: str
-    columns: dict[str, Array]
 
 
 def repeating_forms(data: Data, changes: list[Change]) -> Iterator[Form]:

@@ -14,7 +14,8 @@ import numpy as np
 
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects.shared import first_order, njit
-from tire_pipeline.mismatch.repeating import Form, repeating_forms
+from tire_pipeline.mismatch.form import Form
+from tire_pipeline.mismatch.repeating import repeating_forms
 from tire_pipeline.mismatch.simulate import Change, plain_forces, simulate
 
 Array = np.ndarray
