@@ -36,6 +36,12 @@ def test_goals_are_met_exactly_at_their_bounds():
     assert missed["mixed_model", "drifting", "at most 3 x floor"] == "no"
 
 
+def test_the_oracle_stands_beside_each_goal():
+    table = measured(oracle=0.25)
+    found = check_goals(table[table["set"] == "hidden"]).set_index(["translator", "fleet", "goal"])["oracle"]
+    assert found["paired_mixed_model", "additive", "at most 1.5 x floor"] == "2.50 / 2.50 / 2.50"
+
+
 @pytest.mark.parametrize(
     ("level", "word", "met"), [(1.0, "never does harm", "yes"), (1.01, "does harm", "no")]
 )
