@@ -14,7 +14,7 @@ from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.simulate import plain_forces
-from tire_pipeline.mismatch.smoothing import denoise
+from tire_pipeline.mismatch.smoothing import denoise, stands_still
 from tire_pipeline.mismatch.surrogate import stand_in
 
 Array = np.ndarray
@@ -91,6 +91,8 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     if tire is None:
         tire, beside = stand_in(arrays)
         arrays |= {f"_beside_{n}": b for n, b in beside.items()}
+    if time is not None:
+        _hold_still(arrays)
     findings, bad = _exact(tire, arrays, time) if beside is None else ([], np.zeros(rows.size, bool))
     if bad.any():
         rows, arrays = rows[~bad], {n: a[~bad] for n, a in arrays.items()}
@@ -251,6 +253,15 @@ def _usable(arrays: Mapping[str, Array], time: Array | None, notes: list[str]) -
             todo="drop the columns that are mostly empty",
         )
     return np.flatnonzero(ok)
+
+
+def _hold_still(arrays: dict[str, Array]) -> None:
+    """Put slips that are nothing but noise on their mean: noise has no unit and no sign."""
+    start = np.zeros(arrays["normal_load"].size, bool)
+    start[0] = True
+    for name in ("slip_angle", "slip_ratio", "camber"):
+        if name in arrays and stands_still(arrays[name], start):
+            arrays[name] = np.full_like(arrays[name], np.mean(arrays[name]))
 
 
 def _exact(tire: Any, arrays: dict[str, Array], time: Array | None) -> tuple[list[Finding], Array]:

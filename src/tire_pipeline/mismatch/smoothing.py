@@ -35,14 +35,7 @@ def denoise(x: Array, start: Array) -> Array:
         The mean where there is nothing but noise. Unchanged where pieces are shorter than the narrowest
         window, or if the channel has no noise (a set point, or a channel held at a slower rate).
     """
-    d = x[2:] - 2.0 * x[1:-1] + x[:-2]
-    usable = ~(start[2:] | start[1:-1])
-    d = d[usable]
-    if d.size < 50 or np.mean(d == 0.0) > 0.3:
-        return x
-    rho = _colour(x, start)
-    per_variance = 6.0 - 8.0 * rho + 2.0 * rho**2
-    sigma = _quiet(np.abs(d)) / 0.6745 / np.sqrt(per_variance)
+    sigma, rho = _noise(x, start)
     if sigma < 1e-12 or sigma < 2e-6 * float(np.ptp(x)):
         return x
     if np.std(x) < _NOISE_ONLY * sigma:
@@ -54,6 +47,28 @@ def denoise(x: Array, start: Array) -> Array:
         if last - first > 2 * _WINDOWS[0][0]:
             out[first:last] = _piece(x[first:last], sigma, rho)
     return out
+
+
+def stands_still(x: Array, start: Array) -> bool:
+    """Whether a channel is nothing but noise.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,)
+    start : ndarray of bool, shape (n,)
+        First samples of uninterrupted pieces.
+    """
+    return bool(np.std(x) < _NOISE_ONLY * _noise(x, start)[0])
+
+
+def _noise(x: Array, start: Array) -> tuple[float, float]:
+    """Size of the noise and its correlation from one sample to the next; nil for a set point."""
+    d = x[2:] - 2.0 * x[1:-1] + x[:-2]
+    d = d[~(start[2:] | start[1:-1])]
+    if d.size < 50 or np.mean(d == 0.0) > 0.3:
+        return 0.0, 0.0
+    rho = _colour(x, start)
+    return float(_quiet(np.abs(d)) / 0.6745 / np.sqrt(6.0 - 8.0 * rho + 2.0 * rho**2)), rho
 
 
 def _quiet(size: Array) -> float:

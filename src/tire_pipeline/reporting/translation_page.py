@@ -159,7 +159,8 @@ def check_goals(hidden: pd.DataFrame) -> pd.DataFrame:
             ratios, floor, oracle = (means.loc[n, list(RATIOS)] for n in (name, "floor", "oracle"))
             if most is not None:
                 goal = f"ratios at most {_slashed(most)}"
-                rows.append((name, kind, goal, _slashed(ratios), _slashed(oracle), (ratios <= list(most)).all()))
+                met = (ratios <= list(most)).all()
+                rows.append((name, kind, goal, _slashed(ratios), _slashed(oracle), met))
             if floors is not None:
                 goal, share = f"at most {floors:g} x floor", ratios / floor
                 best = _slashed(oracle / floor)
