@@ -77,7 +77,7 @@ class AnnParameters(Parameters):
     """
 
     random: int = Field(default=40, ge=5, le=1728)
-    best: int = Field(default=20, ge=1)
+    best: int = Field(default=6, ge=1)
     whole_grid: tuple[Literal["random", "by_tire"], ...] = ("random",)
     epochs: tuple[int, ...] | None = None
 
