@@ -8,13 +8,15 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from scipy.ndimage import uniform_filter1d
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
+from tire_pipeline.mismatch.recorded import ABSOLUTE_SPREAD
 from tire_pipeline.mismatch.simulate import plain_forces
-from tire_pipeline.mismatch.smoothing import denoise, stands_still
+from tire_pipeline.mismatch.smoothing import denoise
 from tire_pipeline.mismatch.surrogate import stand_in
 
 Array = np.ndarray
@@ -34,6 +36,7 @@ LEAST_POINTS = 12
 _RATE = 50.0
 _BRIDGED = 3
 _LONG_STEP = 1.0
+_SLOW = 0.5
 
 
 @dataclass
@@ -91,8 +94,6 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     if tire is None:
         tire, beside = stand_in(arrays)
         arrays |= {f"_beside_{n}": b for n, b in beside.items()}
-    if time is not None:
-        _hold_still(arrays)
     findings, bad = _exact(tire, arrays, time) if beside is None else ([], np.zeros(rows.size, bool))
     if bad.any():
         rows, arrays = rows[~bad], {n: a[~bad] for n, a in arrays.items()}
@@ -255,13 +256,18 @@ def _usable(arrays: Mapping[str, Array], time: Array | None, notes: list[str]) -
     return np.flatnonzero(ok)
 
 
-def _hold_still(arrays: dict[str, Array]) -> None:
-    """Put slips that are nothing but noise on their mean: noise has no unit and no sign."""
-    start = np.zeros(arrays["normal_load"].size, bool)
-    start[0] = True
+def _still(arrays: Mapping[str, Array], time: Array | None) -> dict[str, Array]:
+    """Return slips that do not move, on their mean: noise has no unit and no sign."""
+    if time is None:
+        return {}
+    width = max(int(_SLOW / max(float(np.median(np.diff(time))), 1e-9)), 1)
+    out = {}
     for name in ("slip_angle", "slip_ratio", "camber"):
-        if name in arrays and stands_still(arrays[name], start):
-            arrays[name] = np.full_like(arrays[name], np.mean(arrays[name]))
+        if name in arrays:
+            low, high = np.quantile(uniform_filter1d(arrays[name], width), [0.005, 0.995])
+            if high - low < ABSOLUTE_SPREAD[name]:
+                out[name] = np.full_like(arrays[name], np.mean(arrays[name]))
+    return out
 
 
 def _exact(tire: Any, arrays: dict[str, Array], time: Array | None) -> tuple[list[Finding], Array]:
@@ -297,10 +303,11 @@ def _exact(tire: Any, arrays: dict[str, Array], time: Array | None) -> tuple[lis
     nominal = {"_nominal_pressure": np.array([float(tire.coefficients.get("NOMPRES", 0.0) or 2.3e5)])}
     if tire.coefficients.get("FNOMIN", 0.0) > 0.0:
         nominal["_nominal_load"] = np.array([float(tire.coefficients["FNOMIN"])])
+    still = _still(arrays, time)
     for _ in range(3):
         again = False
         for name in ("sign_convention", "unit_error"):
-            some = {k: a[pick] for k, a in arrays.items()} | nominal
+            some = {k: still.get(k, a)[pick] for k, a in arrays.items()} | nominal
             for finding in catalogue()[name].detect(some, run):
                 for channel, repaired in finding.repaired.items():
                     factor = _ratio(repaired, some[channel])

@@ -9,7 +9,7 @@ import numpy as np
 
 Array = np.ndarray
 _RELATIVE_SPREAD = {"pressure": 0.03, "speed": 0.12, "normal_load": 0.1}
-_ABSOLUTE_SPREAD = {
+ABSOLUTE_SPREAD = {
     "camber": 0.008,
     "tread_temperature": 4.0,
     "slip_angle": 0.005,
@@ -55,7 +55,7 @@ class Channels:
         if known is not None:
             return bool(known[name])
         low, high = np.quantile(self.smooth(name), [0.005, 0.995])
-        least = _ABSOLUTE_SPREAD.get(name, 0.0)
+        least = ABSOLUTE_SPREAD.get(name, 0.0)
         if name in _RELATIVE_SPREAD:
             least = _RELATIVE_SPREAD[name] * abs(float(np.median(self.channels[name])))
         return bool(high - low > least)

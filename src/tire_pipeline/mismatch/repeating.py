@@ -42,8 +42,8 @@ def repeating_forms(data: Data, changes: list[Change]) -> Iterator[Form]:
 def strongest_length(data: Data, rest: Array) -> float | None:
     """Return the length (m) at which a residual has most power in its first two harmonics together.
 
-    The product of both is taken (harmonic product spectrum, Schroeder 1968): a wave that is the wheel's own
-    second harmonic has no first one at twice the length.
+    The smaller of the two counts: at twice the wheel's circumference the second harmonic is what the wheel
+    does once a turn, and there is no first one.
 
     Parameters
     ----------
@@ -70,5 +70,5 @@ def strongest_length(data: Data, rest: Array) -> float | None:
     first = first[2 * first < power.size]
     if first.size == 0:
         return None
-    best = first[int(np.argmax(power[first] * power[2 * first]))]
+    best = first[int(np.argmax(np.minimum(power[first], power[2 * first])))]
     return float(1.0 / per_metre[best])

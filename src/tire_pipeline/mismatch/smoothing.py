@@ -16,7 +16,7 @@ from scipy.signal import savgol_coeffs
 Array = np.ndarray
 _WINDOWS = ((9, 4), (15, 4), (25, 4), (35, 4), (61, 2), (121, 2), (241, 2))
 _WIDTH = 1.7
-_NOISE_ONLY = 1.35
+_NOISE_ONLY = 1.5
 """A channel that spreads no wider than so many times its noise stands still."""
 
 
@@ -47,18 +47,6 @@ def denoise(x: Array, start: Array) -> Array:
         if last - first > 2 * _WINDOWS[0][0]:
             out[first:last] = _piece(x[first:last], sigma, rho)
     return out
-
-
-def stands_still(x: Array, start: Array) -> bool:
-    """Whether a channel is nothing but noise.
-
-    Parameters
-    ----------
-    x : ndarray, shape (n,)
-    start : ndarray of bool, shape (n,)
-        First samples of uninterrupted pieces.
-    """
-    return bool(np.std(x) < _NOISE_ONLY * _noise(x, start)[0])
 
 
 def _noise(x: Array, start: Array) -> tuple[float, float]:
