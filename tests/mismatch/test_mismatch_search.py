@@ -161,6 +161,6 @@ def test_combined_slip_does_not_start_where_it_does_nothing(tire, record):
 )
 def test_a_form_stands_in_only_for_what_it_leaves_no_room_for(place, top, size):
     gain = 50.0 if place > 13.0 else 10.2
-    found, label = _instead(gain, gain, [("form", place)], [("form", top)])
+    found, label = _instead(gain, gain, [(place, "form")], [(top, "form")])
     assert found == size
     assert label == ("" if np.isinf(size) else "form")

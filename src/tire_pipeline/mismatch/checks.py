@@ -14,7 +14,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
-from tire_pipeline.mismatch.recorded import ABSOLUTE_SPREAD
+from tire_pipeline.mismatch.recorded import ABSOLUTE_SPREAD, SLOW, moves
 from tire_pipeline.mismatch.simulate import plain_forces
 from tire_pipeline.mismatch.smoothing import denoise
 from tire_pipeline.mismatch.surrogate import stand_in
@@ -36,7 +36,6 @@ LEAST_POINTS = 12
 _RATE = 50.0
 _BRIDGED = 3
 _LONG_STEP = 1.0
-_SLOW = 0.5
 
 
 @dataclass
@@ -260,13 +259,11 @@ def _still(arrays: Mapping[str, Array], time: Array | None) -> dict[str, Array]:
     """Return slips that do not move, on their mean: noise has no unit and no sign."""
     if time is None:
         return {}
-    width = max(int(_SLOW / max(float(np.median(np.diff(time))), 1e-9)), 1)
+    width = max(int(SLOW / max(float(np.median(np.diff(time))), 1e-9)), 1)
     out = {}
     for name in ("slip_angle", "slip_ratio", "camber"):
-        if name in arrays:
-            low, high = np.quantile(uniform_filter1d(arrays[name], width), [0.005, 0.995])
-            if high - low < ABSOLUTE_SPREAD[name]:
-                out[name] = np.full_like(arrays[name], np.mean(arrays[name]))
+        if name in arrays and not moves(uniform_filter1d(arrays[name], width), ABSOLUTE_SPREAD[name]):
+            out[name] = np.full_like(arrays[name], np.mean(arrays[name]))
     return out
 
 

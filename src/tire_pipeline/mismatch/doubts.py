@@ -50,7 +50,7 @@ def doubts(search: Search) -> list[Doubt]:
     """
     fit = search.fit
     on_top = _gains(search, with_shapes(search, search.system, fit.changes), fit)
-    top, top_label = max(((gain, label) for label, gain in on_top), default=(-np.inf, ""))
+    top, top_label = max(on_top, default=(-np.inf, ""))
     most = max(g.gain for g in search.gates)
     out = []
     for i, name in enumerate(fit.names):
@@ -58,44 +58,48 @@ def doubts(search: Search) -> list[Doubt]:
         gain = search.gates[i].gain
         alone = with_shapes(search, search.system, fit.changes, i)
         in_place = _gains(search, alone, reduced)
-        place, label = max(((g, label) for label, g in in_place), default=(-np.inf, ""))
-        plain = _gain(search, alone, reduced, constant_form(search.data, reduced.changes))
-        instead, instead_label = _instead(gain, max(gain, plain + settings.TIE), in_place, on_top)
+        place, label = max(in_place, default=(-np.inf, ""))
+        constant = constant_form(search.data, reduced.changes)
+        plain = _gain(search, alone, reduced, residual(search.data, reduced.changes), constant)
+        instead = _instead(gain, max(gain, plain + settings.TIE), in_place, on_top)
         search.log.append(
             f"unnamed for {name} gain {gain:.1f}: {place:.1f} {label} (constant {plain:.1f}, instead "
-            f"{instead:.1f}); on top {top:.1f} {top_label}"
+            f"{instead[0]:.1f}); on top {top:.1f} {top_label}"
         )
         allowed = (settings.UNNAMED_PART * gain, settings.UNNAMED_LEAST, settings.UNNAMED_OF_ALL * most)
         beyond = top - max(allowed)
         part = max(place, top, 0.0) / max(gain, 1.0)
-        size, which = (instead, instead_label) if instead > beyond else (beyond, top_label)
+        size, which = instead if instead[0] > beyond else (beyond, top_label)
         out.append(Doubt(i, which, size, top, part))
     return out
 
 
-def _instead(
-    gain: float, least: float, in_place: list[tuple[str, float]], on_top: list[tuple[str, float]]
-) -> tuple[float, str]:
+Gain = tuple[float, str]
+"""Nats, and the label of the form that gains them."""
+
+
+def _instead(gain: float, least: float, in_place: list[Gain], on_top: list[Gain]) -> Gain:
     """Return by how much the best form that can stand in for an effect beats it, and the form's label.
 
     A form stands in for the effect if beside it the effect would not pay for itself; else both are there.
     """
     best = (-np.inf, "")
-    for (label, place), (_, top) in zip(in_place, on_top, strict=True):
+    for (place, label), (top, _) in zip(in_place, on_top, strict=True):
         if gain + top - place < settings.LEAST_GAIN:
             best = max(best, (place - least, label))
     return best
 
 
-def _gains(search: Search, system: System, fit: Fit) -> list[tuple[str, float]]:
-    """Return for each form without a name its label and what it gains on top of a fit."""
-    return [(f.label, _gain(search, system, fit, f)) for f in forms(search.data, fit.changes)]
+def _gains(search: Search, system: System, fit: Fit) -> list[Gain]:
+    """Return what each form without a name gains on top of a fit."""
+    rest = residual(search.data, fit.changes)
+    return [(_gain(search, system, fit, rest, f), f.label) for f in forms(search.data, fit.changes)]
 
 
-def _gain(search: Search, system: System, fit: Fit, form: Form) -> float:
-    """Return the gain of one form on top of a fit."""
+def _gain(search: Search, system: System, fit: Fit, rest: dict[str, Array], form: Form) -> float:
+    """Return what one form gains on top of a fit that leaves ``rest``."""
     columns = form.columns
     if fit.labels:
         columns = {o: np.hstack([fit.columns[o], c]) for o, c in columns.items()}
-    info, score, _ = system.reduce(system.sums(residual(search.data, fit.changes), columns))
+    info, score, _ = system.reduce(system.sums(rest, columns))
     return best_gain(info, score, len(fit.labels), search)

@@ -17,6 +17,15 @@ ABSOLUTE_SPREAD = {
     "turn_slip": 0.003,
 }
 
+SLOW = 0.5
+"""Mean over so many seconds, in which sensor noise goes under."""
+
+
+def moves(slow: Array, least: float) -> bool:
+    """Whether a channel without its sensor noise spreads over more than ``least`` (99% of it)."""
+    low, high = np.quantile(slow, [0.005, 0.995])
+    return bool(high - low > least)
+
 
 class Channels:
     """What is recorded."""
@@ -54,17 +63,16 @@ class Channels:
         known = self.fixed.get("varies")
         if known is not None:
             return bool(known[name])
-        low, high = np.quantile(self.smooth(name), [0.005, 0.995])
         least = ABSOLUTE_SPREAD.get(name, 0.0)
         if name in _RELATIVE_SPREAD:
             least = _RELATIVE_SPREAD[name] * abs(float(np.median(self.channels[name])))
-        return bool(high - low > least)
+        return moves(self.smooth(name), least)
 
     def smooth(self, name: str) -> Array:
         """Return a slow channel without its sensor noise: a running mean over half a second."""
         key = f"smooth {name}"
         if key not in self.fixed:
-            self.fixed[key] = self.running_mean(self.channels[name], 0.5)
+            self.fixed[key] = self.running_mean(self.channels[name], SLOW)
         return self.fixed[key]
 
     def running_mean(self, x: Array, seconds: float) -> Array:

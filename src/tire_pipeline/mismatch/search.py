@@ -29,8 +29,6 @@ def run(search: Search) -> None:
         ranked = [(g, v) for g, v in ranked if g > 2.0]
         if not search.fit.names:
             search.first = ranked
-        if not ranked:
-            break
         if not _one_more(search, ranked):
             break
         rescale(search)
