@@ -38,24 +38,33 @@ class Simulated(Nominal):
         """Lateral force of the model, N."""
         return self.all_base["fy"]
 
-    def turned_by_force(self, slip_angle: Array, steer: float) -> Array:
-        """Return ``slip_angle - steer Fy`` with the force Fy that the model then gives.
+    def turned_by_force(self, slip_angle: Array, steer: float, steer_by_fx: float = 0.0) -> Array:
+        """Return ``slip_angle - steer Fy - steer_by_fx Fx`` with the forces that the model then gives.
 
-        The recorded force would bring its own noise into the slip angle.
+        The recorded forces would bring their own noise into the slip angle. Solved by the secant method: taking
+        the force of the last step again and again does not end where the turn is as large as the angle.
         """
-        force, turned = self.base_fy, slip_angle
-        for _ in range(4):
-            turned = slip_angle - steer * force
+
+        def wanted(angle: Array) -> Array:
             force = plain_forces(
                 self.tire,
-                slip_angle=turned,
+                slip_angle=angle,
                 slip_ratio=self.get("slip_ratio"),
                 camber=self.get("camber"),
                 normal_load=self.get("normal_load"),
                 speed=self.model_speed,
                 pressure=self.model_pressure,
-            )["fy"]
-        return turned
+            )
+            return slip_angle - steer * force["fy"] - steer_by_fx * force["fx"]
+
+        before, here = slip_angle, slip_angle - steer * self.base_fy - steer_by_fx * self.all_base["fx"]
+        miss_before = before - here
+        for _ in range(4):
+            miss = here - wanted(here)
+            slope = (miss - miss_before) / np.where(here == before, 1.0, here - before)
+            slope = np.where(here == before, 1.0, np.clip(slope, 0.3, 3.0))
+            before, miss_before, here = here, miss, here - miss / slope
+        return here
 
     def slope(self, name: str, step: float) -> dict[str, Array]:
         """Return d force / d channel of the model by central differences."""
