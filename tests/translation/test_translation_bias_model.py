@@ -89,6 +89,16 @@ def test_what_is_locked_stays():
     assert found["PHY1"].iloc[1] != TIRE["PHY1"]
 
 
+def test_a_wish_beyond_the_curvature_bound_ends_at_the_bound_and_not_in_a_tire_to_be_refused():
+    source = pd.DataFrame([{**TIRE, "PEY1": 0.8}] * 2)
+    beyond = source.assign(PEY1=1.3, PEY3=[0.4, -0.4], PDY1=1.1)
+    assert violations(beyond)["curvature"].all()
+    found = decode(source, _wish(source, encode(beyond)))
+    assert not violations(found).to_numpy().any()
+    wanted, got, before = (encode(t)["lateral"][:, 4:8] for t in (beyond, found, source))
+    assert (np.abs(got - wanted).max(axis=1) < 0.2 * np.abs(before - wanted).max(axis=1)).all()
+
+
 def test_violations_name_what_is_broken():
     table = pd.DataFrame(
         [TIRE, {**TIRE, "PDY1": 2.5}, {**TIRE, "PKY1": 18.0}, {**TIRE, "PEY1": 1.5, "PEY3": 0.0}]

@@ -13,7 +13,8 @@ from tire_pipeline.translation.pure_slip import columns
 
 _STEPS = 6
 _PULL = 0.003  # weight of "stay at the source's coefficients" against one feature, both in their spreads
-_CURVATURE = 30.0  # weight of a curvature factor above 1
+_CURVATURE = (30.0, 300.0, 3000.0)  # weight of a curvature factor above 1; the next where it still is
+_EXCESS = 3e-4  # of the curvature factor above 1 that may remain
 _POOR = 1.0  # root mean square in units, above which a second start is tried
 
 
@@ -62,7 +63,7 @@ def decode(table: pd.DataFrame, wish: Wish) -> pd.DataFrame:
     Notes
     -----
     Damped Gauss-Newton steps on all tires at once, derivatives by differences; a step that does not lower
-    a tire's cost is not taken, so that no tire ends further from its wish than it began.
+    a tire's cost is not taken. A curvature factor above 1 costs more and more, until none is left.
     """
     decoded = table.copy()
     for group in GROUPS:
@@ -75,7 +76,7 @@ class _Solver:
     """Least squares of one output's features over its coefficients."""
 
     def __init__(self, table: pd.DataFrame, group: Group, wish: Wish) -> None:
-        self.group, self.names = group, group.coefficients
+        self.group, self.names, self.curvature = group, group.coefficients, _CURVATURE[0]
         self.fixed = columns(table)
         self.wanted, self.unit = wish.features[group.name], wish.unit[group.name]
         self.spread = np.array([wish.spread[name] for name in self.names])
@@ -101,14 +102,24 @@ class _Solver:
             again, new_cost = self._descend(poor, start.copy())
             better = new_cost < cost[poor]
             best[poor[better]] = again[better]
+        for self.curvature in _CURVATURE[1:]:
+            over = np.flatnonzero((self._excess(best, rows) > _EXCESS).any(axis=1))
+            if over.size:
+                best[over] = self._descend(over, best[over])[0]
         return best
 
-    def _residual(self, values: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    def _columns(self, values: np.ndarray, rows: np.ndarray) -> dict[str, np.ndarray]:
         p = {name: column[rows] for name, column in self.fixed.items()}
-        p.update({name: values[:, [k]] for k, name in enumerate(self.names)})
+        return {**p, **{name: values[:, [k]] for k, name in enumerate(self.names)}}
+
+    def _excess(self, values: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        return curvature_excess(self.group.name, self._columns(values, rows))
+
+    def _residual(self, values: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        p = self._columns(values, rows)
         gap = (self.group.of(p) - self.wanted[rows]) / self.unit
         gap = np.where(np.isfinite(gap), gap, 1e6)
-        return np.concatenate([gap, _CURVATURE * curvature_excess(self.group.name, p)], axis=1)
+        return np.concatenate([gap, self.curvature * curvature_excess(self.group.name, p)], axis=1)
 
     def _cost(self, gap: np.ndarray, values: np.ndarray, rows: np.ndarray) -> np.ndarray:
         moved = (values - self.source[rows]) / self.spread
