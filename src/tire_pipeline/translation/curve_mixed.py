@@ -1,10 +1,9 @@
 """What a target would measure: a mixed model of curve scores, conditioned on the metadata.
 
-For every score: tire (metadata, size, what is its own) + category + category x metadata + category x kind of
-tire +
-noise. The target's measurement of a tire is then predicted from the source's measurement of it: the source's
-score, moved by the difference of the categories' effects, and drawn a little towards what the metadata lets
-expect, by as much as the source is noise.
+For every score: tire (metadata, size, class, what is its own) + category + category x metadata + category x
+kind of tire + category x class + noise. The target's measurement of a tire is then predicted from the
+source's measurement of it: the source's score, moved by the difference of the categories' effects, and drawn
+a little towards what the metadata lets expect, by as much as the source is noise or its own fit.
 """
 
 from __future__ import annotations
@@ -21,6 +20,7 @@ from tire_pipeline.translation.curve_space import CurveSpace
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.mixed_effects import Fitted
 from tire_pipeline.translation.tire_classes import TireClasses
+from tire_pipeline.translation.tire_kinds import TireKinds, with_kinds
 
 
 @dataclass(frozen=True)
@@ -68,14 +68,16 @@ class CurveMixedModel:
     categories : tuple of str
     pairs : bool
         Whether tires that several categories measured link these.
-    kinds : ndarray, shape (metadata + sizes, k)
-        Metadata to kind of tire.
+    kinds : TireKinds or None
+        What kind of tire it is.
     scale : ndarray, shape (p,)
         Standard deviation of each score over the training cells.
     fitted : tuple of Fitted
         One a score.
     spread : ndarray, shape (categories, p)
-        How much more than the average a category spreads what is the tires' own.
+        How much a category spreads what is the tires' own.
+    alone : ndarray, shape (categories, p)
+        Variance of what one tire does in this category only, scores in their standard deviations.
     classes : TireClasses or None
         Classes of tires that no metadata names.
     """
@@ -84,20 +86,43 @@ class CurveMixedModel:
     metadata: Metadata
     categories: tuple[str, ...]
     pairs: bool
-    kinds: np.ndarray
+    kinds: TireKinds | None
     scale: np.ndarray
     fitted: tuple[Fitted, ...]
     spread: np.ndarray
+    alone: np.ndarray
     classes: TireClasses | None = None
 
-    def regressors(self, table: pd.DataFrame, category: np.ndarray) -> list[np.ndarray]:
-        """Rows of the design without tire effects, if ``category`` had measured: for each class, (n, m)."""
-        blocks = design_blocks(self.metadata, self.kinds, table, category, self.categories)
-        if self.classes is None:
-            return [np.concatenate(list(blocks.values()), axis=1)]
-        codes = self.classes.coded(np.eye(self.classes.count))
-        every = [with_classes(blocks, np.tile(code, (len(table), 1))) for code in codes]
+    def regressors(
+        self, table: pd.DataFrame, category: np.ndarray, own: list[np.ndarray] | None = None
+    ) -> list[np.ndarray]:
+        """Rows of the design without tire effects, if ``category`` had measured: for each class, (n, m).
+
+        ``own`` is what is a tire's own in the scores of :attr:`kinds`, (n, q) for each class; 0 if not given.
+        """
+        blocks = design_blocks(self.metadata, table, category, self.categories)
+        every = [blocks]
+        if self.classes is not None:
+            codes = self.classes.coded(np.eye(self.classes.count))
+            every = [with_classes(blocks, np.tile(code, (len(table), 1))) for code in codes]
+        if self.kinds is not None:
+            none = np.zeros((len(table), self.kinds.scores.size))
+            own = own or [none] * len(every)
+            every = [with_kinds(one, self.kinds.of(one, mine)) for one, mine in zip(every, own, strict=True)]
         return [np.concatenate(list(one.values()), axis=1) for one in every]
+
+    def _own(self, source: np.ndarray, place: np.ndarray, here: list[np.ndarray]) -> list[np.ndarray]:
+        """What is a tire's own in the scores of its kind, for each class (n, q), from its scores (n, p)."""
+        if self.kinds is None:
+            return []
+        chosen = self.kinds.scores
+        weights = np.stack([self.fitted[k].mean[: here[0].shape[1]] for k in chosen], axis=1)
+        tire, noise = (
+            np.array([self.fitted[k].variances[name] for k in chosen]) for name in ("tire", "noise")
+        )
+        own = tire * self.spread[np.ix_(place, chosen)] ** 2
+        share = own / (own + self.alone[np.ix_(place, chosen)] + noise)
+        return [share * (source[:, chosen] / self.scale[chosen] - x @ weights) for x in here]
 
     def class_probability(
         self, table: pd.DataFrame, source: np.ndarray, here: list[np.ndarray]
@@ -132,17 +157,32 @@ class CurveMixedModel:
         Prediction
         """
         source, _ = self.space.encode(table)
-        here = self.regressors(table, table["category"].to_numpy(dtype=str))
-        there = self.regressors(table, np.full(len(table), target))
-        place = {name: k for k, name in enumerate(self.categories)}
-        spread = self.spread[[place[name] for name in table["category"].astype(str)]]
-        same = (table["category"].to_numpy(dtype=str) == target).astype(float)
+        category = table["category"].to_numpy(dtype=str)
+        place = np.array([self.categories.index(name) for name in category])
+        there_place = self.categories.index(target)
+        here = self.regressors(table, category)
         likely = self.class_probability(table, source, here)
+        own = self._own(source, place, here)
+        here = self.regressors(table, category, own)
+        there = self.regressors(table, np.full(len(table), target), own)
+        same = place == there_place
         found = [
-            _predict_score(fitted, column / scale, here, there, likely, same, trust, (mine, theirs))
-            for fitted, column, scale, mine, theirs in zip(
-                self.fitted, source.T, self.scale, spread.T, self.spread[place[target]], strict=True
+            _predict_score(
+                fitted,
+                source[:, k] / self.scale[k],
+                here,
+                there,
+                likely,
+                trust,
+                Reading(
+                    self.spread[place, k],
+                    self.spread[there_place, k],
+                    self.alone[place, k],
+                    self.alone[there_place, k],
+                    same,
+                ),
             )
+            for k, fitted in enumerate(self.fitted)
         ]
         shift, shift_variance, aim, variance, surprise, expected = (
             np.stack(part, axis=1) for part in zip(*found, strict=True)
@@ -166,9 +206,10 @@ class CurveMixedModel:
             **self.metadata.to_state(),
             "categories": np.array(self.categories, dtype=str),
             "pairs": bool(self.pairs),
-            "kinds": self.kinds,
             "scale": self.scale,
             "spread": self.spread,
+            "alone": self.alone,
+            **(self.kinds.to_state() if self.kinds else {}),
             **(self.classes.to_state() if self.classes else {}),
             "variance_names": np.array(names, dtype=str),
             "variances": np.array([[f.variances[name] for name in names] for f in self.fitted]),
@@ -191,12 +232,38 @@ class CurveMixedModel:
             Metadata.from_state(state),
             tuple(str(name) for name in state["categories"]),
             bool(state["pairs"]),
-            np.asarray(state["kinds"]),
+            TireKinds.from_state(state) if "kinds_turn" in state else None,
             np.asarray(state["scale"]),
             fitted,
             np.asarray(state["spread"]),
+            np.asarray(state["alone"]),
             TireClasses.from_state(state) if "class_own" in state else None,
         )
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How source and target read one score of what is a tire's own.
+
+    Attributes
+    ----------
+    mine : ndarray, shape (n,)
+        Spread of each file's category.
+    theirs : float
+        Spread of the target.
+    alone_here : ndarray, shape (n,)
+        Variance of what a tire does in the file's category only.
+    alone_there : float
+        The same in the target.
+    same : ndarray of bool, shape (n,)
+        Whether the file is the target's own.
+    """
+
+    mine: np.ndarray
+    theirs: float
+    alone_here: np.ndarray
+    alone_there: float
+    same: np.ndarray
 
 
 def _predict_score(
@@ -205,16 +272,15 @@ def _predict_score(
     here: list[np.ndarray],
     there: list[np.ndarray],
     likely: np.ndarray,
-    same: np.ndarray,
     trust: float,
-    spread: tuple[np.ndarray, float],
+    reading: Reading,
 ) -> tuple[np.ndarray, ...]:
     """Shift, its variance, prediction, its variance, surprise, expectation, in deviations of the score.
 
     Each is what it is for each class of tire, drawn together by the classes' probabilities.
     """
     each = [
-        _predict_in_class(fitted, source, mine, theirs, same, trust, spread)
+        _predict_in_class(fitted, source, mine, theirs, trust, reading)
         for mine, theirs in zip(here, there, strict=True)
     ]
     columns = [np.stack(part, axis=1) for part in zip(*each, strict=True)]
@@ -229,21 +295,20 @@ def _predict_in_class(
     source: np.ndarray,
     here: np.ndarray,
     there: np.ndarray,
-    same: np.ndarray,
     trust: float,
-    spread: tuple[np.ndarray, float],
+    reading: Reading,
 ) -> tuple[np.ndarray, ...]:
     """As :func:`_predict_score`, for a tire of a known class."""
     count = here.shape[1]
     weights, covariance = fitted.mean[:count], fitted.covariance[:count, :count]
     at_source, at_target = here @ weights, there @ weights
     own = fitted.variances["tire"]
-    once = fitted.variances["tire_category"] + fitted.variances["noise"]
+    noise = fitted.variances["noise"]
     to_here, to_there = here @ covariance, there @ covariance
-    mine, theirs = spread
-    source_variance = (to_here * here).sum(1) + mine**2 * own + once
-    target_variance = (to_there * there).sum(1) + theirs**2 * own + once
-    together = (to_here * there).sum(1) + mine * theirs * own + same * fitted.variances["tire_category"]
+    mine, theirs = reading.mine, reading.theirs
+    source_variance = (to_here * here).sum(1) + mine**2 * own + reading.alone_here + noise
+    target_variance = (to_there * there).sum(1) + theirs**2 * own + reading.alone_there + noise
+    together = (to_here * there).sum(1) + mine * theirs * own + reading.same * reading.alone_there
     apart = there - here
     shift = at_target - at_source
     shift_variance = ((apart @ covariance) * apart).sum(1)
@@ -255,22 +320,18 @@ def _predict_in_class(
 
 
 def design_blocks(
-    metadata: Metadata,
-    kinds: np.ndarray,
-    table: pd.DataFrame,
-    category: np.ndarray,
-    categories: tuple[str, ...],
+    metadata: Metadata, table: pd.DataFrame, category: np.ndarray, categories: tuple[str, ...]
 ) -> dict[str, np.ndarray]:
-    """Lay out the regressors of n tires as if ``category`` had measured them, by block, each (n, columns)."""
+    """Lay out the regressors of n tires as if ``category`` had measured them, by block, each (n, columns).
+
+    :func:`.class_search.with_classes` and :func:`.tire_kinds.with_kinds` add theirs.
+    """
     x = metadata.regressors(table)
-    size = metadata.size_indicators(table)
     actor = (category[:, None] == np.array(categories)[None, :]).astype(float)
-    blocks = {"level": np.ones((len(table), 1)), "metadata": x, "size": size, "category": actor}
-    blocks["category_metadata"] = _products(actor, x)
-    if kinds.shape[1]:
-        blocks["category_kind"] = _products(actor, np.concatenate([x, size], axis=1) @ kinds)
-    return blocks
-
-
-def _products(left: np.ndarray, right: np.ndarray) -> np.ndarray:
-    return (left[:, :, None] * right[:, None, :]).reshape(len(left), -1)
+    return {
+        "level": np.ones((len(table), 1)),
+        "metadata": x,
+        "size": metadata.size_indicators(table),
+        "category": actor,
+        "category_metadata": (actor[:, :, None] * x[:, None, :]).reshape(len(actor), -1),
+    }

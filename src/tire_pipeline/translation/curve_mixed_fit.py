@@ -13,7 +13,9 @@ from tire_pipeline.translation.curve_mixed import CurveMixedModel, design_blocks
 from tire_pipeline.translation.curve_space import Cells, CurveSpace, fit_curve_space
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.mixed_effects import Design, Fitted, fit_mixed_effects
+from tire_pipeline.translation.own_spread import Residuals, own_spread, shared_cells
 from tire_pipeline.translation.tire_classes import TireClasses
+from tire_pipeline.translation.tire_kinds import TIRE_BLOCKS, TireKinds, tire_regressors, with_kinds
 
 GUESS = {
     "level": 100.0,
@@ -47,13 +49,8 @@ CLASS_PARTS = {
 properties are taken to differ independently of each other: what links them is the class (latent
 class analysis)."""
 
-KIND_SCORES = {
-    "cornering stiffness": 1,
-    "lateral friction": 2,
-    "lateral shape": 1,
-    "longitudinal friction": 1,
-}
-"""The scores whose metadata-predicted values say what kind of tire it is."""
+KIND_PARTS = ("cornering stiffness", "lateral friction")
+"""The parts whose scores say what kind of tire it is: what a soft rig does depends on its stiffness."""
 
 
 def _tire_columns(cells: pd.DataFrame, pairs: bool) -> np.ndarray:
@@ -65,7 +62,7 @@ def _tire_columns(cells: pd.DataFrame, pairs: bool) -> np.ndarray:
 
 
 def fit_curve_mixed_model(
-    training: pd.DataFrame, *, pairs: bool, kinds: int = 3, made: Prepared | None = None
+    training: pd.DataFrame, *, pairs: bool, kinds: int = 2, made: Prepared | None = None
 ) -> CurveMixedModel:
     """Fit the model to a training table.
 
@@ -109,7 +106,7 @@ class Prepared:
     space: CurveSpace
     metadata: Metadata
     categories: tuple[str, ...]
-    kinds: np.ndarray
+    kinds: TireKinds | None
     scale: np.ndarray
     classes: TireClasses | None
 
@@ -123,7 +120,7 @@ class Prepared:
             self.kinds,
             self.scale,
             fitted,
-            _spread_by_category(self.design, self.cells, self.space, self.scale, fitted),
+            *_spread_by_category(self.design, self.cells, self.scale, fitted),
             self.classes,
         )
 
@@ -132,7 +129,7 @@ def prepare(
     training: pd.DataFrame,
     *,
     pairs: bool,
-    kinds: int = 3,
+    kinds: int = 2,
     space_and_cells: tuple[CurveSpace, Cells] | None = None,
 ) -> Prepared:
     """Find the curve space (unless it is given), draw cells together, find classes, lay out the design."""
@@ -142,16 +139,17 @@ def prepare(
     categories = tuple(np.unique(training["category"].to_numpy(dtype=str)))
     tires = _tire_columns(rows, pairs)
     scale = np.maximum(cells.scores.std(axis=0), 1e-9)
-    turn = np.zeros((len(metadata.names) + len(metadata.sizes), 0))
-    if kinds and metadata.names:
-        turn = _kinds(rows, cells, metadata, categories, tires, scale, space, kinds)
     category = rows["category"].to_numpy(dtype=str)
-    blocks = design_blocks(metadata, turn, rows, category, categories)
+    blocks = design_blocks(metadata, rows, category, categories)
     design = Design(blocks, tires, cells.files)
     classes, probability = _classes(design, cells, space, scale, metadata.regressors(rows))
     if classes is not None:
         design = Design(with_classes(blocks, classes.coded(probability)), tires, cells.files)
-    return Prepared(rows, cells, design, space, metadata, categories, turn, scale, classes)
+    found = None
+    if kinds:
+        found, own = _kinds(design, cells, space, scale, kinds)
+        design = Design(with_kinds(design.blocks, found.of(design.blocks, own)), tires, cells.files)
+    return Prepared(rows, cells, design, space, metadata, categories, found, scale, classes)
 
 
 def _classes(
@@ -233,53 +231,37 @@ def _fit_score(
 
 
 def _spread_by_category(
-    design: Design, cells: Cells, space: CurveSpace, scale: np.ndarray, fitted: tuple[Fitted, ...]
-) -> np.ndarray:
-    """How much more or less than the average a category spreads what is the tires' own, (categories, p).
-
-    From the residuals' variance by category; its logarithm shrinks towards 0 by its own uncertainty.
-    """
+    design: Design, cells: Cells, scale: np.ndarray, fitted: tuple[Fitted, ...]
+) -> tuple[np.ndarray, np.ndarray]:
+    """How much a category spreads what is the tires' own, and its variance alone, each (categories, p)."""
     x = np.concatenate(list(design.blocks.values()), axis=1)
-    actor = design.blocks["category"].astype(bool)
-    out = np.ones((actor.shape[1], scale.size))
+    count = design.blocks["category"].shape[1]
+    category = design.blocks["category"].argmax(axis=1)
+    shared = shared_cells(design.tire, category, count)
+    spread, alone = np.ones((count, scale.size)), np.ones((count, scale.size))
     for k, one in enumerate(fitted):
-        own = one.variances["tire"]
-        rest = one.variances["tire_category"] + one.variances["noise"] / design.files
         gap = cells.scores[:, k] / scale[k] - x @ one.mean[: x.shape[1]]
-        gap = np.clip(gap, -3.0 * np.sqrt(own + rest), 3.0 * np.sqrt(own + rest))
-        logs, doubts = np.zeros(len(out)), np.ones(len(out))
-        for c in range(len(out)):
-            rows = actor[:, c]
-            excess = (gap[rows] ** 2 - rest[rows]).mean() / own
-            logs[c] = 0.5 * np.log(np.clip(excess, 0.1, 10.0))
-            doubts[c] = 0.5 / rows.sum() * np.mean((own + rest[rows]) ** 2) / own**2
-        logs -= np.average(logs, weights=1.0 / doubts)
-        between = max(0.0, float(np.mean(logs**2 - doubts)))
-        out[:, k] = np.exp(logs * between / (between + doubts))
-    return out
+        residuals = Residuals(gap, category, one.variances["noise"] / design.files, shared)
+        spread[:, k], alone[:, k] = own_spread(
+            residuals, one.variances["tire"], one.variances["tire_category"]
+        )
+    return spread, alone
 
 
 def _kinds(
-    rows: pd.DataFrame,
-    cells: Cells,
-    metadata: Metadata,
-    categories: tuple[str, ...],
-    tires: np.ndarray,
-    scale: np.ndarray,
-    space: CurveSpace,
-    count: int,
-) -> np.ndarray:
-    """Find the directions in the metadata along which the tires themselves differ most."""
-    category = rows["category"].to_numpy(dtype=str)
-    none = np.zeros((len(metadata.names) + len(metadata.sizes), 0))
-    design = Design(design_blocks(metadata, none, rows, category, categories), tires, cells.files)
-    own = slice(1, 1 + len(none))
-    weights = []
-    for part, first in KIND_SCORES.items():
-        start = space.slices[part].start
-        weights += [_fit_score(design, cells, space, scale, start + k, GUESS).mean[own] for k in range(first)]
-    x = np.concatenate([metadata.regressors(rows), metadata.size_indicators(rows)], axis=1)
-    predicted = x @ np.stack(weights, axis=1)
-    _, size, axes = np.linalg.svd(predicted - predicted.mean(axis=0), full_matrices=False)
-    keep = min(count, int((size > 1e-6 * size[0]).sum()))
-    return np.stack(weights, axis=1) @ axes[:keep].T / (size[:keep] / np.sqrt(len(x)))
+    design: Design, cells: Cells, space: CurveSpace, scale: np.ndarray, count: int
+) -> tuple[TireKinds, np.ndarray]:
+    """Find what says the kind of tire, and what is each cell's tire's own in it, (cells, q).
+
+    The latter is known only for tires that several categories measured: elsewhere it is part of the very
+    score that it would explain.
+    """
+    chosen = np.concatenate([np.arange(s.start, s.stop) for s in (space.slices[n] for n in KIND_PARTS)])
+    fitted = [_fit_score(design, cells, space, scale, k, GUESS) for k in chosen]
+    ends = np.cumsum([block.shape[1] for block in design.blocks.values()])
+    of_tire = np.concatenate(
+        [np.full(block.shape[1], name in TIRE_BLOCKS) for name, block in design.blocks.items()]
+    )
+    weights = np.stack([one.mean[: ends[-1]][of_tire] for one in fitted], axis=1)
+    own = np.stack([design.tire @ one.mean[ends[-1] :] for one in fitted], axis=1)
+    return TireKinds.find(chosen, tire_regressors(design.blocks), weights, count), own

@@ -1,0 +1,121 @@
+"""How each category spreads what is a tire's own, and how much it adds that no other category sees.
+
+Score of a tire in a category, less its expectation: spread of the category x the tire's own + alone + noise.
+One fit stiffens every curve's shape, another lets a coefficient run into its bound: both differ by category,
+and they decide how far a file is to be believed. Tires that several categories measured tell both apart.
+Without any, only their sum is known: then what is alone stays as it is expected, and the spread follows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import minimize
+
+_SPREAD_WIDTH = 0.2  # standard deviation of the logarithm of a category's spread about the common one
+_ALONE_WIDTH = 1.0  # of the logarithm of a category's variance alone about the common one
+_COMMON_WIDTHS = (0.5, 1.0)  # of the common ones about what the mixed model found
+_HELD = 1e-2  # of what is not to be found
+_FREEDOM = 6.0  # of the Student distribution: a fit that went astray is no usual tire
+_ABSENT = 1e8
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """One score of n cells less its expectation, and who measured what.
+
+    Attributes
+    ----------
+    gap : ndarray, shape (n,)
+    category : ndarray of int, shape (n,)
+    noise : ndarray, shape (n,)
+        Variance of each cell's noise.
+    shared : ndarray of int, shape (t, categories)
+        For each tire that several categories measured, its cells; -1 where there is none.
+    """
+
+    gap: np.ndarray
+    category: np.ndarray
+    noise: np.ndarray
+    shared: np.ndarray
+
+
+def shared_cells(tire: np.ndarray, category: np.ndarray, categories: int) -> np.ndarray:
+    """Lay out :attr:`Residuals.shared` from tires as indicator columns (n, t)."""
+    place = np.full((tire.shape[1], categories), -1)
+    cell, column = np.nonzero(tire)
+    place[column, category[cell]] = cell
+    return place
+
+
+def own_spread(found: Residuals, own: float, alone: float) -> tuple[np.ndarray, np.ndarray]:
+    """Find spread and variance alone of every category, each (categories,), by their posterior's mode.
+
+    Parameters
+    ----------
+    found : Residuals
+    own : float
+        Variance of what is the tires' own, where the spread is 1.
+    alone : float
+        Variance of what one tire does in one category only, in the mean of the categories.
+    """
+    count = found.shared.shape[1]
+    single = np.ones(len(found.gap), dtype=bool)
+    single[found.shared[found.shared >= 0]] = False
+
+    def cost(logs: np.ndarray) -> tuple[float, np.ndarray]:
+        spread, extra = np.exp(logs[0] + logs[2 : 2 + count]), alone * np.exp(logs[1] + logs[2 + count :])
+        one = _single_cost(found, single, own, spread, extra)
+        several = _shared_cost(found, own, spread, extra)
+        prior, pull = _prior(logs, count, len(found.shared) > 0)
+        by_spread, by_extra = one[1] + several[1], one[2] + several[2]
+        slope = np.concatenate([[by_spread.sum(), by_extra.sum()], by_spread, by_extra])
+        return one[0] + several[0] + prior, slope + pull
+
+    start = np.zeros(2 + 2 * count)
+    logs = minimize(cost, start, jac=True, method="L-BFGS-B", options={"maxiter": 100}).x
+    return np.exp(logs[0] + logs[2 : 2 + count]), alone * np.exp(logs[1] + logs[2 + count :])
+
+
+def _prior(logs: np.ndarray, count: int, told_apart: bool) -> tuple[float, np.ndarray]:
+    alone = [_COMMON_WIDTHS[1], _ALONE_WIDTH] if told_apart else [_HELD, _HELD]
+    widths = np.repeat([_COMMON_WIDTHS[0], alone[0], _SPREAD_WIDTH, alone[1]], [1, 1, count, count])
+    return 0.5 * float(((logs / widths) ** 2).sum()), logs / widths**2
+
+
+def _single_cost(
+    found: Residuals, single: np.ndarray, own: float, spread: np.ndarray, extra: np.ndarray
+) -> tuple[float, np.ndarray, np.ndarray]:
+    """Cost and its slopes by the logarithms of spread and extra: tires that one category measured."""
+    place, gap = found.category[single], found.gap[single]
+    variance = own * spread[place] ** 2 + extra[place] + found.noise[single]
+    size = gap**2 / variance
+    value = 0.5 * np.log(variance).sum()
+    value += 0.5 * (_FREEDOM + 1.0) * np.log1p(size / (_FREEDOM - 2.0)).sum()
+    slope = 0.5 / variance * (1.0 - (_FREEDOM + 1.0) / (_FREEDOM - 2.0 + size) * size)
+    by_spread = np.bincount(place, slope * 2.0 * own * spread[place] ** 2, spread.size)
+    return float(value), by_spread, np.bincount(place, slope * extra[place], spread.size)
+
+
+def _shared_cost(
+    found: Residuals, own: float, spread: np.ndarray, extra: np.ndarray
+) -> tuple[float, np.ndarray, np.ndarray]:
+    """The same for tires that several categories measured."""
+    if not len(found.shared):
+        return 0.0, np.zeros_like(spread), np.zeros_like(extra)
+    there = found.shared >= 0
+    gap = np.where(there, found.gap[found.shared], 0.0)
+    both = there[:, :, None] & there[:, None, :]
+    covariance = own * spread[:, None] * spread[None, :] * both
+    diagonal = np.arange(spread.size)
+    covariance[:, diagonal, diagonal] += np.where(there, extra + found.noise[found.shared], _ABSENT)
+    inverse = np.linalg.inv(covariance)
+    weighted = (inverse @ gap[:, :, None])[:, :, 0]
+    size, known = (weighted * gap).sum(axis=1), there.sum(axis=1)
+    value = 0.5 * np.linalg.slogdet(covariance)[1].sum()
+    value += (0.5 * (_FREEDOM + known) * np.log1p(size / (_FREEDOM - 2.0))).sum()
+    trust = (_FREEDOM + known) / (_FREEDOM - 2.0 + size)
+    slope = 0.5 * (inverse - trust[:, None, None] * weighted[:, :, None] * weighted[:, None, :]) * both
+    by_extra = slope[:, diagonal, diagonal].sum(axis=0) * extra
+    return float(value), 2.0 * own * ((slope @ spread) * spread).sum(axis=0), by_extra
