@@ -1,6 +1,7 @@
 """RQ4 on the demonstration fleet: the reported bias of every pair of actors beside the sealed truth.
 
-Writes ``benchmarks/results/translation_bias.csv`` and ``translation_bias_truth.csv``, for the page.
+Writes ``benchmarks/results/translation_bias.csv`` and ``translation_bias_truth.csv``, for the page. The truth
+is the mean over 100 tires and so has an error, too: how many biases lie inside is said without and with it.
 """
 
 from __future__ import annotations
@@ -8,6 +9,7 @@ from __future__ import annotations
 import sys
 
 import numpy as np
+import pandas as pd
 from bench_translation import RESULTS, read_all
 
 from tire_pipeline.evaluation.bias_truth import bias_beside_truth, measured_bias, regime_differences
@@ -18,7 +20,14 @@ from tire_pipeline.translation.base import make_translator
 from tire_pipeline.translation.bias_report import bias_report
 
 
-def main(seed: int = 1) -> None:
+def inside_with_error(both: pd.DataFrame) -> float:
+    """Share of the true biases inside the intervals, these widened by the truth's own standard error."""
+    low, high, true = (np.log1p(both[name]) for name in ("low", "high", "true_bias"))
+    half = np.hypot(0.5 * (high - low), 1.6449 * both["true_error"])
+    return float((np.abs(true - 0.5 * (low + high)) <= half).mean())
+
+
+def main(seed: int = 7) -> None:
     fleet = make_fleet(FleetSettings(seed=seed, threads=1, tuning_tires=1))
     kept, _ = dedupe_and_filter(read_all(fleet.files), features=LATERAL_WITHOUT_CAMBER)
     training = normalize_table(kept, 6000.0)
@@ -29,7 +38,10 @@ def main(seed: int = 1) -> None:
     translator = make_translator("paired_mixed_model").fit(training, target=fleet.settings.target, seed=seed)
     report = bias_report(translator, training, coefficients="coefficients" in sys.argv)
     both = bias_beside_truth(report.by_region, measured)
-    print(f"{both['inside'].mean():.0%} of {len(both)} true biases lie in the 90% interval")
+    print(
+        f"{both['inside'].mean():.0%} of {len(both)} true biases lie in the 90% interval, "
+        f"{inside_with_error(both):.0%} if the truth's own standard error is counted"
+    )
     print(regime_differences(fleet.truth.regimes, "D", "B"))
     report.by_region.to_csv(RESULTS.with_name("translation_bias.csv"), index=False, float_format="%.5g")
     both.to_csv(RESULTS.with_name("translation_bias_truth.csv"), index=False, float_format="%.5g")

@@ -13,7 +13,11 @@ from tire_pipeline.translation.curve_mixed import CurveMixedModel
 from tire_pipeline.translation.curve_space import PARTS, UNIT
 from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel
 
-QUANTILE = 1.6449
+QUANTILE = 1.6449 * 1.2
+"""Standard deviations to either side of a bias: those that hold 90% of a Gaussian, and 20% more, since the
+model takes its variances for known, and the noise from files of which some are fits of one recording (found
+on tuning fleets)."""
+
 _KEY_PARTS = ("cornering stiffness", "lateral friction", "slip stiffness", "longitudinal friction")
 _MOST_TIRES = 25
 
@@ -62,7 +66,8 @@ def bias_report(translator: MixedModel, training: pd.DataFrame, *, coefficients:
     """
     model = translator.model
     pairs = list(combinations(model.categories, 2))
-    regions = [_regions(model, actor, reference) for reference, actor in pairs]
+    chance = _chance_of_tires(model, training)
+    regions = [_regions(model, actor, reference, chance) for reference, actor in pairs]
     slopes = [_slopes(model, actor, reference) for reference, actor in pairs]
     moved = [_moved(translator, training, actor, reference) for reference, actor in pairs if coefficients]
     parts = (regions, slopes, moved)
@@ -84,13 +89,30 @@ def _difference(model: CurveMixedModel, contrast: np.ndarray, place: slice) -> t
     return np.array(weights) * model.scale, np.array(variances) * model.scale**2
 
 
+def _chance_of_tires(model: CurveMixedModel, training: pd.DataFrame) -> np.ndarray:
+    """Each category's effect on each training tire, (categories, tires, p), over the root of their number.
+
+    The mean tire is known from these only: where biases differ from tire to tire, that is uncertain, too.
+    """
+    tires = training.drop_duplicates("tire_id")
+    likely = model.predict(tires, model.categories[0]).classes
+    effects = []
+    for category in model.categories:
+        rows = model.regressors(tires, np.full(len(tires), category))
+        weights = np.stack([one.mean[: rows[0].shape[1]] for one in model.fitted], axis=1) * model.scale
+        effects.append(sum(likely[:, [k]] * (x @ weights) for k, x in enumerate(rows)))
+    return np.stack(effects) / np.sqrt(len(tires))
+
+
 def _contrast(model: CurveMixedModel, actor: str, reference: str) -> np.ndarray:
     names = np.array(model.categories)
     return (names == actor).astype(float) - (names == reference).astype(float)
 
 
-def _regions(model: CurveMixedModel, actor: str, reference: str) -> pd.DataFrame:
-    mean, variance = _difference(model, _contrast(model, actor, reference), _columns_of(model, "category"))
+def _regions(model: CurveMixedModel, actor: str, reference: str, chance: np.ndarray) -> pd.DataFrame:
+    contrast = _contrast(model, actor, reference)
+    mean, variance = _difference(model, contrast, _columns_of(model, "category"))
+    variance = variance + np.tensordot(contrast, chance, axes=1).var(axis=0)
     rows = []
     names = {group.name: np.array(group.names) for group in GROUPS}
     for part, place in model.space.slices.items():
