@@ -1,0 +1,109 @@
+"""Where the error of the translator with pairs comes from, on tuning tires; parts of it put right by truth.
+
+    python benchmarks/error_split.py           # prints
+    python benchmarks/error_split.py --write   # puts the table between the marks in docs/translation.md
+
+Nothing here is a translator: what is put right is fitted on the sealed truth, each tire by the others'.
+"""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from bench_translation import Judge, load_fleet
+from doc_tables import markdown, write_between
+from sklearn.linear_model import RidgeCV
+from sklearn.model_selection import GroupKFold, cross_val_predict
+
+from tire_pipeline.evaluation import curves_of, evaluate_translations
+from tire_pipeline.translation.curve_translator import MixedModel, PairedMixedModel
+
+PAGE = Path(__file__).parent.parent / "docs" / "translation.md"
+BEGIN = "<!-- from error_split.py -->"
+METRICS = ["forces", "cornering_stiffness", "peak_friction"]
+PARTS = ("cornering stiffness", "lateral friction", "lateral shape")
+ROWS = (
+    "as it is",
+    "mean bias of each actor right",
+    "bias right as far as the file's curves and metadata tell it",
+    *(f"{part} right" for part in PARTS),
+    "all scores right",
+)
+
+
+def ratios(judge: Judge, table: pd.DataFrame) -> np.ndarray:
+    """Mean squared error over that of the untranslated file: forces, stiffness, peak friction."""
+    three = (curves_of(t, lateral_only=True) for t in (table, judge.inputs, judge.target))
+    return evaluate_translations(*three, lateral_only=True).summary.loc[METRICS, "ratio"].to_numpy()
+
+
+def learned(judge: Judge, gap: np.ndarray, known: np.ndarray | None) -> np.ndarray:
+    """What of ``gap`` (n, p) a ridge on ``known`` (n, d), or the mean alone, tells of tires left out."""
+    out = np.zeros_like(gap)
+    for category in np.unique(judge.inputs["category"]):
+        own = np.flatnonzero(judge.inputs["category"] == category)
+        folds = GroupKFold(min(10, own.size))
+        if known is None:
+            for others, left in folds.split(own, groups=judge.tire[own]):
+                out[own[left]] = gap[own[others]].mean(axis=0)
+            continue
+        x = (known[own] - known[own].mean(axis=0)) / (known[own].std(axis=0) + 1e-9)
+        ridge = RidgeCV(np.logspace(0, 5, 11), alpha_per_target=True)
+        out[own] = cross_val_predict(ridge, x, gap[own], cv=folds, groups=judge.tire[own])
+    return out
+
+
+def split(judge: Judge, translator: MixedModel) -> pd.DataFrame:
+    """Errors as multiples of the floor's, one line for each of ``ROWS``."""
+    space = translator.model.space
+    found = translator.predict(judge.inputs)
+    target, _ = space.encode(judge.target)
+    gap = target - found.target
+    known = np.concatenate([found.source, translator.model.metadata.regressors(judge.inputs)], axis=1)
+    wanted = [
+        found.target,
+        found.target + learned(judge, gap, None),
+        found.target + learned(judge, gap, known),
+    ]
+    for part in PARTS:
+        scores = found.target.copy()
+        scores[:, space.slices[part]] = target[:, space.slices[part]]
+        wanted.append(scores)
+    floor = ratios(judge, judge.second)
+    tables = [translator._decode(judge.inputs, replace(found, target=one)) for one in (*wanted, target)]
+    found_ratios = [ratios(judge, table) / floor for table in tables]
+    return pd.DataFrame(found_ratios, index=pd.Index(ROWS, name="what"), columns=METRICS)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--kinds", nargs="+", default=["additive", "drifting", "interacting"])
+    parser.add_argument("--seeds", type=int, nargs="+", default=[201, 202])
+    parser.add_argument("--write", action="store_true")
+    asked = parser.parse_args()
+    columns = {}
+    for kind in asked.kinds:
+        of_seeds = []
+        for seed in asked.seeds:
+            target, training, judges = load_fleet(kind, 1.0, seed, ("tuning",))
+            translator = PairedMixedModel().fit(training, target=target, seed=seed)
+            of_seeds.append(split(judges["tuning"], translator))
+        mean = sum(of_seeds) / len(of_seeds)
+        columns[kind] = [" / ".join(f"{value:.2f}" for value in row) for row in mean.to_numpy()]
+    rows = [(what, *(columns[kind][i] for kind in asked.kinds)) for i, what in enumerate(ROWS)]
+    text = markdown(("", *asked.kinds), rows)
+    seeds = ", ".join(map(str, asked.seeds))
+    text = (
+        f"Tuning tires of seeds {seeds} at the calibrated bias, forces / stiffness / peak friction.\n\n{text}"
+    )
+    print(text)
+    if asked.write:
+        write_between(PAGE, BEGIN, text)
+
+
+if __name__ == "__main__":
+    main()
