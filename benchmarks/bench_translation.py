@@ -140,8 +140,8 @@ def load_fleet(
     kind: str, size: float, seed: int, sets: tuple[str, ...]
 ) -> tuple[str, pd.DataFrame, dict[str, Judge]]:
     """Make one fleet: its target, training table and, by evaluation set, judge."""
-    tuning = 100 if "tuning" in sets else 1
-    fleet = make_fleet(FleetSettings(seed=seed, kind=kind, bias_size=size, threads=1, tuning_tires=tuning))
+    counts = {f"{name}_tires": 100 if name in sets else 1 for name in ("tuning", "hidden")}
+    fleet = make_fleet(FleetSettings(seed=seed, kind=kind, bias_size=size, threads=1, **counts))
     target = fleet.settings.target
     kept, _ = dedupe_and_filter(read_all(fleet.files), features=LATERAL_WITHOUT_CAMBER)
     training = normalize_table(kept, 6000.0)

@@ -214,6 +214,13 @@ def test_bias_report_has_intervals_for_every_pair(paired, training):
     assert set(stiffness["normal_load"]) == {2000.0, 4000.0, 6000.0, 8000.0}
 
 
+def test_bias_of_the_mean_tire_is_less_certain_where_fewer_tires_tell_it(paired, training):
+    few = training.drop_duplicates("tire_id").groupby("category").head(1)
+    wide, usual = (bias_report(paired, rows, coefficients=False).by_region for rows in (few, training))
+    np.testing.assert_array_equal(wide["bias"], usual["bias"])
+    assert ((wide["high"] - wide["low"]) > (usual["high"] - usual["low"])).all()
+
+
 def test_leaving_one_tire_out(training, paired):
     left = leave_one_tire_out(training, "D", pairs=True, model=paired.model)
     assert left["tire_id"].nunique() >= 4
