@@ -9,13 +9,16 @@ from __future__ import annotations
 COEFFICIENT_SHARE = 0.0005
 """How far the model may be off along each direction of its coefficients, RMS over largest force."""
 
-COEFFICIENT_PART = 0.12
+COEFFICIENT_PART = 0.05
 """The same as a part of the flexible form's size: a worse fit is also worse along its coefficients."""
 
-LOOSE = 12.0
+ONE_LOAD = 6.0
+"""Factor on both in a recording at one load: a fit to many loads may be off at any one of them."""
+
+LOOSE = 20.0
 """Factor on COEFFICIENT_SHARE in the check that effects with other drivers survive a refit."""
 
-MISFIT_SHARES = (0.001, 0.002, 0.004, 0.006, 0.009, 0.013)
+MISFIT_SHARES = (0.001, 0.002, 0.004, 0.006, 0.009, 0.013, 0.018)
 """Sizes of the flexible form that are tried, over the largest force; the likeliest is taken."""
 
 ASYMMETRY_SHARE = 0.12

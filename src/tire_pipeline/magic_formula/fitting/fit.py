@@ -250,7 +250,12 @@ def _choose(stage: Stage, points: Mapping[str, np.ndarray], measured: np.ndarray
         if not (which & ~rolling).any():
             which &= False
     elif stage.points == "combined":
-        which &= ~rolling & ~straight
+        together = which & ~rolling & ~straight
+        if stage.output != "fy":
+            return np.flatnonzero(together)
+        which &= ~rolling  # braking alone shows the side force that braking makes: RVY1 to RVY6
+        if not together.any():
+            which &= False
     return np.flatnonzero(which)
 
 
