@@ -94,13 +94,15 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
         judges = ((search.system, True), (search.frozen, False))
         own = catalogue()[name].own_inputs or name == "camber"
         own_part = _shown(search, fit, i)
+        held = residual(search.data, [c for j, c in enumerate(fit.changes) if j != i])
+        removed = max(_removed(search, r, rest, own_part[1]) for r in (rest_without, held))
         p_values = [_p_value(s, own_part, (rest_without, reduced), (rest, fit), plain) for s, plain in judges]
         out.append(
             Gates(
                 name=name,
                 gain=gains[0],
                 p_value=min(1.0, len(judges) * min(p_values)),
-                share=_removed(search, rest_without, rest, own_part[1]) / max(total, 1e-12),
+                share=removed / max(total, 1e-12),
                 loose=gains[0] if own else gains[1],
                 frozen=gains[2],
                 in_bounds=not fit.at_bound,

@@ -28,6 +28,7 @@ _COEFFICIENTS = {
         "REX1 REX2 RHX1"
     ).split(),
 }
+_OF_CAMBER = frozenset("PDX3 PDY3 PEY4 PEY5 PKY3 PKY6 PKY7 PHY3 PVY3 PVY4 RBX3 RBY4 RVY3".split())
 _POINTS = ("slip_angle", "slip_ratio", "camber", "normal_load")
 _LENGTHS = {"slip": 0.25, "normal_load": 0.8, "camber": 0.9}
 _MOST_POINTS = 130
@@ -160,8 +161,8 @@ def _jacobian(data: Data, name: str, at: dict[str, Array]) -> Array:
     columns = []
     for key in _COEFFICIENTS[name]:
         value = float(c.get(key, 0.0))
-        if value == 0.0 or key in missing:
-            continue
+        if value == 0.0 or key in missing or (key in _OF_CAMBER and not data.varies("camber")):
+            continue  # where camber stands still its coefficients would be a constant force of any size
         h = 1e-4 * max(abs(value), 0.05)
         up, down = (plain_forces(data.tire.replace(**{key: value + s * h}), **at)[name] for s in (1.0, -1.0))
         columns.append((up - down) / (2.0 * h) * max(abs(value), 0.05))

@@ -79,12 +79,7 @@ def prune(search: Search, fit: Fit) -> Fit:
     for _ in range(8):
         if not fit.labels or fit.sums is None:
             return fit
-        t2 = []
-        for row, (i, name) in enumerate(fit.labels):
-            effect = catalogue()[fit.changes[i][0]]
-            zero = effect.zeros(search.data)[name]
-            variance = max(float(fit.covariance[row, row]), 1e-300)
-            t2.append((fit.changes[i][1][name] - zero) ** 2 / variance / search.inflation)
+        t2 = [strength(search, fit, row) for row in range(len(fit.labels))]
         order = np.argsort(t2)
         dropped = False
         for row in order:
@@ -108,6 +103,26 @@ def prune(search: Search, fit: Fit) -> Fit:
         if not dropped:
             return fit
     return fit
+
+
+def strength(search: Search, fit: Fit, row: int) -> float:
+    """Return the square of a parameter over its standard error; ``row`` counts ``fit.labels``."""
+    i, name = fit.labels[row]
+    variance = max(float(fit.covariance[row, row]), 1e-300)
+    return float((fit.changes[i][1][name] - zero_of(search, fit, i, name)) ** 2 / variance / search.inflation)
+
+
+def rank(search: Search, fit: Fit) -> int:
+    """Return how many effects of a set are the less usual of two that look the same.
+
+    So is one without what makes it what it is: ply steer without conicity, an offset of the angle to the eye.
+    """
+    count = 0
+    for i, name in enumerate(fit.names):
+        needed = [k for k, (j, p) in enumerate(fit.labels) if j == i and p in catalogue()[name].needed]
+        hollow = all(strength(search, fit, k) < 2.0 * search.price for k in needed)
+        count += catalogue()[name].unusual or (bool(needed) and hollow)
+    return count
 
 
 def zero_of(search: Search, fit: Fit, index: int, name: str) -> float:

@@ -10,10 +10,10 @@ import numpy as np
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.doubts import doubts
-from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.exchange import exchanged
 from tire_pipeline.mismatch.gates import accepted, mismatch_of
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
-from tire_pipeline.mismatch.screening import gain_of, prune, screen, without
+from tire_pipeline.mismatch.screening import gain_of, prune, rank, screen, without
 from tire_pipeline.mismatch.shapes import with_shapes
 from tire_pipeline.mismatch.state import Search, begin, rescale
 
@@ -22,6 +22,21 @@ __all__ = ["Search", "begin", "gain_of", "objective", "prune", "run", "with_shap
 
 def run(search: Search) -> None:
     """Find the effects beside those that are in; the result is in ``search.fit`` and ``search.gates``."""
+    _grow(search)
+    _eliminate(search)
+    for _ in range(2):
+        if len(search.fit.names) < 2 or not _take(search, exchanged(search)):
+            break
+        search.log.append(f"exchanged: {'+'.join(search.fit.names)}")
+        rescale(search)
+        search.fit = _again(search, search.fit)
+        _grow(search)
+        _eliminate(search)
+    _withdraw(search)
+
+
+def _grow(search: Search) -> None:
+    """Put in effects until none passes."""
     for _ in range(settings.MOST_EFFECTS - len(search.fit.names)):
         extra = with_shapes(search, search.system, search.fit.changes) if search.fit.changes else None
         ranked = screen(search, extra)
@@ -33,8 +48,6 @@ def run(search: Search) -> None:
             break
         rescale(search)
         search.fit = _again(search, search.fit)
-    _eliminate(search)
-    _withdraw(search)
 
 
 def _one_more(search: Search, ranked: list[tuple[float, Variant]]) -> bool:
@@ -112,7 +125,7 @@ def _take(search: Search, fits: list[Fit]) -> bool:
         return False
     best = gain_of(search, fits[0], empty)
     tied = [f for f in fits if gain_of(search, f, empty) > best - settings.TIE]
-    tied.sort(key=lambda f: (_rank(f), _cost(search, f)))
+    tied.sort(key=lambda f: (rank(search, f), _cost(search, f)))
     for tried, fit in enumerate([*tied, *(f for f in fits if all(f is not t for t in tied))]):
         if gain_of(search, fit, empty) < 0.75 * best - settings.TIE or tried >= 4:
             break
@@ -138,11 +151,6 @@ def _cost(search: Search, fit: Fit) -> float:
     """Return the information criterion of a set with frozen coefficients, nats."""
     frozen = objective(search.frozen, fit.changes)
     return 0.5 * frozen / search.inflation + search.price * fit.parameters
-
-
-def _rank(fit: Fit) -> int:
-    """Return how many effects of a set are the less usual of two that look the same."""
-    return sum(catalogue()[name].unusual for name in fit.names)
 
 
 def _visible(search: Search, fit: Fit) -> bool:
