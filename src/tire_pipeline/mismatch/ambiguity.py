@@ -80,8 +80,9 @@ def rivals(search: Search, index: int) -> list[Rival]:
         trial = prune(search, refit(search.system, [*others, v], start=[*rest, (name, v.start)]))
         apart = _apart(search, trial, part, size, name)
         nats = 0.5 * apart * size / search.inflation
-        both_lags = catalogue()[name].dynamic and catalogue()[changes[index][0]].dynamic
-        unsure = settings.SHAPE_SHARE**2 * search.gates[index].gain if both_lags else 0.0
+        this, that = catalogue()[changes[index][0]], catalogue()[name]
+        alike = (this.dynamic and that.dynamic) or (this.shifts and that.shifts)
+        unsure = settings.SHAPE_SHARE**2 * search.gates[index].gain if alike else 0.0
         out.append(Rival(name, apart, nats, own - gain_of(search, trial, empty), unsure))
     return sorted(out, key=lambda r: r.apart)
 

@@ -34,8 +34,8 @@ def exchanged(search: Search) -> list[Fit]:
     out = []
     for group in _groups(len(search.fit.names)):
         for fit in _in_place_of(search, group):
-            simpler = rank(search, fit) < rank(search, search.fit)
-            least = -settings.TIE if simpler else settings.TIE if len(group) == 1 else 0.0
+            simpler = len(group) > 1 or rank(search, fit) < rank(search, search.fit)
+            least = -0.5 * settings.TIE if simpler else settings.TIE
             if gain_of(search, fit, empty) > found + least:
                 out.append(fit)
     return sorted(out, key=lambda f: -gain_of(search, f, empty))

@@ -39,8 +39,6 @@ does not vary but for noise has no range to spread a grid over."""
 _LEAST_OF_ALL = 1e-4
 """Columns smaller than so much of the largest one do nothing here, and are not made larger: the coefficients
 of camber in a recording without camber would become a constant force."""
-_BRAKED = 4.0
-"""Asymmetry of Fy under a drive or brake force, over that without one."""
 _SHIFT_OF_FX = 2.5
 """Braking and driving are no mirror images: a fit makes up for their difference by a shift at zero slip."""
 
@@ -260,14 +258,8 @@ def _gaussian_process(
         used = np.abs(point[slip]) / (np.abs(point[slip]) + 0.5 * half)
         if name == "fy":
             used = np.minimum(used + 0.3 * np.abs(point["camber"]) / lean * data.varies("camber"), 1.0)
-        used = np.maximum(used, 0.1)
-        waves = [kernels[0].features(at) * (size * used)[:, None]]
-        for kernel in kernels[1:]:
-            if name == "fy":  # RVY1 to RVY6: a fit to combined slip leaves a side force that only braking makes
-                braked = np.abs(point["slip_ratio"])
-                used = used + _BRAKED * braked / (braked + 0.5 * _slip_at_half(data, "fx"))
-            waves.append(kernel.features(at) * (size * used)[:, None])
-        return np.hstack(waves)
+        waves = np.hstack([k.features(at) for k in kernels])
+        return waves * (size * np.maximum(used, 0.1))[:, None]
 
     return features(x, here), features(y, grid)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
 from itertools import combinations
 from typing import Any
 
@@ -25,23 +26,24 @@ def run(search: Search) -> None:
     _grow(search)
     _eliminate(search)
     for _ in range(2):
-        if len(search.fit.names) < 2 or not _take(search, exchanged(search)):
+        before = set(search.fit.names)
+        if len(before) < 2 or not _take(search, exchanged(search)):
             break
         search.log.append(f"exchanged: {'+'.join(search.fit.names)}")
         rescale(search)
         search.fit = _again(search, search.fit)
-        _grow(search)
+        _grow(search, before - set(search.fit.names))
         _eliminate(search)
     _withdraw(search)
 
 
-def _grow(search: Search) -> None:
-    """Put in effects until none passes."""
+def _grow(search: Search, barred: Set[str] = frozenset()) -> None:
+    """Put in effects until none passes, none of the barred ones."""
     for _ in range(settings.MOST_EFFECTS - len(search.fit.names)):
         extra = with_shapes(search, search.system, search.fit.changes) if search.fit.changes else None
         ranked = screen(search, extra)
         search.log.append("screen: " + ", ".join(f"{v.name} {g:.0f}" for g, v in ranked[:8]))
-        ranked = [(g, v) for g, v in ranked if g > 2.0]
+        ranked = [(g, v) for g, v in ranked if g > 2.0 and v.name not in barred]
         if not search.fit.names:
             search.first = ranked
         if not _one_more(search, ranked):
@@ -124,7 +126,7 @@ def _take(search: Search, fits: list[Fit]) -> bool:
     if not fits:
         return False
     best = gain_of(search, fits[0], empty)
-    tied = [f for f in fits if gain_of(search, f, empty) > best - settings.TIE]
+    tied = [f for f in fits if gain_of(search, f, empty) > best - 0.5 * settings.TIE]
     tied.sort(key=lambda f: (rank(search, f), _cost(search, f)))
     for tried, fit in enumerate([*tied, *(f for f in fits if all(f is not t for t in tied))]):
         if gain_of(search, fit, empty) < 0.75 * best - settings.TIE or tried >= 4:

@@ -42,7 +42,8 @@ SECOND_SCALE = 20.0
 to 17 nats (friction beside stiffness, a gain beside combined slip), true ones more."""
 
 TIE = 8.0
-"""Nats within which two explanations are as good as each other."""
+"""Nats within which two explanations are as good as each other; within half of them, which goes first is
+decided otherwise."""
 
 LEAST_SHARE = 0.02
 """Least share of the held-out mismatch that an effect must remove (issue, item 5)."""

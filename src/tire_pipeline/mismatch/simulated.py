@@ -41,8 +41,8 @@ class Simulated(Nominal):
     def turned_by_force(self, slip_angle: Array, steer: float, steer_by_fx: float = 0.0) -> Array:
         """Return ``slip_angle - steer Fy - steer_by_fx Fx`` with the forces that the model then gives.
 
-        The recorded forces would bring their own noise into the slip angle. Solved by the secant method: taking
-        the force of the last step again and again does not end where the turn is as large as the angle.
+        The recorded forces would bring their own noise into the slip angle. Solved by the secant method:
+        taking the last step's force again and again does not end where the turn is as large as the angle.
         """
 
         def wanted(angle: Array) -> Array:

@@ -113,6 +113,8 @@ class Effect:
     scales : bool
         True if it makes the force larger or smaller by the model's own inputs alone, so that what the form of
         one such effect gets wrong looks like another.
+    shifts : bool
+        True if it adds a side force while rolling straight: at one load and camber these are the same.
     needed : tuple of str
         Parameters that are never dropped for being small: without them it is another effect.
     scanned : tuple of str
@@ -136,6 +138,7 @@ class Effect:
     own_inputs = False
     dynamic = False
     scales = False
+    shifts = False
     needed: tuple[str, ...] = ()
     scanned: tuple[str, ...] = ()
     unusual = False

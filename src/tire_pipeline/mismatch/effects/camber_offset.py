@@ -15,6 +15,7 @@ class CamberOffset(Effect):
     source = "alignment of the rig"
     own_inputs = True
     unusual = True
+    shifts = True
     parameters = (Parameter("offset", "rad", -0.15, 0.15, 0.0005),)
     looks_like = {
         "plysteer_conicity": "conicity does not change stiffness with camber",

@@ -6,13 +6,12 @@ from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, S
 
 
 class Compliance(Effect):
-    """The slip angle at the wheel is smaller than the one that was set, by the side force; a drive or brake force
-    beside it steers the wheel too."""
+    """The side force turns the wheel, and so does a drive or brake force beside it."""
 
     name = "compliance"
     title = "compliance of suspension or rig"
     equation = "slip angle at the wheel = recorded slip angle - steer Fy - steer_by_fx Fx"
-    source = "Milliken and Milliken, Race Car Vehicle Dynamics, ch. 23 (lateral and longitudinal deflection steer)"
+    source = "Milliken and Milliken, Race Car Vehicle Dynamics, ch. 23 (lateral, longitudinal force steer)"
     own_inputs = True
     scales = True
     needed = ("steer",)

@@ -14,6 +14,7 @@ class ForceOffset(Effect):
     equation = "F recorded = F + offset"
     source = "load cell zero"
     own_inputs = True
+    shifts = True
     parameters = (
         Parameter("fy", "N", -5000.0, 5000.0, 1.0, output="fy"),
         Parameter("fx", "N", -5000.0, 5000.0, 1.0, output="fx"),

@@ -19,6 +19,7 @@ class PlysteerConicity(Effect):
         "conicity as equivalent camber"
     )
     own_inputs = True
+    shifts = True
     parameters = (
         Parameter("conicity", "1", -0.15, 0.15, 0.001, output="fy"),
         Parameter("pseudo_camber", "rad", -0.2, 0.2, 0.001, output="fy"),

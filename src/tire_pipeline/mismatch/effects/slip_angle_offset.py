@@ -14,6 +14,7 @@ class SlipAngleOffset(Effect):
     equation = "slip angle = recorded slip angle - offset"
     source = "alignment of rig or optical sensor"
     own_inputs = True
+    shifts = True
     parameters = (Parameter("offset", "rad", -0.15, 0.15, 0.0005),)
     looks_like = {
         "plysteer_conicity": (
