@@ -55,3 +55,28 @@ def test_a_delay_moves_the_force_by_its_time(tire, record):
     data = prepare(tire, record()).data
     late = simulate(data, [("time_delay", {"delay": 0.2})])["fy"]
     np.testing.assert_allclose(late[20:200], data.base["fy"][10:190], atol=1e-6)
+
+
+def test_compliance_is_solved_where_the_force_turns_the_wheel_as_much_as_it_was_set(tire, record):
+    data = prepare(tire, record()).data
+    for steer in (2e-6, 1.2e-5):  # the latter is about one over the cornering stiffness
+        turned = data.turned_by_force(data.get("slip_angle"), steer)
+        force = tire.forces(slip_angle=turned, normal_load=data.get("normal_load")).fy
+        np.testing.assert_allclose(turned, data.get("slip_angle") - steer * force, atol=2e-4)
+
+
+def test_a_brake_force_turns_a_compliant_wheel(tire, record):
+    braked = tire.replace(PCX1=1.6, PDX1=1.1, PEX1=0.1, PKX1=22.0, RBX1=12.0, RCX1=1.0, RBY1=12.0, RCY1=1.0)
+    recording = record()
+    slip = 0.05 * np.sin(recording["time"].to_numpy())
+    at = {n: recording[n].to_numpy() for n in ("slip_angle", "normal_load")}
+    forces = braked.forces(slip_ratio=slip, **at)
+    data = prepare(braked, recording.assign(slip_ratio=slip, fx=forces.fx, fy=forces.fy)).data
+    pull = simulate(data, [("compliance", {"steer": 0.0, "steer_by_fx": 1e-6})])["fy"] - data.base["fy"]
+    slope = braked.forces(
+        slip_angle=data.get("slip_angle") - 1e-6 * data.all_base["fx"],
+        slip_ratio=data.get("slip_ratio"),
+        normal_load=data.get("normal_load"),
+    ).fy
+    np.testing.assert_allclose(pull, slope - data.base["fy"], atol=0.02 * np.abs(pull).max())
+    assert np.abs(pull).max() > 100.0

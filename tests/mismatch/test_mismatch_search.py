@@ -6,7 +6,9 @@ from tire_pipeline.mismatch.checks import prepare
 from tire_pipeline.mismatch.doubts import _instead
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import harmonic_power
+from tire_pipeline.mismatch.exchange import exchanged
 from tire_pipeline.mismatch.nuisance import make_nuisance
+from tire_pipeline.mismatch.refit import refit
 from tire_pipeline.mismatch.repeating import strongest_length
 from tire_pipeline.mismatch.search import begin, with_shapes
 from tire_pipeline.mismatch.unnamed import forms, play
@@ -164,3 +166,14 @@ def test_a_form_stands_in_only_for_what_it_leaves_no_room_for(place, top, size):
     found, label = _instead(gain, gain, [(place, "form")], [(top, "form")])
     assert found == size
     assert label == ("" if np.isinf(size) else "form")
+
+
+def test_two_effects_that_look_like_one_are_exchanged_for_it(tire, record):
+    """Wear and temperature together look like a surface that changed."""
+    time = record(5)["time"].to_numpy()
+    search = begin(prepare(tire, record(5, friction=np.where(time > 70.0, 0.93, 1.0))).data)
+    forms_of = {v.name: v for v in search.variants}
+    both = [forms_of["wear"], forms_of["temperature"]]
+    search.fit = refit(search.system, both)
+    assert search.fit.names == ["wear", "temperature"]
+    assert exchanged(search)[0].names == ["surface_change"]
