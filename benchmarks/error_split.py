@@ -35,10 +35,18 @@ ROWS = (
 )
 
 
-def ratios(judge: Judge, table: pd.DataFrame) -> np.ndarray:
-    """Mean squared error over that of the untranslated file: forces, stiffness, peak friction."""
-    three = (curves_of(t, lateral_only=True) for t in (table, judge.inputs, judge.target))
-    return evaluate_translations(*three, lateral_only=True).summary.loc[METRICS, "ratio"].to_numpy()
+class Errors:
+    """Errors of a table of translations: forces, stiffness, peak friction."""
+
+    def __init__(self, judge: Judge) -> None:
+        self.before, self.after = (curves_of(t, lateral_only=True) for t in (judge.inputs, judge.target))
+
+    def of(self, table: pd.DataFrame) -> np.ndarray:
+        """Mean squared errors over those of the untranslated files, (3,)."""
+        found = evaluate_translations(
+            curves_of(table, lateral_only=True), self.before, self.after, lateral_only=True
+        )
+        return found.summary.loc[METRICS, "ratio"].to_numpy()
 
 
 def learned(judge: Judge, gap: np.ndarray, known: np.ndarray | None) -> np.ndarray:
@@ -73,9 +81,10 @@ def split(judge: Judge, translator: MixedModel) -> pd.DataFrame:
         scores = found.target.copy()
         scores[:, space.slices[part]] = target[:, space.slices[part]]
         wanted.append(scores)
-    floor = ratios(judge, judge.second)
+    errors = Errors(judge)
+    floor = errors.of(judge.second)
     tables = [translator._decode(judge.inputs, replace(found, target=one)) for one in (*wanted, target)]
-    found_ratios = [ratios(judge, table) / floor for table in tables]
+    found_ratios = [errors.of(table) / floor for table in tables]
     return pd.DataFrame(found_ratios, index=pd.Index(ROWS, name="what"), columns=METRICS)
 
 
