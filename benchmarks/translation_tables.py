@@ -16,6 +16,7 @@ from tire_pipeline.reporting.translation_page import check_goals
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benchmarks" / "results" / "translation.csv"
+BEFORE = RESULTS.with_name("translation_before.csv")
 PAGE = ROOT / "docs" / "translation.md"
 BEGIN = "<!-- from translation_tables.py -->"
 
@@ -85,6 +86,25 @@ def goals(hidden: pd.DataFrame) -> str:
     return markdown(tuple(found.columns), [tuple(map(str, row)) for row in found.to_numpy()])
 
 
+def before_and_now(hidden: pd.DataFrame, before: pd.DataFrame) -> str:
+    """Mean ratios over the floor's on the same fleets, by the translators before the last change and now."""
+    rows = []
+    keys = ["kind", "bias_size", "seed"]
+    old = before[before["set"] == "hidden"].astype({"bias_size": float})
+    now = hidden.merge(old[keys].drop_duplicates(), on=keys)
+    for (kind, size), own in old.groupby(["kind", "bias_size"]):
+        same = now[(now["kind"] == kind) & (now["bias_size"] == size)]
+        floor = same.loc[same["translator"] == "floor", RATIOS].mean()
+        seeds = " ".join(str(seed) for seed in sorted(own["seed"].unique()))
+        for name in MAIN:
+            both = [t[t["translator"] == name] for t in (own, same)]
+            over = [" / ".join(f"{value:.2f}" for value in t[RATIOS].mean() / floor) for t in both]
+            improved = [f"{t['improved'].mean():.3f}" for t in both]
+            rows.append((str(kind), f"{size:g}", name, seeds, *over, *improved))
+    head = ("kind", "size", "translator", "seeds", "before, x floor", "now, x floor")
+    return markdown((*head, "improved before", "improved now"), rows)
+
+
 def tables(measured: pd.DataFrame) -> str:
     """All tables, as markdown."""
     hidden = measured[measured["set"] == "hidden"]
@@ -108,6 +128,12 @@ def tables(measured: pd.DataFrame) -> str:
         "Goals:",
         goals(hidden),
     ]
+    if BEFORE.exists():
+        parts += [
+            "The same fleets by the translators before the last change (commit 5ce292c), which were measured "
+            "on other fleets when they were published:",
+            before_and_now(hidden, pd.read_csv(BEFORE)),
+        ]
     return "\n\n".join(parts)
 
 
