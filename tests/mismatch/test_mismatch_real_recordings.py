@@ -80,11 +80,6 @@ def test_dart_errors_grow_where_the_second_session_is_wrong(real):
     assert min(real.error(tire, r) for r in second) > 3.0 * max(errors)
 
 
-HARD = {
-    ("tydex", "slip angle off by 1.5 deg"): "ply steer is named first, the offset as its alternative",
-}
-
-
 def _cases():
     spec = importlib.util.spec_from_file_location("real_recordings_names", FILE)
     module = importlib.util.module_from_spec(spec)
@@ -93,9 +88,7 @@ def _cases():
         for what, (_, _, timed) in module.ARTEFACTS.items():
             if which == "tydex" and timed:
                 continue
-            why = HARD.get((which, what))
-            marks = pytest.mark.xfail(reason=why, strict=True) if why else ()
-            yield pytest.param(which, what, marks=marks, id=f"{which}: {what}")
+            yield pytest.param(which, what, id=f"{which}: {what}")
 
 
 @pytest.mark.slow

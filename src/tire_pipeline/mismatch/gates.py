@@ -77,7 +77,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
     out = []
     rest = residual(search.data, fit.changes)
     total = mismatch_of(search, residual(search.data, []))
-    least = (settings.LEAST_GAIN, settings.LEAST_GAIN_MORE, settings.LEAST_GAIN_MANY)
+    least = (settings.LEAST_GAIN_ALONE, settings.LEAST_GAIN_MORE, settings.LEAST_GAIN_MANY)
     for i, name in enumerate(fit.names):
         system = with_shapes(search, search.system, fit.changes, i)
         loose = with_shapes(search, search.loose, fit.changes, i)
@@ -120,6 +120,8 @@ def _of_one_kind(gate: Gates, gates: list[Gates]) -> Gates:
     if effect.dynamic:
         lags = [gain for other, gain in others if other.dynamic]
         least = max(least, settings.SECOND_LAG * max(lags, default=0.0))
+    if effect.own_inputs and effect.kind == "physics":
+        least = max(least, settings.LEAST_GAIN_ALONE)
     if effect.scales and any(other.scales and gain > gate.gain for other, gain in others):
         least = max(least, settings.SECOND_SCALE)
     return replace(gate, least_gain=least)

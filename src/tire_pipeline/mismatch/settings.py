@@ -10,7 +10,9 @@ COEFFICIENT_SHARE = 0.0005
 """How far the model may be off along each direction of its coefficients, RMS over largest force."""
 
 COEFFICIENT_PART = 0.05
-"""The same as a part of the flexible form's size: a worse fit is also worse along its coefficients."""
+COEFFICIENT_MOST = 0.0009
+"""The same as a part of the flexible form's size, and at most: a worse fit is also worse along its
+coefficients, but a fit is what leaves little along them."""
 
 ONE_LOAD = 6.0
 """Factor on both in a recording at one load: a fit to many loads may be off at any one of them."""
@@ -18,7 +20,7 @@ ONE_LOAD = 6.0
 LOOSE = 20.0
 """Factor on COEFFICIENT_SHARE in the check that effects with other drivers survive a refit."""
 
-MISFIT_SHARES = (0.001, 0.002, 0.004, 0.006, 0.009, 0.013, 0.018)
+MISFIT_SHARES = (0.001, 0.002, 0.004, 0.006, 0.009, 0.013, 0.018, 0.025, 0.035, 0.05)
 """Sizes of the flexible form that are tried, over the largest force; the likeliest is taken."""
 
 ASYMMETRY_SHARE = 0.12
@@ -27,6 +29,11 @@ tire breaks it by 0.1 to 0.2 of the misfit in the clean tuning cases."""
 
 LEAST_GAIN = 8.0
 """Least improvement of the Bayes information criterion (in nats, effective sample size) for an effect."""
+
+LEAST_GAIN_ALONE = 15.0
+"""The same for an effect that is the only one, and beside others for one that acts through the model's own
+inputs alone: false ones have up to 13 nats in the tuning cases and 10 in DART's other half, true ones 19 and
+more (down to half of the noise)."""
 
 LEAST_GAIN_MORE = 10.0
 """The same for each effect of a set of two."""

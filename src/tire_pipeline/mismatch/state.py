@@ -100,7 +100,8 @@ def nuisance_scale(sizes: dict[str, tuple[int, int]], share: float, factor: floa
     factor : float
         On what the coefficients may move.
     """
-    move = factor * max(settings.COEFFICIENT_SHARE, settings.COEFFICIENT_PART * share)
+    part = min(settings.COEFFICIENT_PART * share, settings.COEFFICIENT_MOST)
+    move = factor * max(settings.COEFFICIENT_SHARE, part)
     return {o: np.r_[np.full(c, move), np.full(m, share)] for o, (c, m) in sizes.items()}
 
 
