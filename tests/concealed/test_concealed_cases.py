@@ -310,3 +310,13 @@ def test_the_rig_never_jumps_the_slip_angle():
         for held_out in (False, True):
             frame, _ = make_schedule(plan, rng, rate=50.0, held_out=held_out)
             assert np.abs(np.diff(frame["slip_angle"])).max() / 0.02 < 0.8
+
+
+@pytest.mark.parametrize("seed", [597737500, 8091341])
+def test_the_file_of_a_case_makes_no_side_force_from_braking_alone(seed):
+    """The clean run has combined slip at four angles only: at none between them may the fit run free."""
+    kind = dict(case_plan(400, 20261122))[seed]  # cases of a spent proof in which it did, by 4%
+    tire = make_case(seed, kind)[0].tire
+    load, slip = np.full(2, tire.value("FNOMIN")), np.array([-0.1, 0.1])
+    fy = tire.forces(slip_angle=np.zeros(2), slip_ratio=slip, normal_load=load, limits="ignore").fy
+    assert np.abs(fy).max() < 0.012 * tire.value("PDY1") * load[0]

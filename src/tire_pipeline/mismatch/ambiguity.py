@@ -81,8 +81,9 @@ def rivals(search: Search, index: int) -> list[Rival]:
         apart = _apart(search, trial, part, size, name)
         nats = 0.5 * apart * size / search.inflation
         this, that = catalogue()[changes[index][0]], catalogue()[name]
-        alike = (this.dynamic and that.dynamic) or (this.shifts and that.shifts)
-        unsure = settings.SHAPE_SHARE**2 * search.gates[index].gain if alike else 0.0
+        shape = settings.SHAPE_SHARE if this.dynamic and that.dynamic else 0.0
+        shape = settings.SHIFT_SHARE if this.shifts and that.shifts else shape
+        unsure = shape**2 * search.gates[index].gain
         out.append(Rival(name, apart, nats, own - gain_of(search, trial, empty), unsure))
     return sorted(out, key=lambda r: r.apart)
 

@@ -126,7 +126,7 @@ def _take(search: Search, fits: list[Fit]) -> bool:
     if not fits:
         return False
     best = gain_of(search, fits[0], empty)
-    tied = [f for f in fits if gain_of(search, f, empty) > best - 0.5 * settings.TIE]
+    tied = [f for f in fits if gain_of(search, f, empty) > best - settings.EQUAL]
     tied.sort(key=lambda f: (rank(search, f), _cost(search, f)))
     for tried, fit in enumerate([*tied, *(f for f in fits if all(f is not t for t in tied))]):
         if gain_of(search, fit, empty) < 0.75 * best - settings.TIE or tried >= 4:
