@@ -30,17 +30,15 @@ class BiasReport:
     ----------
     by_region : DataFrame
         ``actor``, ``reference``, ``output``, ``region``, ``unit``, ``bias``, ``low``, ``high`` (90%
-        interval), ``clear``
-        (the interval leaves out 0). Bias is ``actor`` less ``reference`` at the mean tire: a share for
-        logarithmic features (0.05: 5% more), else in the feature's own unit.
+        interval), ``clear`` (the interval leaves out 0). Bias is ``actor`` less ``reference`` at the mean
+        tire: a share for logarithmic features (0.05: 5% more), else in the feature's own unit.
     by_metadata : DataFrame
         ``actor``, ``reference``, ``what``, ``metadata``, ``bias``, ``low``, ``high``, ``clear``: by how much
-        the bias of
-        ``what`` (mean over the loads) grows with one standard deviation of the metadata.
+        the bias of ``what`` (mean over the loads) grows with one standard deviation of the metadata.
     by_coefficient : DataFrame
         ``actor``, ``reference``, ``coefficient``, ``bias``, ``low``, ``high``: mean change of the
-        coefficient when
-        tires of ``reference`` are translated to ``actor``, and the range that 90% of the tires lie in.
+        coefficient when tires of ``reference`` are translated to ``actor``, and the range that 90% of the
+        tires lie in.
     """
 
     by_region: pd.DataFrame
@@ -90,7 +88,8 @@ def _difference(model: CurveMixedModel, contrast: np.ndarray, place: slice) -> t
 
 
 def _chance_of_tires(model: CurveMixedModel, training: pd.DataFrame) -> np.ndarray:
-    """Each category's effect on each training tire, (categories, tires, p), over the root of their number.
+    """What each category is expected to measure of each training tire, (categories, tires, p), over the root
+    of their number.
 
     The mean tire is known from these only: where biases differ from tire to tire, that is uncertain, too.
     """

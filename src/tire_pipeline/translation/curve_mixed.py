@@ -1,9 +1,10 @@
 """What a target would measure: a mixed model of curve scores, conditioned on the metadata.
 
 For every score: tire (metadata, size, class, what is its own) + category + category x metadata + category x
-kind of tire + category x class + noise. The target's measurement of a tire is then predicted from the
-source's measurement of it: the source's score, moved by the difference of the categories' effects, and drawn
-a little towards what the metadata lets expect, by as much as the source is noise or its own fit.
+kind of tire + category x class + tire in this category + noise. The target's measurement of a tire is then
+predicted from the source's measurement of it: the source's score, moved by the difference of the categories'
+effects, and drawn a little towards what the metadata lets expect, by as much as the source is noise or its
+own fit.
 """
 
 from __future__ import annotations

@@ -96,7 +96,7 @@ class Prepared:
         One file of each cell.
     cells : Cells
     design : Design
-    space, metadata, categories, kinds, scale
+    space, metadata, categories, kinds, scale, classes
         As in :class:`CurveMixedModel`.
     """
 

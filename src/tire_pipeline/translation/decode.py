@@ -63,7 +63,7 @@ def decode(table: pd.DataFrame, wish: Wish) -> pd.DataFrame:
     Notes
     -----
     Damped Gauss-Newton steps on all tires at once, derivatives by differences; a step that does not lower
-    a tire's cost is not taken. A curvature factor above 1 costs more and more, until none is left.
+    a tire's cost is not taken. A curvature factor above 1 costs more and more, until next to none is left.
     """
     decoded = table.copy()
     for group in GROUPS:
