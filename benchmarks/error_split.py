@@ -3,7 +3,8 @@
     python benchmarks/error_split.py           # prints
     python benchmarks/error_split.py --write   # puts the table between the marks in docs/translation.md
 
-Nothing here is a translator: what is put right is fitted on the sealed truth, each tire by the others'.
+Nothing here is a translator: biases put right are fitted on the sealed truth, each tire's by the other tires;
+parts put right are the tire's own truth.
 """
 
 from __future__ import annotations
@@ -106,9 +107,8 @@ def main() -> None:
     rows = [(what, *(columns[kind][i] for kind in asked.kinds)) for i, what in enumerate(ROWS)]
     text = markdown(("", *asked.kinds), rows)
     seeds = ", ".join(map(str, asked.seeds))
-    text = (
-        f"Tuning tires of seeds {seeds} at the calibrated bias, forces / stiffness / peak friction.\n\n{text}"
-    )
+    head = f"Tuning tires (seeds: {seeds}) at the calibrated bias, forces / stiffness / peak friction."
+    text = f"{head}\n\n{text}"
     print(text)
     if asked.write:
         write_between(PAGE, BEGIN, text)
