@@ -155,3 +155,16 @@ def test_one_load_leaves_a_tire_and_not_nothing():
     assert any("one load only" in text and "PKY2 kept at 1.8" in text for text in fit.undetermined)
     left = fy - fit.forces(slip_angle=slip, normal_load=np.full(81, 7.2)).fy
     assert np.sqrt(np.mean(left**2)) < 0.01 * np.abs(fy).max()
+
+
+def test_braking_alone_holds_the_side_force_but_is_no_combined_slip():
+    """Two slip angles leave RVY1 to RVY6 open at none; one point at combined slip is not enough for a fit."""
+    tire = tire_52()
+    points = rig(tire, noise=0.002)
+    braked = np.abs(points["slip_ratio"]) > 0.02
+    turned = np.abs(points["slip_angle"]) > 0.01
+    few = points[~(braked & turned)]
+    one = pd.concat([few, points[braked & turned].iloc[:1]])
+    fit = fit_magic_formula(one[[*INPUTS, "fx", "fy"]], starts=1)
+    assert any("only 1 points of combined slip" in why and "RBY1" in why for why in fit.undetermined)
+    assert fit.model.coefficients.get("RVY1", 0.0) == 0.0

@@ -59,10 +59,12 @@ def test_a_delay_moves_the_force_by_its_time(tire, record):
 
 def test_compliance_is_solved_where_the_force_turns_the_wheel_as_much_as_it_was_set(tire, record):
     data = prepare(tire, record()).data
-    for steer in (2e-6, 1.2e-5):  # the latter is about one over the cornering stiffness
-        turned = data.turned_by_force(data.get("slip_angle"), steer)
+    about_one_over_the_stiffness = 1.2e-5
+    for steer, offset in ((2e-6, 0.0), (about_one_over_the_stiffness, 0.0), (8e-6, 0.03), (-4e-6, 0.03)):
+        angle = data.get("slip_angle") + offset
+        turned = data.turned_by_force(angle, steer)
         force = tire.forces(slip_angle=turned, normal_load=data.get("normal_load")).fy
-        np.testing.assert_allclose(turned, data.get("slip_angle") - steer * force, atol=2e-4)
+        np.testing.assert_allclose(turned, angle - steer * force, atol=2e-4)
 
 
 def test_a_brake_force_turns_a_compliant_wheel(tire, record):

@@ -55,7 +55,7 @@ class Data(States):
 
     @cached_property
     def has_combined(self) -> bool:
-        """Whether both slips are large together in at least 1% of the samples (50 at least, 5 of points)."""
+        """Whether both slips are large together in at least 0.5% of the samples (50 at least; 5 points)."""
         both = (np.abs(self.get("slip_angle")) > 0.015) & (np.abs(self.get("slip_ratio")) > 0.02)
         least = 5 if self.time is None else max(50, 0.005 * self.size)
         return bool(both.sum() >= least)

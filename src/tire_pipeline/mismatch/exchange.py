@@ -47,7 +47,10 @@ def _groups(count: int) -> Iterator[tuple[int, ...]]:
 
 
 def _in_place_of(search: Search, group: tuple[int, ...]) -> Iterator[Fit]:
-    """Refit the set with the likeliest other effects in place of a group."""
+    """Refit the set with the likeliest effects in place of a group.
+
+    One of two may stand in for both: in another form, or with parameters that were dropped beside the other.
+    """
     stay = [i for i in range(len(search.fit.names)) if i not in group]
     forms = [Variant(*search.fit.changes[i], search.fit.free[i]) for i in stay]
     start = [search.fit.changes[i] for i in stay]

@@ -30,10 +30,14 @@ class Gates:
     p_value : float
         Wilcoxon over sweeps: held-out error with and without it.
     share : float
-        Share of the held-out mismatch that it removes.
+        Share of the mismatch that it removes, the others refitted without it or as they stand.
     loose, frozen : float
         The gain with coefficients nearly free, and with coefficients frozen.
     in_bounds : bool
+    blocks : int
+        Number of sweeps.
+    least_gain : float
+        What ``gain`` has to exceed.
     """
 
     name: str

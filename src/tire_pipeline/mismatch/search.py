@@ -25,6 +25,7 @@ def run(search: Search) -> None:
     """Find the effects beside those that are in; the result is in ``search.fit`` and ``search.gates``."""
     _grow(search)
     _eliminate(search)
+    barred: set[str] = set()
     for _ in range(2):
         before = set(search.fit.names)
         if len(before) < 2 or not _take(search, exchanged(search)):
@@ -32,7 +33,8 @@ def run(search: Search) -> None:
         search.log.append(f"exchanged: {'+'.join(search.fit.names)}")
         rescale(search)
         search.fit = _again(search, search.fit)
-        _grow(search, before - set(search.fit.names))
+        barred |= before - set(search.fit.names)
+        _grow(search, barred)
         _eliminate(search)
     _withdraw(search)
 
@@ -120,7 +122,10 @@ def _pairs(search: Search, fits: list[Fit]) -> list[Fit]:
 
 
 def _take(search: Search, fits: list[Fit]) -> bool:
-    """Accept the likeliest set that passes all gates; near ties go by the fit with frozen coefficients."""
+    """Accept the likeliest set that passes all gates.
+
+    Of nearly equal ones the more usual comes first, then the likelier one with frozen coefficients.
+    """
     empty = objective(search.system, [])
     fits = [f for f in fits if _visible(search, f) and gain_of(search, f, empty) > settings.LEAST_GAIN]
     if not fits:

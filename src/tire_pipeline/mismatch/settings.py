@@ -15,10 +15,13 @@ COEFFICIENT_MOST = 0.0009
 coefficients, but a fit is what leaves little along them."""
 
 ONE_LOAD = 6.0
-"""Factor on both in a recording at one load: a fit to many loads may be off at any one of them."""
+"""Factor on both in a recording at one load, for what keeps the mirror symmetry: a fit to many loads may be
+off at any one of them."""
 
 LOOSE = 20.0
-"""Factor on COEFFICIENT_SHARE in the check that effects with other drivers survive a refit."""
+LOOSE_SHARE = 0.009
+"""Factor on what the coefficients may be off by, and least size of the flexible form, in the check that
+effects with other drivers survive a refit."""
 
 MISFIT_SHARES = (0.001, 0.002, 0.004, 0.006, 0.009, 0.013, 0.018, 0.025, 0.035, 0.05)
 """Sizes of the flexible form that are tried, over the largest force; the likeliest is taken."""
@@ -31,9 +34,9 @@ LEAST_GAIN = 8.0
 """Least improvement of the Bayes information criterion (in nats, effective sample size) for an effect."""
 
 LEAST_GAIN_ALONE = 15.0
-"""The same for an effect that is the only one, and beside others for one that acts through the model's own
-inputs alone: false ones have up to 13 nats in the tuning cases and 10 in DART's other half, true ones 19 and
-more (down to half of the noise)."""
+"""The same for an effect that is the only one, and beside others for physics that acts through the model's
+own inputs alone: false ones have up to 13 nats in the tuning cases and 10 in DART's other half, true ones 19
+and more (down to half of the noise)."""
 
 LEAST_GAIN_MORE = 10.0
 """The same for each effect of a set of two."""
@@ -56,7 +59,8 @@ EQUAL = 1.5
 latter likes a gain better than friction or combined slip, whose forms are a little wrong at small slip.)"""
 
 LEAST_SHARE = 0.02
-"""Least share of the held-out mismatch that an effect must remove (issue, item 5)."""
+"""Least share of the mismatch that an effect must remove (issue, item 5): refitted without it, or the others
+as they stand."""
 
 LEVEL = 0.05
 """Level of the Wilcoxon test over sweeps, Holm-corrected."""
@@ -65,8 +69,8 @@ SHAPE_SHARE = 0.15
 """How wrong the form of an accepted effect may be, as a share of it, before a second one is believed."""
 
 SHIFT_SHARE = 0.12
-"""The same for the alternatives of an offset: at one load and camber conicity, an offset of the angle, of
-camber and of the force differ by their forms alone."""
+"""The same for the alternatives of an offset: conicity, an offset of the angle, of camber and of the force
+may differ by their forms alone, as they do at one load and camber."""
 
 MOST_EFFECTS = 3
 """How many effects are put in at most."""
@@ -74,6 +78,9 @@ MOST_EFFECTS = 3
 AMBIGUITY_SHARE = 0.04
 AMBIGUITY_NATS = 5.0
 AMBIGUITY_LOST = 0.5
+"""Another effect is an alternative if so little of what the named one does is out of its reach, or if that is
+worth so few nats, and if its own fit loses less than so many nats, or this part of what it should lose."""
+
 REMAINDER_LIMIT = 1.3
 REMAINDER_NATS = 60.0
 """What is left is called unexplained if its power at some scale is so much above white noise, and if

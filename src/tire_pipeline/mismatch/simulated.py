@@ -57,7 +57,7 @@ class Simulated(Nominal):
             )
             return slip_angle - steer * force["fy"] - steer_by_fx * force["fx"]
 
-        before, here = slip_angle, slip_angle - steer * self.base_fy - steer_by_fx * self.all_base["fx"]
+        before, here = slip_angle, wanted(slip_angle)
         miss_before = before - here
         for _ in range(4):
             miss = here - wanted(here)

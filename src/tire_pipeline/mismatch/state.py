@@ -136,7 +136,8 @@ def rescale(search: Search) -> None:
         before = (search.misfit, search.inflation)
         search.misfit = best[1]
         search.system = base.rescaled(nuisance_scale(search.sizes, best[1]))
-        search.loose = base.rescaled(nuisance_scale(search.sizes, max(best[1], 0.009), settings.LOOSE))
+        at_least = max(best[1], settings.LOOSE_SHARE)
+        search.loose = base.rescaled(nuisance_scale(search.sizes, at_least, settings.LOOSE))
         search.frozen = base.rescaled(nuisance_scale(search.sizes, best[1], 1e-3))
         search.inflation = _inflation(search)
         if before[0] == search.misfit and abs(before[1] / search.inflation - 1.0) < 0.2:

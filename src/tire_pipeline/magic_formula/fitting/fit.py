@@ -111,6 +111,9 @@ def fit_magic_formula(
         for reason, group in left_out.items():
             report.leave(reason, group, typical if start is None else None)
         active = [name for name in names if name not in closed]
+        if stage.output == "fy" and stage.points == "combined":
+            chosen = np.union1d(chosen, _braking_alone(points, forces["fy"], chosen.size))
+            here = {name: x[chosen] for name, x in points.items()}
         measured = forces[stage.output][chosen]
         with threadpool_limits(1):  # many small problems: threads in each only get in each other's way
             values, fit, removed = _fit_stage(
@@ -250,13 +253,20 @@ def _choose(stage: Stage, points: Mapping[str, np.ndarray], measured: np.ndarray
         if not (which & ~rolling).any():
             which &= False
     elif stage.points == "combined":
-        together = which & ~rolling & ~straight
-        if stage.output != "fy":
-            return np.flatnonzero(together)
-        which &= ~rolling  # braking alone shows the side force that braking makes: RVY1 to RVY6
-        if not together.any():
-            which &= False
+        which &= ~rolling & ~straight
     return np.flatnonzero(which)
+
+
+def _braking_alone(points: Mapping[str, np.ndarray], fy: np.ndarray, most: int) -> np.ndarray:
+    """Return points at pure longitudinal slip, spread over the recording.
+
+    They show the side force that braking or driving makes (RVY1 to RVY6). Combined slip measured at a few
+    slip angles leaves it open between them.
+    """
+    straight = np.abs(points["slip_angle"]) <= stages.PURE_SLIP_ANGLE
+    rolling = np.abs(points["slip_ratio"]) <= stages.PURE_SLIP_RATIO
+    rows = np.flatnonzero(np.isfinite(fy) & straight & ~rolling)
+    return rows[:: max(1, -(-rows.size // most))]
 
 
 def _fit_stage(

@@ -114,7 +114,7 @@ class Effect:
         True if it makes the force larger or smaller by the model's own inputs alone, so that what the form of
         one such effect gets wrong looks like another.
     shifts : bool
-        True if it adds a side force while rolling straight: at one load and camber these are the same.
+        True if it adds a side force while rolling straight: at one load and camber these look the same.
     needed : tuple of str
         Parameters that are never dropped for being small: without them it is another effect.
     scanned : tuple of str
