@@ -81,11 +81,12 @@ Gain = tuple[float, str]
 def _instead(gain: float, least: float, in_place: list[Gain], on_top: list[Gain]) -> Gain:
     """Return by how much the best form that can stand in for an effect beats it, and the form's label.
 
-    A form stands in for the effect if beside it the effect would not pay for itself; else both are there.
+    A form stands in for the effect if beside it the effect would not pay for itself, or not for more than the
+    form's own error; else both are there.
     """
     best = (-np.inf, "")
     for (place, label), (top, _) in zip(in_place, on_top, strict=True):
-        if gain + top - place < settings.LEAST_GAIN:
+        if gain + top - place < max(settings.LEAST_GAIN, settings.SHAPE_SHARE**2 * gain):
             best = max(best, (place - least, label))
     return best
 

@@ -11,6 +11,7 @@ import numpy as np
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.doubts import doubts
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.exchange import exchanged
 from tire_pipeline.mismatch.gates import accepted, mismatch_of
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
@@ -130,12 +131,9 @@ def _take(search: Search, fits: list[Fit]) -> bool:
     fits = [f for f in fits if _visible(search, f) and gain_of(search, f, empty) > settings.LEAST_GAIN]
     if not fits:
         return False
-    best = gain_of(search, fits[0], empty)
-    tied = [f for f in fits if gain_of(search, f, empty) > best - settings.EQUAL]
-    tied.sort(key=lambda f: (rank(search, f), _cost(search, f)))
-    for tried, fit in enumerate([*tied, *(f for f in fits if all(f is not t for t in tied))]):
-        if gain_of(search, fit, empty) < 0.75 * best - settings.TIE or tried >= 4:
-            break
+    least = 0.75 * gain_of(search, fits[0], empty) - settings.TIE
+    likely = [f for f in fits if gain_of(search, f, empty) >= least]
+    for fit in _in_order(search, likely)[:4]:
         ok, gates = accepted(search, fit)
         search.log.append(
             "gates: "
@@ -152,6 +150,25 @@ def _take(search: Search, fits: list[Fit]) -> bool:
             search.fit, search.gates = fit, gates
             return True
     return False
+
+
+def _in_order(search: Search, fits: list[Fit]) -> list[Fit]:
+    """Put the likeliest first; but before one that scales the force another such that leaves plainly less.
+
+    The flexible form can take up what a poorer form leaves, at a price that its size makes small.
+    """
+    empty = objective(search.system, [])
+    gains = [gain_of(search, f, empty) for f in fits]
+    equal = [f for f, gain in zip(fits, gains, strict=True) if gain > gains[0] - settings.EQUAL]
+    equal.sort(key=lambda f: (rank(search, f), _cost(search, f)))
+    rest = [f for f in fits if all(f is not e for e in equal)]
+    noise = float(len(search.data.outputs))
+    left = {id(f): mismatch_of(search, residual(search.data, f.changes)) - noise for f in fits}
+    first = left[id(equal[0])]
+    scales = {id(f): catalogue()[f.names[-1]].scales for f in fits}
+    less = [f for f in rest if scales[id(f)] and left[id(f)] < settings.PLAINLY_LESS * first]
+    less = less if scales[id(equal[0])] else []
+    return [*less, *equal, *(f for f in rest if all(f is not e for e in less))]
 
 
 def _cost(search: Search, fit: Fit) -> float:

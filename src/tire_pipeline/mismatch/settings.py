@@ -47,9 +47,9 @@ LEAST_GAIN_MANY = 40.0
 SECOND_LAG = 0.05
 """Least evidence of a lag (relaxation, delay, low pass) beside another one, as a part of the other's."""
 
-SECOND_SCALE = 20.0
+SECOND_SCALE = 50.0
 """Least gain of an effect that scales the force beside a stronger one: on the tuning cases false ones have up
-to 17 nats (friction beside stiffness, a gain beside combined slip), true ones more."""
+to 37 nats (friction beside stiffness, a gain beside combined slip), true ones 83 and more."""
 
 TIE = 8.0
 """Nats within which two explanations are as good as each other."""
@@ -57,6 +57,9 @@ TIE = 8.0
 EQUAL = 1.5
 """Nats within which the more usual of two comes first, or the likelier one with frozen coefficients. (The
 latter likes a gain better than friction or combined slip, whose forms are a little wrong at small slip.)"""
+
+PLAINLY_LESS = 0.6
+"""An explanation that leaves so much less of the mismatch goes first, though another is a little likelier."""
 
 LEAST_SHARE = 0.02
 """Least share of the mismatch that an effect must remove (issue, item 5): refitted without it, or the others

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 
 _NAMES = ("RBX1", "RBX2", "RBY1", "RBY2")
 _TYPICAL = {"RBX1": 12.0, "RBX2": 12.0, "RBY1": 14.0, "RBY2": 10.0}
+_MORE = ("more_x", "more_y")
 
 
 class CombinedSlip(Effect):
@@ -15,13 +18,17 @@ class CombinedSlip(Effect):
     title = "combined slip"
     equation = (
         "Fx = G(slip_angle) Fx0, Fy = G(slip_ratio) Fy0; G = cos(C arctan(B s)), "
-        "B = RB1 cos(arctan(RB2 s_other)), C = RC1 (1 where the file has none)"
+        "B = RB1 cos(arctan(RB2 s_other)), C = RC1 (1 where the file has none); or the file's own G times "
+        "cos(arctan(more s)), where its C is so small that no B takes much"
     )
     source = "MF 5.2 weighting functions (thesis, Appendix A, combined slip); Bayle et al. 1993"
     channels = ("slip_angle", "slip_ratio")
     own_inputs = True
     scales = True
-    parameters = tuple(Parameter(n, "1", 0.5, 400.0, 0.2, ratio=True) for n in _NAMES)
+    parameters = (
+        *(Parameter(n, "1", 0.5, 400.0, 0.2, ratio=True) for n in _NAMES),
+        *(Parameter(n, "1", 0.0, 60.0, 0.1) for n in _MORE),
+    )
     looks_like = {"friction_scale": "friction acts on pure slip too"}
     experiment = "brake ramps at three slip angles or more"
     order = 40
@@ -40,24 +47,39 @@ class CombinedSlip(Effect):
         """
         c = data.tire_coefficients  # type: ignore[attr-defined]
         own = {n: float(c.get(n, 0.0)) for n in _NAMES}
-        return [{n: own[n] if own[n] > 0.05 * _TYPICAL[n] else _TYPICAL[n] for n in _NAMES}]
+        other = {n: own[n] if own[n] > 0.05 * _TYPICAL[n] else _TYPICAL[n] for n in _NAMES}
+        return [{**other, "more_x": 0.0, "more_y": 0.0}, {**own, "more_x": 6.0, "more_y": 6.0}]
+
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """The file's own coefficients, or what comes on top of them."""
+        return _MORE if start["more_x"] else _NAMES
 
     def zeros(self, data: object) -> dict[str, float]:
         """Return the file's own values: there the effect is absent."""
         c = data.tire_coefficients  # type: ignore[attr-defined]
-        return {n: float(c.get(n, 0.0)) for n in _NAMES}
+        return {**{n: float(c.get(n, 0.0)) for n in _NAMES}, "more_x": 0.0, "more_y": 0.0}
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Replace the weighting coefficients."""
         c = data.tire_coefficients  # type: ignore[attr-defined]
+        if p["more_x"] or p["more_y"]:
+            return
         changes = {n: p[n] for n in _NAMES}
         for axis in "XY":
             if not c.get(f"RC{axis}1", 0.0):
                 changes[f"RC{axis}1"] = 1.0
         state.coefficients.update(changes)
 
+    def outputs(self, state: State, data: object, p: Parameters) -> None:
+        """Take more of each force by the other slip."""
+        for force, name, slip in (("fx", "more_x", state.slip_angle), ("fy", "more_y", state.slip_ratio)):
+            if p[name]:
+                state.forces[force] = state.forces[force] / np.sqrt(1.0 + (p[name] * slip) ** 2)
+
     def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
-        """RBX1, RBX2, RBY1, RBY2."""
+        """RBX1, RBX2, RBY1, RBY2; a weighting on top of the file's own has no place."""
+        if p["more_x"] or p["more_y"]:
+            return {}
         c = tire.coefficients  # type: ignore[attr-defined]
         out = {n: p[n] for n in _NAMES}
         out.update({n: 1.0 for n in ("RCX1", "RCY1") if not c.get(n, 0.0)})
