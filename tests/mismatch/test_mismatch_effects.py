@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.checks import prepare
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.simulate import simulate
@@ -82,3 +83,29 @@ def test_a_brake_force_turns_a_compliant_wheel(tire, record):
     ).fy
     np.testing.assert_allclose(pull, slope - data.base["fy"], atol=0.02 * np.abs(pull).max())
     assert np.abs(pull).max() > 100.0
+
+
+def test_combined_slip_is_seen_on_top_of_a_file_that_knows_little_of_it(tire, record):
+    """A weighting with a small C takes little of the force, whatever its B."""
+    braked = tire.replace(PCX1=1.6, PDX1=1.1, PEX1=0.1, PKX1=22.0)
+    little = braked.replace(RBX1=10.0, RBX2=10.0, RCX1=0.3, RBY1=12.0, RBY2=60.0, RCY1=0.6)
+    much = braked.replace(RBX1=14.0, RBX2=8.0, RCX1=1.0, RBY1=16.0, RBY2=8.0, RCY1=1.0)
+    recording = record(6)
+    slip = 0.1 * np.sin(recording["time"].to_numpy())
+    at = {n: recording[n].to_numpy() for n in ("slip_angle", "normal_load")}
+    forces = much.forces(slip_ratio=slip, **at)
+    noise = np.random.default_rng(6).normal(0.0, 25.0, (2, slip.size))
+    recording = recording.assign(slip_ratio=slip, fx=forces.fx + noise[0], fy=forces.fy + noise[1])
+    report = explain_mismatch(little, recording)
+    assert [e.name for e in report.effects] == ["combined_slip"]
+    assert set(report.effects[0].parameters) <= {"more_x", "more_y"}
+
+
+def test_a_soft_rig_is_no_softer_tire(tire, record):
+    """Compliance costs more stiffness at large load; the flexible form must not make up for that."""
+    recording = record(7)
+    data = prepare(tire, recording).data
+    soft = simulate(data, [("compliance", {"steer": 2.5e-6, "steer_by_fx": 0.0})])["fy"] - data.base["fy"]
+    report = explain_mismatch(tire, recording.assign(fy=recording["fy"] + soft))
+    assert [e.name for e in report.effects] == ["compliance"]
+    assert report.effects[0].parameters["steer"][0] == pytest.approx(2.5e-6, rel=0.15)
