@@ -149,8 +149,9 @@ def test_combined_slip_does_not_start_where_it_does_nothing(tire, record):
     """At a coefficient near nil the weighting does not answer to it, and a fit would stay there."""
     hardly = tire.replace(RBX1=20.0, RBX2=11.0, RBY1=10.0, RBY2=3e-4, RCY1=1.0)
     data = prepare(hardly, record(9)).data
-    start = catalogue()["combined_slip"].starts(data)[0]
-    assert start == {"RBX1": 20.0, "RBX2": 11.0, "RBY1": 10.0, "RBY2": 10.0}
+    own, on_top = catalogue()["combined_slip"].starts(data)
+    assert own == {"RBX1": 20.0, "RBX2": 11.0, "RBY1": 10.0, "RBY2": 10.0, "more_x": 0.0, "more_y": 0.0}
+    assert min(on_top["more_x"], on_top["more_y"]) > 0.0
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,8 @@ from itertools import combinations
 
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.candidates import Variant
-from tire_pipeline.mismatch.refit import Fit, objective, refit
+from tire_pipeline.mismatch.gates import mismatch_of
+from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.screening import gain_of, prune, rank, screen
 from tire_pipeline.mismatch.shapes import with_shapes
 from tire_pipeline.mismatch.state import Search
@@ -22,7 +23,8 @@ def exchanged(search: Search) -> list[Fit]:
 
     Wear and temperature together look like a surface that changed: once both are in, adding and dropping
     one effect at a time never leads there. A set with as many effects has to be likelier by ``TIE``; one
-    with fewer, or with a more usual one of two that look the same, only about as likely.
+    with fewer, or with a more usual one of two that look the same, only about as likely. None may leave
+    plainly more of the mismatch.
 
     Parameters
     ----------
@@ -36,9 +38,15 @@ def exchanged(search: Search) -> list[Fit]:
         for fit in _in_place_of(search, group):
             simpler = len(group) > 1 or rank(search, fit) < rank(search, search.fit)
             least = -0.5 * settings.TIE if simpler else settings.TIE
-            if gain_of(search, fit, empty) > found + least:
+            poorer = settings.PLAINLY_LESS * _left(search, fit) > _left(search, search.fit)
+            if gain_of(search, fit, empty) > found + least and not poorer:
                 out.append(fit)
     return sorted(out, key=lambda f: -gain_of(search, f, empty))
+
+
+def _left(search: Search, fit: Fit) -> float:
+    """Mismatch beyond the noise that a set leaves."""
+    return mismatch_of(search, residual(search.data, fit.changes)) - len(search.data.outputs)
 
 
 def _groups(count: int) -> Iterator[tuple[int, ...]]:
