@@ -7,10 +7,9 @@ from dataclasses import replace
 from itertools import combinations
 
 from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.candidates import Variant
-from tire_pipeline.mismatch.gates import mismatch_of
-from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
-from tire_pipeline.mismatch.screening import gain_of, prune, rank, screen
+from tire_pipeline.mismatch.gates import left_by
+from tire_pipeline.mismatch.refit import Fit, objective, refit
+from tire_pipeline.mismatch.screening import gain_of, prune, rank, screen, without
 from tire_pipeline.mismatch.shapes import with_shapes
 from tire_pipeline.mismatch.state import Search
 
@@ -32,21 +31,16 @@ def exchanged(search: Search) -> list[Fit]:
         With at least two effects found; not changed.
     """
     empty = objective(search.system, [])
-    found = gain_of(search, search.fit, empty)
+    found, usual = gain_of(search, search.fit, empty), rank(search, search.fit)
+    most = left_by(search, search.fit) / settings.PLAINLY_LESS
     out = []
     for group in _groups(len(search.fit.names)):
         for fit in _in_place_of(search, group):
-            simpler = len(group) > 1 or rank(search, fit) < rank(search, search.fit)
-            least = -0.5 * settings.TIE if simpler else settings.TIE
-            poorer = settings.PLAINLY_LESS * _left(search, fit) > _left(search, search.fit)
-            if gain_of(search, fit, empty) > found + least and not poorer:
+            simpler = len(group) > 1 or rank(search, fit) < usual
+            least = found + (-0.5 * settings.TIE if simpler else settings.TIE)
+            if gain_of(search, fit, empty) > least and left_by(search, fit) <= most:
                 out.append(fit)
     return sorted(out, key=lambda f: -gain_of(search, f, empty))
-
-
-def _left(search: Search, fit: Fit) -> float:
-    """Mismatch beyond the noise that a set leaves."""
-    return mismatch_of(search, residual(search.data, fit.changes)) - len(search.data.outputs)
 
 
 def _groups(count: int) -> Iterator[tuple[int, ...]]:
@@ -59,10 +53,7 @@ def _in_place_of(search: Search, group: tuple[int, ...]) -> Iterator[Fit]:
 
     One of two may stand in for both: in another form, or with parameters that were dropped beside the other.
     """
-    stay = [i for i in range(len(search.fit.names)) if i not in group]
-    forms = [Variant(*search.fit.changes[i], search.fit.free[i]) for i in stay]
-    start = [search.fit.changes[i] for i in stay]
-    rest = refit(search.system, forms, steps=3, start=start) if forms else Fit([], [])
+    rest = without(search, search.fit, *group)
     trial = replace(search, fit=rest, screened={})
     ranked = screen(trial, with_shapes(trial, trial.system, rest.changes) if rest.changes else None)
     out = search.fit.names[group[0]] if len(group) == 1 else ""
@@ -73,7 +64,4 @@ def _in_place_of(search: Search, group: tuple[int, ...]) -> Iterator[Fit]:
         if variant.name in tried:
             continue
         tried.add(variant.name)
-        now = [Variant(n, p, f) for (n, p), f in zip(rest.changes, rest.free, strict=True)]
-        yield prune(
-            trial, refit(search.system, [*now, variant], start=[*rest.changes, (variant.name, variant.start)])
-        )
+        yield prune(trial, refit(search.system, [*rest.variants, variant]))

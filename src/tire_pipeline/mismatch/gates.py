@@ -13,7 +13,6 @@ from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.screening import without
 from tire_pipeline.mismatch.shapes import with_shapes
-from tire_pipeline.mismatch.simulate import simulate
 from tire_pipeline.mismatch.state import Search
 
 Array = np.ndarray
@@ -97,8 +96,8 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
             gains.append(float(gain))
         judges = ((search.system, True), (search.frozen, False))
         own = catalogue()[name].own_inputs or name == "camber"
-        own_part = _shown(search, fit, i)
         held = residual(search.data, [c for j, c in enumerate(fit.changes) if j != i])
+        own_part = _shown(search, held, rest)
         removed = max(_removed(search, r, rest, own_part[1]) for r in (rest_without, held))
         p_values = [_p_value(s, own_part, (rest_without, reduced), (rest, fit), plain) for s, plain in judges]
         out.append(
@@ -136,6 +135,11 @@ def mismatch_of(search: Search, rest: dict[str, Array]) -> float:
     return float(sum(np.mean(r**2) / search.noise[o].floor ** 2 for o, r in rest.items()))
 
 
+def left_by(search: Search, fit: Fit) -> float:
+    """Mismatch beyond the noise that a set leaves."""
+    return mismatch_of(search, residual(search.data, fit.changes)) - len(search.data.outputs)
+
+
 def _removed(search: Search, before: dict[str, Array], after: dict[str, Array], shown: Array) -> float:
     """Mismatch that an effect takes away in the sweeps in which it shows.
 
@@ -146,16 +150,15 @@ def _removed(search: Search, before: dict[str, Array], after: dict[str, Array], 
     return float(sum(np.mean(rows * (before[o] ** 2 - after[o] ** 2)) / floor[o] ** 2 for o in before))
 
 
-def _shown(search: Search, fit: Fit, index: int) -> tuple[Array, Array]:
+def _shown(search: Search, held: dict[str, Array], rest: dict[str, Array]) -> tuple[Array, Array]:
     """Return the energy of an effect at each sample, and the sweeps in which it shows.
 
-    By what it does in the fit, not by how well it does it.
+    By what it does in the fit, not by how well it does it: from what the set leaves without it, the others as
+    they stand, and with it.
     """
-    whole = simulate(search.data, fit.changes)
-    without = simulate(search.data, [c for j, c in enumerate(fit.changes) if j != index])
     energy = np.zeros(search.data.size)
     for o in search.data.outputs:
-        energy += ((whole[o] - without[o]) / search.noise[o].sigma) ** 2
+        energy += ((held[o] - rest[o]) / search.noise[o].sigma) ** 2
     sums = np.bincount(search.block, energy, search.system.count)
     return energy, np.flatnonzero(sums > 0.1 * np.mean(sums))
 

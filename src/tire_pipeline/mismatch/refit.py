@@ -54,6 +54,11 @@ class Fit:
         return [name for name, _ in self.changes]
 
     @property
+    def variants(self) -> list[Variant]:
+        """Its effects as forms to refit, from where they are."""
+        return [Variant(n, p, f) for (n, p), f in zip(self.changes, self.free, strict=True)]
+
+    @property
     def parameters(self) -> int:
         """Number of parameters that float, discrete choices of a scan included."""
         extra = sum(1 for name, _ in self.changes if name in {"nonuniformity"})

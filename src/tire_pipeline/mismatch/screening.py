@@ -130,12 +130,7 @@ def zero_of(search: Search, fit: Fit, index: int, name: str) -> float:
     return catalogue()[fit.names[index]].zeros(search.data)[name]
 
 
-def without(search: Search, fit: Fit, index: int, steps: int = 3) -> Fit:
-    """Refit a set without one of its effects."""
-    forms_left = [
-        Variant(n, p, f)
-        for j, ((n, p), f) in enumerate(zip(fit.changes, fit.free, strict=True))
-        if j != index
-    ]
-    start = [c for j, c in enumerate(fit.changes) if j != index]
-    return refit(search.system, forms_left, steps=steps, start=start) if forms_left else Fit([], [])
+def without(search: Search, fit: Fit, *which: int, steps: int = 3) -> Fit:
+    """Refit a set without some of its effects."""
+    left = [v for j, v in enumerate(fit.variants) if j not in which]
+    return refit(search.system, left, steps=steps) if left else Fit([], [])

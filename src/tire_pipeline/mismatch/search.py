@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.doubts import doubts
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.exchange import exchanged
-from tire_pipeline.mismatch.gates import accepted, mismatch_of
+from tire_pipeline.mismatch.gates import accepted, left_by, mismatch_of
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.screening import gain_of, prune, rank, screen, without
 from tire_pipeline.mismatch.shapes import with_shapes
@@ -79,13 +79,12 @@ def _one_more(search: Search, ranked: list[tuple[float, Variant]]) -> bool:
 
 
 def _again(search: Search, fit: Fit) -> Fit:
-    forms = [Variant(n, p, f) for (n, p), f in zip(fit.changes, fit.free, strict=True)]
-    return refit(search.system, forms, steps=3, start=fit.changes)
+    return refit(search.system, fit.variants, steps=3)
 
 
 def _refined(search: Search, ranked: list[tuple[float, Variant]]) -> list[Fit]:
     """Refit the best forms jointly with the accepted effects; the best pairs too."""
-    now = [Variant(n, p, f) for (n, p), f in zip(search.fit.changes, search.fit.free, strict=True)]
+    now = search.fit.variants
     best = ranked[0][0]
     seen: dict[str, int] = {}
     chosen: list[Any] = []
@@ -105,7 +104,7 @@ def _pairs(search: Search, fits: list[Fit]) -> list[Fit]:
     """Refit pairs of the most promising effects: two can mask each other."""
     if len(search.fit.names) + 2 > settings.MOST_EFFECTS:
         return []
-    now = [Variant(n, p, f) for (n, p), f in zip(search.fit.changes, search.fit.free, strict=True)]
+    now = search.fit.variants
     best: dict[str, Fit] = {}
     for fit in fits:
         best.setdefault(fit.names[-1], fit)
@@ -131,9 +130,10 @@ def _take(search: Search, fits: list[Fit]) -> bool:
     fits = [f for f in fits if _visible(search, f) and gain_of(search, f, empty) > settings.LEAST_GAIN]
     if not fits:
         return False
-    least = 0.75 * gain_of(search, fits[0], empty) - settings.TIE
-    likely = [f for f in fits if gain_of(search, f, empty) >= least]
-    for fit in _in_order(search, likely)[:4]:
+    gains = [gain_of(search, f, empty) for f in fits]
+    likely = [f for f, gain in zip(fits, gains, strict=True) if gain >= 0.75 * gains[0] - settings.TIE]
+    equal = sum(gain > gains[0] - settings.EQUAL for gain in gains)
+    for fit in _in_order(search, likely, equal)[:4]:
         ok, gates = accepted(search, fit)
         search.log.append(
             "gates: "
@@ -152,23 +152,25 @@ def _take(search: Search, fits: list[Fit]) -> bool:
     return False
 
 
-def _in_order(search: Search, fits: list[Fit]) -> list[Fit]:
-    """Put the likeliest first; but before one that scales the force another such that leaves plainly less.
+def _in_order(search: Search, fits: list[Fit], equal: int) -> list[Fit]:
+    """Order the first ``equal`` of ever less likely sets; put before them what leaves plainly less.
 
-    The flexible form can take up what a poorer form leaves, at a price that its size makes small.
+    Among effects that scale the force alone: the flexible form can take up what a poorer form leaves, at a
+    price that its size makes small.
     """
-    empty = objective(search.system, [])
-    gains = [gain_of(search, f, empty) for f in fits]
-    equal = [f for f, gain in zip(fits, gains, strict=True) if gain > gains[0] - settings.EQUAL]
-    equal.sort(key=lambda f: (rank(search, f), _cost(search, f)))
-    rest = [f for f in fits if all(f is not e for e in equal)]
-    noise = float(len(search.data.outputs))
-    left = {id(f): mismatch_of(search, residual(search.data, f.changes)) - noise for f in fits}
-    first = left[id(equal[0])]
-    scales = {id(f): catalogue()[f.names[-1]].scales for f in fits}
-    less = [f for f in rest if scales[id(f)] and left[id(f)] < settings.PLAINLY_LESS * first]
-    less = less if scales[id(equal[0])] else []
-    return [*less, *equal, *(f for f in rest if all(f is not e for e in less))]
+    first = sorted(fits[:equal], key=lambda f: (rank(search, f), _cost(search, f)))
+    rest = fits[equal:]
+    if not _scales(first[0]):
+        return [*first, *rest]
+    most = settings.PLAINLY_LESS * left_by(search, first[0])
+    less = [_scales(f) and left_by(search, f) < most for f in rest]
+    before = [f for f, yes in zip(rest, less, strict=True) if yes]
+    return [*before, *first, *(f for f, yes in zip(rest, less, strict=True) if not yes)]
+
+
+def _scales(fit: Fit) -> bool:
+    """Whether the last effect of a set scales the force."""
+    return catalogue()[fit.names[-1]].scales
 
 
 def _cost(search: Search, fit: Fit) -> float:

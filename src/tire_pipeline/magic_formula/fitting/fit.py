@@ -243,8 +243,7 @@ def _filled(x: np.ndarray, value: float) -> np.ndarray:
 
 
 def _choose(stage: Stage, points: Mapping[str, np.ndarray], measured: np.ndarray) -> np.ndarray:
-    rolling = np.abs(points["slip_ratio"]) <= stages.PURE_SLIP_RATIO
-    straight = np.abs(points["slip_angle"]) <= stages.PURE_SLIP_ANGLE
+    rolling, straight = _pure(points)
     which = np.isfinite(measured)
     if stage.points == "lateral":
         which &= rolling
@@ -257,14 +256,19 @@ def _choose(stage: Stage, points: Mapping[str, np.ndarray], measured: np.ndarray
     return np.flatnonzero(which)
 
 
+def _pure(points: Mapping[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Which points roll freely, and which have no slip angle."""
+    rolling = np.abs(points["slip_ratio"]) <= stages.PURE_SLIP_RATIO
+    return rolling, np.abs(points["slip_angle"]) <= stages.PURE_SLIP_ANGLE
+
+
 def _braking_alone(points: Mapping[str, np.ndarray], fy: np.ndarray, most: int) -> np.ndarray:
     """Return points at pure longitudinal slip, spread over the recording.
 
     They show the side force that braking or driving makes (RVY1 to RVY6). Combined slip measured at a few
     slip angles leaves it open between them.
     """
-    straight = np.abs(points["slip_angle"]) <= stages.PURE_SLIP_ANGLE
-    rolling = np.abs(points["slip_ratio"]) <= stages.PURE_SLIP_RATIO
+    rolling, straight = _pure(points)
     rows = np.flatnonzero(np.isfinite(fy) & straight & ~rolling)
     return rows[:: max(1, -(-rows.size // most))]
 
