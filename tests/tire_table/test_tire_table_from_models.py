@@ -33,19 +33,20 @@ def test_columns_and_rows():
     table = from_models(
         [
             ("B/z.tir", "B", model("6.1", PKY4=1.9, NOMPRES=2.2e5)),
-            ("A/y.tir", "A", model(PHY1=0.01)),
+            ("A/y.tir", "A", model(metadata={**METADATA, "date": "2011-01-31"}, PHY1=0.01)),
             ("A/x.tir", "A", model(metadata={"INERTIA.MASS": "heavy"}, XYZ7=3.0)),
         ]
     )
     assert table["file"].tolist() == ["A/x.tir", "A/y.tir", "B/z.tir"]
     assert table["category"].tolist() == ["A", "A", "B"]
     assert table["version"].tolist() == ["5.2", "5.2", "6.1"]
+    assert table["date"].tolist() == ["", "2011-01-31", ""]
     assert set(ALWAYS) <= set(table.columns)
     assert "XYZ7" not in table.columns  # no coefficient of any version
     assert np.array_equal(table["PKY4"], [np.nan, np.nan, 1.9], equal_nan=True)
     assert np.array_equal(table["PHY1"], [np.nan, 0.01, np.nan], equal_nan=True)  # not what stands in
     assert np.array_equal(table["MASS"], [np.nan, 9.83, 9.83], equal_nan=True)
-    numbers = table.drop(columns=["file", "category", "version", "tire_id"])
+    numbers = table.drop(columns=["file", "category", "version", "date", "tire_id"])
     assert (numbers.dtypes == np.float64).all()
     assert table["tire_id"][1] == table["tire_id"][2] != table["tire_id"][0]
 
@@ -54,7 +55,7 @@ def test_dtypes_do_not_depend_on_the_content():
     empty = from_models([])
     full = from_models([("x.tir", "A", model())])
     assert len(empty) == 0
-    for name in ("file", "category", "version", "tire_id", *ALWAYS):
+    for name in ("file", "category", "version", "date", "tire_id", *ALWAYS):
         assert empty[name].dtype == full[name].dtype
 
 

@@ -93,17 +93,17 @@ def merged(old: pd.DataFrame, new: pd.DataFrame, gone: list[str]) -> pd.DataFram
         table = pd.concat(parts, ignore_index=True).dropna(axis=1, how="all")
     order = from_models([]).columns.tolist()
     table = table.reindex(columns=_ordered([*table.columns, *order]))
+    table["date"] = table["date"].fillna("").astype("str")  # a table of before there were dates has none
     table["tire_id"] = physical_tire_ids(table)
     return table.sort_values("file", ignore_index=True)
 
 
 def _ordered(names: list[str]) -> list[str]:
-    from tire_pipeline.tire_table.from_models import ALWAYS, KNOWN_COEFFICIENTS
+    from tire_pipeline.tire_table.from_models import ALWAYS, KNOWN_COEFFICIENTS, TEXTS
 
     present = set(names)
-    first = ["file", "category", "version"]
     numbers = [name for name in KNOWN_COEFFICIENTS if name in present]
-    return [*first, *numbers, *(name for name in ALWAYS if name not in numbers), "tire_id"]
+    return [*TEXTS, *numbers, *(name for name in ALWAYS if name not in numbers), "tire_id"]
 
 
 def _models(

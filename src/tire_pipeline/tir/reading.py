@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from tire_pipeline.errors import TirSyntaxError, TirValueError
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.tir.document import Entry, Scan, TirFile, parse_tir
+from tire_pipeline.tir.header_date import measurement_date
 from tire_pipeline.tir.keys import (
     DIMENSION,
     FORCE_SECTIONS,
@@ -64,8 +65,9 @@ def read_tir(source: str | os.PathLike[str] | bytes, *, path: str | None = None)
     TireModel
         ``defaulted`` lists what the version's equations need and the file lacks.
         ``metadata["warnings"]`` is a tuple of sentences about contradictions and oddities;
-        ``metadata["sidecar"]`` holds the corrections of ``<file>.sidecar.json`` if there is one beside the
-        file. ``source`` is the :class:`TirFile`.
+        ``metadata["date"]`` is the day of the measurement, ``YYYY-MM-DD``, if the header tells it
+        (:mod:`.header_date`); ``metadata["sidecar"]`` holds the corrections of ``<file>.sidecar.json`` if
+        there is one beside the file. ``source`` is the :class:`TirFile`.
 
     Raises
     ------
@@ -89,6 +91,9 @@ def read_tir(source: str | os.PathLike[str] | bytes, *, path: str | None = None)
     reading = interpret(file)
     metadata = reading.metadata
     metadata["warnings"] = tuple(_bounded(reading.warnings))
+    day = measurement_date(file.text)
+    if day is not None:
+        metadata["date"] = day.isoformat()
     if file.path is not None and not isinstance(source, bytes | bytearray | memoryview):
         sidecar = read_sidecar(file.path)
         if sidecar is not None:

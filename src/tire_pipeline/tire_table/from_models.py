@@ -27,6 +27,9 @@ ALWAYS = ("UNLOADED_RADIUS", *METADATA, "NOMPRES", "FNOMIN")
 """Number columns that every table has."""
 
 _NOT_COEFFICIENTS = {"MODEL", "DIMENSION", "INERTIA"}
+TEXTS = ("file", "category", "version", "date")
+"""Text columns that every table has before the numbers; ``tire_id`` comes last."""
+
 KNOWN_COEFFICIENTS = tuple(
     dict.fromkeys(
         [
@@ -52,7 +55,8 @@ def from_models(models: Iterable[tuple[str, str, TireModel]]) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        Sorted by ``file``, with a new index. ``file``, ``category``, ``version`` (text); the coefficients
+        Sorted by ``file``, with a new index. ``file``, ``category``, ``version``, ``date`` (text; the day of
+        the measurement as ``YYYY-MM-DD``, empty where the file does not tell); the coefficients
         (float64, SI; NaN where the file has none, also where another value stands in for it); the metadata
         ``WIDTH, ASPECT_RATIO, RIM_RADIUS, RIM_WIDTH, MASS`` (float64, SI); ``tire_id`` (text,
         :func:`physical_tire_ids`). Without any model the same columns, empty.
@@ -62,12 +66,12 @@ def from_models(models: Iterable[tuple[str, str, TireModel]]) -> pd.DataFrame:
     DomainError
         Two models have the same ``file``.
     """
-    texts: list[tuple[str, str, str]] = []
+    texts: list[tuple[str, str, str, str]] = []
     # Files of one origin have the same keys: rows are collected by their keys, as bare numbers.
     groups: dict[tuple[str, ...], tuple[array[int], array[float]]] = {}
     known = frozenset(KNOWN_COEFFICIENTS)
     for row, (file, category, model) in enumerate(models):
-        texts.append((file, category, model.version))
+        texts.append((file, category, model.version, str(model.metadata.get("date", ""))))
         values = {k: v for k, v in model.coefficients.items() if k in known}
         for column, name in METADATA.items():
             value = model.metadata.get(name)
@@ -77,7 +81,7 @@ def from_models(models: Iterable[tuple[str, str, TireModel]]) -> pd.DataFrame:
         rows.append(row)
         numbers.extend(values.values())
     columns = _column_order(groups)
-    names = pd.DataFrame(texts, columns=["file", "category", "version"], dtype="str")
+    names = pd.DataFrame(texts, columns=list(TEXTS), dtype="str")
     if names["file"].duplicated().any():
         twice = names.loc[names["file"].duplicated(), "file"].iloc[0]
         raise DomainError("a file stands twice among the models", where=twice, todo="give each path once")
