@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from tire_pipeline.concealed import make_case
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.checks import prepare
 from tire_pipeline.mismatch.doubts import _instead
@@ -11,6 +12,7 @@ from tire_pipeline.mismatch.nuisance import make_nuisance
 from tire_pipeline.mismatch.refit import refit
 from tire_pipeline.mismatch.repeating import strongest_length
 from tire_pipeline.mismatch.search import begin, with_shapes
+from tire_pipeline.mismatch.shapes import shape_columns
 from tire_pipeline.mismatch.unnamed import forms, play
 
 
@@ -178,3 +180,42 @@ def test_two_effects_that_look_like_one_are_exchanged_for_it(tire, record):
     search.fit = refit(search.system, both)
     assert search.fit.names == ["wear", "temperature"]
     assert exchanged(search)[0].names == ["surface_change"]
+
+
+def _names(report):
+    return [effect.name for effect in report.effects]
+
+
+def _spent(seed):
+    """A case of a spent proof."""
+    case, answer = make_case(seed, "pair" if seed != 130062434 else "single")
+    return case, {effect.name for effect in answer.effects}
+
+
+@pytest.mark.parametrize("seed", [108528631, 809634083])
+def test_what_the_form_of_one_effect_gets_wrong_does_not_choose_the_next(seed):
+    """The turn's few samples would prefer a gain to friction, by more than all others prefer friction."""
+    case, truth = _spent(seed)
+    assert truth == {"turn_slip", "friction_scale"}
+    assert set(_names(explain_mismatch(case.tire, case.recording))) == truth
+
+
+def test_pressure_without_brakes_has_one_stiffness_which_bends():
+    """Two stiffnesses of one force left a valley where the fit stopped; its rest got a name."""
+    case, truth = _spent(130062434)
+    report = explain_mismatch(case.tire, case.recording)
+    assert set(_names(report)) == truth == {"inflation_pressure"}
+    assert report.corrected.changes[0][1]["lateral_stiffness"] == 0.0
+    assert report.remainder.nats < 10.0
+
+
+def test_a_state_without_its_channel_may_lag_otherwise(tire, record):
+    """What another lag would do is within the form's error; with a channel there is no lag to get wrong."""
+    recording = record(5)
+    values = {"friction": -0.1, "curvature": 0.0, "stiffness": 0.0, "reference": 0.0, "lag": 20.0}
+    data = prepare(tire, recording).data
+    blind = shape_columns(data, [("temperature", values)], 0)["fy"]
+    seen = prepare(tire, recording.assign(tread_temperature=50.0 + 20.0 * data.heat(20.0))).data
+    known = shape_columns(seen, [("temperature", {**values, "reference": 50.0})], 0)["fy"]
+    assert blind.shape[1] == known.shape[1] + 2
+    assert np.ptp(blind[:, -1]) > 0.1 * np.ptp(blind[:, 4])

@@ -9,8 +9,9 @@ import numpy as np
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, refit
-from tire_pipeline.mismatch.search import Search, gain_of, objective, prune
+from tire_pipeline.mismatch.search import Search, gain_of, objective, prune, with_shapes
 from tire_pipeline.mismatch.simulate import simulate
 
 Array = np.ndarray
@@ -49,7 +50,10 @@ class Rival:
 
 
 def rivals(search: Search, index: int) -> list[Rival]:
-    """Compare effect number ``index`` of the accepted set with all others, nearest first."""
+    """Compare effect number ``index`` of the accepted set with all others, nearest first.
+
+    By a system with the shapes of the other accepted effects.
+    """
     fit, data = search.fit, search.data
     changes = fit.changes
     rest = [c for j, c in enumerate(changes) if j != index]
@@ -58,7 +62,8 @@ def rivals(search: Search, index: int) -> list[Rival]:
     ]
     whole, without = simulate(data, changes), simulate(data, rest)
     part = {o: whole[o] - without[o] for o in data.outputs}
-    size = search.system.reduce(search.system.sums(part))[2]
+    system = with_shapes(search, search.system, rest)
+    size = system.reduce(system.sums(part))[2]
     best: dict[str, tuple[float, Variant]] = {}
     for v in search.variants:
         if v.name in fit.names:
@@ -66,19 +71,20 @@ def rivals(search: Search, index: int) -> list[Rival]:
         columns = screening_columns(data, rest, v)
         if columns[data.outputs[0]].shape[1] == 0:
             continue
-        info, score, _ = search.system.reduce(search.system.sums(part, columns))
+        info, score, _ = system.reduce(system.sums(part, columns))
         explained = _explained(info, score)
         apart = float(np.clip(1.0 - explained / max(size, 1e-12), 0.0, 1.0))
         if v.name not in best or apart < best[v.name][0]:
             best[v.name] = (apart, v)
-    empty = objective(search.system, rest)
-    own = gain_of(search, fit, empty)
+    empty = objective(system, rest)
+    own = gain_of(search, fit.judged_by(system), empty)
     out = []
     for name, (_, v) in sorted(best.items(), key=lambda t: t[1][0])[:4]:
         if best[name][0] > 0.35:
             continue
         trial = prune(search, refit(search.system, [*others, v], start=[*rest, (name, v.start)]))
-        apart = _apart(search, trial, part, size, name)
+        trial = trial.judged_by(system)
+        apart = _apart(search, system, trial, part, size, name)
         nats = 0.5 * apart * size / search.inflation
         this, that = catalogue()[changes[index][0]], catalogue()[name]
         shape = settings.SHAPE_SHARE if this.dynamic and that.dynamic else 0.0
@@ -88,7 +94,9 @@ def rivals(search: Search, index: int) -> list[Rival]:
     return sorted(out, key=lambda r: r.apart)
 
 
-def _apart(search: Search, trial: Fit, part: dict[str, Array], size: float, name: str) -> float:
+def _apart(
+    search: Search, system: System, trial: Fit, part: dict[str, Array], size: float, name: str
+) -> float:
     """Share of a part that the rival's fitted form, with its derivatives, does not span."""
     data = search.data
     i = trial.names.index(name)
@@ -96,7 +104,7 @@ def _apart(search: Search, trial: Fit, part: dict[str, Array], size: float, name
     without = simulate(data, [c for j, c in enumerate(trial.changes) if j != i])
     own = [k for k, (j, _) in enumerate(trial.labels) if j == i]
     columns = {o: np.column_stack([whole[o] - without[o], trial.columns[o][:, own]]) for o in data.outputs}
-    info, score, _ = search.system.reduce(search.system.sums(part, columns))
+    info, score, _ = system.reduce(system.sums(part, columns))
     return float(np.clip(1.0 - _explained(info, score) / max(size, 1e-12), 0.0, 1.0))
 
 

@@ -44,9 +44,9 @@ class Data(States):
     fixed: dict[str, Any] = field(default_factory=dict)
 
     def driven(self, output: str) -> bool:
-        """Whether the slips make this force move, so that its size can be judged."""
+        """Whether this force is there and the slips make it move, so that its size can be judged."""
         sizes = {n: float(np.quantile(np.abs(b), 0.98)) for n, b in self.base.items()}
-        return sizes[output] > 0.15 * max(sizes.values())
+        return sizes.get(output, 0.0) > 0.15 * max(sizes.values())
 
     @property
     def tire_coefficients(self) -> Any:

@@ -8,6 +8,7 @@ from itertools import combinations
 
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.gates import left_by
+from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, objective, refit
 from tire_pipeline.mismatch.screening import gain_of, prune, rank, screen, without
 from tire_pipeline.mismatch.shapes import with_shapes
@@ -30,12 +31,14 @@ def exchanged(search: Search) -> list[Fit]:
     search : Search
         With at least two effects found; not changed.
     """
-    empty = objective(search.system, [])
-    found, usual = gain_of(search, search.fit, empty), rank(search, search.fit)
+    empty, usual = objective(search.system, []), rank(search, search.fit)
     most = left_by(search, search.fit) / settings.PLAINLY_LESS
     out = []
     for group in _groups(len(search.fit.names)):
-        for fit in _in_place_of(search, group):
+        rest = without(search, search.fit, *group)
+        shaped = with_shapes(search, search.system, rest.changes)
+        found = gain_of(search, search.fit.judged_by(shaped), empty)
+        for fit in _in_place_of(search, group, rest, shaped):
             simpler = len(group) > 1 or rank(search, fit) < usual
             least = found + (-0.5 * settings.TIE if simpler else settings.TIE)
             if gain_of(search, fit, empty) > least and left_by(search, fit) <= most:
@@ -48,14 +51,13 @@ def _groups(count: int) -> Iterator[tuple[int, ...]]:
         yield from combinations(range(count), size)
 
 
-def _in_place_of(search: Search, group: tuple[int, ...]) -> Iterator[Fit]:
-    """Refit the set with the likeliest effects in place of a group.
+def _in_place_of(search: Search, group: tuple[int, ...], rest: Fit, shaped: System) -> Iterator[Fit]:
+    """Refit the set with the likeliest effects in place of a group, beside the rest and its shapes.
 
     One of two may stand in for both: in another form, or with parameters that were dropped beside the other.
     """
-    rest = without(search, search.fit, *group)
     trial = replace(search, fit=rest, screened={})
-    ranked = screen(trial, with_shapes(trial, trial.system, rest.changes) if rest.changes else None)
+    ranked = screen(trial, shaped)
     out = search.fit.names[group[0]] if len(group) == 1 else ""
     tried = {*rest.names, out}
     for gain, variant in ranked:
@@ -64,4 +66,4 @@ def _in_place_of(search: Search, group: tuple[int, ...]) -> Iterator[Fit]:
         if variant.name in tried:
             continue
         tried.add(variant.name)
-        yield prune(trial, refit(search.system, [*rest.variants, variant]))
+        yield prune(trial, refit(search.system, [*rest.variants, variant])).judged_by(shaped)

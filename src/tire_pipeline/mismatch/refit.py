@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -57,6 +57,10 @@ class Fit:
     def variants(self) -> list[Variant]:
         """Its effects as forms to refit, from where they are."""
         return [Variant(n, p, f) for (n, p), f in zip(self.changes, self.free, strict=True)]
+
+    def judged_by(self, system: System) -> Fit:
+        """Return the fit with the objective that another system gives to it."""
+        return replace(self, objective=objective(system, self.changes))
 
     @property
     def parameters(self) -> int:

@@ -14,6 +14,7 @@ from tire_pipeline.mismatch.doubts import doubts
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.exchange import exchanged
 from tire_pipeline.mismatch.gates import accepted, left_by, mismatch_of
+from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.screening import gain_of, prune, rank, screen, without
 from tire_pipeline.mismatch.shapes import with_shapes
@@ -43,32 +44,33 @@ def run(search: Search) -> None:
 def _grow(search: Search, barred: Set[str] = frozenset()) -> None:
     """Put in effects until none passes, none of the barred ones."""
     for _ in range(settings.MOST_EFFECTS - len(search.fit.names)):
-        extra = with_shapes(search, search.system, search.fit.changes) if search.fit.changes else None
-        ranked = screen(search, extra)
+        shaped = with_shapes(search, search.system, search.fit.changes)
+        ranked = screen(search, shaped)
         search.log.append("screen: " + ", ".join(f"{v.name} {g:.0f}" for g, v in ranked[:8]))
         ranked = [(g, v) for g, v in ranked if g > 2.0 and v.name not in barred]
         if not search.fit.names:
             search.first = ranked
-        if not _one_more(search, ranked):
+        if not _one_more(search, ranked, shaped):
             break
         rescale(search)
         search.fit = _again(search, search.fit)
 
 
-def _one_more(search: Search, ranked: list[tuple[float, Variant]]) -> bool:
+def _one_more(search: Search, ranked: list[tuple[float, Variant]], shaped: System) -> bool:
     """Accept one more effect, or two at once.
 
-    What is likely, also when fitted, but removes next to nothing of the mismatch is set aside, so that it
-    does not bar the way.
+    Sets are compared by the system with the shapes of the effects that are in: what the form of turn slip
+    gets wrong must not choose between friction and a gain. What is likely, also when fitted, but removes
+    next to nothing of the mismatch is set aside, so that it does not bar the way.
     """
     empty = objective(search.system, [])
     while ranked:
-        fits = _refined(search, ranked)
+        fits = [f.judged_by(shaped) for f in _refined(search, ranked)]
         fits.sort(key=lambda f: -gain_of(search, f, empty))
         search.log.append(
             "refit: " + ", ".join(f"{'+'.join(f.names)} {gain_of(search, f, empty):.0f}" for f in fits[:6])
         )
-        if _take(search, fits) or _take(search, _pairs(search, fits)):
+        if _take(search, fits) or _take(search, _pairs(search, fits, shaped)):
             return True
         likely = [f for f in fits if gain_of(search, f, empty) > settings.LEAST_GAIN]
         hidden = {f.names[-1] for f in likely if not _visible(search, f)}
@@ -100,7 +102,7 @@ def _refined(search: Search, ranked: list[tuple[float, Variant]]) -> list[Fit]:
     return fits
 
 
-def _pairs(search: Search, fits: list[Fit]) -> list[Fit]:
+def _pairs(search: Search, fits: list[Fit], shaped: System) -> list[Fit]:
     """Refit pairs of the most promising effects: two can mask each other."""
     if len(search.fit.names) + 2 > settings.MOST_EFFECTS:
         return []
@@ -112,7 +114,7 @@ def _pairs(search: Search, fits: list[Fit]) -> list[Fit]:
     for first, second in combinations(list(best)[:4], 2):
         forms = [Variant(name, best[name].changes[-1][1], best[name].free[-1]) for name in (first, second)]
         start = [*search.fit.changes, *(best[name].changes[-1] for name in (first, second))]
-        out.append(prune(search, refit(search.system, [*now, *forms], start=start)))
+        out.append(prune(search, refit(search.system, [*now, *forms], start=start)).judged_by(shaped))
     empty = objective(search.system, [])
     out.sort(key=lambda f: -gain_of(search, f, empty))
     search.log.append(

@@ -17,9 +17,17 @@ Array = np.ndarray
 
 
 def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str, Array]:
-    """Columns for what the form of an accepted effect may get wrong: its own part times own inputs."""
+    """Columns for what the form of an accepted effect may get wrong.
+
+    Its own part times own inputs, and what other forms of it would do instead.
+    """
     whole = simulate(data, changes)
     without = simulate(data, [c for j, c in enumerate(changes) if j != index])
+    name, found = changes[index]
+    others = [
+        simulate(data, [*changes[:index], (name, form), *changes[index + 1 :]])
+        for form in catalogue()[name].other_forms(data, found)
+    ]
     load = data.load_excess(data.get("normal_load"))
     load = load / max(float(np.max(np.abs(load))), 1e-9)
     out = {}
@@ -29,9 +37,10 @@ def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str
         use = slip / (slip + max(float(np.quantile(slip, 0.9)) / 3.0, 1e-6))
         use = 2.0 * use / max(float(use.max()), 1e-9) - 1.0
         columns = [part * use, part * load, part * (2.0 * use**2 - 1.0), part * use * load, part]
-        if catalogue()[changes[index][0]].dynamic:
+        if catalogue()[name].dynamic:
             shift = 0.5 / settings.SHAPE_SHARE
             columns += [shift * _change(data, whole[o]), shift * _change(data, part)]
+        columns += [other[o] - whole[o] for other in others]
         out[o] = np.column_stack(columns)
     return out
 

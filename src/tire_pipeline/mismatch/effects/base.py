@@ -164,6 +164,10 @@ class Effect:
         """Return the parameter values to start from: one dict for each form worth trying."""
         return [self.zeros(data)]
 
+    def other_forms(self, data: object, p: Parameters) -> list[dict[str, float]]:
+        """Return other parameters between which and the found ones the truth may lie; none by default."""
+        return []
+
     def inputs(self, state: State, data: object, p: Parameters) -> None:
         """Change what the tire sees (slips, camber, load)."""
 

@@ -12,7 +12,8 @@ class InflationPressure(Effect):
     name = "inflation_pressure"
     title = "inflation pressure"
     equation = (
-        "d = (p - p0) / p0; friction *= 1 + friction d; stiffness *= 1 + stiffness d; "
+        "d = (p - p0) / p0; friction *= 1 + friction d; "
+        "stiffness *= 1 + stiffness d + stiffness_curvature d^2; "
         "lateral stiffness besides *= 1 + lateral_stiffness d"
     )
     source = "MF 6.1: PPX1..4, PPY1..4; Besselink, Schmeitz, Pacejka 2010, VSD 48 (suppl. 1)"
@@ -21,6 +22,7 @@ class InflationPressure(Effect):
         Parameter("friction", "1", -1.5, 1.5, 0.02),
         Parameter("stiffness", "1", -2.5, 2.5, 0.02),
         Parameter("lateral_stiffness", "1", -2.0, 2.0, 0.02, output="fy"),
+        Parameter("stiffness_curvature", "1", -4.0, 4.0, 0.02),
         Parameter("reference", "Pa", 0.0, 5e6, 100.0),
     )
     looks_like = {"temperature": "temperature lags; pressure steps show at once"}
@@ -33,20 +35,23 @@ class InflationPressure(Effect):
         return [{**zero, "reference": p} for p in data.pressure_levels]  # type: ignore[attr-defined]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
-        """All but the reference."""
-        return ("friction", "stiffness", "lateral_stiffness")
+        """All but the reference; one stiffness where one force alone is driven."""
+        both = data.driven("fx") and data.driven("fy")  # type: ignore[attr-defined]
+        names = ("friction", "stiffness", "stiffness_curvature")
+        return (*names, "lateral_stiffness") if both else names
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale friction and stiffness with pressure."""
         reference = p["reference"] or data.pressure_nominal  # type: ignore[attr-defined]
         d = (data.smooth("pressure") - reference) / reference  # type: ignore[attr-defined]
         state.log_friction = state.log_friction + safe_log1p(p["friction"] * d)
-        state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * d)
+        change = p["stiffness"] * d + p["stiffness_curvature"] * d**2
+        state.log_stiffness = state.log_stiffness + safe_log1p(change)
         state.log_stiffness_y = state.log_stiffness_y + safe_log1p(p["lateral_stiffness"] * d)
 
     def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
-        """PPX1, PPX3, PPY1, PPY3 of MF 6.x."""
-        if not str(getattr(tire, "version", "")).startswith("6"):
+        """PPX1, PPX3, PPY1, PPY3 of MF 6.x, which has no place for a lateral stiffness that bends."""
+        if not str(getattr(tire, "version", "")).startswith("6") or p["stiffness_curvature"] != 0.0:
             return {}
         c = tire.coefficients  # type: ignore[attr-defined]
         return {

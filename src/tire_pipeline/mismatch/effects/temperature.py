@@ -68,6 +68,12 @@ class Temperature(Effect):
             names.append("lag")
         return tuple(names)
 
+    def other_forms(self, data: object, p: Parameters) -> list[dict[str, float]]:
+        """Without a channel: a tire has more masses than one, which warm faster and slower."""
+        if data.has("tread_temperature"):  # type: ignore[attr-defined]
+            return []
+        return [{**p, "lag": p["lag"] * factor} for factor in (3.0, 1.0 / 3.0)]
+
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale friction and stiffness."""
         if data.has("tread_temperature"):  # type: ignore[attr-defined]
