@@ -35,6 +35,12 @@ def test_without_such_tires_only_the_sum_is_known_and_what_is_alone_stays_as_exp
     np.testing.assert_allclose(OWN * spread**2 + alone, OWN * SPREAD**2 + ALONE, rtol=0.25)
 
 
+def test_three_such_tires_do_not_tell_what_is_alone(rng):
+    found = _measured(rng, 3, 100)
+    alone = own_spread(found, OWN, 0.2)[1]
+    np.testing.assert_allclose(alone, 0.2, rtol=0.05)
+
+
 def test_a_fit_that_went_astray_hardly_counts(rng):
     found = _measured(rng, 30, 60)
     spread, alone = own_spread(found, OWN, 0.2)

@@ -3,7 +3,8 @@
 Score of a tire in a category, less its expectation: spread of the category x the tire's own + alone + noise.
 One fit stiffens every curve's shape, another lets a coefficient run into its bound: both differ by category,
 and they decide how far a file is to be believed. Tires that several categories measured tell both apart.
-Without any, only their sum is known: then what is alone stays as it is expected, and the spread follows.
+With fewer than four, only their sum is known: then what is alone stays as it is expected, and the spread
+follows.
 """
 
 from __future__ import annotations
@@ -12,6 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import minimize
+
+FEWEST_SHARED = 4
+"""Fewer tires that several categories measured do not tell what is alone."""
 
 _SPREAD_WIDTH = 0.2  # standard deviation of the logarithm of a category's spread about the common one
 _ALONE_WIDTH = 1.0  # of the logarithm of a category's variance alone about the common one
@@ -63,12 +67,13 @@ def own_spread(found: Residuals, own: float, alone: float) -> tuple[np.ndarray, 
     count = found.shared.shape[1]
     single = np.ones(len(found.gap), dtype=bool)
     single[found.shared[found.shared >= 0]] = False
+    told = (found.shared >= 0).sum(axis=0) >= FEWEST_SHARED
 
     def cost(logs: np.ndarray) -> tuple[float, np.ndarray]:
         spread, extra = np.exp(logs[0] + logs[2 : 2 + count]), alone * np.exp(logs[1] + logs[2 + count :])
         one = _single_cost(found, single, own, spread, extra)
         several = _shared_cost(found, own, spread, extra)
-        prior, pull = _prior(logs, count, len(found.shared) > 0)
+        prior, pull = _prior(logs, told)
         by_spread, by_extra = one[1] + several[1], one[2] + several[2]
         slope = np.concatenate([[by_spread.sum(), by_extra.sum()], by_spread, by_extra])
         return one[0] + several[0] + prior, slope + pull
@@ -78,9 +83,11 @@ def own_spread(found: Residuals, own: float, alone: float) -> tuple[np.ndarray, 
     return np.exp(logs[0] + logs[2 : 2 + count]), alone * np.exp(logs[1] + logs[2 + count :])
 
 
-def _prior(logs: np.ndarray, count: int, told_apart: bool) -> tuple[float, np.ndarray]:
-    alone = [_COMMON_WIDTHS[1], _ALONE_WIDTH] if told_apart else [_HELD, _HELD]
-    widths = np.repeat([_COMMON_WIDTHS[0], alone[0], _SPREAD_WIDTH, alone[1]], [1, 1, count, count])
+def _prior(logs: np.ndarray, told: np.ndarray) -> tuple[float, np.ndarray]:
+    """Cost and slope of the prior; ``told`` (categories,): whose variance alone its shared tires tell."""
+    common = [_COMMON_WIDTHS[0], _COMMON_WIDTHS[1] if told.any() else _HELD]
+    spread = np.full(told.size, _SPREAD_WIDTH)
+    widths = np.concatenate([common, spread, np.where(told, _ALONE_WIDTH, _HELD)])
     return 0.5 * float(((logs / widths) ** 2).sum()), logs / widths**2
 
 
