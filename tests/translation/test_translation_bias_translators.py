@@ -1,5 +1,7 @@
 """Translators on a small fleet with a known truth."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -13,6 +15,7 @@ from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_t
 from tire_pipeline.translation.base import make_translator, translator_from_state
 from tire_pipeline.translation.bias_report import at_each_load, bias_report
 from tire_pipeline.translation.caution import DOUBTFUL, pooled_doubt
+from tire_pipeline.translation.curve_features import LOADS
 from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel, PairedMixedModel
 from tire_pipeline.translation.cycle_consistent import CycleConsistent
 from tire_pipeline.translation.greedy_forest import GreedyForest
@@ -199,6 +202,83 @@ def test_what_moved_is_said_in_words_and_comments(paired, hidden, fleet):
     ):
         assert word in text
     assert comment_lines(result, 1, COEFFICIENTS)[-1] != comments[-1] or len(comments) > 7
+
+
+def test_what_is_a_tires_own_does_not_depend_on_how_its_category_spreads_it(paired, hidden):
+    exact = tuple(replace(f, variances={**f.variances, "noise": 1e-9}) for f in paired.model.fitted)
+    model = replace(
+        paired.model,
+        fitted=exact,
+        spread=np.full_like(paired.model.spread, 1.5),
+        alone=np.full_like(paired.model.alone, 1e-9),
+    )
+    rows, own = hidden.head(6), np.linspace(-1.0, 1.0, 6 * model.kinds.scores.size).reshape(6, -1)
+    category = rows["category"].to_numpy(dtype=str)
+    place = np.array([model.categories.index(name) for name in category])
+    here = model.regressors(model.blocks(rows, category, model.protocols.code(rows)))
+    source = np.zeros((6, model.scale.size))
+    for i, k in enumerate(model.kinds.scores):
+        expected = here[0] @ model.fitted[k].mean[: here[0].shape[1]]
+        source[:, k] = (expected + 1.5 * own[:, i]) * model.scale[k]
+    np.testing.assert_allclose(model._own(source, place, here)[0], own, rtol=1e-6)
+
+
+@pytest.fixture(scope="module")
+def changed(training):
+    """Training files of which E's of the second half show 8% more friction."""
+    late = (training["category"] == "E") & (training["date"] >= "2016-07-01")
+    scale = np.where(late, 1.08, 1.0)
+    return training.assign(**{name: training[name] * scale for name in ("PDY1", "PDX1")})
+
+
+@pytest.fixture(scope="module")
+def changing(changed):
+    return MixedModel().fit(changed, target="D", seed=0)
+
+
+def test_no_change_of_protocol_where_there_is_none(mixed, paired, hidden):
+    assert mixed.model.protocols.changes == paired.model.protocols.changes == ()
+    assert mixed.translation(hidden.head(2), bands=False).protocols.empty
+
+
+def test_a_change_of_protocol_is_found_told_and_put_right(changing, hidden):
+    (change,) = changing.model.protocols.changes
+    assert change.category == "E"
+    assert "2015-07" < change.day < "2017-07"
+    own = hidden[hidden["category"] == "E"].head(1)
+    both = pd.concat([own.assign(date=day) for day in ("2012-01-01", "2020-01-01", "")], ignore_index=True)
+    both.loc[1, ["PDY1", "PDX1"]] *= 1.08
+    result = changing.translation(both, bands=False)
+    friction = result.table["PDY1"].to_numpy()
+    assert friction[1] == pytest.approx(friction[0], rel=0.015)  # one tire, by both protocols
+    assert result.report["protocol"].str.len().gt(0).all()
+    assert any("protocol" in line for line in comment_lines(result, 1, COEFFICIENTS))
+    found = changing.model.predict(both, "D")
+    place = changing.model.space.slices["lateral friction"]
+    assert found.variance[2, place].sum() > found.variance[0, place].sum()  # no date: either protocol
+    told = result.protocols.iloc[0]
+    assert told["category"] == "E"
+    assert 5.0 < float(told["lateral friction"].split("%")[0]) < 11.0
+    again = translator_from_state(changing.to_state())
+    pd.testing.assert_frame_equal(again.translate(both), result.table)
+
+
+def test_the_target_is_given_by_its_newest_protocol(changing, mixed, hidden):
+    source = hidden[hidden["category"] == "A"].head(4)
+    levels = []
+    for translator in (changing, mixed):
+        found = translator.model.predict(source, "E")
+        features = translator.model.space.features(found.target, translator.model.space.encode(source)[1])
+        levels.append(features["lateral"][:, LOADS.size : 2 * LOADS.size].mean())
+    assert 0.04 < levels[0] - levels[1] < 0.11
+
+
+def test_tables_without_dates_are_translated_as_before_there_were_any(training, mixed, hidden):
+    again = MixedModel().fit(training.drop(columns="date"), target="D", seed=0)
+    told = mixed.translate(hidden.head(3))
+    pd.testing.assert_frame_equal(
+        again.translate(hidden.head(3).drop(columns="date")), told.drop(columns="date")
+    )
 
 
 def test_bias_report_has_intervals_for_every_pair(paired, training):

@@ -9,16 +9,11 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.translation.curve_features import GROUPS, LOADS
-from tire_pipeline.translation.curve_mixed import CurveMixedModel
+from tire_pipeline.translation.curve_mixed import CurveMixedModel, columns_of
 from tire_pipeline.translation.curve_space import PARTS, UNIT
 from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel
+from tire_pipeline.translation.effects import KEY_PARTS, QUANTILE, difference
 
-QUANTILE = 1.6449 * 1.2
-"""Standard deviations to either side of a bias: those that hold 90% of a Gaussian, and 20% more, since the
-model takes its variances for known, and the noise from files of which some are fits of one recording (found
-on tuning fleets)."""
-
-_KEY_PARTS = ("cornering stiffness", "lateral friction", "slip stiffness", "longitudinal friction")
 _MOST_TIRES = 25
 
 
@@ -31,7 +26,8 @@ class BiasReport:
     by_region : DataFrame
         ``actor``, ``reference``, ``output``, ``region``, ``unit``, ``bias``, ``low``, ``high`` (90%
         interval), ``clear`` (the interval leaves out 0). Bias is ``actor`` less ``reference`` at the mean
-        tire: a share for logarithmic features (0.05: 5% more), else in the feature's own unit.
+        tire, in the mean of its protocols if an actor changed them: a share for logarithmic features (0.05:
+        5% more), else in the feature's own unit.
     by_metadata : DataFrame
         ``actor``, ``reference``, ``what``, ``metadata``, ``bias``, ``low``, ``high``, ``clear``: by how much
         the bias of ``what`` (mean over the loads) grows with one standard deviation of the metadata.
@@ -72,21 +68,6 @@ def bias_report(translator: MixedModel, training: pd.DataFrame, *, coefficients:
     return BiasReport(*(pd.concat(p, ignore_index=True) if p else pd.DataFrame() for p in parts))
 
 
-def _columns_of(model: CurveMixedModel, block: str) -> slice:
-    """Where a block's weights stand."""
-    d, sizes, actors = len(model.metadata.names), len(model.metadata.sizes), len(model.categories)
-    starts = {"category": 1 + d + sizes, "category_metadata": 1 + d + sizes + actors}
-    widths = {"category": actors, "category_metadata": actors * d}
-    return slice(starts[block], starts[block] + widths[block])
-
-
-def _difference(model: CurveMixedModel, contrast: np.ndarray, place: slice) -> tuple[np.ndarray, np.ndarray]:
-    """Mean and variance, for each score, of a weighted sum of weights."""
-    weights = [fitted.mean[place] @ contrast for fitted in model.fitted]
-    variances = [contrast @ fitted.covariance[place, place] @ contrast for fitted in model.fitted]
-    return np.array(weights) * model.scale, np.array(variances) * model.scale**2
-
-
 def _chance_of_tires(model: CurveMixedModel, training: pd.DataFrame) -> np.ndarray:
     """What each category is expected to measure of each training tire, (categories, tires, p), over the root
     of their number.
@@ -97,7 +78,8 @@ def _chance_of_tires(model: CurveMixedModel, training: pd.DataFrame) -> np.ndarr
     likely = model.predict(tires, model.categories[0]).classes
     effects = []
     for category in model.categories:
-        rows = model.regressors(tires, np.full(len(tires), category))
+        mean = np.zeros((len(tires), len(model.protocols.changes)))
+        rows = model.regressors(model.blocks(tires, np.full(len(tires), category), mean))
         weights = np.stack([one.mean[: rows[0].shape[1]] for one in model.fitted], axis=1) * model.scale
         effects.append(sum(likely[:, [k]] * (x @ weights) for k, x in enumerate(rows)))
     return np.stack(effects) / np.sqrt(len(tires))
@@ -110,7 +92,7 @@ def _contrast(model: CurveMixedModel, actor: str, reference: str) -> np.ndarray:
 
 def _regions(model: CurveMixedModel, actor: str, reference: str, chance: np.ndarray) -> pd.DataFrame:
     contrast = _contrast(model, actor, reference)
-    mean, variance = _difference(model, contrast, _columns_of(model, "category"))
+    mean, variance = difference(model, contrast, columns_of(model, "category"))
     variance = variance + np.tensordot(contrast, chance, axes=1).var(axis=0)
     rows = []
     names = {group.name: np.array(group.names) for group in GROUPS}
@@ -138,8 +120,8 @@ def _slopes(model: CurveMixedModel, actor: str, reference: str) -> pd.DataFrame:
     for k, name in enumerate(model.metadata.names):
         one = np.zeros((len(model.categories), len(model.metadata.names)))
         one[:, k] = contrast
-        mean, variance = _difference(model, one.ravel(), _columns_of(model, "category_metadata"))
-        for part in _KEY_PARTS:
+        mean, variance = difference(model, one.ravel(), columns_of(model, "category_metadata"))
+        for part in KEY_PARTS:
             place = model.space.slices[part]
             along = model.space.back[part].mean(axis=1) * UNIT[PARTS[part].group]
             value, half = mean[place] @ along, QUANTILE * np.sqrt(variance[place] @ along**2)

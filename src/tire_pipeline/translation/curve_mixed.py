@@ -1,10 +1,10 @@
 """What a target would measure: a mixed model of curve scores, conditioned on the metadata.
 
-For every score: tire (metadata, size, class, what is its own) + category + category x metadata + category x
-kind of tire + category x class + tire in this category + noise. The target's measurement of a tire is then
-predicted from the source's measurement of it: the source's score, moved by the difference of the categories'
-effects, and drawn a little towards what the metadata lets expect, by as much as the source is noise or its
-own fit.
+For every score: tire (metadata, size, class, what is its own) + category + category x metadata + category's
+protocol + category x kind of tire + category x class + tire in this category + noise. The target's
+measurement of a tire is then predicted from the source's measurement of it: the source's score, moved by the
+difference of the categories' effects, and drawn a little towards what the metadata lets expect, by as much as
+the source is noise or its own fit.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from tire_pipeline.translation.class_search import with_classes
 from tire_pipeline.translation.curve_space import CurveSpace
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.mixed_effects import Fitted
+from tire_pipeline.translation.protocols import NO_CHANGE, Protocols
 from tire_pipeline.translation.tire_classes import TireClasses
 from tire_pipeline.translation.tire_kinds import TireKinds, with_kinds
 
@@ -81,6 +82,8 @@ class CurveMixedModel:
         Variance of what one tire does in this category only, scores in their standard deviations.
     classes : TireClasses or None
         Classes of tires that no metadata names.
+    protocols : Protocols
+        Categories that changed how they measure.
     """
 
     space: CurveSpace
@@ -93,53 +96,77 @@ class CurveMixedModel:
     spread: np.ndarray
     alone: np.ndarray
     classes: TireClasses | None = None
+    protocols: Protocols = NO_CHANGE
+
+    def blocks(
+        self, table: pd.DataFrame, category: np.ndarray, protocol: np.ndarray
+    ) -> list[dict[str, np.ndarray]]:
+        """Blocks of the design, without tire effects and kinds, if ``category`` had measured, for each class.
+
+        ``protocol`` is the protocols' code, (n, changes), see :class:`.protocols.Protocols`.
+        """
+        blocks = design_blocks(self.metadata, table, category, self.categories, protocol)
+        if self.classes is None:
+            return [blocks]
+        codes = self.classes.coded(np.eye(self.classes.count))
+        return [with_classes(blocks, np.tile(code, (len(table), 1))) for code in codes]
 
     def regressors(
-        self, table: pd.DataFrame, category: np.ndarray, own: list[np.ndarray] | None = None
+        self, every: list[dict[str, np.ndarray]], own: list[np.ndarray] | None = None
     ) -> list[np.ndarray]:
-        """Rows of the design without tire effects, if ``category`` had measured: for each class, (n, m).
+        """Rows of the design without tire effects: for each class, (n, m), from its :meth:`blocks`.
 
         ``own`` is what is a tire's own in the scores of :attr:`kinds`, (n, q) for each class; 0 if not given.
         """
-        blocks = design_blocks(self.metadata, table, category, self.categories)
-        every = [blocks]
-        if self.classes is not None:
-            codes = self.classes.coded(np.eye(self.classes.count))
-            every = [with_classes(blocks, np.tile(code, (len(table), 1))) for code in codes]
         if self.kinds is not None:
-            none = np.zeros((len(table), self.kinds.scores.size))
+            none = np.zeros((len(every[0]["level"]), self.kinds.scores.size))
             own = own or [none] * len(every)
             every = [with_kinds(one, self.kinds.of(one, mine)) for one, mine in zip(every, own, strict=True)]
         return [np.concatenate(list(one.values()), axis=1) for one in every]
 
     def _own(self, source: np.ndarray, place: np.ndarray, here: list[np.ndarray]) -> list[np.ndarray]:
-        """What is a tire's own in the scores of its kind, for each class (n, q), from its scores (n, p)."""
+        """What is a tire's own in the scores of its kind, for each class (n, q), from its scores (n, p).
+
+        Where the category's spread is 1, as in :func:`.curve_mixed_fit.prepare`: it is the tire's, whoever
+        measures.
+        """
         if self.kinds is None:
             return []
         chosen = self.kinds.scores
-        weights = np.stack([self.fitted[k].mean[: here[0].shape[1]] for k in chosen], axis=1)
-        tire, noise = (
+        own, noise = (
             np.array([self.fitted[k].variances[name] for k in chosen]) for name in ("tire", "noise")
         )
-        own = tire * self.spread[np.ix_(place, chosen)] ** 2
-        share = own / (own + self.alone[np.ix_(place, chosen)] + noise)
-        return [share * (source[:, chosen] / self.scale[chosen] - x @ weights) for x in here]
+        spread, alone = self.spread[np.ix_(place, chosen)], self.alone[np.ix_(place, chosen)]
+        share = spread * own / (spread**2 * own + alone + noise)
+        return [share * gap for gap in self._gap(source, chosen, here)]
+
+    def _gap(self, source: np.ndarray, chosen: np.ndarray, here: list[np.ndarray]) -> list[np.ndarray]:
+        """Scores less what is expected of each class, each (n, q), in their standard deviations."""
+        weights = np.stack([self.fitted[k].mean[: here[0].shape[1]] for k in chosen], axis=1)
+        return [source[:, chosen] / self.scale[chosen] - x @ weights for x in here]
 
     def class_probability(
         self, table: pd.DataFrame, source: np.ndarray, here: list[np.ndarray]
     ) -> np.ndarray:
-        """Probability of each class of tire, (n, k), given its metadata and its scores (n, p)."""
+        """Probability of each class of tire, (n, k), given its metadata and its scores (n, p).
+
+        Spread and variance alone are the common ones of all categories, as in the search for the classes: on
+        tuning fleets each category's own made translations 1% worse.
+        """
         if self.classes is None:
             return np.ones((len(table), 1))
         telling = self.classes.scores
-        weights = np.stack([self.fitted[k].mean[: here[0].shape[1]] for k in telling], axis=1)
-        scaled = source[:, telling] / self.scale[telling]
-        gap = np.stack([scaled - x @ weights for x in here], axis=1)
+        gap = np.stack(self._gap(source, telling, here), axis=1)
         once = [
             self.fitted[k].variances["tire_category"] + self.fitted[k].variances["noise"] for k in telling
         ]
         alone = np.tile(once, (len(table), 1))
         return self.classes.probability(self.metadata.regressors(table), gap, alone)
+
+    def _reading(self, place: np.ndarray, target: int, k: int) -> Reading:
+        """How files of the categories ``place`` (n,), and ``target``, read score ``k``."""
+        spread, alone = self.spread[:, k], self.alone[:, k]
+        return Reading(spread[place], spread[target], alone[place], alone[target], place == target)
 
     def predict(self, table: pd.DataFrame, target: str, *, trust: float = 1.0) -> Prediction:
         """Predict what ``target`` would measure.
@@ -160,13 +187,13 @@ class CurveMixedModel:
         source, _ = self.space.encode(table)
         category = table["category"].to_numpy(dtype=str)
         place = np.array([self.categories.index(name) for name in category])
-        there_place = self.categories.index(target)
-        here = self.regressors(table, category)
+        blocks = self.blocks(table, category, self.protocols.code(table))
+        here = self.regressors(blocks)
         likely = self.class_probability(table, source, here)
         own = self._own(source, place, here)
-        here = self.regressors(table, category, own)
-        there = self.regressors(table, np.full(len(table), target), own)
-        same = place == there_place
+        here = self.regressors(blocks, own)
+        now = self.protocols.newest(target, len(table))
+        there = self.regressors(self.blocks(table, np.full(len(table), target), now), own)
         found = [
             _predict_score(
                 fitted,
@@ -175,25 +202,21 @@ class CurveMixedModel:
                 there,
                 likely,
                 trust,
-                Reading(
-                    self.spread[place, k],
-                    self.spread[there_place, k],
-                    self.alone[place, k],
-                    self.alone[there_place, k],
-                    same,
-                ),
+                self._reading(place, self.categories.index(target), k),
             )
             for k, fitted in enumerate(self.fitted)
         ]
         shift, shift_variance, aim, variance, surprise, expected = (
             np.stack(part, axis=1) for part in zip(*found, strict=True)
         )
+        steps = np.stack([one.mean[columns_of(self, "protocol")] for one in self.fitted], axis=1)
+        unsure = self.protocols.unsure(table) @ steps**2
         return Prediction(
             source,
             shift * self.scale,
-            shift_variance * self.scale**2,
+            (shift_variance + unsure) * self.scale**2,
             aim * self.scale,
-            variance * self.scale**2,
+            (variance + unsure) * self.scale**2,
             surprise,
             expected * self.scale,
             likely,
@@ -212,6 +235,7 @@ class CurveMixedModel:
             "alone": self.alone,
             **(self.kinds.to_state() if self.kinds else {}),
             **(self.classes.to_state() if self.classes else {}),
+            **(self.protocols.to_state() if self.protocols.changes else {}),
             "variance_names": np.array(names, dtype=str),
             "variances": np.array([[f.variances[name] for name in names] for f in self.fitted]),
             "weights": np.stack([f.mean for f in self.fitted]),
@@ -239,6 +263,7 @@ class CurveMixedModel:
             np.asarray(state["spread"]),
             np.asarray(state["alone"]),
             TireClasses.from_state(state) if "class_own" in state else None,
+            Protocols.from_state(state),
         )
 
 
@@ -320,11 +345,32 @@ def _predict_in_class(
     return shift, shift_variance, target, variance, residual / np.sqrt(source_variance), at_target
 
 
+def columns_of(model: CurveMixedModel, block: str) -> slice:
+    """Where the weights of ``category``, ``category_metadata`` or ``protocol`` stand."""
+    d, actors = len(model.metadata.names), len(model.categories)
+    widths = {
+        "category": actors,
+        "category_metadata": actors * d,
+        "protocol": len(model.protocols.changes),
+    }
+    start = 1 + d + len(model.metadata.sizes)
+    for name, width in widths.items():
+        if name == block:
+            return slice(start, start + width)
+        start += width
+    raise KeyError(block)
+
+
 def design_blocks(
-    metadata: Metadata, table: pd.DataFrame, category: np.ndarray, categories: tuple[str, ...]
+    metadata: Metadata,
+    table: pd.DataFrame,
+    category: np.ndarray,
+    categories: tuple[str, ...],
+    protocol: np.ndarray,
 ) -> dict[str, np.ndarray]:
     """Lay out the regressors of n tires as if ``category`` had measured them, by block, each (n, columns).
 
+    ``protocol`` (n, changes) is what :class:`.protocols.Protocols` gives; it is left out if it has no column.
     :func:`.class_search.with_classes` and :func:`.tire_kinds.with_kinds` add theirs.
     """
     x = metadata.regressors(table)
@@ -335,4 +381,5 @@ def design_blocks(
         "size": metadata.size_indicators(table),
         "category": actor,
         "category_metadata": (actor[:, :, None] * x[:, None, :]).reshape(len(actor), -1),
+        **({"protocol": protocol} if protocol.shape[1] else {}),
     }

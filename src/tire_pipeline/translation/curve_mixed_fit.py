@@ -10,10 +10,12 @@ import pandas as pd
 from tire_pipeline.translation.class_question import Question
 from tire_pipeline.translation.class_search import find_classes, with_classes
 from tire_pipeline.translation.curve_mixed import CurveMixedModel, design_blocks
-from tire_pipeline.translation.curve_space import Cells, CurveSpace, fit_curve_space
+from tire_pipeline.translation.curve_space import PARTS, Cells, CurveSpace, cells_of, fit_curve_space
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.mixed_effects import Design, Fitted, fit_mixed_effects
-from tire_pipeline.translation.own_spread import Residuals, own_spread, shared_cells
+from tire_pipeline.translation.own_spread import FEWEST_SHARED, Residuals, own_spread, shared_cells
+from tire_pipeline.translation.protocol_search import Dated, find_changes
+from tire_pipeline.translation.protocols import NO_CHANGE, Protocols, days_of
 from tire_pipeline.translation.tire_classes import TireClasses
 from tire_pipeline.translation.tire_kinds import TIRE_BLOCKS, TireKinds, tire_regressors, with_kinds
 
@@ -23,6 +25,7 @@ GUESS = {
     "size": 0.05,
     "category": 0.1,
     "category_metadata": 0.01,
+    "protocol": 0.03,
     "category_kind": 0.01,
     "class": 0.5,
     "category_class": 0.01,
@@ -48,6 +51,12 @@ CLASS_PARTS = {
 """The parts whose scores tell classes of tires apart, and the property that each is of. Within a class
 properties are taken to differ independently of each other: what links them is the class (latent
 class analysis)."""
+
+CLASS_BLOCKS = ("level", "metadata", "size", "category", "protocol")
+"""The blocks of the model in which classes are looked for."""
+
+CHANGE_GROUPS = ("lateral", "longitudinal")
+"""The outputs that are searched for a change of protocol."""
 
 KIND_PARTS = ("cornering stiffness", "lateral friction")
 """The parts whose scores say what kind of tire it is: what a soft rig does depends on its stiffness."""
@@ -96,7 +105,7 @@ class Prepared:
         One file of each cell.
     cells : Cells
     design : Design
-    space, metadata, categories, kinds, scale, classes
+    space, metadata, categories, kinds, scale, classes, protocols
         As in :class:`CurveMixedModel`.
     """
 
@@ -109,6 +118,7 @@ class Prepared:
     kinds: TireKinds | None
     scale: np.ndarray
     classes: TireClasses | None
+    protocols: Protocols = NO_CHANGE
 
     def model(self, fitted: tuple[Fitted, ...]) -> CurveMixedModel:
         """Give the model with these weights."""
@@ -122,6 +132,7 @@ class Prepared:
             fitted,
             *_spread_by_category(self.design, self.cells, self.scale, fitted),
             self.classes,
+            self.protocols,
         )
 
 
@@ -132,15 +143,35 @@ def prepare(
     kinds: int = 2,
     space_and_cells: tuple[CurveSpace, Cells] | None = None,
 ) -> Prepared:
-    """Find the curve space (unless it is given), draw cells together, find classes, lay out the design."""
-    space, cells = space_and_cells or fit_curve_space(training)
+    """Find the curve space (unless it is given), draw cells together, find classes, lay out the design.
+
+    Where files have dates, categories are searched for a change of protocol, too; if there is one, classes
+    and design are laid out anew with it.
+    """
+    space_and_cells = space_and_cells or fit_curve_space(training)
+    made = _prepare(training, NO_CHANGE, pairs, kinds, space_and_cells)
+    protocols = _protocols(training, made)
+    return _prepare(training, protocols, pairs, kinds, space_and_cells) if protocols.changes else made
+
+
+def _prepare(
+    training: pd.DataFrame,
+    protocols: Protocols,
+    pairs: bool,
+    kinds: int,
+    space_and_cells: tuple[CurveSpace, Cells],
+) -> Prepared:
+    """As :func:`prepare`, for protocols that are known."""
+    space, cells = space_and_cells
     rows = training.iloc[cells.row].reset_index(drop=True)
     metadata = Metadata.fit(training)
     categories = tuple(np.unique(training["category"].to_numpy(dtype=str)))
     tires = _tire_columns(rows, pairs)
     scale = np.maximum(cells.scores.std(axis=0), 1e-9)
     category = rows["category"].to_numpy(dtype=str)
-    blocks = design_blocks(metadata, rows, category, categories)
+    code = np.zeros((len(rows), len(protocols.changes)))
+    np.add.at(code, cells_of(training)[1], protocols.code(training))
+    blocks = design_blocks(metadata, rows, category, categories, code / cells.files[:, None])
     design = Design(blocks, tires, cells.files)
     classes, probability = _classes(design, cells, space, scale, metadata.regressors(rows))
     if classes is not None:
@@ -149,7 +180,22 @@ def prepare(
     if kinds:
         found, own = _kinds(design, cells, space, scale, kinds)
         design = Design(with_kinds(design.blocks, found.of(design.blocks, own)), tires, cells.files)
-    return Prepared(rows, cells, design, space, metadata, categories, found, scale, classes)
+    return Prepared(rows, cells, design, space, metadata, categories, found, scale, classes, protocols)
+
+
+def _protocols(training: pd.DataFrame, made: Prepared) -> Protocols:
+    """Search what the model leaves of each cell for changes of protocol, by the forces' scores."""
+    day = days_of(training)
+    if np.isnat(day).all():
+        return NO_CHANGE
+    x = np.concatenate(list(made.design.blocks.values()), axis=1)
+    parts = {n: place for n, place in made.space.slices.items() if PARTS[n].group in CHANGE_GROUPS}
+    gap = np.zeros_like(made.cells.scores)
+    for k in np.concatenate([np.arange(s.start, s.stop) for s in parts.values()]):
+        one = _fit_score(made.design, made.cells, made.space, made.scale, k, GUESS)
+        gap[:, k] = made.cells.scores[:, k] / made.scale[k] - x @ one.mean[: x.shape[1]]
+    dated = Dated(gap, made.rows["category"].to_numpy(dtype=str), day, cells_of(training)[1])
+    return Protocols(find_changes(dated, parts))
 
 
 def _classes(
@@ -164,7 +210,7 @@ def _classes(
     kind = np.concatenate(
         [np.full(space.slices[n].stop - space.slices[n].start, k) for n, k in CLASS_PARTS.items()]
     )
-    blocks = {name: design.blocks[name] for name in ("level", "metadata", "size", "category")}
+    blocks = {name: design.blocks[name] for name in CLASS_BLOCKS if name in design.blocks}
     plain = Design(blocks, design.tire, design.files)
     fitted = [_fit_score(plain, cells, space, scale, k, GUESS, alone_known=True) for k in telling]
     linked = np.concatenate([np.zeros((len(cells.row), 1)), design.tire], axis=1).argmax(axis=1)
@@ -219,7 +265,7 @@ def _fit_score(
     noise = float(space.noise[k] / scale[k] ** 2)
     alone = _alone_share(space, k) * noise
     guess = {**guess, "tire_category": alone}
-    estimated = design.tire.shape[1] >= 4 and not alone_known
+    estimated = design.tire.shape[1] >= FEWEST_SHARED and not alone_known
     return fit_mixed_effects(
         design,
         cells.scores[:, k] / scale[k],

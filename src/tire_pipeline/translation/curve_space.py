@@ -167,8 +167,7 @@ def fit_curve_space(table: pd.DataFrame) -> tuple[CurveSpace, Cells]:
     DomainError
         If a tire's curves cannot be evaluated.
     """
-    key = table["category"].astype(str) + "|" + table["tire_id"].astype(str)
-    _, row, cell = np.unique(key.to_numpy(dtype=str), return_index=True, return_inverse=True)
+    row, cell = cells_of(table)
     over = _over_pressure(table)
     known = _known(table.iloc[row])
     parts: dict[str, tuple[np.ndarray, ...]] = {}
@@ -186,6 +185,13 @@ def fit_curve_space(table: pd.DataFrame) -> tuple[CurveSpace, Cells]:
     mean, onto, back, limit = ({name: found[k] for name, found in parts.items()} for k in range(4))
     cells = Cells(row, np.concatenate(scores, axis=1), np.bincount(cell).astype(float))
     return CurveSpace(mean, onto, back, limit, np.concatenate(noise)), cells
+
+
+def cells_of(table: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
+    """Give a file of each cell, (c,), and the cell of each file, (n,): a cell is a tire in a category."""
+    key = table["category"].astype(str) + "|" + table["tire_id"].astype(str)
+    _, row, cell = np.unique(key.to_numpy(dtype=str), return_index=True, return_inverse=True)
+    return row, cell
 
 
 def _known(cells: pd.DataFrame) -> np.ndarray:

@@ -27,6 +27,7 @@ from tire_pipeline.translation.curve_mixed_fit import Prepared, fit_curve_mixed_
 from tire_pipeline.translation.curve_space import UNIT
 from tire_pipeline.translation.decode import Wish, decode
 from tire_pipeline.translation.distance import TrainingReach
+from tire_pipeline.translation.effects import protocol_changes
 from tire_pipeline.translation.physics import SYMMETRY, symmetric, violations
 from tire_pipeline.translation.result import (
     REFUSED,
@@ -144,8 +145,9 @@ class MixedModel:
         usable = np.flatnonzero(refused == "")
         table = source.copy()
         report = self._empty_report(source, refused)
+        protocols = protocol_changes(self.model)
         if not usable.size:
-            return TranslationResult(table, report, {}, pd.DataFrame(), self.name)
+            return TranslationResult(table, report, {}, pd.DataFrame(), self.name, protocols)
         rows = source.iloc[usable]
         with threadpool_limits(1):
             found = self.predict(rows)
@@ -163,6 +165,7 @@ class MixedModel:
             self._bands(table, usable, found, act) if bands else {},
             moved_coefficients(source, table, COEFFICIENTS),
             self.name,
+            protocols,
         )
 
     def _bands(
@@ -215,6 +218,7 @@ class MixedModel:
                 "distance": np.nan,
                 "expected_ratio": np.nan,
                 "harm_probability": np.nan,
+                "protocol": self.model.protocols.in_words(source),
                 "changes": pd.Series("", index=source.index, dtype=object),
             },
             index=source.index,

@@ -37,7 +37,8 @@ class Situation:
     target : ndarray, shape (n, p)
         The target's expectation less the source's.
     context : ndarray, shape (n, c)
-        Source category as indicators, metadata, probability of each class of tire, and of category and class.
+        Source category as indicators, metadata, probability of each class of tire, and of category and
+        class, protocol.
     unit : ndarray, shape (p,)
         Standard deviation of each score.
     """
@@ -63,7 +64,8 @@ def situation_of(model: CurveMixedModel, table: pd.DataFrame, target: str) -> Si
     category = table["category"].to_numpy(dtype=str)
     actor = (category[:, None] == np.array(model.categories)[None, :]).astype(float)
     metadata = np.clip(model.metadata.regressors(table), -4.0, 4.0)
-    context = np.concatenate([actor, metadata, found.classes, _both(actor, found.classes)], axis=1)
+    known = [actor, metadata, found.classes, _both(actor, found.classes), model.protocols.code(table)]
+    context = np.concatenate(known, axis=1)
     return Situation(surprise, found.shift / unit, context, unit)
 
 

@@ -52,13 +52,17 @@ class TranslationResult:
         given),
         ``target``, ``verdict``, ``reason``, ``distance`` (1: at the edge of the training data),
         ``expected_ratio`` (expected squared error of the curves over that of the unchanged file),
-        ``harm_probability`` and ``changes`` (what moved and why, in words).
+        ``harm_probability``, ``protocol`` (under which of its category's protocols the file was measured, if
+        that changed) and ``changes`` (what moved and why, in words).
     bands : dict of str to Band
         ``fy``, ``fx``, ``mz``; empty if the translator gives none.
     coefficients : DataFrame
         One row a file and coefficient that moved: ``file``, ``coefficient``, ``from``, ``to``.
     method : str
         The translator's name.
+    protocols : DataFrame
+        Categories that changed how they measure, see :func:`.effects.protocol_changes`; empty if none did. A
+        target that did is given by its newest protocol.
     """
 
     table: pd.DataFrame
@@ -66,6 +70,7 @@ class TranslationResult:
     bands: Mapping[str, Band] = field(default_factory=dict)
     coefficients: pd.DataFrame = field(default_factory=pd.DataFrame)
     method: str = ""
+    protocols: pd.DataFrame = field(default_factory=pd.DataFrame)
 
 
 def moved_coefficients(
@@ -137,6 +142,8 @@ def comment_lines(result: TranslationResult, row: int, names: tuple[str, ...]) -
         f"distance to the training data: {said['distance']:.2f} (1 is its edge)",
         f"hash: {translation_hash(result.table.iloc[row].to_dict(), names)}",
     ]
+    if said.get("protocol", ""):
+        lines.append(f"protocol of the source category: {said['protocol']}")
     return [*lines, *(str(said["changes"]).split("; ") if said["changes"] else [])]
 
 

@@ -26,6 +26,11 @@ from tire_pipeline.translation.result import TranslationResult, comment_lines
 
 Files = Mapping[str, Callable[[], TireModel]]
 DRAWN = 6
+_PROTOCOLS = (
+    "Categories whose files show that the way of measuring changed on a day: that day with its 90% range, "
+    "how probable a change is, and by how much it moved the curves of the mean tire (90% intervals). Files "
+    "count by their dates, those without one as the mean of both; a target is given by its newest protocol."
+)
 
 
 class TranslateParameters(Parameters):
@@ -102,7 +107,7 @@ def translate_all(
     texts = _texts(result, models, own)
     report = pd.concat([result.report, problems], ignore_index=True)
     bands = _bands(result, own)
-    page = translate_page(report, bands, parameters, target_category)
+    page = translate_page(report, bands, result.protocols, parameters, target_category)
     return texts, report, result.coefficients, bands, page
 
 
@@ -197,7 +202,11 @@ def _bands(result: TranslationResult, own: pd.DataFrame) -> pd.DataFrame:
 
 
 def translate_page(
-    report: pd.DataFrame, bands: pd.DataFrame, parameters: TranslateParameters, target: str
+    report: pd.DataFrame,
+    bands: pd.DataFrame,
+    protocols: pd.DataFrame,
+    parameters: TranslateParameters,
+    target: str,
 ) -> str:
     """What was translated, what was not, and why; curves of some with their band."""
     counts = report["verdict"].value_counts()
@@ -213,6 +222,7 @@ def translate_page(
         "file",
         "source",
         "source_probability",
+        *(["protocol"] if len(protocols) else []),
         "verdict",
         "reason",
         "distance",
@@ -225,6 +235,8 @@ def translate_page(
     if figure is not None:
         caption = "Lateral force of some translated files with its 90% band, at each load."
         parts.append(Figure(figure, caption, heading="Curves"))
+    if len(protocols):
+        parts.append(Table(protocols, _PROTOCOLS, heading="Changes of protocol"))
     caption = (
         "distance: 1 is the edge of the training data, do not trust beyond. expected_ratio: expected squared "
         "error after translation over that before, by the translator's own estimate."
