@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from tire_pipeline.pipelines.translate.nodes import TranslateParameters, translate_page
 from tire_pipeline.translation.protocol_search import Dated, find_changes
 from tire_pipeline.translation.protocols import Change, Protocols, days_of
 
@@ -97,3 +98,13 @@ def test_tables_without_dates(protocols):
 def test_state(protocols):
     assert Protocols.from_state(protocols.to_state()) == protocols
     assert Protocols.from_state({}) == Protocols()
+
+
+def test_the_page_tells_of_a_change_and_only_then():
+    report = pd.DataFrame({"file": ["E/a.tir"], "verdict": ["refused"], "protocol": ["before 2015-06-01"]})
+    bands = pd.DataFrame(columns=["file", "output", "normal_load", "slip", "middle", "low", "high"])
+    changed = pd.DataFrame({"category": ["E"], "day": ["2015-06-01"], "probability": [0.999]})
+    page = translate_page(report, bands, changed, TranslateParameters(), "D")
+    assert "Changes of protocol" in page
+    assert "before 2015-06-01" in page
+    assert "protocol" not in translate_page(report, bands, changed.head(0), TranslateParameters(), "D")
