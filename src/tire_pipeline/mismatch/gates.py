@@ -113,10 +113,10 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
                 least_gain=least[min(len(fit.names), 3) - 1],
             )
         )
-    return [_of_one_kind(gate, out) for gate in out]
+    return [_of_one_kind(search, gate, out) for gate in out]
 
 
-def _of_one_kind(gate: Gates, gates: list[Gates]) -> Gates:
+def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
     """Ask more of an effect beside a stronger one of its kind: that one's form error looks like it."""
     effect, least = catalogue()[gate.name], gate.least_gain
     others = [(catalogue()[g.name], g.gain) for g in gates if g is not gate]
@@ -125,8 +125,11 @@ def _of_one_kind(gate: Gates, gates: list[Gates]) -> Gates:
         least = max(least, settings.SECOND_LAG * max(lags, default=0.0))
     if effect.own_inputs and effect.kind == "physics":
         least = max(least, settings.LEAST_GAIN_ALONE)
-    if effect.scales and any(other.scales and gain > gate.gain for other, gain in others):
+    stronger = [other for other, gain in others if gain > gate.gain]
+    if effect.scales and any(other.scales for other in stronger):
         least = max(least, settings.SECOND_SCALE)
+    if effect.slow and any(other.blind(search.data) for other in stronger):
+        least = max(least, settings.SECOND_SLOW)
     return replace(gate, least_gain=least)
 
 

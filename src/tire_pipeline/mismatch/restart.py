@@ -11,9 +11,9 @@ from tire_pipeline.mismatch.remainder import excess
 from tire_pipeline.mismatch.screening import gain_of, prune, screen
 from tire_pipeline.mismatch.search import run
 from tire_pipeline.mismatch.shapes import with_shapes
-from tire_pipeline.mismatch.state import Search, rescale
+from tire_pipeline.mismatch.state import Search, renoise
 
-_FOUND = ("fit", "gates", "doubts", "unnamed", "system", "loose", "frozen", "inflation", "misfit", "refused")
+_FOUND = "fit gates doubts unnamed noise system loose frozen inflation misfit refused".split()
 
 
 def unlike(search: Search, nats: float) -> bool:
@@ -27,28 +27,31 @@ def unlike(search: Search, nats: float) -> bool:
     """
     if not search.gates or nats < settings.REMAINDER_NATS:
         return False
-    if "nonuniformity" in search.fit.names:
-        return False  # its higher harmonics are left, and no other cause follows the wheel's angle
     return nats > settings.UNLIKE * max(g.gain for g in search.gates)
 
 
 def search_all(search: Search) -> None:
     """Search from the likeliest effect; if that does not hold, from the next ones, two at most.
 
-    Two effects together can look like a third one, which then goes in first and bars the way.
+    Two effects together can look like a third one, which then goes in first and bars the way. A single effect
+    that leaves something without a name is doubted, too; but others have to be likelier than it.
     """
     run(search)
-    if _holds(search):
+    left = _left(search)
+    holds = _holds(search, left)
+    if holds and (len(search.fit.names) != 1 or left < settings.REMAINDER_NATS):
         return
     before = search.fit.names[:1] or search.withdrawn[:1]
     empty = replace(search, fit=Fit([], []), gates=[], refused={}, unnamed="", withdrawn=[], log=[])
-    rescale(empty)
+    renoise(empty, empty.fit)
     best: Search | None = None
     named = bool(search.fit.names or search.withdrawn)
     most = _gain_of_first(empty) if named else settings.LEAST_GAIN
+    if holds:
+        most = _gain(empty, search.fit) + settings.TIE
     for variant in _others(search, set(before)):
         trial = _from(empty, variant)
-        if trial is None or not trial.fit.names or not _holds(trial):
+        if trial is None or not trial.fit.names or not _holds(trial, _left(trial)):
             continue
         gain = _gain(empty, trial.fit)
         if gain > most:
@@ -59,14 +62,19 @@ def search_all(search: Search) -> None:
             setattr(search, name, getattr(best, name))
 
 
-def _holds(search: Search) -> bool:
+def _left(search: Search) -> float:
+    """Return what is left above white noise, nats."""
     system = with_shapes(search, search.loose, search.fit.changes)
     columns = search.fit.columns if search.fit.labels else None
-    _, nats = excess(search, system.left(residual(search.data, search.fit.changes), columns))
+    return excess(search, system.left(residual(search.data, search.fit.changes), columns))[1]
+
+
+def _holds(search: Search, left: float) -> bool:
+    """Whether what was found, with so many nats left, is not in doubt."""
     if not search.fit.names:
         seen = _gain_of_first(search) > 2.0 * settings.LEAST_GAIN
-        return nats < settings.REMAINDER_NATS and not search.unnamed and not seen
-    return not search.unnamed and not unlike(search, nats)
+        return left < settings.REMAINDER_NATS and not search.unnamed and not seen
+    return not search.unnamed and not unlike(search, left)
 
 
 def _others(search: Search, barred: set[str]) -> list[Variant]:
@@ -88,7 +96,7 @@ def _from(empty: Search, variant: Variant) -> Search | None:
     second = screen(trial, with_shapes(trial, trial.system, trial.fit.changes))
     if not second or _gain(empty, trial.fit) + second[0][0] < _gain_of_first(empty):
         return None
-    rescale(trial)
+    renoise(trial, trial.fit)
     run(trial)
     return trial
 

@@ -18,7 +18,7 @@ from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.screening import gain_of, prune, rank, screen, without
 from tire_pipeline.mismatch.shapes import with_shapes
-from tire_pipeline.mismatch.state import Search, begin, rescale
+from tire_pipeline.mismatch.state import Search, begin, renoise
 
 __all__ = ["Search", "begin", "gain_of", "objective", "prune", "run", "with_shapes"]
 
@@ -33,7 +33,7 @@ def run(search: Search) -> None:
         if len(before) < 2 or not _take(search, exchanged(search)):
             break
         search.log.append(f"exchanged: {'+'.join(search.fit.names)}")
-        rescale(search)
+        renoise(search, search.fit)
         search.fit = _again(search, search.fit)
         barred |= before - set(search.fit.names)
         _grow(search, barred)
@@ -52,7 +52,7 @@ def _grow(search: Search, barred: Set[str] = frozenset()) -> None:
             search.first = ranked
         if not _one_more(search, ranked, shaped):
             break
-        rescale(search)
+        renoise(search, search.fit)
         search.fit = _again(search, search.fit)
 
 
@@ -207,6 +207,7 @@ def _eliminate(search: Search) -> None:
 
 def _drop(search: Search, index: int) -> None:
     search.fit = without(search, search.fit, index, steps=5)
+    renoise(search, search.fit)
 
 
 def _withdraw(search: Search) -> None:

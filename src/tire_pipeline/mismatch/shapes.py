@@ -14,6 +14,10 @@ from tire_pipeline.mismatch.simulate import Change, simulate
 from tire_pipeline.mismatch.state import Search
 
 Array = np.ndarray
+_KNOTS = 12
+_WANDER = 2.0
+"""The wheel's angle is integrated from a speed with noise, and wanders: by so many radians times SHAPE_SHARE
+(standard deviation) about each of so many moments."""
 
 
 def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str, Array]:
@@ -28,6 +32,9 @@ def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str
         simulate(data, [*changes[:index], (name, form), *changes[index + 1 :]])
         for form in catalogue()[name].other_forms(data, found)
     ]
+    later = catalogue()[name].quarter_turn(found)
+    ahead = simulate(data, [*changes[:index], (name, later), *changes[index + 1 :]]) if later else None
+    hats = _hats(data)
     load = data.load_excess(data.get("normal_load"))
     load = load / max(float(np.max(np.abs(load))), 1e-9)
     out = {}
@@ -41,8 +48,17 @@ def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str
             shift = 0.5 / settings.SHAPE_SHARE
             columns += [shift * _change(data, whole[o]), shift * _change(data, part)]
         columns += [other[o] - whole[o] for other in others]
+        if ahead is not None:
+            columns += [_WANDER * (ahead[o] - without[o]) * hat for hat in hats]
         out[o] = np.column_stack(columns)
     return out
+
+
+def _hats(data: Data) -> list[Array]:
+    """Triangles over time whose sum is one."""
+    time = data.time if data.time is not None else np.zeros(data.size)
+    knots = np.linspace(time[0], time[-1] + 1e-9, _KNOTS)
+    return [np.interp(time, knots, row) for row in np.eye(_KNOTS)]
 
 
 def _change(data: Data, x: Array) -> Array:

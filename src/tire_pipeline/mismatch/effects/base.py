@@ -113,6 +113,9 @@ class Effect:
     scales : bool
         True if it makes the force larger or smaller by the model's own inputs alone, so that what the form of
         one such effect gets wrong looks like another.
+    slow : bool
+        True if it is a change over the whole recording: what a state without its channel gets wrong looks
+        like it.
     shifts : bool
         True if it adds a side force while rolling straight: at one load and camber these look the same.
     needed : tuple of str
@@ -138,6 +141,7 @@ class Effect:
     own_inputs = False
     dynamic = False
     scales = False
+    slow = False
     shifts = False
     needed: tuple[str, ...] = ()
     scanned: tuple[str, ...] = ()
@@ -164,9 +168,17 @@ class Effect:
         """Return the parameter values to start from: one dict for each form worth trying."""
         return [self.zeros(data)]
 
+    def blind(self, data: object) -> bool:
+        """Whether it is a state that is integrated for want of its channel."""
+        return False
+
     def other_forms(self, data: object, p: Parameters) -> list[dict[str, float]]:
         """Return other parameters between which and the found ones the truth may lie; none by default."""
         return []
+
+    def quarter_turn(self, p: Parameters) -> dict[str, float] | None:
+        """Return the parameters of the same effect a quarter of a wheel turn on, if it follows the wheel."""
+        return None
 
     def inputs(self, state: State, data: object, p: Parameters) -> None:
         """Change what the tire sees (slips, camber, load)."""

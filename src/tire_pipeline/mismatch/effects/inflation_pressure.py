@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
@@ -20,9 +22,9 @@ class InflationPressure(Effect):
     channels = ("pressure",)
     parameters = (
         Parameter("friction", "1", -1.5, 1.5, 0.02),
-        Parameter("stiffness", "1", -2.5, 2.5, 0.02),
+        Parameter("stiffness", "1", -5.0, 5.0, 0.02),
         Parameter("lateral_stiffness", "1", -2.0, 2.0, 0.02, output="fy"),
-        Parameter("stiffness_curvature", "1", -4.0, 4.0, 0.02),
+        Parameter("stiffness_curvature", "1", -12.0, 12.0, 0.02),
         Parameter("reference", "Pa", 0.0, 5e6, 100.0),
     )
     looks_like = {"temperature": "temperature lags; pressure steps show at once"}
@@ -40,13 +42,16 @@ class InflationPressure(Effect):
         names = ("friction", "stiffness", "stiffness_curvature")
         return (*names, "lateral_stiffness") if both else names
 
+    def outside(self, data: object, p: Parameters) -> bool:
+        """Whether the stiffness changes by more than a factor of three at a pressure of the recording."""
+        factor = 1.0 + _bent(p, _excess(data, p))
+        return bool(np.min(factor) < 1.0 / 3.0 or np.max(factor) > 3.0)
+
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale friction and stiffness with pressure."""
-        reference = p["reference"] or data.pressure_nominal  # type: ignore[attr-defined]
-        d = (data.smooth("pressure") - reference) / reference  # type: ignore[attr-defined]
+        d = _excess(data, p)
         state.log_friction = state.log_friction + safe_log1p(p["friction"] * d)
-        change = p["stiffness"] * d + p["stiffness_curvature"] * d**2
-        state.log_stiffness = state.log_stiffness + safe_log1p(change)
+        state.log_stiffness = state.log_stiffness + safe_log1p(_bent(p, d))
         state.log_stiffness_y = state.log_stiffness_y + safe_log1p(p["lateral_stiffness"] * d)
 
     def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
@@ -60,3 +65,12 @@ class InflationPressure(Effect):
             "PPY1": c.get("PPY1", 0.0) + p["stiffness"] + p["lateral_stiffness"],
             "PPY3": c.get("PPY3", 0.0) + p["friction"],
         }
+
+
+def _excess(data: object, p: Parameters) -> np.ndarray:
+    reference = p["reference"] or data.pressure_nominal  # type: ignore[attr-defined]
+    return (data.smooth("pressure") - reference) / reference  # type: ignore[attr-defined]
+
+
+def _bent(p: Parameters, d: np.ndarray) -> np.ndarray:
+    return p["stiffness"] * d + p["stiffness_curvature"] * d**2

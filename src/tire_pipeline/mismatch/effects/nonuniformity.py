@@ -57,6 +57,13 @@ class Nonuniformity(Effect):
         """Return one form's parameters; the radius is found by the scan."""
         return _WOBBLE if start["angle_cosine"] else _FORCE
 
+    def quarter_turn(self, p: Parameters) -> dict[str, float]:
+        """Turn all harmonics on by a quarter of a turn."""
+        out = dict(p)
+        for cosine, sine in (_FORCE[:2], _FORCE[2:], _WOBBLE[:2], _WOBBLE[2:]):
+            out[cosine], out[sine] = p[sine], -p[cosine]
+        return out
+
     def inputs(self, state: State, data: object, p: Parameters) -> None:
         """Wobble slip angle and load."""
         if not any(p[n] for n in _WOBBLE):

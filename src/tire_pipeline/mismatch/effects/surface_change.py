@@ -16,6 +16,7 @@ class SurfaceChange(Effect):
     equation = "friction *= 1 + friction H(t - moment)"
     source = "a step of LMUX = LMUY in time"
     needs_time = True
+    slow = True
     scanned = ("moment",)
     parameters = (
         Parameter("friction", "1", -0.8, 1.0, 0.01),

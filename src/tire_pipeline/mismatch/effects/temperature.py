@@ -68,9 +68,13 @@ class Temperature(Effect):
             names.append("lag")
         return tuple(names)
 
+    def blind(self, data: object) -> bool:
+        """Without a temperature channel."""
+        return not data.has("tread_temperature")  # type: ignore[attr-defined]
+
     def other_forms(self, data: object, p: Parameters) -> list[dict[str, float]]:
         """Without a channel: a tire has more masses than one, which warm faster and slower."""
-        if data.has("tread_temperature"):  # type: ignore[attr-defined]
+        if not self.blind(data):
             return []
         return [{**p, "lag": p["lag"] * factor} for factor in (3.0, 1.0 / 3.0)]
 

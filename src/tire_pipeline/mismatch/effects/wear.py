@@ -16,6 +16,7 @@ class Wear(Effect):
     )
     source = "Archard's law with friction power; Grosch 2008, Rubber Chem. Technol. 81"
     needs_time = True
+    slow = True
     parameters = (
         Parameter("friction", "1", -0.5, 0.3, 0.01),
         Parameter("stiffness", "1", -0.3, 0.8, 0.01),
