@@ -11,7 +11,7 @@ from tire_pipeline.mismatch.exchange import exchanged
 from tire_pipeline.mismatch.nuisance import make_nuisance
 from tire_pipeline.mismatch.refit import refit
 from tire_pipeline.mismatch.repeating import strongest_length
-from tire_pipeline.mismatch.search import begin, with_shapes
+from tire_pipeline.mismatch.search import _drop, begin, run, with_shapes
 from tire_pipeline.mismatch.shapes import shape_columns
 from tire_pipeline.mismatch.unnamed import forms, play
 
@@ -219,3 +219,45 @@ def test_a_state_without_its_channel_may_lag_otherwise(tire, record):
     known = shape_columns(seen, [("temperature", {**values, "reference": 50.0})], 0)["fy"]
     assert blind.shape[1] == known.shape[1] + 2
     assert np.ptp(blind[:, -1]) > 0.1 * np.ptp(blind[:, 4])
+
+
+def _out_of_round(tire, record):
+    recording = record(6)
+    data = prepare(tire, recording).data
+    return recording.assign(fy=recording["fy"] + 200.0 * np.cos(data.distance / (0.97 * data.radius)))
+
+
+def test_what_shakes_is_no_longer_noise_once_it_is_modelled(tire, record):
+    """The recording's noise is 25 N; a wheel that is not round looks like more until it is in."""
+    search = begin(prepare(tire, _out_of_round(tire, record)).data)
+    before = search.noise["fy"].floor
+    run(search)
+    assert search.fit.names == ["nonuniformity"]
+    assert before > 50.0
+    assert search.noise["fy"].floor == pytest.approx(25.0, rel=0.2)
+
+
+def test_noise_is_as_it_was_once_an_effect_is_dropped(tire, record):
+    search = begin(prepare(tire, _out_of_round(tire, record)).data)
+    before = search.noise["fy"].floor
+    run(search)
+    _drop(search, 0)
+    assert search.fit.names == []
+    assert search.noise["fy"].floor == pytest.approx(before, rel=1e-3)
+
+
+def test_a_quarter_turn_is_the_derivative_by_the_wheels_angle():
+    effect = catalogue()["nonuniformity"]
+    wave = {p.name: 0.0 for p in effect.parameters} | {"cosine_y": 3.0, "sine_y": 4.0, "radius": 0.3}
+    later = effect.quarter_turn(wave)
+    phi = np.linspace(0.0, 6.0, 50)
+    there = 3.0 * np.cos(phi + np.pi / 2.0) + 4.0 * np.sin(phi + np.pi / 2.0)
+    np.testing.assert_allclose(later["cosine_y"] * np.cos(phi) + later["sine_y"] * np.sin(phi), there)
+    assert later["radius"] == 0.3
+
+
+def test_two_effects_that_one_stands_in_for_are_found_from_another_beginning():
+    """Temperature, with its reference, takes up compliance and wear together, but leaves something."""
+    case, answer = make_case(99807782, "pair")
+    assert {effect.name for effect in answer.effects} == {"compliance", "wear"}
+    assert set(_names(explain_mismatch(case.tire, case.recording))) == {"compliance", "wear"}

@@ -43,7 +43,7 @@ def search_all(search: Search) -> None:
         return
     before = search.fit.names[:1] or search.withdrawn[:1]
     empty = replace(search, fit=Fit([], []), gates=[], refused={}, unnamed="", withdrawn=[], log=[])
-    renoise(empty, empty.fit)
+    renoise(empty)
     best: Search | None = None
     named = bool(search.fit.names or search.withdrawn)
     most = _gain_of_first(empty) if named else settings.LEAST_GAIN
@@ -96,7 +96,7 @@ def _from(empty: Search, variant: Variant) -> Search | None:
     second = screen(trial, with_shapes(trial, trial.system, trial.fit.changes))
     if not second or _gain(empty, trial.fit) + second[0][0] < _gain_of_first(empty):
         return None
-    renoise(trial, trial.fit)
+    renoise(trial)
     run(trial)
     return trial
 

@@ -33,7 +33,7 @@ def run(search: Search) -> None:
         if len(before) < 2 or not _take(search, exchanged(search)):
             break
         search.log.append(f"exchanged: {'+'.join(search.fit.names)}")
-        renoise(search, search.fit)
+        renoise(search)
         search.fit = _again(search, search.fit)
         barred |= before - set(search.fit.names)
         _grow(search, barred)
@@ -52,7 +52,7 @@ def _grow(search: Search, barred: Set[str] = frozenset()) -> None:
             search.first = ranked
         if not _one_more(search, ranked, shaped):
             break
-        renoise(search, search.fit)
+        renoise(search)
         search.fit = _again(search, search.fit)
 
 
@@ -207,7 +207,7 @@ def _eliminate(search: Search) -> None:
 
 def _drop(search: Search, index: int) -> None:
     search.fit = without(search, search.fit, index, steps=5)
-    renoise(search, search.fit)
+    renoise(search)
 
 
 def _withdraw(search: Search) -> None:

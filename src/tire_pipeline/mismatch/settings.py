@@ -73,6 +73,10 @@ as they stand."""
 LEVEL = 0.05
 """Level of the Wilcoxon test over sweeps, Holm-corrected."""
 
+CALMER = 0.8
+"""Noise is estimated again once effects are in, but taken only if it is smaller than this part of the first
+estimate."""
+
 SHAPE_SHARE = 0.15
 """How wrong the form of an accepted effect may be, as a share of it, before a second one is believed."""
 

@@ -41,6 +41,7 @@ class Search:
     frozen: System = None  # type: ignore[assignment]
     columns: dict[str, Array] = field(default_factory=dict)
     sizes: dict[str, tuple[int, int]] = field(default_factory=dict)
+    first_noise: dict[str, Noise] = field(default_factory=dict)
     gates: list[Gates] = field(default_factory=list)
     screened: dict[str, float] = field(default_factory=dict)
     refused: dict[str, str] = field(default_factory=dict)
@@ -85,7 +86,8 @@ def _assemble(search: Search) -> None:
     nuisance = make_nuisance(search.data)
     search.columns, search.sizes = nuisance.columns, nuisance.sizes
     _weigh(search)
-    renoise(search, search.fit)
+    search.noise = search.first_noise = _noise_beside(search, search.fit)
+    _weigh(search)
 
 
 def nuisance_scale(sizes: dict[str, tuple[int, int]], share: float, factor: float = 1.0) -> dict[str, Array]:
@@ -112,14 +114,28 @@ def _weigh(search: Search) -> None:
     rescale(search)
 
 
-def renoise(search: Search, fit: Fit) -> None:
-    """Estimate the noise again from what a fit and the nuisance leave: what they explain is not noise."""
+def renoise(search: Search) -> None:
+    """Take what the accepted effects show not to be noise off it, and set the weights anew.
+
+    Only a noise that is plainly smaller is taken: what effects leave may not pass for noise.
+    """
+    now = _noise_beside(search, search.fit)
+    most = {o: settings.CALMER * n.floor for o, n in search.first_noise.items()}
+    chosen = {o: n if n.floor < most[o] else search.first_noise[o] for o, n in now.items()}
+    if all(chosen[o] is search.noise[o] for o in chosen):
+        rescale(search)
+        return
+    search.noise = chosen
+    _weigh(search)
+
+
+def _noise_beside(search: Search, fit: Fit) -> dict[str, Noise]:
+    """Estimate the noise from what a fit and the nuisance leave: what they explain is not noise."""
     rest = residual(search.data, fit.changes)
     c = search.loose.fitted(rest, fit.columns if fit.labels else None)
     calm = {o: r - search.columns[o] @ c[o] for o, r in rest.items()}
     first = estimate_noise(search.data, calm)
-    search.noise = {o: refined(search.data, n, calm[o]) for o, n in first.items()}
-    _weigh(search)
+    return {o: refined(search.data, n, calm[o]) for o, n in first.items()}
 
 
 def rescale(search: Search) -> None:
