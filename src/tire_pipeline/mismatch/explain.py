@@ -196,9 +196,9 @@ def _found(search: Search, index: int, left: Remainder, data: Data) -> tuple[Eff
         "gain_with_frozen_coefficients": gate.frozen,
         "wilcoxon_p": gate.p_value,
         "sweeps": gate.blocks,
-        "nearest_rival": near[0].name if near else "",
-        "nearest_rival_apart": near[0].apart if near else 1.0,
     }
+    if near:
+        evidence |= {"nearest_rival": near[0].name, "nearest_rival_apart": near[0].apart}
     report = EffectReport(
         name=name,
         kind=effect.kind,
