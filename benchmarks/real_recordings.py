@@ -73,9 +73,21 @@ def tydex_part(flat: bool, half: int | None, first: bool) -> pd.DataFrame:
     return points[chosen if first else ~chosen]
 
 
+def tydex_held(seed: int) -> np.ndarray:
+    """Which of the cambered points are held out: 40% of them, at random."""
+    return ~flat_points() & (np.random.default_rng(seed).random(len(tydex())) < 0.4)
+
+
+def tydex_refit(seed: int) -> float:
+    """Error on the held-out points of a whole formula that is fitted to all others."""
+    held = tydex_held(seed)
+    points = tydex()[["slip_angle", "camber", "normal_load", "fy"]]
+    return error(fit_magic_formula(points[~held]).model, tydex()[held])
+
+
 def tydex_camber(seed: int = 0) -> tuple[MismatchReport, float, float]:
     """Explain all but 40% of the cambered points; errors before and after on these 40%."""
-    held = ~flat_points() & (np.random.default_rng(seed).random(len(tydex())) < 0.4)
+    held = tydex_held(seed)
     report = explain_mismatch(tydex_tire(), tydex()[~held])
     rest = tydex()[held]
     after = rms(rest["fy"].to_numpy() - report.corrected.predict(rest)["fy"].to_numpy())
@@ -226,7 +238,8 @@ def main() -> None:
         for seed in range(5):
             report, before, after = tydex_camber(seed)
             print(
-                f"TYDEX camber, held-out points {seed}: {before:.0f} N -> {after:.0f} N, {told(report)}",
+                f"TYDEX camber, held-out points {seed}: {before:.0f} N -> {after:.0f} N (the whole formula "
+                f"refitted: {tydex_refit(seed):.0f} N), {told(report)}",
                 flush=True,
             )
         for half in range(10):
