@@ -111,8 +111,8 @@ def fit_magic_formula(
         for reason, group in left_out.items():
             report.leave(reason, group, typical if start is None else None)
         active = [name for name in names if name not in closed]
-        if stage.output == "fy" and stage.points == "combined":
-            chosen = np.union1d(chosen, _braking_alone(points, forces["fy"], chosen.size))
+        if stage.braking_alone:
+            chosen = np.union1d(chosen, _braking_alone(points, forces[stage.output], chosen.size))
             here = {name: x[chosen] for name, x in points.items()}
         measured = forces[stage.output][chosen]
         with threadpool_limits(1):  # many small problems: threads in each only get in each other's way

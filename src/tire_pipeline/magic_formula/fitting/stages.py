@@ -193,7 +193,10 @@ SPEED = frozenset(["QSY3", "QSY4"])
 
 @dataclass(frozen=True)
 class Stage:
-    """One stage: the output it fits, on which points, and over which coefficients."""
+    """One stage: the output it fits, on which points, and over which coefficients.
+
+    With ``braking_alone`` points at pure longitudinal slip join once it is known what the others determine.
+    """
 
     title: str
     output: str
@@ -201,6 +204,7 @@ class Stage:
     names: tuple[str, ...]
     only_6: tuple[str, ...] = ()
     not_6: tuple[str, ...] = ()
+    braking_alone: bool = False
 
     def over(self, family: int) -> tuple[str, ...]:
         """Return the coefficients of a family of versions."""
@@ -252,6 +256,7 @@ STAGES: tuple[Stage, ...] = (
         "combined",
         _names("RBY1 RBY2 RBY3 RCY1 REY1 REY2 RHY1 RHY2 RVY1 RVY2 RVY3 RVY4 RVY5 RVY6"),
         ("RBY4",),
+        braking_alone=True,
     ),
     Stage("Mz at combined slip", "mz", "combined", _names("SSZ1 SSZ2 SSZ3 SSZ4")),
     Stage(
