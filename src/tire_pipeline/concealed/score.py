@@ -293,7 +293,7 @@ def _miss(report: Report, answer: Answer) -> dict[str, Any] | None:
     return {
         "case": answer.case_id,
         "kind": answer.kind,
-        "true": sorted(e.name for e in answer.effects),
+        "true": [e.name for e in answer.effects],
         "over_noise": [round(e.over_noise, 2) for e in answer.effects],
         "verdict": report.get("verdict"),
         "named": sorted(found),

@@ -118,7 +118,8 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
 
 def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
     """Ask more of an effect beside a stronger one of its kind: that one's form error looks like it."""
-    effect, least = catalogue()[gate.name], gate.least_gain
+    effect = catalogue()[gate.name]
+    least = max(gate.least_gain, effect.least_gain)
     others = [(catalogue()[g.name], g.gain) for g in gates if g is not gate]
     if effect.dynamic:
         lags = [gain for other, gain in others if other.dynamic]

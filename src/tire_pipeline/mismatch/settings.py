@@ -38,9 +38,9 @@ LEAST_GAIN_ALONE = 15.0
 own inputs alone: false ones have up to 13 nats in the tuning cases and 10 in DART's other half, true ones 19
 and more (down to half of the noise)."""
 
-LEAST_GAIN_MORE = 12.0
-"""The same for each effect of a set of two: a false one in the single tuning cases has 11.5 nats, true ones
-that are not weak 14 and more."""
+LEAST_GAIN_MORE = 13.5
+"""The same for each effect of a set of two: false ones in the single tuning cases have 11.5 and 12.1 nats,
+true ones that are not weak 14 and more."""
 
 LEAST_GAIN_MANY = 40.0
 """The same for each effect of a set of three: what two forms get wrong may look like a third effect."""
@@ -73,9 +73,9 @@ as they stand."""
 LEVEL = 0.05
 """Level of the Wilcoxon test over sweeps, Holm-corrected."""
 
-CALMER = 0.8
+CALMER = 0.6
 """Noise is estimated again once effects are in, but taken only if it is smaller than this part of the first
-estimate."""
+estimate: a wheel that is not round trebles it, and what a poor form takes off is a fifth at most."""
 
 SHAPE_SHARE = 0.15
 """How wrong the form of an accepted effect may be, as a share of it, before a second one is believed."""

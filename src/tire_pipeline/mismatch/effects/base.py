@@ -122,6 +122,8 @@ class Effect:
         Parameters that are never dropped for being small: without them it is another effect.
     scanned : tuple of str
         Parameters that the starts scan, so that the screen need not move them.
+    least_gain : float
+        Nats that it asks for in any case.
     unusual : bool
         True if in a tie the other explanation is named first.
     parameters : tuple of Parameter
@@ -145,6 +147,7 @@ class Effect:
     shifts = False
     needed: tuple[str, ...] = ()
     scanned: tuple[str, ...] = ()
+    least_gain = 0.0
     unusual = False
     parameters: tuple[Parameter, ...] = ()
     looks_like: Mapping[str, str] = {}

@@ -18,6 +18,7 @@ class Clipping(Effect):
     equation = "F recorded = min(max(F, -limit), limit)"
     source = "range of amplifier or converter"
     own_inputs = True
+    least_gain = 100.0  # a limit leaves equal samples, which `detect` finds; else it is the misfit's peak
     parameters = (
         Parameter("fy", "N", 1.0, 1e7, 1.0, zero=1e7, output="fy"),
         Parameter("fx", "N", 1.0, 1e7, 1.0, zero=1e7, output="fx"),
