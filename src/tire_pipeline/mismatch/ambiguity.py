@@ -57,9 +57,7 @@ def rivals(search: Search, index: int) -> list[Rival]:
     fit, data = search.fit, search.data
     changes = fit.changes
     rest = [c for j, c in enumerate(changes) if j != index]
-    others = [
-        Variant(n, p, f) for j, ((n, p), f) in enumerate(zip(changes, fit.free, strict=True)) if j != index
-    ]
+    others = [v for j, v in enumerate(fit.variants) if j != index]
     whole, without = simulate(data, changes), simulate(data, rest)
     part = {o: whole[o] - without[o] for o in data.outputs}
     system = with_shapes(search, search.system, rest)
@@ -82,7 +80,7 @@ def rivals(search: Search, index: int) -> list[Rival]:
     for name, (_, v) in sorted(best.items(), key=lambda t: t[1][0])[:4]:
         if best[name][0] > 0.35:
             continue
-        trial = prune(search, refit(search.system, [*others, v], start=[*rest, (name, v.start)]))
+        trial = prune(search, refit(search.system, [*others, v]))
         trial = trial.judged_by(system)
         apart = _apart(search, system, trial, part, size, name)
         nats = 0.5 * apart * size / search.inflation

@@ -20,8 +20,7 @@ _MOST_TERMS = 5
 def remainder(search: Search) -> Remainder:
     """Measure what neither the effects nor a misfit of the usual size explains."""
     data, fit = search.data, search.fit
-    system = with_shapes(search, search.loose, fit.changes)
-    left = system.left(residual(data, fit.changes), fit.columns if fit.labels else None)
+    left = white_left(search)
     statistic, nats = excess(search, left)
     size = {}
     for o in data.outputs:
@@ -37,6 +36,13 @@ def remainder(search: Search) -> Remainder:
     form = sparse_form(search) if significant else ""
     gaussian = gaussian_forms(search, size) if significant else []
     return Remainder(size, located, form, bool(significant), statistic, nats, gaussian)
+
+
+def white_left(search: Search) -> dict[str, Array]:
+    """Return the whitened residual beside the effects, their form errors and nearly free coefficients."""
+    fit = search.fit
+    system = with_shapes(search, search.loose, fit.changes)
+    return system.left(residual(search.data, fit.changes), fit.columns if fit.labels else None)
 
 
 def gaussian_forms(search: Search, size: dict[str, float]) -> list[GaussianForm]:

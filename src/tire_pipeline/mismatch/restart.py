@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.candidates import Variant
-from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
-from tire_pipeline.mismatch.remainder import excess
+from tire_pipeline.mismatch.refit import Fit, objective, refit
+from tire_pipeline.mismatch.remainder import excess, white_left
 from tire_pipeline.mismatch.screening import gain_of, prune, screen
 from tire_pipeline.mismatch.search import run
 from tire_pipeline.mismatch.shapes import with_shapes
@@ -64,9 +64,7 @@ def search_all(search: Search) -> None:
 
 def _left(search: Search) -> float:
     """Return what is left above white noise, nats."""
-    system = with_shapes(search, search.loose, search.fit.changes)
-    columns = search.fit.columns if search.fit.labels else None
-    return excess(search, system.left(residual(search.data, search.fit.changes), columns))[1]
+    return excess(search, white_left(search))[1]
 
 
 def _holds(search: Search, left: float) -> bool:

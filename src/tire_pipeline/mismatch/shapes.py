@@ -28,13 +28,14 @@ def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str
     whole = simulate(data, changes)
     without = simulate(data, [c for j, c in enumerate(changes) if j != index])
     name, found = changes[index]
-    others = [
-        simulate(data, [*changes[:index], (name, form), *changes[index + 1 :]])
-        for form in catalogue()[name].other_forms(data, found)
-    ]
-    later = catalogue()[name].quarter_turn(found)
-    ahead = simulate(data, [*changes[:index], (name, later), *changes[index + 1 :]]) if later else None
-    hats = _hats(data)
+    effect = catalogue()[name]
+
+    def instead(form: dict[str, float]) -> dict[str, Array]:
+        return simulate(data, [*changes[:index], (name, form), *changes[index + 1 :]])
+
+    others = [instead(form) for form in effect.other_forms(data, found)]
+    later = effect.quarter_turn(found)
+    ahead, hats = (instead(later), _hats(data)) if later else (None, [])
     load = data.load_excess(data.get("normal_load"))
     load = load / max(float(np.max(np.abs(load))), 1e-9)
     out = {}
@@ -44,7 +45,7 @@ def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str
         use = slip / (slip + max(float(np.quantile(slip, 0.9)) / 3.0, 1e-6))
         use = 2.0 * use / max(float(use.max()), 1e-9) - 1.0
         columns = [part * use, part * load, part * (2.0 * use**2 - 1.0), part * use * load, part]
-        if catalogue()[name].dynamic:
+        if effect.dynamic:
             shift = 0.5 / settings.SHAPE_SHARE
             columns += [shift * _change(data, whole[o]), shift * _change(data, part)]
         columns += [other[o] - whole[o] for other in others]
@@ -56,7 +57,8 @@ def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str
 
 def _hats(data: Data) -> list[Array]:
     """Triangles over time whose sum is one."""
-    time = data.time if data.time is not None else np.zeros(data.size)
+    time = data.time
+    assert time is not None  # asked only of effects that need a time line
     knots = np.linspace(time[0], time[-1] + 1e-9, _KNOTS)
     return [np.interp(time, knots, row) for row in np.eye(_KNOTS)]
 

@@ -12,7 +12,7 @@ from tire_pipeline.translation.curve_features import GROUPS, LOADS
 from tire_pipeline.translation.curve_mixed import CurveMixedModel, columns_of
 from tire_pipeline.translation.curve_space import PARTS, UNIT
 from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel
-from tire_pipeline.translation.effects import KEY_PARTS, QUANTILE, difference
+from tire_pipeline.translation.effects import KEY_PARTS, QUANTILE, difference, mean_of_loads
 
 _MOST_TIRES = 25
 
@@ -122,9 +122,7 @@ def _slopes(model: CurveMixedModel, actor: str, reference: str) -> pd.DataFrame:
         one[:, k] = contrast
         mean, variance = difference(model, one.ravel(), columns_of(model, "category_metadata"))
         for part in KEY_PARTS:
-            place = model.space.slices[part]
-            along = model.space.back[part].mean(axis=1) * UNIT[PARTS[part].group]
-            value, half = mean[place] @ along, QUANTILE * np.sqrt(variance[place] @ along**2)
+            value, half = mean_of_loads(model, part, mean, variance)
             rows.append((actor, reference, part, name, value, value - half, value + half))
     table = pd.DataFrame(rows, columns=["actor", "reference", "what", "metadata", "bias", "low", "high"])
     return table.assign(clear=(table["low"] > 0.0) | (table["high"] < 0.0))

@@ -10,7 +10,7 @@ import pandas as pd
 from tire_pipeline.translation.class_question import Question
 from tire_pipeline.translation.class_search import find_classes, with_classes
 from tire_pipeline.translation.curve_mixed import CurveMixedModel, design_blocks
-from tire_pipeline.translation.curve_space import PARTS, Cells, CurveSpace, cells_of, fit_curve_space
+from tire_pipeline.translation.curve_space import PARTS, Cells, CurveSpace, fit_curve_space
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.mixed_effects import Design, Fitted, fit_mixed_effects
 from tire_pipeline.translation.own_spread import FEWEST_SHARED, Residuals, own_spread, shared_cells
@@ -170,7 +170,7 @@ def _prepare(
     scale = np.maximum(cells.scores.std(axis=0), 1e-9)
     category = rows["category"].to_numpy(dtype=str)
     code = np.zeros((len(rows), len(protocols.changes)))
-    np.add.at(code, cells_of(training)[1], protocols.code(training))
+    np.add.at(code, cells.cell, protocols.code(training))
     blocks = design_blocks(metadata, rows, category, categories, code / cells.files[:, None])
     design = Design(blocks, tires, cells.files)
     classes, probability = _classes(design, cells, space, scale, metadata.regressors(rows))
@@ -194,7 +194,7 @@ def _protocols(training: pd.DataFrame, made: Prepared) -> Protocols:
     for k in np.concatenate([np.arange(s.start, s.stop) for s in parts.values()]):
         one = _fit_score(made.design, made.cells, made.space, made.scale, k, GUESS)
         gap[:, k] = made.cells.scores[:, k] / made.scale[k] - x @ one.mean[: x.shape[1]]
-    dated = Dated(gap, made.rows["category"].to_numpy(dtype=str), day, cells_of(training)[1])
+    dated = Dated(gap, made.rows["category"].to_numpy(dtype=str), day, made.cells.cell)
     return Protocols(find_changes(dated, parts))
 
 

@@ -74,11 +74,14 @@ class Cells:
         Robust mean of its files' scores, corrected to nominal pressure.
     files : ndarray, shape (c,)
         How many files.
+    cell : ndarray of int, shape (n,)
+        The cell of each file.
     """
 
     row: np.ndarray
     scores: np.ndarray
     files: np.ndarray
+    cell: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -167,7 +170,8 @@ def fit_curve_space(table: pd.DataFrame) -> tuple[CurveSpace, Cells]:
     DomainError
         If a tire's curves cannot be evaluated.
     """
-    row, cell = cells_of(table)
+    key = table["category"].astype(str) + "|" + table["tire_id"].astype(str)
+    _, row, cell = np.unique(key.to_numpy(dtype=str), return_index=True, return_inverse=True)
     over = _over_pressure(table)
     known = _known(table.iloc[row])
     parts: dict[str, tuple[np.ndarray, ...]] = {}
@@ -183,15 +187,8 @@ def fit_curve_space(table: pd.DataFrame) -> tuple[CurveSpace, Cells]:
         scores.append(own)
         noise.append(spread)
     mean, onto, back, limit = ({name: found[k] for name, found in parts.items()} for k in range(4))
-    cells = Cells(row, np.concatenate(scores, axis=1), np.bincount(cell).astype(float))
+    cells = Cells(row, np.concatenate(scores, axis=1), np.bincount(cell).astype(float), cell)
     return CurveSpace(mean, onto, back, limit, np.concatenate(noise)), cells
-
-
-def cells_of(table: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
-    """Give a file of each cell, (c,), and the cell of each file, (n,): a cell is a tire in a category."""
-    key = table["category"].astype(str) + "|" + table["tire_id"].astype(str)
-    _, row, cell = np.unique(key.to_numpy(dtype=str), return_index=True, return_inverse=True)
-    return row, cell
 
 
 def _known(cells: pd.DataFrame) -> np.ndarray:

@@ -23,6 +23,15 @@ def difference(model: CurveMixedModel, contrast: np.ndarray, place: slice) -> tu
     return np.array(weights) * model.scale, np.array(variances) * model.scale**2
 
 
+def mean_of_loads(
+    model: CurveMixedModel, part: str, mean: np.ndarray, variance: np.ndarray
+) -> tuple[float, float]:
+    """Mean of a part's features over the loads, and half of its interval, from scores and their variances."""
+    place = model.space.slices[part]
+    along = model.space.back[part].mean(axis=1) * UNIT[PARTS[part].group]
+    return float(mean[place] @ along), QUANTILE * float(np.sqrt(variance[place] @ along**2))
+
+
 def protocol_changes(model: CurveMixedModel) -> pd.DataFrame:
     """Say which categories changed how they measure, when, how surely, and what it changed.
 
@@ -47,9 +56,7 @@ def protocol_changes(model: CurveMixedModel) -> pd.DataFrame:
         }
         mean, variance = difference(model, np.eye(len(model.protocols.changes))[k], place)
         for part in KEY_PARTS:
-            own = model.space.slices[part]
-            along = model.space.back[part].mean(axis=1) * UNIT[PARTS[part].group]
-            step, half = mean[own] @ along, QUANTILE * np.sqrt(variance[own] @ along**2)
+            step, half = mean_of_loads(model, part, mean, variance)
             low, middle, high = (100.0 * np.expm1(value) for value in (step - half, step, step + half))
             row[part] = f"{middle:+.1f} % ({low:+.1f} to {high:+.1f})"
         rows.append(row)

@@ -13,6 +13,9 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
+_TEXTS = ("category", "day", "earliest", "latest")
+"""Attributes of a change that are text."""
+
 
 @dataclass(frozen=True)
 class Change:
@@ -97,9 +100,8 @@ class Protocols:
 
     def to_state(self) -> dict[str, Any]:
         """Give arrays that bring it back."""
-        names = ("category", "day", "earliest", "latest")
         return {
-            **{f"protocol_{n}": np.array([getattr(c, n) for c in self.changes], dtype=str) for n in names},
+            **{f"protocol_{n}": np.array([getattr(c, n) for c in self.changes], dtype=str) for n in _TEXTS},
             "protocol_probability": np.array([c.probability for c in self.changes], dtype=float),
             "protocol_tires": np.array([(c.before, c.after) for c in self.changes], dtype=int).reshape(-1, 2),
         }
@@ -110,7 +112,7 @@ class Protocols:
         if "protocol_category" not in state:
             return cls()
         rows = zip(
-            *(state[f"protocol_{name}"] for name in ("category", "day", "earliest", "latest")),
+            *(state[f"protocol_{name}"] for name in _TEXTS),
             state["protocol_probability"],
             state["protocol_tires"],
             strict=True,

@@ -64,7 +64,7 @@ class Temperature(Effect):
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """Parameters that this recording lets float."""
         names = ["friction", "curvature", "stiffness", "reference"]
-        if not data.has("tread_temperature"):  # type: ignore[attr-defined]
+        if self.blind(data):
             names.append("lag")
         return tuple(names)
 
@@ -80,10 +80,10 @@ class Temperature(Effect):
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale friction and stiffness."""
-        if data.has("tread_temperature"):  # type: ignore[attr-defined]
-            d = (data.smooth("tread_temperature") - p["reference"]) / 50.0  # type: ignore[attr-defined]
-        else:
+        if self.blind(data):
             d = data.heat(p["lag"]) - p["reference"]  # type: ignore[attr-defined]
+        else:
+            d = (data.smooth("tread_temperature") - p["reference"]) / 50.0  # type: ignore[attr-defined]
         change = p["friction"] * d - p["curvature"] * d**2
         state.log_friction = state.log_friction + safe_log1p(change)
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * d)
