@@ -9,6 +9,7 @@ import numpy as np
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.gates import unsure
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, refit
 from tire_pipeline.mismatch.search import Search, gain_of, objective, prune, with_shapes
@@ -84,11 +85,8 @@ def rivals(search: Search, index: int) -> list[Rival]:
         trial = trial.judged_by(system)
         apart = _apart(search, system, trial, part, size, name)
         nats = 0.5 * apart * size / search.inflation
-        this, that = catalogue()[changes[index][0]], catalogue()[name]
-        shape = settings.SHAPE_SHARE if this.dynamic and that.dynamic else 0.0
-        shape = settings.SHIFT_SHARE if this.shifts and that.shifts else shape
-        unsure = shape**2 * search.gates[index].gain
-        out.append(Rival(name, apart, nats, own - gain_of(search, trial, empty), unsure))
+        lost = own - gain_of(search, trial, empty)
+        out.append(Rival(name, apart, nats, lost, unsure(search, index, name)))
     return sorted(out, key=lambda r: r.apart)
 
 

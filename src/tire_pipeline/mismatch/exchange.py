@@ -7,7 +7,8 @@ from dataclasses import replace
 from itertools import combinations
 
 from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.gates import left_by
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.gates import left_by, unsure
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, objective, refit
 from tire_pipeline.mismatch.screening import gain_of, prune, rank, screen, without
@@ -40,10 +41,21 @@ def exchanged(search: Search) -> list[Fit]:
         found = gain_of(search, search.fit.judged_by(shaped), empty)
         for fit in _in_place_of(search, group, rest, shaped):
             simpler = len(group) > 1 or rank(search, fit) < usual
-            least = found + (-0.5 * settings.TIE if simpler else settings.TIE)
-            if gain_of(search, fit, empty) > least and left_by(search, fit) <= most:
+            less = _less(search, group, fit) if simpler else -settings.TIE
+            if gain_of(search, fit, empty) > found - less and left_by(search, fit) <= most:
                 out.append(fit)
     return sorted(out, key=lambda f: -gain_of(search, f, empty))
+
+
+def _less(search: Search, group: tuple[int, ...], fit: Fit) -> float:
+    """Nats by which a simpler or more usual set may be less likely.
+
+    Of two lags as much as their forms may get wrong: a short filter and a delay are the same but for it.
+    """
+    least = 0.5 * settings.TIE
+    if len(group) > 1 or not catalogue()[fit.names[-1]].dynamic:
+        return least
+    return max(least, unsure(search, group[0], fit.names[-1]))
 
 
 def _groups(count: int) -> Iterator[tuple[int, ...]]:

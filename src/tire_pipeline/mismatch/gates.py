@@ -32,6 +32,8 @@ class Gates:
         Share of the mismatch that it removes, the others refitted without it or as they stand.
     loose, frozen : float
         The gain with coefficients nearly free, and with coefficients frozen.
+    free : bool
+        True if the gain with coefficients nearly free is not asked for.
     in_bounds : bool
     blocks : int
         Number of sweeps.
@@ -45,6 +47,7 @@ class Gates:
     share: float
     loose: float
     frozen: float
+    free: bool
     in_bounds: bool
     blocks: int
     least_gain: float
@@ -57,7 +60,7 @@ class Gates:
             return f"held-out sweeps are not better with it (p {self.p_value:.2g})"
         if self.share <= settings.LEAST_SHARE:
             return f"removes only {100.0 * self.share:.1f}% of the mismatch"
-        if self.loose <= settings.LEAST_GAIN:
+        if not self.free and self.loose <= settings.LEAST_GAIN:
             return "a refit of the coefficients explains as much"
         if self.frozen <= settings.LEAST_GAIN:
             return "with the coefficients as they are it explains nothing"
@@ -65,11 +68,14 @@ class Gates:
 
     def passed(self, level: float) -> bool:
         """Whether all gates are open."""
+        return (self.free or self.loose > settings.LEAST_GAIN) and self.passed_but_loose(level)
+
+    def passed_but_loose(self, level: float) -> bool:
+        """Whether all gates are open, whatever the one with coefficients nearly free."""
         return (
             self.gain > self.least_gain
             and self.p_value < level
             and self.share > settings.LEAST_SHARE
-            and self.loose > settings.LEAST_GAIN
             and self.frozen > settings.LEAST_GAIN
             and self.in_bounds
         )
@@ -80,7 +86,6 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
     out = []
     rest = residual(search.data, fit.changes)
     total = mismatch_of(search, residual(search.data, []))
-    least = (settings.LEAST_GAIN_ALONE, settings.LEAST_GAIN_MORE, settings.LEAST_GAIN_MANY)
     for i, name in enumerate(fit.names):
         system = with_shapes(search, search.system, fit.changes, i)
         loose = with_shapes(search, search.loose, fit.changes, i)
@@ -95,7 +100,6 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
             gain = 0.5 * (_best(left) - _best(with_it)) / search.inflation - search.price * count
             gains.append(float(gain))
         judges = ((search.system, True), (search.frozen, False))
-        own = catalogue()[name].own_inputs or name == "camber"
         held = residual(search.data, [c for j, c in enumerate(fit.changes) if j != i])
         own_part = _shown(search, held, rest)
         removed = max(_removed(search, r, rest, own_part[1]) for r in (rest_without, held))
@@ -106,14 +110,22 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
                 gain=gains[0],
                 p_value=min(1.0, len(judges) * min(p_values)),
                 share=removed / max(total, 1e-12),
-                loose=gains[0] if own else gains[1],
+                loose=gains[1],
                 frozen=gains[2],
+                free=of_coefficients(name) or name in search.likelier,
                 in_bounds=not fit.at_bound,
                 blocks=search.system.count,
-                least_gain=least[min(len(fit.names), 3) - 1],
+                least_gain=_least_gain(len(fit.names), removed / max(total, 1e-12)),
             )
         )
     return [_of_one_kind(search, gate, out) for gate in out]
+
+
+def _least_gain(count: int, share: float) -> float:
+    """Nats that an effect of a set of so many has to gain, by the share of the mismatch that it removes."""
+    if count == 1:
+        return settings.LEAST_GAIN_LARGE if share > settings.LARGE_SHARE else settings.LEAST_GAIN_ALONE
+    return settings.LEAST_GAIN_MORE if count == 2 else settings.LEAST_GAIN_MANY
 
 
 def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
@@ -124,11 +136,13 @@ def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
     if effect.dynamic:
         lags = [gain for other, gain in others if other.dynamic]
         least = max(least, settings.SECOND_LAG * max(lags, default=0.0))
-    if effect.own_inputs and effect.kind == "physics":
+    if effect.own_inputs and effect.kind == "physics" and len(gates) > 1:
         least = max(least, settings.LEAST_GAIN_ALONE)
     stronger = [other for other, gain in others if gain > gate.gain]
     if effect.scales and any(other.scales for other in stronger):
         least = max(least, settings.SECOND_SCALE)
+    if any(gate.name in other.errs_like for other in stronger):
+        least = max(least, settings.SECOND_ALIKE)
     if effect.slow and any(other.blind(search.data) for other in stronger):
         least = max(least, settings.SECOND_SLOW)
     return replace(gate, least_gain=least)
@@ -137,6 +151,18 @@ def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
 def mismatch_of(search: Search, rest: dict[str, Array]) -> float:
     """Mean square of a residual over the noise, outputs added."""
     return float(sum(np.mean(r**2) / search.noise[o].floor ** 2 for o, r in rest.items()))
+
+
+def unsure(search: Search, index: int, other: str) -> float:
+    """Nats by which an accepted effect's own form may be wrong against another effect of its kind."""
+    this, that = catalogue()[search.gates[index].name], catalogue()[other]
+    share = 0.0
+    if this.dynamic and that.dynamic:
+        share = settings.SHAPE_SHARE
+    elif this.shifts and that.shifts:
+        many = search.data.varies("normal_load")
+        share = settings.SHIFT_SHARE if many else settings.SHIFT_SHARE_ONE_LOAD
+    return share**2 * search.gates[index].gain
 
 
 def left_by(search: Search, fit: Fit) -> float:
@@ -201,7 +227,24 @@ def _wilcoxon(before: Array, after: Array) -> float:
 def accepted(search: Search, fit: Fit) -> tuple[bool, list[Gates]]:
     """Whether all effects of a set pass, Holm-corrected."""
     gates = gates_of(search, fit)
+    levels = _levels(search, gates)
+    return all(g.passed(level) for g, level in zip(gates, levels, strict=True)), gates
+
+
+def open_but_loose(search: Search, gates: list[Gates]) -> bool:
+    """Whether all gates are open but one: coefficients nearly free explain as much as the last effect."""
+    *others, last = zip(gates, _levels(search, gates), strict=True)
+    return all(g.passed(level) for g, level in others) and last[0].passed_but_loose(last[1])
+
+
+def of_coefficients(name: str) -> bool:
+    """Whether coefficients nearly free explain an effect altogether, so that this gate is not asked of it."""
+    return catalogue()[name].own_inputs or name == "camber"
+
+
+def _levels(search: Search, gates: list[Gates]) -> list[float]:
+    """Level of each effect's Wilcoxon test, Holm-corrected for all candidates."""
     count = len({v.name for v in search.variants})
     ordered = sorted(g.p_value for g in gates)
     levels = {p: settings.LEVEL / max(count - k, 1) for k, p in enumerate(ordered)}
-    return all(g.passed(levels[g.p_value]) for g in gates), gates
+    return [levels[g.p_value] for g in gates]

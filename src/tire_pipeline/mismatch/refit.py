@@ -147,8 +147,16 @@ def _columns(
 def _step(
     system: System, changes: list[Change], free: list[tuple[str, ...]], best: float
 ) -> tuple[list[Change], float, float]:
-    """Make one Gauss-Newton step, damped until it helps (Marquardt 1963)."""
-    labels, columns = _columns(system.data, changes, free)
+    """Make one Gauss-Newton step, damped until it helps (Marquardt 1963).
+
+    Without the parameters that are scanned: the derivative by the moment of a change is a spike, which leads
+    nowhere and takes all others along.
+    """
+    smooth = [
+        tuple(p for p in names if p not in catalogue()[name].scanned)
+        for (name, _), names in zip(changes, free, strict=True)
+    ]
+    labels, columns = _columns(system.data, changes, smooth)
     if not labels:
         return changes, best, 0.0
     info, score, _ = system.reduce(system.sums(residual(system.data, changes), columns))

@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.search import run
 from tire_pipeline.mismatch.shapes import with_shapes
 from tire_pipeline.mismatch.state import Search, renoise
 
-_FOUND = "fit gates doubts unnamed noise system loose frozen inflation misfit refused".split()
+_FOUND = "fit gates doubts unnamed likelier noise system loose frozen inflation misfit refused".split()
 
 
 def unlike(search: Search, nats: float) -> bool:

@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.doubts import doubts
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.exchange import exchanged
-from tire_pipeline.mismatch.gates import accepted, left_by, mismatch_of
+from tire_pipeline.mismatch.gates import accepted, left_by, mismatch_of, of_coefficients, open_but_loose
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.screening import gain_of, prune, rank, screen, without
@@ -25,12 +25,15 @@ __all__ = ["Search", "begin", "gain_of", "objective", "prune", "run", "with_shap
 
 def run(search: Search) -> None:
     """Find the effects beside those that are in; the result is in ``search.fit`` and ``search.gates``."""
+    search.doubted, search.likelier = None, frozenset()
     _grow(search)
     _eliminate(search)
+    _prefer(search)
     barred: set[str] = set()
     for _ in range(2):
         before = set(search.fit.names)
-        if len(before) < 2 or not _take(search, exchanged(search)):
+        fits = [fit for fit in exchanged(search) if not barred & set(fit.names)] if len(before) > 1 else []
+        if not _take(search, fits):
             break
         search.log.append(f"exchanged: {'+'.join(search.fit.names)}")
         renoise(search)
@@ -135,6 +138,7 @@ def _take(search: Search, fits: list[Fit]) -> bool:
     gains = [gain_of(search, f, empty) for f in fits]
     likely = [f for f, gain in zip(fits, gains, strict=True) if gain >= 0.75 * gains[0] - settings.TIE]
     equal = sum(gain > gains[0] - settings.EQUAL for gain in gains)
+    doubted = None
     for fit in _in_order(search, likely, equal)[:4]:
         ok, gates = accepted(search, fit)
         search.log.append(
@@ -150,8 +154,34 @@ def _take(search: Search, fits: list[Fit]) -> bool:
                 search.refused[g.name] = g.why_not(settings.LEVEL)
         if ok:
             search.fit, search.gates = fit, gates
+            search.doubted = doubted if of_coefficients(fit.names[-1]) else None
             return True
+        if doubted is None and open_but_loose(search, gates):
+            doubted = fit
     return False
+
+
+def _prefer(search: Search) -> None:
+    """Take what coefficients nearly free explain as well before what they explain altogether.
+
+    If the latter is all that was found in its place and plainly less likely: temperature without its channel
+    differs little from a friction factor.
+    """
+    fit, other = search.fit, search.doubted
+    if other is None or len(fit.names) != len(other.names) or fit.names[:-1] != other.names[:-1]:
+        return
+    other = _again(search, other)
+    empty, now = objective(search.system, []), fit.judged_by(search.system)
+    if gain_of(search, other, empty) < gain_of(search, now, empty) + settings.TIE:
+        return
+    search.likelier = frozenset({other.names[-1]})
+    ok, gates = accepted(search, other)
+    if not ok:
+        search.likelier = frozenset()
+        return
+    search.fit, search.gates = other, gates
+    search.log.append(f"likelier than what the coefficients can do: {other.names[-1]}")
+    renoise(search)
 
 
 def _in_order(search: Search, fits: list[Fit], equal: int) -> list[Fit]:

@@ -48,6 +48,8 @@ class Search:
     first: list[tuple[float, Variant]] = field(default_factory=list)
     unnamed: str = ""
     withdrawn: list[str] = field(default_factory=list)
+    doubted: Fit | None = None
+    likelier: frozenset[str] = frozenset()
     doubts: list[Doubt] = field(default_factory=list)
     log: list[str] = field(default_factory=list)
 

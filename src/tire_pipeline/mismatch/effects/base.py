@@ -113,6 +113,8 @@ class Effect:
     scales : bool
         True if it makes the force larger or smaller by the model's own inputs alone, so that what the form of
         one such effect gets wrong looks like another.
+    errs_like : tuple of str
+        Of those that scale, the ones that its form error looks most like.
     slow : bool
         True if it is a change over the whole recording: what a state without its channel gets wrong looks
         like it.
@@ -143,6 +145,7 @@ class Effect:
     own_inputs = False
     dynamic = False
     scales = False
+    errs_like: tuple[str, ...] = ()
     slow = False
     shifts = False
     needed: tuple[str, ...] = ()

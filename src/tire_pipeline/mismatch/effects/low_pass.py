@@ -18,6 +18,7 @@ class LowPass(Effect):
     source = "amplifier or acquisition filter"
     needs_time = True
     dynamic = True
+    unusual = True
     parameters = (Parameter("lag", "s", 0.0, 2.0, 0.004),)
     looks_like = {
         "relaxation_length": "the lag of relaxation is shorter at speed",

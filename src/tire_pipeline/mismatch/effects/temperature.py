@@ -7,6 +7,9 @@ import numpy as np
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
+_WARMER = 25.0
+"""degC above the warmest of the recording."""
+
 
 class Temperature(Effect):
     """Friction and stiffness follow the tread temperature, measured or integrated."""
@@ -52,14 +55,17 @@ class Temperature(Effect):
         return None
 
     def starts(self, data: object) -> list[dict[str, float]]:
-        """Several references (where the model is right), and several lags if there is no channel."""
+        """Several references (where the model is right), and several lags if there is no channel.
+
+        The last one is warmer than the recording: a tire may be measured warm and recorded cold.
+        """
         zero = {"friction": 0.0, "curvature": 0.0, "stiffness": 0.0}
         if data.varies("tread_temperature"):  # type: ignore[attr-defined]
             t = data.smooth("tread_temperature")  # type: ignore[attr-defined]
-            points = np.quantile(t, [0.02, 0.5, 0.95])
+            points = [*np.quantile(t, [0.02, 0.5, 0.95]), np.max(t) + _WARMER]
             return [{**zero, "reference": float(v), "lag": 10.0} for v in points]
         lags = [8.0, 20.0, 50.0]
-        return [{**zero, "reference": r, "lag": lag} for lag in lags for r in (0.0, 0.5)]
+        return [{**zero, "reference": r, "lag": lag} for lag in lags for r in (0.0, 0.5, 1.2)]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """Parameters that this recording lets float."""
