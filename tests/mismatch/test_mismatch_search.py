@@ -263,7 +263,7 @@ def test_two_effects_that_one_stands_in_for_are_found_from_another_beginning():
 
 
 def test_a_change_of_surface_and_an_offset_of_the_angle_are_both_found():
-    """The derivative by the moment is a spike: a joint step with it led nowhere, nothing was found beside it."""
+    """The derivative by the moment is a spike: a joint step with it led nowhere; nothing else was found."""
     case, truth = _spent(833825884, "pair")
     assert truth == {"surface_change", "plysteer_conicity"}
     effects = {e.name: set(e.alternatives) for e in explain_mismatch(case.tire, case.recording).effects}
