@@ -2,9 +2,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from tire_pipeline.concealed import make_case
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.words import interval
 
 
 def physics(report):
@@ -99,6 +101,20 @@ def test_exact_artefacts_get_their_name_and_nothing_else(tire, record, change, n
     report = explain_mismatch(tire, change(record()))
     assert [e.name for e in report.effects] == [name]
     assert physics(report) == []
+
+
+@pytest.mark.parametrize(("seed", "channel"), [(322996948, "slip_angle"), (880357143, "slip_angle, camber")])
+def test_signs_that_were_turned_one_after_the_other_are_said_once(seed, channel):
+    """Camber was turned and turned back; and a turned side force is slip angle and camber turned together."""
+    case, _ = make_case(seed, "artefact")
+    found = explain_mismatch(case.tire, case.recording).effects
+    assert [(e.name, e.output) for e in found] == [("sign_convention", channel)]
+
+
+def test_a_slip_that_is_next_to_nothing_is_written_as_nothing():
+    assert interval("slip_ratio", -3.76e-6, 0.153) == "slip ratio 0 to 0.153"
+    assert interval("camber", -7.6e-7, -7.6e-7) == "camber 0 to 0 deg"
+    assert interval("normal_load", 1200.0, 4300.0) == "load 1.2 to 4.3 kN"
 
 
 def test_gaps_and_missing_blocks_are_no_physics(tire, record):

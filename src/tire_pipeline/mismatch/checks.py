@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
+from tire_pipeline.mismatch.effects.sign_convention import turned
 from tire_pipeline.mismatch.recorded import ABSOLUTE_SPREAD, SLOW, moves
 from tire_pipeline.mismatch.simulate import plain_forces
 from tire_pipeline.mismatch.smoothing import denoise
@@ -283,7 +284,7 @@ def _exact(tire: Any, arrays: dict[str, Array], time: Array | None) -> tuple[lis
             at = np.zeros(2) if time is None else time[hit]
             span = (float(at[0]), float(at[-1])) if name == "stuck_channel" else None
             bad |= hit
-            findings.append(Finding(**{**finding.__dict__, "bad": hit, "span": span}))
+            findings.append(replace(finding, bad=hit, span=span))
     pick = np.flatnonzero(~bad)
     pick = pick[:: max(1, pick.size // 4000)]
 
@@ -301,6 +302,7 @@ def _exact(tire: Any, arrays: dict[str, Array], time: Array | None) -> tuple[lis
     if tire.coefficients.get("FNOMIN", 0.0) > 0.0:
         nominal["_nominal_load"] = np.array([float(tire.coefficients["FNOMIN"])])
     still = _still(arrays, time)
+    signs: list[Finding] = []
     for _ in range(3):
         again = False
         for name in ("sign_convention", "unit_error"):
@@ -309,11 +311,12 @@ def _exact(tire: Any, arrays: dict[str, Array], time: Array | None) -> tuple[lis
                 for channel, repaired in finding.repaired.items():
                     factor = _ratio(repaired, some[channel])
                     arrays[channel] = arrays[channel] * factor
-                findings.append(Finding(**{**finding.__dict__, "repaired": {}}))
+                kept = signs if name == "sign_convention" else findings
+                kept.append(replace(finding, repaired={}))
                 again = True
         if not again:
             break
-    return findings, bad
+    return [*findings, *turned(signs)], bad
 
 
 def _ratio(new: Array, old: Array) -> float:

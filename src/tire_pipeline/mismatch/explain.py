@@ -197,6 +197,8 @@ def _found(search: Search, index: int, left: Remainder, data: Data) -> tuple[Eff
         "wilcoxon_p": gate.p_value,
         "sweeps": gate.blocks,
     }
+    if gate.free:
+        evidence["not_asked_for"] = "gain with loose coefficients"
     if near:
         evidence |= {"nearest_rival": near[0].name, "nearest_rival_apart": near[0].apart}
     report = EffectReport(

@@ -160,8 +160,8 @@ def unsure(search: Search, index: int, other: str) -> float:
     if this.dynamic and that.dynamic:
         share = settings.SHAPE_SHARE
     elif this.shifts and that.shifts:
-        many = search.data.varies("normal_load")
-        share = settings.SHIFT_SHARE if many else settings.SHIFT_SHARE_ONE_LOAD
+        blind = "camber_offset" in (this.name, that.name) and not search.data.varies("camber")
+        share = settings.CAMBER_SHARE if blind else settings.SHIFT_SHARE
     return share**2 * search.gates[index].gain
 
 

@@ -86,9 +86,10 @@ SHAPE_SHARE = 0.15
 """How wrong the form of an accepted effect may be, as a share of it, before a second one is believed."""
 
 SHIFT_SHARE = 0.12
-SHIFT_SHARE_ONE_LOAD = 0.3
+CAMBER_SHARE = 0.3
 """The same for the alternatives of an offset: conicity, an offset of the angle, of camber and of the force
-may differ by their forms alone, as they do at one load, where nothing else shows how right the forms are."""
+may differ by their forms alone, as they do at one load and camber; for an offset of camber where camber does
+not vary, so that nothing shows how right the model's answer to it is."""
 
 MOST_EFFECTS = 3
 """How many effects are put in at most."""

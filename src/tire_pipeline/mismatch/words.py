@@ -24,6 +24,10 @@ _UNITS = {
 }
 
 
+_FINEST = {"slip_angle": 5e-5, "camber": 5e-5, "slip_ratio": 1e-4}
+"""What is smaller is written as 0, SI: no rig holds it."""
+
+
 def unit_of(axis: str, size: float) -> tuple[float, str, str]:
     """Return factor, unit and name of an axis; loads below 100 N (model cars) are shown in N."""
     if axis == "normal_load" and abs(size) < 100.0:
@@ -33,8 +37,13 @@ def unit_of(axis: str, size: float) -> tuple[float, str, str]:
 
 def shown(axis: str, value: float) -> str:
     """Return a value of an axis in the unit that engineers use."""
-    factor, unit, _ = unit_of(axis, value)
-    return f"{value * factor:.3g} {unit}".strip()
+    return f"{figure(axis, value)} {unit_of(axis, value)[1]}".strip()
+
+
+def figure(axis: str, value: float, size: float | None = None) -> str:
+    """Return a value of an axis without its unit, which is that for values of some size."""
+    factor = unit_of(axis, value if size is None else size)[0]
+    return "0" if abs(value) < _FINEST.get(axis, 0.0) else f"{value * factor:.3g}"
 
 
 def label(axis: str) -> str:
@@ -44,8 +53,9 @@ def label(axis: str) -> str:
 
 def interval(axis: str, low: float, high: float) -> str:
     """Return ``load 2.1 to 4.3 kN``."""
-    factor, unit, name = unit_of(axis, max(abs(low), abs(high)))
-    return f"{name} {low * factor:.3g} to {high * factor:.3g} {unit}".strip()
+    size = max(abs(low), abs(high))
+    _, unit, name = unit_of(axis, size)
+    return f"{name} {figure(axis, low, size)} to {figure(axis, high, size)} {unit}".strip()
 
 
 def gaussian(form: GaussianForm) -> str:
@@ -177,8 +187,9 @@ def _left(named: bool, remainder: Remainder, ranges: Mapping[str, tuple[float, f
 
 def place(axis: str, low: float, high: float, ranges: Mapping[str, tuple[float, float]]) -> str:
     """Return ``between 41 and 96 s``, ``at load above 4 kN``, ``at slip angle below -2 deg``."""
-    factor, unit, name = unit_of(axis, max(abs(low), abs(high)))
-    a, b = f"{low * factor:.3g}", f"{high * factor:.3g}"
+    size = max(abs(low), abs(high))
+    _, unit, name = unit_of(axis, size)
+    a, b = figure(axis, low, size), figure(axis, high, size)
     lowest, highest = ranges.get(axis, (-np.inf, np.inf))
     near = 0.03 * (highest - lowest) if np.isfinite(highest - lowest) else 0.0
     if axis == "time":

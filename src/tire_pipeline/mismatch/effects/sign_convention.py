@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
@@ -51,9 +52,17 @@ class SignConvention(Effect):
         return found
 
 
+def turned(findings: Iterable[Finding]) -> list[Finding]:
+    """Return one finding for all channels that were turned; what was turned twice is as it was."""
+    count = Counter(name for f in findings for name in f.channel.split(", "))
+    names = [name for name, times in count.items() if times % 2]
+    return [_finding(", ".join(names), {})] if names else []
+
+
 def _finding(name: str, repaired: dict[str, Array]) -> Finding:
     parameters = {"ratio": (-1.0, 0.0, "1")}
-    return Finding("sign_convention", name, f"{name} has the other sign", parameters, repaired)
+    have = "have" if ", " in name else "has"
+    return Finding("sign_convention", name, f"{name} {have} the other sign", parameters, repaired)
 
 
 def _camber(
