@@ -115,17 +115,18 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
                 free=of_coefficients(name) or name in search.likelier,
                 in_bounds=not fit.at_bound,
                 blocks=search.system.count,
-                least_gain=_least_gain(len(fit.names), removed / max(total, 1e-12)),
+                least_gain=_least_gain(fit.names, i, removed / max(total, 1e-12)),
             )
         )
     return [_of_one_kind(search, gate, out) for gate in out]
 
 
-def _least_gain(count: int, share: float) -> float:
-    """Nats that an effect of a set of so many has to gain, by the share of the mismatch that it removes."""
-    if count == 1:
-        return settings.LEAST_GAIN_LARGE if share > settings.LARGE_SHARE else settings.LEAST_GAIN_ALONE
-    return settings.LEAST_GAIN_MORE if count == 2 else settings.LEAST_GAIN_MANY
+def _least_gain(names: list[str], index: int, share: float) -> float:
+    """Nats that an effect of a set has to gain, by the share of the mismatch that it removes."""
+    if len(names) == 1:
+        large = share > settings.LARGE_SHARE and not catalogue()[names[index]].shifts
+        return settings.LEAST_GAIN_LARGE if large else settings.LEAST_GAIN_ALONE
+    return settings.LEAST_GAIN_MORE if len(names) == 2 else settings.LEAST_GAIN_MANY
 
 
 def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:

@@ -28,7 +28,9 @@ def run(search: Search) -> None:
     search.doubted, search.likelier = None, frozenset()
     _grow(search)
     _eliminate(search)
-    _prefer(search)
+    if _prefer(search):
+        _grow(search)
+        _eliminate(search)
     barred: set[str] = set()
     for _ in range(2):
         before = set(search.fit.names)
@@ -157,31 +159,36 @@ def _take(search: Search, fits: list[Fit]) -> bool:
             search.doubted = doubted if of_coefficients(fit.names[-1]) else None
             return True
         if doubted is None and open_but_loose(search, gates):
-            doubted = fit
+            doubted = search.doubted = fit
     return False
 
 
-def _prefer(search: Search) -> None:
+def _prefer(search: Search) -> bool:
     """Take what coefficients nearly free explain as well before what they explain altogether.
 
-    If the latter is all that was found in its place and plainly less likely: temperature without its channel
-    differs little from a friction factor.
+    If the latter is all that was found in its place and less likely by ``TIE``, or if nothing was found and
+    no candidate like it comes near: temperature without its channel differs little from a friction factor.
     """
     fit, other = search.fit, search.doubted
-    if other is None or len(fit.names) != len(other.names) or fit.names[:-1] != other.names[:-1]:
-        return
-    other = _again(search, other)
-    empty, now = objective(search.system, []), fit.judged_by(search.system)
-    if gain_of(search, other, empty) < gain_of(search, now, empty) + settings.TIE:
-        return
+    if other is None:
+        return False
+    other, empty = _again(search, other), objective(search.system, [])
+    if not fit.names:
+        alike = [gain for name, gain in search.screened.items() if of_coefficients(name)]
+        least = max(0.0, *alike) + settings.LEAST_GAIN_ALONE
+    else:
+        least = gain_of(search, fit.judged_by(search.system), empty) + settings.TIE
+    if fit.names != [*other.names[:-1], *fit.names[-1:]] or gain_of(search, other, empty) < least:
+        return False
     search.likelier = frozenset({other.names[-1]})
     ok, gates = accepted(search, other)
     if not ok:
         search.likelier = frozenset()
-        return
+        return False
     search.fit, search.gates = other, gates
     search.log.append(f"likelier than what the coefficients can do: {other.names[-1]}")
     renoise(search)
+    return True
 
 
 def _in_order(search: Search, fits: list[Fit], equal: int) -> list[Fit]:
