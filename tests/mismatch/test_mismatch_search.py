@@ -294,3 +294,15 @@ def test_at_one_load_all_shifts_may_be_the_same():
     assert truth == {"camber_offset"}
     effect = explain_mismatch(case.tire, case.recording).effects[0]
     assert truth < {effect.name, *effect.alternatives}
+
+
+def test_camber_with_one_parameter_is_tried_where_all_of_them_leave_as_much():
+    """All of them together gain 100 nats and remove nothing; the shift alone gains 38 and removes half."""
+    case, truth = _spent(843781358, "single")
+    assert set(_names(explain_mismatch(case.tire, case.recording))) == truth == {"camber"}
+
+
+def test_a_few_nats_beside_many_do_not_prefer_a_state():
+    """Temperature is likelier than stiffness by 10 of 700 nats, less than stiffness' form may err."""
+    case, truth = _spent(538776526, "single")
+    assert set(_names(explain_mismatch(case.tire, case.recording))) == truth == {"stiffness_scale"}

@@ -78,11 +78,31 @@ def _one_more(search: Search, ranked: list[tuple[float, Variant]], shaped: Syste
         if _take(search, fits) or _take(search, _pairs(search, fits, shaped)):
             return True
         likely = [f for f in fits if gain_of(search, f, empty) > settings.LEAST_GAIN]
-        hidden = {f.names[-1] for f in likely if not _visible(search, f)}
+        hidden = [f for f in likely if not _visible(search, f)]
         if not hidden:
             return False
-        ranked = [(gain, v) for gain, v in ranked if v.name not in hidden]
+        if _take(search, [f.judged_by(shaped) for f in _plainer(search, hidden)]):
+            return True
+        names = {f.names[-1] for f in hidden}
+        ranked = [(gain, v) for gain, v in ranked if v.name not in names]
     return False
+
+
+def _plainer(search: Search, fits: list[Fit]) -> list[Fit]:
+    """Refit the last effect of some sets with one parameter each, likeliest first.
+
+    Several parameters and the flexible form can take up what each other leave, and nothing is gone.
+    """
+    found = {}
+    for fit in fits:
+        *others, last = fit.variants
+        if not of_coefficients(last.name) or last.effect.needed:
+            continue
+        for name in last.effect.free(search.data, last.start):
+            plain = Variant(last.name, last.effect.zeros(search.data), (name,))
+            found[last.name, name] = refit(search.system, [*others, plain])
+    empty = objective(search.system, [])
+    return sorted(found.values(), key=lambda f: -gain_of(search, f, empty))
 
 
 def _again(search: Search, fit: Fit) -> Fit:
@@ -166,8 +186,9 @@ def _take(search: Search, fits: list[Fit]) -> bool:
 def _prefer(search: Search) -> bool:
     """Take what coefficients nearly free explain as well before what they explain altogether.
 
-    If the latter is all that was found in its place and less likely by ``TIE``, or if nothing was found and
-    no candidate like it comes near: temperature without its channel differs little from a friction factor.
+    If the latter is all that was found in its place and less likely by ``TIE`` and more than its own form may
+    get wrong, or if nothing was found and no candidate like it comes near: temperature without its channel
+    differs little from a friction factor.
     """
     fit, other = search.fit, search.doubted
     if other is None:
@@ -177,7 +198,8 @@ def _prefer(search: Search) -> bool:
         alike = [gain for name, gain in search.screened.items() if of_coefficients(name)]
         least = max(0.0, *alike) + settings.LEAST_GAIN_ALONE
     else:
-        least = gain_of(search, fit.judged_by(search.system), empty) + settings.TIE
+        own = gain_of(search, fit.judged_by(search.system), empty)
+        least = own + max(settings.TIE, settings.SHAPE_SHARE**2 * own)
     if fit.names != [*other.names[:-1], *fit.names[-1:]] or gain_of(search, other, empty) < least:
         return False
     search.likelier = frozenset({other.names[-1]})
