@@ -306,3 +306,11 @@ def test_a_few_nats_beside_many_do_not_prefer_a_state():
     """Temperature is likelier than stiffness by 10 of 700 nats, less than stiffness' form may err."""
     case, truth = _spent(538776526, "single")
     assert set(_names(explain_mismatch(case.tire, case.recording))) == truth == {"stiffness_scale"}
+
+
+def test_a_compliance_that_leaves_a_third_goes_before_a_likelier_stiffness():
+    """The flexible form takes up what stiffness leaves, three times as much: it is likelier by 110 nats."""
+    case, truth = _spent(527258417, "single")
+    effects = explain_mismatch(case.tire, case.recording).effects
+    assert {e.name for e in effects} == truth == {"compliance"}
+    assert effects[0].alternatives == ()

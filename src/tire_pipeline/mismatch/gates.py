@@ -10,7 +10,7 @@ from scipy.stats import wilcoxon
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.gram import System
-from tire_pipeline.mismatch.refit import Fit, residual
+from tire_pipeline.mismatch.refit import Fit, refit, residual
 from tire_pipeline.mismatch.screening import without
 from tire_pipeline.mismatch.shapes import with_shapes
 from tire_pipeline.mismatch.state import Search
@@ -169,6 +169,12 @@ def unsure(search: Search, index: int, other: str) -> float:
 def left_by(search: Search, fit: Fit) -> float:
     """Mismatch beyond the noise that a set leaves."""
     return mismatch_of(search, residual(search.data, fit.changes)) - len(search.data.outputs)
+
+
+def leaves_less(search: Search, fit: Fit, other: Fit) -> bool:
+    """Whether a set leaves plainly less of the mismatch than another, each where it leaves least."""
+    less, more = (left_by(search, refit(search.frozen, f.variants, steps=3)) for f in (fit, other))
+    return less < settings.PLAINLY_LESS * more and less < more - settings.LEAST_LESS
 
 
 def _removed(search: Search, before: dict[str, Array], after: dict[str, Array], shown: Array) -> float:

@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.doubts import doubts
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.exchange import exchanged
-from tire_pipeline.mismatch.gates import accepted, left_by, mismatch_of, of_coefficients, open_but_loose
+from tire_pipeline.mismatch.gates import accepted, leaves_less, mismatch_of, of_coefficients, open_but_loose
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.screening import gain_of, prune, rank, screen, without
@@ -158,10 +158,8 @@ def _take(search: Search, fits: list[Fit]) -> bool:
     if not fits:
         return False
     gains = [gain_of(search, f, empty) for f in fits]
-    likely = [f for f, gain in zip(fits, gains, strict=True) if gain >= 0.75 * gains[0] - settings.TIE]
-    equal = sum(gain > gains[0] - settings.EQUAL for gain in gains)
     doubted = None
-    for fit in _in_order(search, likely, equal)[:4]:
+    for fit in _in_order(search, fits, gains)[:4]:
         ok, gates = accepted(search, fit)
         search.log.append(
             "gates: "
@@ -213,20 +211,21 @@ def _prefer(search: Search) -> bool:
     return True
 
 
-def _in_order(search: Search, fits: list[Fit], equal: int) -> list[Fit]:
-    """Order the first ``equal`` of ever less likely sets; put before them what leaves plainly less.
+def _in_order(search: Search, fits: list[Fit], gains: list[float]) -> list[Fit]:
+    """Order the likely ones of ever less likely sets; put first what can leave plainly less.
 
     Among effects that scale the force alone: the flexible form can take up what a poorer form leaves, at a
-    price that its size makes small.
+    price that its size makes small. By what each can leave at least, not where the flexible form helps.
     """
+    equal = sum(gain > gains[0] - settings.EQUAL for gain in gains)
     first = sorted(fits[:equal], key=lambda f: (rank(search, f), _cost(search, f)))
-    rest = fits[equal:]
-    if not _scales(first[0]):
-        return [*first, *rest]
-    most = settings.PLAINLY_LESS * left_by(search, first[0])
-    less = [_scales(f) and left_by(search, f) < most for f in rest]
-    before = [f for f, yes in zip(rest, less, strict=True) if yes]
-    return [*before, *first, *(f for f, yes in zip(rest, less, strict=True) if not yes)]
+    later = list(zip(fits, gains, strict=True))[equal:]
+    before: list[Fit] = []
+    if _scales(first[0]):
+        near = [f for f, gain in later if _scales(f) and gain >= settings.LESS_LIKELY * gains[0]]
+        before = [f for f in near if leaves_less(search, f, first[0])]
+    rest = [f for f, gain in later if gain >= 0.75 * gains[0] - settings.TIE and f not in before]
+    return [*before, *first, *rest]
 
 
 def _scales(fit: Fit) -> bool:

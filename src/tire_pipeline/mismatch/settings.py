@@ -70,7 +70,10 @@ EQUAL = 1.5
 latter likes a gain better than friction or combined slip, whose forms are a little wrong at small slip.)"""
 
 PLAINLY_LESS = 0.6
-"""An explanation that leaves so much less of the mismatch goes first, though another is a little likelier."""
+LEAST_LESS = 0.1
+LESS_LIKELY = 0.6
+"""An explanation that leaves so much less of the mismatch, by this part of the noise's power at least, goes
+first though another is likelier, if it has this part of the other's evidence."""
 
 LEAST_SHARE = 0.02
 """Least share of the mismatch that an effect must remove (issue, item 5): refitted without it, or the others
