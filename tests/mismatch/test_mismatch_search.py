@@ -313,4 +313,4 @@ def test_a_compliance_that_leaves_a_third_goes_before_a_likelier_stiffness():
     case, truth = _spent(527258417, "single")
     effects = explain_mismatch(case.tire, case.recording).effects
     assert {e.name for e in effects} == truth == {"compliance"}
-    assert effects[0].alternatives == ()
+    assert set(effects[0].alternatives) <= {"stiffness_scale"}

@@ -9,7 +9,7 @@ import numpy as np
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.gates import leaves_less, unsure
+from tire_pipeline.mismatch.gates import unsure
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, refit
 from tire_pipeline.mismatch.search import Search, gain_of, objective, prune, with_shapes
@@ -34,8 +34,6 @@ class Rival:
         How much likelier it is, both fitted.
     unsure : float
         Evidence that the accepted effect's own form may get wrong.
-    leaves_more : bool
-        True if both scale the force, and this one leaves plainly more.
     """
 
     name: str
@@ -43,14 +41,13 @@ class Rival:
     nats: float
     lost: float
     unsure: float = 0.0
-    leaves_more: bool = False
 
     @property
     def possible(self) -> bool:
         """Whether the recording cannot exclude it."""
         by_design = self.nats < settings.AMBIGUITY_NATS or self.apart < settings.AMBIGUITY_SHARE
         least = max(settings.AMBIGUITY_NATS, settings.AMBIGUITY_LOST * self.nats, self.unsure)
-        return by_design and self.lost < least and not self.leaves_more
+        return by_design and self.lost < least
 
 
 def rivals(search: Search, index: int) -> list[Rival]:
@@ -89,9 +86,7 @@ def rivals(search: Search, index: int) -> list[Rival]:
         apart = _apart(search, system, trial, part, size, name)
         nats = 0.5 * apart * size / search.inflation
         lost = own - gain_of(search, trial, empty)
-        both = catalogue()[name].scales and catalogue()[changes[index][0]].scales
-        more = both and leaves_less(search, fit, trial)
-        out.append(Rival(name, apart, nats, lost, unsure(search, index, name), more))
+        out.append(Rival(name, apart, nats, lost, unsure(search, index, name)))
     return sorted(out, key=lambda r: r.apart)
 
 
