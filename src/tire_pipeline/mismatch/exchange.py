@@ -11,7 +11,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.gates import left_by, unsure
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, objective, refit
-from tire_pipeline.mismatch.screening import gain_of, prune, rank, screen, without
+from tire_pipeline.mismatch.screening import gain_of, likeliest, prune, rank, screen, without
 from tire_pipeline.mismatch.shapes import with_shapes
 from tire_pipeline.mismatch.state import Search
 
@@ -44,7 +44,7 @@ def exchanged(search: Search) -> list[Fit]:
             less = _less(search, group, fit) if simpler else -settings.TIE
             if gain_of(search, fit, empty) > found - less and left_by(search, fit) <= most:
                 out.append(fit)
-    return sorted(out, key=lambda f: -gain_of(search, f, empty))
+    return likeliest(search, out)
 
 
 def _less(search: Search, group: tuple[int, ...], fit: Fit) -> float:

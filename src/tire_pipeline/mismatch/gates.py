@@ -68,14 +68,11 @@ class Gates:
 
     def passed(self, level: float) -> bool:
         """Whether all gates are open."""
-        return (self.free or self.loose > settings.LEAST_GAIN) and self.passed_but_loose(level)
-
-    def passed_but_loose(self, level: float) -> bool:
-        """Whether all gates are open, whatever the one with coefficients nearly free."""
         return (
             self.gain > self.least_gain
             and self.p_value < level
             and self.share > settings.LEAST_SHARE
+            and (self.free or self.loose > settings.LEAST_GAIN)
             and self.frozen > settings.LEAST_GAIN
             and self.in_bounds
         )
@@ -103,19 +100,20 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
         held = residual(search.data, [c for j, c in enumerate(fit.changes) if j != i])
         own_part = _shown(search, held, rest)
         removed = max(_removed(search, r, rest, own_part[1]) for r in (rest_without, held))
+        share = removed / max(total, 1e-12)
         p_values = [_p_value(s, own_part, (rest_without, reduced), (rest, fit), plain) for s, plain in judges]
         out.append(
             Gates(
                 name=name,
                 gain=gains[0],
                 p_value=min(1.0, len(judges) * min(p_values)),
-                share=removed / max(total, 1e-12),
+                share=share,
                 loose=gains[1],
                 frozen=gains[2],
                 free=of_coefficients(name) or name in search.likelier,
                 in_bounds=not fit.at_bound,
                 blocks=search.system.count,
-                least_gain=_least_gain(fit.names, i, removed / max(total, 1e-12)),
+                least_gain=_least_gain(fit.names, i, share),
             )
         )
     return [_of_one_kind(search, gate, out) for gate in out]
@@ -171,10 +169,9 @@ def left_by(search: Search, fit: Fit) -> float:
     return mismatch_of(search, residual(search.data, fit.changes)) - len(search.data.outputs)
 
 
-def leaves_less(search: Search, fit: Fit, other: Fit) -> bool:
-    """Whether a set leaves plainly less of the mismatch than another, each where it leaves least."""
-    less, more = (left_by(search, refit(search.frozen, f.variants, steps=3)) for f in (fit, other))
-    return less < settings.PLAINLY_LESS * more and less < more - settings.LEAST_LESS
+def least_left(search: Search, fit: Fit) -> float:
+    """Mismatch beyond the noise that a set leaves where it leaves least."""
+    return left_by(search, refit(search.frozen, fit.variants, steps=3))
 
 
 def _removed(search: Search, before: dict[str, Array], after: dict[str, Array], shown: Array) -> float:
@@ -234,19 +231,21 @@ def _wilcoxon(before: Array, after: Array) -> float:
 def accepted(search: Search, fit: Fit) -> tuple[bool, list[Gates]]:
     """Whether all effects of a set pass, Holm-corrected."""
     gates = gates_of(search, fit)
-    levels = _levels(search, gates)
-    return all(g.passed(level) for g, level in zip(gates, levels, strict=True)), gates
+    return _open(gates, _levels(search, gates)), gates
 
 
 def open_but_loose(search: Search, gates: list[Gates]) -> bool:
     """Whether all gates are open but one: coefficients nearly free explain as much as the last effect."""
-    *others, last = zip(gates, _levels(search, gates), strict=True)
-    return all(g.passed(level) for g, level in others) and last[0].passed_but_loose(last[1])
+    return _open([*gates[:-1], replace(gates[-1], free=True)], _levels(search, gates))
 
 
 def of_coefficients(name: str) -> bool:
     """Whether coefficients nearly free explain an effect altogether, so that this gate is not asked of it."""
     return catalogue()[name].own_inputs or name == "camber"
+
+
+def _open(gates: list[Gates], levels: list[float]) -> bool:
+    return all(g.passed(level) for g, level in zip(gates, levels, strict=True))
 
 
 def _levels(search: Search, gates: list[Gates]) -> list[float]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from tire_pipeline.mismatch.candidates import Variant, screening_columns
@@ -72,6 +74,11 @@ def best_gain(info: Array, score: Array, skip: int, search: Search) -> float:
 def gain_of(search: Search, fit: Fit, against: float) -> float:
     """Nats by which a fit is likelier than an objective without its effects, parameters paid."""
     return 0.5 * (against - fit.objective) / search.inflation - search.price * fit.parameters
+
+
+def likeliest(search: Search, fits: Iterable[Fit]) -> list[Fit]:
+    """Return fits in the order of how likely they are, parameters paid."""
+    return sorted(fits, key=lambda f: -gain_of(search, f, 0.0))
 
 
 def prune(search: Search, fit: Fit) -> Fit:

@@ -13,10 +13,10 @@ from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.doubts import doubts
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.exchange import exchanged
-from tire_pipeline.mismatch.gates import accepted, leaves_less, mismatch_of, of_coefficients, open_but_loose
+from tire_pipeline.mismatch.gates import accepted, least_left, mismatch_of, of_coefficients, open_but_loose
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
-from tire_pipeline.mismatch.screening import gain_of, prune, rank, screen, without
+from tire_pipeline.mismatch.screening import gain_of, likeliest, prune, rank, screen, without
 from tire_pipeline.mismatch.shapes import with_shapes
 from tire_pipeline.mismatch.state import Search, begin, renoise
 
@@ -70,8 +70,7 @@ def _one_more(search: Search, ranked: list[tuple[float, Variant]], shaped: Syste
     """
     empty = objective(search.system, [])
     while ranked:
-        fits = [f.judged_by(shaped) for f in _refined(search, ranked)]
-        fits.sort(key=lambda f: -gain_of(search, f, empty))
+        fits = likeliest(search, [f.judged_by(shaped) for f in _refined(search, ranked)])
         search.log.append(
             "refit: " + ", ".join(f"{'+'.join(f.names)} {gain_of(search, f, empty):.0f}" for f in fits[:6])
         )
@@ -81,7 +80,7 @@ def _one_more(search: Search, ranked: list[tuple[float, Variant]], shaped: Syste
         hidden = [f for f in likely if not _visible(search, f)]
         if not hidden:
             return False
-        if _take(search, [f.judged_by(shaped) for f in _plainer(search, hidden)]):
+        if _take(search, likeliest(search, [f.judged_by(shaped) for f in _plainer(search, hidden)])):
             return True
         names = {f.names[-1] for f in hidden}
         ranked = [(gain, v) for gain, v in ranked if v.name not in names]
@@ -89,7 +88,7 @@ def _one_more(search: Search, ranked: list[tuple[float, Variant]], shaped: Syste
 
 
 def _plainer(search: Search, fits: list[Fit]) -> list[Fit]:
-    """Refit the last effect of some sets with one parameter each, likeliest first.
+    """Refit the last effect of some sets with one parameter each.
 
     Several parameters and the flexible form can take up what each other leave, and nothing is gone.
     """
@@ -101,8 +100,7 @@ def _plainer(search: Search, fits: list[Fit]) -> list[Fit]:
         for name in last.effect.free(search.data, last.start):
             plain = Variant(last.name, last.effect.zeros(search.data), (name,))
             found[last.name, name] = refit(search.system, [*others, plain])
-    empty = objective(search.system, [])
-    return sorted(found.values(), key=lambda f: -gain_of(search, f, empty))
+    return list(found.values())
 
 
 def _again(search: Search, fit: Fit) -> Fit:
@@ -140,8 +138,7 @@ def _pairs(search: Search, fits: list[Fit], shaped: System) -> list[Fit]:
         forms = [Variant(name, best[name].changes[-1][1], best[name].free[-1]) for name in (first, second)]
         start = [*search.fit.changes, *(best[name].changes[-1] for name in (first, second))]
         out.append(prune(search, refit(search.system, [*now, *forms], start=start)).judged_by(shaped))
-    empty = objective(search.system, [])
-    out.sort(key=lambda f: -gain_of(search, f, empty))
+    out, empty = likeliest(search, out), objective(search.system, [])
     search.log.append(
         "pairs: " + ", ".join(f"{'+'.join(f.names)} {gain_of(search, f, empty):.0f}" for f in out[:4])
     )
@@ -189,7 +186,7 @@ def _prefer(search: Search) -> bool:
     differs little from a friction factor.
     """
     fit, other = search.fit, search.doubted
-    if other is None:
+    if other is None or fit.names != [*other.names[:-1], *fit.names[-1:]]:
         return False
     other, empty = _again(search, other), objective(search.system, [])
     if not fit.names:
@@ -198,7 +195,7 @@ def _prefer(search: Search) -> bool:
     else:
         own = gain_of(search, fit.judged_by(search.system), empty)
         least = own + max(settings.TIE, settings.SHAPE_SHARE**2 * own)
-    if fit.names != [*other.names[:-1], *fit.names[-1:]] or gain_of(search, other, empty) < least:
+    if gain_of(search, other, empty) < least:
         return False
     search.likelier = frozenset({other.names[-1]})
     ok, gates = accepted(search, other)
@@ -220,12 +217,18 @@ def _in_order(search: Search, fits: list[Fit], gains: list[float]) -> list[Fit]:
     equal = sum(gain > gains[0] - settings.EQUAL for gain in gains)
     first = sorted(fits[:equal], key=lambda f: (rank(search, f), _cost(search, f)))
     later = list(zip(fits, gains, strict=True))[equal:]
-    before: list[Fit] = []
-    if _scales(first[0]):
-        near = [f for f, gain in later if _scales(f) and gain >= settings.LESS_LIKELY * gains[0]]
-        before = [f for f in near if leaves_less(search, f, first[0])]
-    rest = [f for f, gain in later if gain >= 0.75 * gains[0] - settings.TIE and f not in before]
+    near = [f for f, gain in later if _scales(f) and gain >= settings.LESS_LIKELY * gains[0]]
+    before = _leaving_less(search, near, first[0]) if near and _scales(first[0]) else []
+    leading = {id(f) for f in before}
+    rest = [f for f, gain in later if gain >= 0.75 * gains[0] - settings.TIE and id(f) not in leading]
     return [*before, *first, *rest]
+
+
+def _leaving_less(search: Search, fits: list[Fit], other: Fit) -> list[Fit]:
+    """Return the sets that can leave plainly less of the mismatch than another one."""
+    least = least_left(search, other)
+    most = min(settings.PLAINLY_LESS * least, least - settings.LEAST_LESS)
+    return [f for f in fits if least_left(search, f) < most]
 
 
 def _scales(fit: Fit) -> bool:
