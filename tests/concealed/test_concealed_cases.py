@@ -2,6 +2,7 @@
 
 import json
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -12,9 +13,10 @@ from tire_pipeline.concealed import strength as strength_module
 from tire_pipeline.concealed.artefacts import ArtefactDetails, apply_artefact
 from tire_pipeline.concealed.choice import SHARES, choose
 from tire_pipeline.concealed.clean_run import residual, rms
+from tire_pipeline.concealed.constants import draw_constants, without_cooling
 from tire_pipeline.concealed.location import regimes, windows
-from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, PHYSICS, UNKNOWN
-from tire_pipeline.concealed.rig import Noise, add_noise
+from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, HEAT_OR_WEAR, PHYSICS, UNKNOWN
+from tire_pipeline.concealed.rig import Noise, World, add_noise
 from tire_pipeline.concealed.schedule import OPTIONAL_BLOCKS, draw_plan, make_schedule
 from tire_pipeline.concealed.unknown import play
 from tire_pipeline.errors import DomainError
@@ -214,6 +216,31 @@ def test_ambiguous_schedules_cannot_separate_what_they_must_not():
         if which >= 2:
             assert np.ptp(frame["normal_load"]) < 1e-9
             assert np.ptp(frame["camber"]) < 1e-9
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_tire_that_keeps_its_heat_warms_as_it_wears(seed):
+    """Only then does temperature without its channel look like wear."""
+    rng = np.random.default_rng(seed)
+    constants = draw_constants(rng)
+    plan = draw_plan(
+        rng,
+        ("wear",),
+        ambiguous=HEAT_OR_WEAR,
+        nominal_load=constants.nominal_load,
+        speed=16.0,
+        pressure=2.2e5,
+    )
+    schedule, _ = make_schedule(plan, rng, rate=50.0)
+    cooling = World(constants, rng.random(4), 1.0, {}, {"fx": 0.0, "fy": 0.0}, 24)
+    keeping = replace(cooling, constants=without_cooling(constants, 1e5))
+    alike = []
+    for world in (cooling, keeping):
+        frame = world.run(schedule, {})
+        alike.append(np.corrcoef(frame["tread_temperature"], frame["wear"])[0, 1])
+    assert alike[1] > max(0.98, alike[0])
+    assert frame["tread_temperature"].is_monotonic_increasing
+    assert frame["tread_temperature"].iloc[0] == pytest.approx(constants.reference_temperature, abs=0.5)
 
 
 def frame_of(n: int = 500) -> pd.DataFrame:

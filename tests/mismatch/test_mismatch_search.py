@@ -8,11 +8,13 @@ from tire_pipeline.mismatch.doubts import _instead
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import harmonic_power
 from tire_pipeline.mismatch.exchange import exchanged
+from tire_pipeline.mismatch.gates import _least
 from tire_pipeline.mismatch.nuisance import make_nuisance
-from tire_pipeline.mismatch.refit import refit
+from tire_pipeline.mismatch.refit import finish, moved, objective, refit, residual
 from tire_pipeline.mismatch.repeating import strongest_length
 from tire_pipeline.mismatch.search import _drop, begin, run, with_shapes
 from tire_pipeline.mismatch.shapes import shape_columns
+from tire_pipeline.mismatch.simulate import simulate
 from tire_pipeline.mismatch.unnamed import forms, play
 
 
@@ -90,6 +92,36 @@ def test_a_slip_that_is_noise_only_makes_no_huge_columns(tire, record):
     columns = make_nuisance(data).flexible["fx"]
     largest = max(np.abs(data.base[o]).max() for o in data.outputs)
     assert np.sqrt(np.mean(columns**2, axis=0)).max() < 10.0 * largest
+
+
+@pytest.mark.parametrize("seed", [410006, 410002])
+def test_heat_without_its_channel_and_wear_are_both_named_where_the_tire_does_not_cool(seed):
+    case, answer = make_case(seed, "ambiguous")
+    assert answer.acceptable == ("temperature", "wear")
+    (effect,) = explain_mismatch(case.tire, case.recording).effects
+    assert {effect.name, *effect.alternatives} == {"temperature", "wear"}
+
+
+@pytest.mark.parametrize("lag", [8.0, 20.0])
+def test_evidence_is_what_parameters_reach_and_not_what_a_straight_line_promises(tire, record, lag):
+    """Far from the right lag of a temperature without its channel."""
+    recording = record(0)
+    start = {"friction": -0.3, "curvature": 0.0, "stiffness": 0.0, "reference": 0.9, "lag": 40.0}
+    data = prepare(tire, recording).data
+    warm = simulate(data, [("temperature", start)])["fy"] - data.base["fy"]
+    search = begin(prepare(tire, recording.assign(fy=recording["fy"] + warm)).data)
+    changes = [
+        ("temperature", {**start, "friction": -0.1, "lag": lag}),
+        ("friction_scale", {"friction": 0.0}),
+    ]
+    fit = finish(search.system, changes, [("friction", "reference", "lag"), ("friction",)], 0.0)
+    rest = residual(search.data, changes)
+    info, score, here = search.system.reduce(search.system.sums(rest, fit.columns))
+    step = np.linalg.solve(info, score)
+    promised = here - score @ step
+    reached = objective(search.system, moved(changes, fit.labels, step))
+    assert reached > promised + 1000.0
+    assert promised + 1000.0 < _least(search, search.system, fit, rest) < reached + 1.0
 
 
 def _seam(data, length):

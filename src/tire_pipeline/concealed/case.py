@@ -12,9 +12,9 @@ from tire_pipeline.concealed import artefacts, strength
 from tire_pipeline.concealed.answers import Answer, EffectTruth
 from tire_pipeline.concealed.choice import SHARES, Choice, choose
 from tire_pipeline.concealed.clean_run import fit_clean, model_forces, residual, rms
-from tire_pipeline.concealed.constants import draw_constants
+from tire_pipeline.concealed.constants import draw_constants, without_cooling
 from tire_pipeline.concealed.location import regimes, windows
-from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, KINDS, PHYSICS
+from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, HEAT_OR_WEAR, KINDS, PHYSICS
 from tire_pipeline.concealed.rig import FORCES, Noise, World, add_noise, draw_noise
 from tire_pipeline.concealed.schedule import Plan, draw_plan, make_schedule
 from tire_pipeline.errors import DomainError
@@ -22,6 +22,9 @@ from tire_pipeline.magic_formula import TireModel
 
 PAUSE = 60.0
 """Time between the recording and the held-out run, s: the tire is replaced by a new, cold one."""
+
+WARMING = (25.0, 60.0)
+"""How much a tire that keeps its heat warms in a recording, K."""
 
 
 @dataclass(frozen=True)
@@ -228,6 +231,9 @@ def _set_up(rng: np.random.Generator, choice: Choice, settings: CaseSettings) ->
         largest={"fx": 0.0, "fy": 0.0},
         n_bristles=settings.n_bristles,
     )
+    if choice.ambiguous == HEAT_OR_WEAR:
+        world = _keeping_heat(rng, world, schedule)
+    constants = world.constants
     clean = world.run(schedule, {})
     wear = float(clean["wear"].iloc[-1])
     world = replace(
@@ -244,6 +250,15 @@ def _set_up(rng: np.random.Generator, choice: Choice, settings: CaseSettings) ->
     if not settings.misfit[0] <= misfit / largest <= settings.misfit[1]:
         raise _Unfit
     return _Bench(world, plan, tire, schedule, clean, left, misfit)
+
+
+def _keeping_heat(rng: np.random.Generator, world: World, schedule: pd.DataFrame) -> World:
+    """Return the world with a tire that does not cool and warms by a drawn number of degrees."""
+    unit = replace(world, constants=without_cooling(world.constants, 1e4))
+    temperature = unit.run(schedule, {})["tread_temperature"].to_numpy()
+    warmer = float(temperature[-1] - temperature[0])
+    capacity = 1e4 * warmer / float(rng.uniform(*WARMING))
+    return replace(world, constants=without_cooling(world.constants, capacity))
 
 
 def _scale(rng: np.random.Generator, bench: _Bench, name: str, settings: CaseSettings) -> float:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, PHYSICS, UNKNOWN
+from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, HEAT_OR_WEAR, PHYSICS, UNKNOWN
 
 SHARES: dict[str, float] = {
     "nothing": 0.20,
@@ -71,7 +71,7 @@ def choose(rng: np.random.Generator, kind: str) -> Choice:
         return Choice(names, names, None, _hidden(rng, names))
     which = int(rng.choice(len(AMBIGUOUS_SETS), p=[0.3, 0.3, 0.3, 0.1]))
     name = str(rng.choice(AMBIGUOUS_SETS[which][: 1 if which == 3 else 2]))
-    return Choice((name,), (name,), which, which == 1)
+    return Choice((name,), (name,), which, which == HEAT_OR_WEAR)
 
 
 def _draw_pair(rng: np.random.Generator) -> tuple[str, ...]:

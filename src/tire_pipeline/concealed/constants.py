@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -132,3 +132,25 @@ def draw_constants(rng: np.random.Generator) -> TireConstants:
 
 
 assert len(fields(TireConstants)) == brush.N_CONSTANTS
+
+
+def without_cooling(constants: TireConstants, heat_capacity: float) -> TireConstants:
+    """Return a tire that keeps its heat, recorded from the temperature on at which its model was measured.
+
+    Its temperature is then what friction and rolling have put into it so far, as its wear is: the two look
+    alike by design, not by the luck of a short recording.
+
+    Parameters
+    ----------
+    constants : TireConstants
+    heat_capacity : float
+        J/K.
+    """
+    return replace(
+        constants,
+        ambient=constants.reference_temperature,
+        cooling=0.0,
+        cooling_speed=0.0,
+        bulk_exchange=0.0,
+        heat_capacity=heat_capacity,
+    )

@@ -63,5 +63,9 @@ without cooling; at a single load, camber and roll direction; and the same with 
 
 The last two are recorded by the same schedule, so what looks alike in one does so in the other. The key of
 the first published proof left ``camber_offset`` out of the third set; ``ambiguous covered, first key`` is
-scored as it was.
+scored as it was. In the first eight proofs the tires of the second set did cool, so that their temperature
+was near its end value soon and looked like a friction factor, and hardly ever like wear.
 """
+
+HEAT_OR_WEAR = 1
+"""Which of ``AMBIGUOUS_SETS`` is recorded with tires that keep their heat."""

@@ -14,6 +14,8 @@ import numpy as np
 import pandas as pd
 from scipy.signal import lfilter
 
+from tire_pipeline.concealed.names import HEAT_OR_WEAR
+
 CHANNELS = (
     "slip_angle",
     "slip_ratio",
@@ -117,7 +119,7 @@ def draw_plan(
     else:
         needed = set(_AMBIGUOUS[ambiguous])
         chance = [0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0]
-        if ambiguous == 1:
+        if ambiguous == HEAT_OR_WEAR:
             chance = [0.3, 0.0, 0.0, 0.3, 0.4, 0.0, 0.0, 0.0]
     drawn = {b for b, p in zip(OPTIONAL_BLOCKS, chance, strict=True) if rng.random() < p}
     n_loads = int(rng.integers(3, 6))

@@ -34,6 +34,9 @@ class Rival:
         How much likelier it is, both fitted.
     unsure : float
         Evidence that the accepted effect's own form may get wrong.
+    dearer : float
+        How much of ``lost`` is the price of its further parameters: a reason to name it second, none to
+        exclude it.
     """
 
     name: str
@@ -41,13 +44,14 @@ class Rival:
     nats: float
     lost: float
     unsure: float = 0.0
+    dearer: float = 0.0
 
     @property
     def possible(self) -> bool:
         """Whether the recording cannot exclude it."""
         by_design = self.nats < settings.AMBIGUITY_NATS or self.apart < settings.AMBIGUITY_SHARE
         least = max(settings.AMBIGUITY_NATS, settings.AMBIGUITY_LOST * self.nats, self.unsure)
-        return by_design and self.lost < least
+        return by_design and self.lost - self.dearer < least
 
 
 def rivals(search: Search, index: int) -> list[Rival]:
@@ -86,7 +90,8 @@ def rivals(search: Search, index: int) -> list[Rival]:
         apart = _apart(search, system, trial, part, size, name)
         nats = 0.5 * apart * size / search.inflation
         lost = own - gain_of(search, trial, empty)
-        out.append(Rival(name, apart, nats, lost, unsure(search, index, name)))
+        dearer = search.price * max(trial.parameters - fit.parameters, 0)
+        out.append(Rival(name, apart, nats, lost, unsure(search, index, name), dearer))
     return sorted(out, key=lambda r: r.apart)
 
 

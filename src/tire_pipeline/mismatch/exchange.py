@@ -8,7 +8,7 @@ from itertools import combinations
 
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.gates import left_by, unsure
+from tire_pipeline.mismatch.gates import left_by
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, objective, refit
 from tire_pipeline.mismatch.screening import gain_of, likeliest, prune, rank, screen, without
@@ -55,7 +55,7 @@ def _less(search: Search, group: tuple[int, ...], fit: Fit) -> float:
     least = 0.5 * settings.TIE
     if len(group) > 1 or not catalogue()[fit.names[-1]].dynamic:
         return least
-    return max(least, unsure(search, group[0], fit.names[-1]))
+    return max(least, settings.SHAPE_SHARE**2 * search.gates[group[0]].gain)
 
 
 def _groups(count: int) -> Iterator[tuple[int, ...]]:

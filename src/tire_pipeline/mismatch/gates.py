@@ -10,12 +10,14 @@ from scipy.stats import wilcoxon
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.gram import System
-from tire_pipeline.mismatch.refit import Fit, refit, residual
+from tire_pipeline.mismatch.refit import Fit, moved, objective, refit, residual
 from tire_pipeline.mismatch.screening import without
 from tire_pipeline.mismatch.shapes import with_shapes
 from tire_pipeline.mismatch.state import Search
 
 Array = np.ndarray
+_PARTS = (1.0, 0.3, 0.1)
+"""Parts of a step that are tried."""
 
 
 @dataclass(frozen=True)
@@ -92,10 +94,8 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
         rest_without = residual(search.data, reduced.changes)
         gains = []
         for s in (system, loose, frozen):
-            with_it = s.reduce(s.sums(rest, fit.columns if fit.labels else None))
-            left = s.reduce(s.sums(rest_without, reduced.columns if reduced.labels else None))
-            gain = 0.5 * (_best(left) - _best(with_it)) / search.inflation - search.price * count
-            gains.append(float(gain))
+            less = _least(search, s, reduced, rest_without) - _least(search, s, fit, rest)
+            gains.append(0.5 * less / search.inflation - search.price * count)
         judges = ((search.system, True), (search.frozen, False))
         held = residual(search.data, [c for j, c in enumerate(fit.changes) if j != i])
         own_part = _shown(search, held, rest)
@@ -157,7 +157,7 @@ def unsure(search: Search, index: int, other: str) -> float:
     this, that = catalogue()[search.gates[index].name], catalogue()[other]
     share = 0.0
     if this.dynamic and that.dynamic:
-        share = settings.SHAPE_SHARE
+        share = settings.SHAPE_SHARE if that.kind == "physics" else settings.LAG_SHARE
     elif this.shifts and that.shifts:
         blind = "camber_offset" in (this.name, that.name) and not search.data.varies("camber")
         share = settings.CAMBER_SHARE if blind else settings.SHIFT_SHARE
@@ -214,11 +214,21 @@ def _p_value(
     return _wilcoxon(errors[0][strong_ones], errors[1][strong_ones])
 
 
-def _best(reduced: tuple[Array, Array, float]) -> float:
-    info, score, left = reduced
+def _least(search: Search, system: System, fit: Fit, rest: dict[str, Array]) -> float:
+    """Return the least objective that a system gives to a set, from where another system put it.
+
+    By one Gauss-Newton step. A step that promises much is gone and looked at: along a valley (the reference
+    of a temperature without its channel and a friction factor) the straight line promises what is not there.
+    """
+    info, score, here = system.reduce(system.sums(rest, fit.columns if fit.labels else None))
     if score.size == 0:
-        return left
-    return left - float(score @ np.linalg.lstsq(info, score, rcond=1e-12)[0])
+        return float(here)
+    step = np.linalg.lstsq(info, score, rcond=1e-12)[0]
+    promised = float(score @ step)
+    if promised < 2.0 * settings.TIE * search.inflation:
+        return float(here) - promised
+    reached = [objective(system, moved(fit.changes, fit.labels, part * step)) for part in _PARTS]
+    return float(min(here, *reached))
 
 
 def _wilcoxon(before: Array, after: Array) -> float:

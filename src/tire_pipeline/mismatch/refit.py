@@ -164,14 +164,15 @@ def _step(
     scaled, aim = info / size[:, None] / size[None, :], score / size
     for damping in _DAMPINGS:
         delta = np.linalg.solve(scaled + damping * np.eye(size.size), aim) / size
-        trial = _moved(changes, labels, delta)
+        trial = moved(changes, labels, delta)
         value = objective(system, trial)
         if value < best:
             return trial, value, best - value
     return changes, best, 0.0
 
 
-def _moved(changes: list[Change], labels: list[tuple[int, str]], delta: Array) -> list[Change]:
+def moved(changes: Sequence[Change], labels: Sequence[tuple[int, str]], delta: Array) -> list[Change]:
+    """Return effects with some parameters, named by ``labels``, moved, within bounds."""
     out: list[Any] = [(n, dict(p)) for n, p in changes]
     for (i, name), d in zip(labels, delta, strict=True):
         parameter = next(p for p in catalogue()[out[i][0]].parameters if p.name == name)

@@ -25,7 +25,7 @@ __all__ = ["Search", "begin", "gain_of", "objective", "prune", "run", "with_shap
 
 def run(search: Search) -> None:
     """Find the effects beside those that are in; the result is in ``search.fit`` and ``search.gates``."""
-    search.doubted, search.likelier = None, frozenset()
+    search.doubted, search.likelier = {}, frozenset()
     _grow(search)
     _eliminate(search)
     if _prefer(search):
@@ -171,10 +171,14 @@ def _take(search: Search, fits: list[Fit]) -> bool:
                 search.refused[g.name] = g.why_not(settings.LEVEL)
         if ok:
             search.fit, search.gates = fit, gates
-            search.doubted = doubted if of_coefficients(fit.names[-1]) else None
+            search.doubted.pop(len(fit.names), None)
+            if doubted is not None and of_coefficients(fit.names[-1]):
+                search.doubted[len(fit.names)] = doubted
             return True
         if doubted is None and open_but_loose(search, gates):
-            doubted = search.doubted = fit
+            doubted = fit
+    if doubted is not None:
+        search.doubted[len(doubted.names)] = doubted
     return False
 
 
@@ -185,7 +189,7 @@ def _prefer(search: Search) -> bool:
     get wrong, or if nothing was found and no candidate like it comes near: temperature without its channel
     differs little from a friction factor.
     """
-    fit, other = search.fit, search.doubted
+    fit, other = search.fit, search.doubted.get(max(len(search.fit.names), 1))
     if other is None or fit.names != [*other.names[:-1], *fit.names[-1:]]:
         return False
     other, empty = _again(search, other), objective(search.system, [])
@@ -193,6 +197,8 @@ def _prefer(search: Search) -> bool:
         alike = [gain for name, gain in search.screened.items() if of_coefficients(name)]
         least = max(0.0, *alike) + settings.LEAST_GAIN_ALONE
     else:
+        if not of_coefficients(fit.names[-1]):
+            return False
         own = gain_of(search, fit.judged_by(search.system), empty)
         least = own + max(settings.TIE, settings.SHAPE_SHARE**2 * own)
     if gain_of(search, other, empty) < least:

@@ -89,6 +89,10 @@ estimate: a wheel that is not round trebles it, and what a poor form takes off i
 SHAPE_SHARE = 0.15
 """How wrong the form of an accepted effect may be, as a share of it, before a second one is believed."""
 
+LAG_SHARE = 0.07
+"""The same for a delay and a filter where a lag was accepted: their forms are exact, only what they are
+recorded beside is not. Relaxation is no more than roughly of first order, and has ``SHAPE_SHARE``."""
+
 SHIFT_SHARE = 0.12
 CAMBER_SHARE = 0.3
 """The same for the alternatives of an offset: conicity, an offset of the angle, of camber and of the force

@@ -48,7 +48,7 @@ class Search:
     first: list[tuple[float, Variant]] = field(default_factory=list)
     unnamed: str = ""
     withdrawn: list[str] = field(default_factory=list)
-    doubted: Fit | None = None
+    doubted: dict[int, Fit] = field(default_factory=dict)
     likelier: frozenset[str] = frozenset()
     doubts: list[Doubt] = field(default_factory=list)
     log: list[str] = field(default_factory=list)

@@ -68,7 +68,11 @@ class States(Simulated):
         return np.cumsum(np.abs(self.get("speed")) * self.step)
 
     def heat(self, lag: float) -> Array:
-        """Return friction power followed with a lag of first order, over its 90% quantile."""
+        """Return friction power followed with a lag of first order, over the power's 90% quantile.
+
+        Times ``(1 + (lag / duration)^2)^0.5``: with a lag much longer than the recording it is friction work,
+        of order one.
+        """
         if "heat" in self.fixed:
             return self.fixed["heat"](lag)
         key = round(float(lag), 2)
@@ -82,7 +86,7 @@ class States(Simulated):
             h = first_order(power, 1.0 - np.exp(-self.step / max(lag, 1e-3)), first)
             if len(cache) > 40:
                 cache.clear()
-            cache[key] = h / self.scales["power"]
+            cache[key] = h * np.hypot(1.0, lag / self.scales["time_span"]) / self.scales["power"]
         return cache[key]
 
     @cached_property

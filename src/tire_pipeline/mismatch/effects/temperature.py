@@ -19,8 +19,8 @@ class Temperature(Effect):
     equation = (
         "d = (T - reference) / 50 degC; friction *= 1 + friction d - curvature d^2; "
         "stiffness *= 1 + stiffness d. "
-        "Without a temperature channel d is the state of lag dh/dt = (P - h) / lag, P friction power, "
-        "over its 90% quantile in the recording"
+        "Without a temperature channel d = (1 + (lag / duration)^2)^0.5 h / P90 - reference, "
+        "dh/dt = (P - h) / lag, P friction power, P90 its 90% quantile in the recording"
     )
     source = (
         "Sorniotti 2009, SAE 2009-01-0441; Mizuno et al. 2005, VSD 43 (suppl.): "
@@ -31,7 +31,7 @@ class Temperature(Effect):
         Parameter("curvature", "1", -0.8, 0.8, 0.01),
         Parameter("stiffness", "1", -1.0, 1.0, 0.01),
         Parameter("reference", "degC or 1", -1.0, 200.0, 0.5),
-        Parameter("lag", "s", 2.0, 400.0, 0.2),
+        Parameter("lag", "s", 2.0, 1000.0, 0.2),
     )
     looks_like = {
         "wear": "wear never goes back; temperature does, when the tire rests",
@@ -57,14 +57,15 @@ class Temperature(Effect):
     def starts(self, data: object) -> list[dict[str, float]]:
         """Several references (where the model is right), and several lags if there is no channel.
 
-        The last one is warmer than the recording: a tire may be measured warm and recorded cold.
+        The last reference is warmer than the recording: a tire may be measured warm and recorded cold. The
+        last lag is much longer than it: a tire may keep its heat.
         """
         zero = {"friction": 0.0, "curvature": 0.0, "stiffness": 0.0}
         if data.varies("tread_temperature"):  # type: ignore[attr-defined]
             t = data.smooth("tread_temperature")  # type: ignore[attr-defined]
             points = [*np.quantile(t, [0.02, 0.5, 0.95]), np.max(t) + _WARMER]
             return [{**zero, "reference": float(v), "lag": 10.0} for v in points]
-        lags = [8.0, 20.0, 50.0]
+        lags = [8.0, 20.0, 50.0, min(3.0 * data.scales["time_span"], 1000.0)]  # type: ignore[attr-defined]
         return [{**zero, "reference": r, "lag": lag} for lag in lags for r in (0.0, 0.5, 1.2)]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
