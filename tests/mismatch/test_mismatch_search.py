@@ -232,6 +232,13 @@ def test_what_the_form_of_one_effect_gets_wrong_does_not_choose_the_next(seed):
     assert set(_names(explain_mismatch(case.tire, case.recording))) == truth
 
 
+def test_a_wheel_that_is_not_round_is_seen_beside_what_is_much_stronger():
+    """It counted as noise when its share of the mismatch was measured."""
+    case, truth = _spent(548895028, "pair")
+    assert truth == {"combined_slip", "nonuniformity"}
+    assert set(_names(explain_mismatch(case.tire, case.recording))) == truth
+
+
 def test_pressure_without_brakes_has_one_stiffness_which_bends():
     """Two stiffnesses of one force left a valley where the fit stopped; its rest got a name."""
     case, truth = _spent(130062434, "single")

@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, moved, objective, refit, residual
 from tire_pipeline.mismatch.screening import without
 from tire_pipeline.mismatch.shapes import with_shapes
-from tire_pipeline.mismatch.state import Search
+from tire_pipeline.mismatch.state import Search, noise_beside
 
 Array = np.ndarray
 _PARTS = (1.0, 0.3, 0.1)
@@ -84,7 +84,8 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
     """Judge each effect of a set: the set with it against the set without it, refitted."""
     out = []
     rest = residual(search.data, fit.changes)
-    total = mismatch_of(search, residual(search.data, []))
+    floors = floors_of(search, fit)
+    total = mismatch_of(residual(search.data, []), floors)
     for i, name in enumerate(fit.names):
         system = with_shapes(search, search.system, fit.changes, i)
         loose = with_shapes(search, search.loose, fit.changes, i)
@@ -99,7 +100,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
         judges = ((search.system, True), (search.frozen, False))
         held = residual(search.data, [c for j, c in enumerate(fit.changes) if j != i])
         own_part = _shown(search, held, rest)
-        removed = max(_removed(search, r, rest, own_part[1]) for r in (rest_without, held))
+        removed = max(_removed(search, floors, r, rest, own_part[1]) for r in (rest_without, held))
         share = removed / max(total, 1e-12)
         p_values = [_p_value(s, own_part, (rest_without, reduced), (rest, fit), plain) for s, plain in judges]
         out.append(
@@ -147,9 +148,20 @@ def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
     return replace(gate, least_gain=least)
 
 
-def mismatch_of(search: Search, rest: dict[str, Array]) -> float:
+def floors_of(search: Search, fit: Fit) -> dict[str, float]:
+    """Return the size of the noise of each output, N.
+
+    Estimated beside a set that puts in what repeats with the wheel: until then that counts as noise.
+    """
+    noise = search.noise
+    if "nonuniformity" in set(fit.names) - set(search.fit.names):
+        noise = noise_beside(replace(search, fit=fit))
+    return {o: min(noise[o].floor, search.noise[o].floor) for o in search.data.outputs}
+
+
+def mismatch_of(rest: dict[str, Array], floors: dict[str, float]) -> float:
     """Mean square of a residual over the noise, outputs added."""
-    return float(sum(np.mean(r**2) / search.noise[o].floor ** 2 for o, r in rest.items()))
+    return float(sum(np.mean(r**2) / floors[o] ** 2 for o, r in rest.items()))
 
 
 def unsure(search: Search, index: int, other: str) -> float:
@@ -166,7 +178,8 @@ def unsure(search: Search, index: int, other: str) -> float:
 
 def left_by(search: Search, fit: Fit) -> float:
     """Mismatch beyond the noise that a set leaves."""
-    return mismatch_of(search, residual(search.data, fit.changes)) - len(search.data.outputs)
+    floors = {o: n.floor for o, n in search.noise.items()}
+    return mismatch_of(residual(search.data, fit.changes), floors) - len(search.data.outputs)
 
 
 def least_left(search: Search, fit: Fit) -> float:
@@ -174,14 +187,19 @@ def least_left(search: Search, fit: Fit) -> float:
     return left_by(search, refit(search.frozen, fit.variants, steps=3))
 
 
-def _removed(search: Search, before: dict[str, Array], after: dict[str, Array], shown: Array) -> float:
+def _removed(
+    search: Search,
+    floors: dict[str, float],
+    before: dict[str, Array],
+    after: dict[str, Array],
+    shown: Array,
+) -> float:
     """Mismatch that an effect takes away in the sweeps in which it shows.
 
     Elsewhere the residuals differ only by how the other effects' parameters moved.
     """
     rows = np.isin(search.block, shown)
-    floor = {o: search.noise[o].floor for o in before}
-    return float(sum(np.mean(rows * (before[o] ** 2 - after[o] ** 2)) / floor[o] ** 2 for o in before))
+    return float(sum(np.mean(rows * (before[o] ** 2 - after[o] ** 2)) / floors[o] ** 2 for o in before))
 
 
 def _shown(search: Search, held: dict[str, Array], rest: dict[str, Array]) -> tuple[Array, Array]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.refit import Fit, objective, refit
@@ -34,7 +36,8 @@ def search_all(search: Search) -> None:
     """Search from the likeliest effect; if that does not hold, from the next ones, two at most.
 
     Two effects together can look like a third one, which then goes in first and bars the way. A single effect
-    that leaves something without a name is doubted, too; but others have to be likelier than it.
+    that leaves something without a name is doubted, too; but others have to be likelier than it. What is
+    found instead has to be likelier than the first one with its best further effect, too small to be named.
     """
     run(search)
     left = _left(search)
@@ -49,6 +52,8 @@ def search_all(search: Search) -> None:
     most = _gain_of_first(empty) if named else settings.LEAST_GAIN
     if holds:
         most = _gain(empty, search.fit) + settings.TIE
+    elif search.fit.names:
+        most = max(most, _gain(empty, search.fit) + _promise(search))
     for variant in _others(search, set(before)):
         trial = _from(empty, variant)
         if trial is None or not trial.fit.names or not _holds(trial, _left(trial)):
@@ -91,12 +96,17 @@ def _from(empty: Search, variant: Variant) -> Search | None:
     """Search with one effect put in first, if it and the best second one may beat the likeliest effect."""
     trial = replace(empty, refused={}, withdrawn=[], log=[])
     trial.fit = prune(trial, refit(empty.system, [variant], start=[(variant.name, variant.start)]))
-    second = screen(trial, with_shapes(trial, trial.system, trial.fit.changes))
-    if not second or _gain(empty, trial.fit) + second[0][0] < _gain_of_first(empty):
+    if _gain(empty, trial.fit) + _promise(trial) < _gain_of_first(empty):
         return None
     renoise(trial)
     run(trial)
     return trial
+
+
+def _promise(search: Search) -> float:
+    """Return the evidence that the screen gives to the best further effect."""
+    second = screen(search, with_shapes(search, search.system, search.fit.changes))
+    return second[0][0] if second else -np.inf
 
 
 def _gain_of_first(search: Search) -> float:

@@ -13,7 +13,14 @@ from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.doubts import doubts
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.exchange import exchanged
-from tire_pipeline.mismatch.gates import accepted, least_left, mismatch_of, of_coefficients, open_but_loose
+from tire_pipeline.mismatch.gates import (
+    accepted,
+    floors_of,
+    least_left,
+    mismatch_of,
+    of_coefficients,
+    open_but_loose,
+)
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.screening import gain_of, likeliest, prune, rank, screen, without
@@ -250,11 +257,12 @@ def _cost(search: Search, fit: Fit) -> float:
 
 def _visible(search: Search, fit: Fit) -> bool:
     """Whether each effect of a set removes its least share of the mismatch."""
-    total = mismatch_of(search, residual(search.data, []))
-    left = mismatch_of(search, residual(search.data, fit.changes))
+    floors = floors_of(search, fit)
+    total = mismatch_of(residual(search.data, []), floors)
+    left = mismatch_of(residual(search.data, fit.changes), floors)
     for i in range(len(fit.names)):
-        rest = [c for j, c in enumerate(fit.changes) if j != i]
-        if mismatch_of(search, residual(search.data, rest)) - left < settings.LEAST_SHARE * total:
+        rest = residual(search.data, [c for j, c in enumerate(fit.changes) if j != i])
+        if mismatch_of(rest, floors) - left < settings.LEAST_SHARE * total:
             return False
     return True
 

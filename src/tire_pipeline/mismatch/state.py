@@ -88,7 +88,7 @@ def _assemble(search: Search) -> None:
     nuisance = make_nuisance(search.data)
     search.columns, search.sizes = nuisance.columns, nuisance.sizes
     _weigh(search)
-    search.noise = search.first_noise = _noise_beside(search)
+    search.noise = search.first_noise = noise_beside(search)
     _weigh(search)
 
 
@@ -121,7 +121,7 @@ def renoise(search: Search) -> None:
 
     Only a noise that is plainly smaller is taken: what effects leave may not pass for noise.
     """
-    now = _noise_beside(search)
+    now = noise_beside(search)
     most = {o: settings.CALMER * n.floor for o, n in search.first_noise.items()}
     chosen = {o: n if n.floor < most[o] else search.first_noise[o] for o, n in now.items()}
     if all(chosen[o] is search.noise[o] for o in chosen):
@@ -131,7 +131,7 @@ def renoise(search: Search) -> None:
     _weigh(search)
 
 
-def _noise_beside(search: Search) -> dict[str, Noise]:
+def noise_beside(search: Search) -> dict[str, Noise]:
     """Estimate the noise from what effects and nuisance leave: what they explain is not noise."""
     rest = residual(search.data, search.fit.changes)
     c = search.loose.fitted(rest, search.fit.columns if search.fit.labels else None)
