@@ -69,8 +69,14 @@ def calibrate(rows: Sequence[Mapping[str, float]], correct: Sequence[bool], how:
 
 
 def confidence(search: Any, index: int, near: list[Any], left: Any) -> float:
-    """Return the probability that the name is right."""
+    """Return the probability that the name is right.
+
+    The map, times the name's share among those that only the price of their parameters puts behind it: the
+    recording says no more of these.
+    """
     table = calibration()
     x = features(search, index, near, left)
     z = table["intercept"] + sum(w * x[k] for k, w in table["weights"].items())
-    return float(np.clip(1.0 / (1.0 + np.exp(-z)), table["least"], table["most"]))
+    alone = float(np.clip(1.0 / (1.0 + np.exp(-z)), table["least"], table["most"]))
+    behind = [r for r in near if r.possible and r.dearer > 0.0]
+    return alone / (1.0 + sum(float(np.exp(-max(r.lost - r.dearer, 0.0))) for r in behind))
