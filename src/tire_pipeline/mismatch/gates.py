@@ -151,10 +151,10 @@ def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
 def floors_of(search: Search, fit: Fit) -> dict[str, float]:
     """Return the size of the noise of each output, N.
 
-    Estimated beside a set that puts in what repeats with the wheel: until then that counts as noise.
+    Estimated beside a set that puts in what counts as noise until then.
     """
     noise = search.noise
-    if "nonuniformity" in set(fit.names) - set(search.fit.names):
+    if any(catalogue()[name].as_noise for name in set(fit.names) - set(search.fit.names)):
         noise = noise_beside(replace(search, fit=fit))
     return {o: min(noise[o].floor, search.noise[o].floor) for o in search.data.outputs}
 
@@ -178,7 +178,7 @@ def unsure(search: Search, index: int, other: str) -> float:
 
 def left_by(search: Search, fit: Fit) -> float:
     """Mismatch beyond the noise that a set leaves."""
-    floors = {o: n.floor for o, n in search.noise.items()}
+    floors = floors_of(search, search.fit)
     return mismatch_of(residual(search.data, fit.changes), floors) - len(search.data.outputs)
 
 

@@ -120,6 +120,8 @@ class Effect:
         like it.
     shifts : bool
         True if it adds a side force while rolling straight: at one load and camber these look the same.
+    as_noise : bool
+        True if it counts as noise until it is modelled.
     needed : tuple of str
         Parameters that are never dropped for being small: without them it is another effect.
     scanned : tuple of str
@@ -148,6 +150,7 @@ class Effect:
     errs_like: tuple[str, ...] = ()
     slow = False
     shifts = False
+    as_noise = False
     needed: tuple[str, ...] = ()
     scanned: tuple[str, ...] = ()
     least_gain = 0.0

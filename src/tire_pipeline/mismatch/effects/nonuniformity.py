@@ -21,6 +21,7 @@ class Nonuniformity(Effect):
     )
     source = "SAE J332: lateral and radial force variation, first harmonic"
     needs_time = True
+    as_noise = True
     parameters = (
         Parameter("cosine_y", "N", -3000.0, 3000.0, 1.0, output="fy"),
         Parameter("sine_y", "N", -3000.0, 3000.0, 1.0, output="fy"),
