@@ -15,8 +15,9 @@ run: install
 	fi
 	$(BIN)/kedro run
 
+# Two processes, each file of tests in one of them.
 test: install
-	$(BIN)/python -m pytest -m "not long"
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "not long" -n 2 --dist loadfile
 
 long: install
 	$(BIN)/python -m pytest -m long
