@@ -7,8 +7,9 @@ from dataclasses import replace
 from itertools import combinations
 
 from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.gates import left_by
+from tire_pipeline.mismatch.gates import leaving_less, left_by
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, objective, refit
 from tire_pipeline.mismatch.screening import gain_of, likeliest, prune, rank, screen, without
@@ -20,18 +21,21 @@ _FORMS = 3
 
 
 def exchanged(search: Search) -> list[Fit]:
-    """Return the sets with something exchanged that are likelier than the one found, likeliest first.
+    """Return the sets with something exchanged that are better than the one found, likeliest first.
 
     Wear and temperature together look like a surface that changed: once both are in, adding and dropping
     one effect at a time never leads there. A set with as many effects has to be likelier by ``TIE``; one
     with fewer, or with a more usual one of two that look the same, only about as likely. None may leave
-    plainly more of the mismatch.
+    plainly more of the mismatch. Of two effects that scale the force, one that leaves plainly less may be
+    less likely; and a single one gives way to two others (friction and compliance look like a gain).
 
     Parameters
     ----------
     search : Search
-        With at least two effects found; not changed.
+        With at least one effect found; not changed.
     """
+    if len(search.fit.names) == 1:
+        return _divided(search)
     empty, usual = objective(search.system, []), rank(search, search.fit)
     most = left_by(search, search.fit) / settings.PLAINLY_LESS
     out = []
@@ -39,12 +43,46 @@ def exchanged(search: Search) -> list[Fit]:
         rest = without(search, search.fit, *group)
         shaped = with_shapes(search, search.system, rest.changes)
         found = gain_of(search, search.fit.judged_by(shaped), empty)
+        own = found - gain_of(search, rest.judged_by(shaped), empty)
+        near = []
         for fit in _in_place_of(search, group, rest, shaped):
+            gain = gain_of(search, fit, empty)
             simpler = len(group) > 1 or rank(search, fit) < usual
             less = _less(search, group, fit) if simpler else -settings.TIE
-            if gain_of(search, fit, empty) > found - less and left_by(search, fit) <= most:
+            if gain > found - less and left_by(search, fit) <= most:
                 out.append(fit)
+            elif _scaling(search, group, fit) and gain > found - (1.0 - settings.LESS_LIKELY) * own:
+                near.append(fit)
+        out += leaving_less(search, near, search.fit)
     return likeliest(search, out)
+
+
+def _divided(search: Search) -> list[Fit]:
+    """Return the sets of two effects of the tire that scale the force, for the single one found.
+
+    Those that are likelier and leave plainly less. Of the tire, because a gain of the channels and friction
+    are a stiffness with more parameters.
+    """
+    if not catalogue()[search.fit.names[0]].scales:
+        return []
+    trial = replace(search, fit=Fit([], []), screened={})
+    best: dict[str, Variant] = {}
+    for _, variant in screen(trial):
+        effect = catalogue()[variant.name]
+        if effect.scales and effect.kind == "physics" and variant.name not in search.fit.names:
+            best.setdefault(variant.name, variant)
+    empty = objective(search.system, [])
+    least = gain_of(search, search.fit.judged_by(search.system), empty) + settings.TIE
+    pairs = combinations(list(best.values())[: _FORMS + 1], 2)
+    fits = [prune(trial, refit(search.system, list(pair))) for pair in pairs]
+    likelier = [fit for fit in fits if gain_of(search, fit, empty) > least]
+    return likeliest(search, leaving_less(search, likelier, search.fit))
+
+
+def _scaling(search: Search, group: tuple[int, ...], fit: Fit) -> bool:
+    """Whether one effect that scales the force stands in for another one."""
+    names = [search.fit.names[index] for index in group]
+    return len(names) == 1 and all(catalogue()[name].scales for name in (*names, fit.names[-1]))
 
 
 def _less(search: Search, group: tuple[int, ...], fit: Fit) -> float:
@@ -66,12 +104,12 @@ def _groups(count: int) -> Iterator[tuple[int, ...]]:
 def _in_place_of(search: Search, group: tuple[int, ...], rest: Fit, shaped: System) -> Iterator[Fit]:
     """Refit the set with the likeliest effects in place of a group, beside the rest and its shapes.
 
-    One of two may stand in for both: in another form, or with parameters that were dropped beside the other.
+    One of the group may stand in for it: in another form, or with parameters that were dropped beside the
+    other.
     """
     trial = replace(search, fit=rest, screened={})
     ranked = screen(trial, shaped)
-    out = search.fit.names[group[0]] if len(group) == 1 else ""
-    tried = {*rest.names, out}
+    tried = set(rest.names)
     for gain, variant in ranked:
         if gain < settings.LEAST_GAIN or len(tried) > len(rest.names) + _FORMS:
             return

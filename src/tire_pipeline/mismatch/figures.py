@@ -15,6 +15,8 @@ from tire_pipeline.mismatch.report import MismatchReport
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
 _FEW = 600
+_LEAST_SLIP = 0.002
+"""Range of slip, rad or 1, from which a map over it says something."""
 _STYLE: Any = {
     "font.size": 9,
     "axes.spines.top": False,
@@ -71,7 +73,7 @@ def time_line(report: MismatchReport, output: str) -> Figure:
 def operating_map(report: MismatchReport, output: str) -> Figure:
     """Draw the mean difference over slip and load, before and after, on one colour scale."""
     s = report.series
-    slip = s["slip_angle"] if output == "fy" else s["slip_ratio"]
+    slip = _slip(report, output)
     factor, unit = (57.29578, "slip angle (deg)") if output == "fy" else (1.0, "slip ratio")
     small = float(np.max(s["normal_load"])) < 100.0
     load = s["normal_load"] if small else s["normal_load"] / 1e3
@@ -88,7 +90,7 @@ def operating_map(report: MismatchReport, output: str) -> Figure:
     limit = max(float(np.nanmax(np.abs(maps[0]), initial=0.0)), s[f"floor_{output}"])
     colours: Any = {"cmap": "RdBu_r", "vmin": -limit, "vmax": limit, "rasterized": True}
     with matplotlib.rc_context(_STYLE):
-        figure = Figure(figsize=(4.6 * len(kinds), 2.9), layout="constrained")
+        figure = Figure(figsize=(9.2, 2.9), layout="constrained")
         axes = np.atleast_1d(figure.subplots(1, len(kinds), sharey=True))
         for ax, kind, values in zip(axes, kinds, maps, strict=True):
             if points:
@@ -103,6 +105,10 @@ def operating_map(report: MismatchReport, output: str) -> Figure:
         axes[0].set_ylabel("normal load (N)" if small else "normal load (kN)")
         figure.colorbar(mesh, ax=axes, label=f"{output.capitalize()} recorded - simulated (N)")
     return figure
+
+
+def _slip(report: MismatchReport, output: str) -> Any:
+    return report.series["slip_angle" if output == "fy" else "slip_ratio"]
 
 
 def _means(x: Any, y: Any, values: Any, edges: tuple[Any, Any]) -> Any:
@@ -121,12 +127,13 @@ def drawings(report: MismatchReport) -> list[dict[str, Any]]:
     out = []
     for o in order:
         name = o.capitalize()
-        out.append(
-            {
-                "svg": svg(operating_map(report, o)),
-                "caption": f"{name} over slip and load: recorded minus simulated force (cells: means).",
-            }
-        )
+        if np.ptp(_slip(report, o)) > _LEAST_SLIP:
+            out.append(
+                {
+                    "svg": svg(operating_map(report, o)),
+                    "caption": f"{name} over slip and load: recorded minus simulated force (cells: means).",
+                }
+            )
         out.append(
             {
                 "svg": svg(time_line(report, o)),

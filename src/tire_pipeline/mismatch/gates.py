@@ -39,8 +39,8 @@ class Gates:
     in_bounds : bool
     blocks : int
         Number of sweeps.
-    least_gain : float
-        What ``gain`` has to exceed.
+    least_gain, least_share : float
+        What ``gain`` and ``share`` have to exceed.
     """
 
     name: str
@@ -53,6 +53,7 @@ class Gates:
     in_bounds: bool
     blocks: int
     least_gain: float
+    least_share: float
 
     def why_not(self, level: float) -> str:
         """Return the first gate that is shut, in words."""
@@ -60,7 +61,7 @@ class Gates:
             return "does not pay for itself"
         if self.p_value >= level:
             return f"held-out sweeps are not better with it (p {self.p_value:.2g})"
-        if self.share <= settings.LEAST_SHARE:
+        if self.share <= self.least_share:
             return f"removes only {100.0 * self.share:.1f}% of the mismatch"
         if not self.free and self.loose <= settings.LEAST_GAIN:
             return "a refit of the coefficients explains as much"
@@ -73,7 +74,7 @@ class Gates:
         return (
             self.gain > self.least_gain
             and self.p_value < level
-            and self.share > settings.LEAST_SHARE
+            and self.share > self.least_share
             and (self.free or self.loose > settings.LEAST_GAIN)
             and self.frozen > settings.LEAST_GAIN
             and self.in_bounds
@@ -102,6 +103,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
         own_part = _shown(search, held, rest)
         removed = max(_removed(search, floors, r, rest, own_part[1]) for r in (rest_without, held))
         share = removed / max(total, 1e-12)
+        there = min(mismatch_of(r, floors) for r in (rest_without, held))
         p_values = [_p_value(s, own_part, (rest_without, reduced), (rest, fit), plain) for s, plain in judges]
         out.append(
             Gates(
@@ -115,6 +117,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
                 in_bounds=not fit.at_bound,
                 blocks=search.system.count,
                 least_gain=_least_gain(fit.names, i, share),
+                least_share=least_share(fit.names, i, gains[0], there / max(total, 1e-12)),
             )
         )
     return [_of_one_kind(search, gate, out) for gate in out]
@@ -136,8 +139,6 @@ def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
     if effect.dynamic:
         lags = [gain for other, gain in others if other.dynamic]
         least = max(least, settings.SECOND_LAG * max(lags, default=0.0))
-    if effect.own_inputs and effect.kind == "physics" and len(gates) > 1:
-        least = max(least, settings.LEAST_GAIN_ALONE)
     stronger = [other for other, gain in others if gain > gate.gain]
     if effect.scales and any(other.scales for other in stronger):
         least = max(least, settings.SECOND_SCALE)
@@ -164,6 +165,28 @@ def mismatch_of(rest: dict[str, Array], floors: dict[str, float]) -> float:
     return float(sum(np.mean(r**2) / floors[o] ** 2 for o, r in rest.items()))
 
 
+def least_share(names: list[str], index: int, gain: float, there: float) -> float:
+    """Return the least share of the mismatch that an effect of a set has to remove.
+
+    Of all of it, or of what is there beside the other effects, if it gains ``SURE`` nats: an effect six
+    times as strong does not hide another. Not so a lag beside a lag or an offset beside an offset: what one's
+    form gets wrong is another.
+
+    Parameters
+    ----------
+    names : list of str
+    index : int
+    gain : float
+        Nats.
+    there : float
+        What is there beside the others, as a share of all.
+    """
+    this = catalogue()[names[index]]
+    others = [catalogue()[name] for j, name in enumerate(names) if j != index]
+    alike = any((this.dynamic and that.dynamic) or (this.shifts and that.shifts) for that in others)
+    return settings.LEAST_SHARE * (1.0 if alike or gain <= settings.SURE else min(there, 1.0))
+
+
 def unsure(search: Search, index: int, other: str) -> float:
     """Nats by which an accepted effect's own form may be wrong against another effect of its kind."""
     this, that = catalogue()[search.gates[index].name], catalogue()[other]
@@ -185,6 +208,15 @@ def left_by(search: Search, fit: Fit) -> float:
 def least_left(search: Search, fit: Fit) -> float:
     """Mismatch beyond the noise that a set leaves where it leaves least."""
     return left_by(search, refit(search.frozen, fit.variants, steps=3))
+
+
+def leaving_less(search: Search, fits: list[Fit], other: Fit) -> list[Fit]:
+    """Return the sets that can leave plainly less of the mismatch than another one."""
+    if not fits:
+        return []
+    least = least_left(search, other)
+    most = min(settings.PLAINLY_LESS * least, least - settings.LEAST_LESS)
+    return [fit for fit in fits if least_left(search, fit) < most]
 
 
 def _removed(

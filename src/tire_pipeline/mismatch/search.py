@@ -16,7 +16,8 @@ from tire_pipeline.mismatch.exchange import exchanged
 from tire_pipeline.mismatch.gates import (
     accepted,
     floors_of,
-    least_left,
+    least_share,
+    leaving_less,
     mismatch_of,
     of_coefficients,
     open_but_loose,
@@ -41,8 +42,7 @@ def run(search: Search) -> None:
     barred: set[str] = set()
     for _ in range(2):
         before = set(search.fit.names)
-        fits = [fit for fit in exchanged(search) if not barred & set(fit.names)] if len(before) > 1 else []
-        if not _take(search, fits):
+        if not _take(search, [fit for fit in exchanged(search) if not barred & set(fit.names)]):
             break
         search.log.append(f"exchanged: {'+'.join(search.fit.names)}")
         renoise(search)
@@ -111,7 +111,7 @@ def _plainer(search: Search, fits: list[Fit]) -> list[Fit]:
 
 
 def _again(search: Search, fit: Fit) -> Fit:
-    return refit(search.system, fit.variants, steps=3)
+    return prune(search, refit(search.system, fit.variants, steps=3))
 
 
 def _refined(search: Search, ranked: list[tuple[float, Variant]]) -> list[Fit]:
@@ -231,17 +231,10 @@ def _in_order(search: Search, fits: list[Fit], gains: list[float]) -> list[Fit]:
     first = sorted(fits[:equal], key=lambda f: (rank(search, f), _cost(search, f)))
     later = list(zip(fits, gains, strict=True))[equal:]
     near = [f for f, gain in later if _scales(f) and gain >= settings.LESS_LIKELY * gains[0]]
-    before = _leaving_less(search, near, first[0]) if near and _scales(first[0]) else []
+    before = leaving_less(search, near, first[0]) if _scales(first[0]) else []
     leading = {id(f) for f in before}
     rest = [f for f, gain in later if gain >= 0.75 * gains[0] - settings.TIE and id(f) not in leading]
     return [*before, *first, *rest]
-
-
-def _leaving_less(search: Search, fits: list[Fit], other: Fit) -> list[Fit]:
-    """Return the sets that can leave plainly less of the mismatch than another one."""
-    least = least_left(search, other)
-    most = min(settings.PLAINLY_LESS * least, least - settings.LEAST_LESS)
-    return [f for f in fits if least_left(search, f) < most]
 
 
 def _scales(fit: Fit) -> bool:
@@ -256,15 +249,23 @@ def _cost(search: Search, fit: Fit) -> float:
 
 
 def _visible(search: Search, fit: Fit) -> bool:
-    """Whether each effect of a set removes its least share of the mismatch."""
+    """Whether each effect of a set removes its least share of the mismatch, and no lag undoes another."""
     floors = floors_of(search, fit)
-    total = mismatch_of(residual(search.data, []), floors)
-    left = mismatch_of(residual(search.data, fit.changes), floors)
-    for i in range(len(fit.names)):
-        rest = residual(search.data, [c for j, c in enumerate(fit.changes) if j != i])
-        if mismatch_of(rest, floors) - left < settings.LEAST_SHARE * total:
+
+    def left_without(*which: int) -> float:
+        kept = [c for j, c in enumerate(fit.changes) if j not in which]
+        return mismatch_of(residual(search.data, kept), floors)
+
+    total, left = left_without(*range(len(fit.names))), left_without()
+    whole = fit.judged_by(search.system)
+    each = [left_without(i) for i in range(len(fit.names))]
+    for i, there in enumerate(each):
+        others = [c for j, c in enumerate(fit.changes) if j != i]
+        gain = gain_of(search, whole, objective(search.system, others))
+        if there - left < total * least_share(fit.names, i, gain, there / max(total, 1e-12)):
             return False
-    return True
+    lags = [i for i, name in enumerate(fit.names) if catalogue()[name].dynamic]
+    return len(lags) < 2 or max(each[i] for i in lags) < left_without(*lags)
 
 
 def _eliminate(search: Search) -> None:
