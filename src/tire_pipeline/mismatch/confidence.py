@@ -50,7 +50,7 @@ def calibrate(rows: Sequence[Mapping[str, float]], correct: Sequence[bool], how:
     rows : sequence of mapping
         :func:`features` of each named effect.
     correct : sequence of bool
-        Whether the name was right.
+        Whether the name was right, or of the set that the case makes indistinguishable from it.
     how : str
         Which cases.
     """
@@ -64,19 +64,13 @@ def calibrate(rows: Sequence[Mapping[str, float]], correct: Sequence[bool], how:
         "intercept": round(float(model.intercept_[0]), 4),
         "weights": weights,
         "least": 0.3,
-        "most": 0.99,
+        "most": 0.98,
     }
 
 
 def confidence(search: Any, index: int, near: list[Any], left: Any) -> float:
-    """Return the probability that the name is right.
-
-    The map, times the name's share among those that only the price of their parameters puts behind it: the
-    recording says no more of these.
-    """
+    """Return the probability that the cause is the name or one of its alternatives, by the fitted map."""
     table = calibration()
     x = features(search, index, near, left)
     z = table["intercept"] + sum(w * x[k] for k, w in table["weights"].items())
-    alone = float(np.clip(1.0 / (1.0 + np.exp(-z)), table["least"], table["most"]))
-    behind = [r for r in near if r.possible and r.dearer > 0.0]
-    return alone / (1.0 + sum(float(np.exp(-max(r.lost - r.dearer, 0.0))) for r in behind))
+    return float(np.clip(1.0 / (1.0 + np.exp(-z)), table["least"], table["most"]))

@@ -27,7 +27,7 @@ class EffectReport:
     alternatives : tuple of str
         Names that the data cannot exclude.
     confidence : float
-        Probability that the name is right, calibrated on tuning cases.
+        Probability that the cause is the name or one of its alternatives, calibrated on tuning cases.
     output : str
         Force in which it is largest.
     where : dict

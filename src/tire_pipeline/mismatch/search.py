@@ -257,11 +257,12 @@ def _visible(search: Search, fit: Fit) -> bool:
         return mismatch_of(residual(search.data, kept), floors)
 
     total, left = left_without(*range(len(fit.names))), left_without()
-    whole = fit.judged_by(search.system)
     each = [left_without(i) for i in range(len(fit.names))]
     for i, there in enumerate(each):
+        if there - left >= settings.LEAST_SHARE * total:
+            continue
         others = [c for j, c in enumerate(fit.changes) if j != i]
-        gain = gain_of(search, whole, objective(search.system, others))
+        gain = gain_of(search, fit.judged_by(search.system), objective(search.system, others))
         if there - left < total * least_share(fit.names, i, gain, there / max(total, 1e-12)):
             return False
     lags = [i for i, name in enumerate(fit.names) if catalogue()[name].dynamic]
