@@ -103,6 +103,25 @@ def test_exact_artefacts_get_their_name_and_nothing_else(tire, record, change, n
     assert physics(report) == []
 
 
+@pytest.mark.parametrize(
+    "factors", [{"slip_angle": 57.29578}, {"fy": -1.0}, {"normal_load": 1e-3}, {"fy": 1e-3}]
+)
+def test_the_corrected_model_says_what_the_same_rig_would_record(tire, record, factors):
+    """Wrong signs and units are in what it is given and in what it gives."""
+    right, other = record(0), record(1)
+    noise = explain_mismatch(tire, right).fit["fy"].noise_floor
+    wrong, again = (r.assign(**{n: r[n] * f for n, f in factors.items()}) for r in (right, other))
+    predicted = explain_mismatch(tire, wrong).corrected.predict(again.drop(columns="fy"))["fy"]
+    left = (predicted - again["fy"]) / abs(factors.get("fy", 1.0))
+    assert np.std(left) < 2.0 * noise
+
+
+def test_a_clipped_force_is_predicted_clipped(tire, record):
+    wrong = record().assign(fy=lambda r: np.clip(r["fy"], -3500.0, 3400.0))
+    predicted = explain_mismatch(tire, wrong).corrected.predict(wrong.drop(columns="fy"))["fy"]
+    assert (predicted.min(), predicted.max()) == (-3500.0, 3400.0)
+
+
 @pytest.mark.parametrize(("seed", "channel"), [(322996948, "slip_angle"), (880357143, "slip_angle, camber")])
 def test_signs_that_were_turned_one_after_the_other_are_said_once(seed, channel):
     """Camber was turned and turned back; and a turned side force is slip angle and camber turned together."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -53,13 +53,15 @@ class Prepared:
         What the user should know.
     rows : ndarray of int
         For each sample of ``data`` the row of the recording where it begins.
+    factors : dict of str to float
+        Channel -> what repaired its sign and unit: true = factor times recorded.
     """
 
     data: Data
     findings: list[Finding]
     notes: list[str]
     rows: Array
-    extra: dict[str, Array] = field(default_factory=dict)
+    factors: dict[str, float]
 
 
 def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
@@ -94,7 +96,9 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     if tire is None:
         tire, beside = stand_in(arrays)
         arrays |= {f"_beside_{n}": b for n, b in beside.items()}
+    recorded = dict(arrays)
     findings, bad = _exact(tire, arrays, time) if beside is None else ([], np.zeros(rows.size, bool))
+    factors = {n: _ratio(a, recorded[n]) for n, a in arrays.items() if a is not recorded[n]}
     if bad.any():
         rows, arrays = rows[~bad], {n: a[~bad] for n, a in arrays.items()}
         time = None if time is None else time[~bad]
@@ -128,7 +132,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
         beside=beside,
         fixed={"own_relaxation": own},
     )
-    return Prepared(data, findings, notes, rows)
+    return Prepared(data, findings, notes, rows, factors)
 
 
 def _arrays(recording: pd.DataFrame) -> dict[str, Array]:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.checks import INPUTS, own_relaxation
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.simulate import Change, plain_forces, simulate, simulate_moments
 from tire_pipeline.mismatch.smoothing import denoise
 
@@ -37,6 +38,10 @@ class CorrectedModel:
         predict must have as ``simulated_fy``.
     moments : tuple of str
         Moments that were recorded and that the tire model gives.
+    factors : dict of str to float
+        Channel -> what repairs its sign and unit: true = factor times recorded.
+    limits : dict of str to (low, high)
+        Force -> the range in which it is recorded, as recorded.
     """
 
     tire: Any
@@ -45,6 +50,8 @@ class CorrectedModel:
     outputs: tuple[str, ...]
     stands_in: bool = False
     moments: tuple[str, ...] = ()
+    factors: Mapping[str, float] = field(default_factory=dict)
+    limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     def predict(self, recording: pd.DataFrame) -> pd.DataFrame:
         """Return the corrected forces at the samples of a recording.
@@ -52,14 +59,14 @@ class CorrectedModel:
         Parameters
         ----------
         recording : pandas.DataFrame
-            Canonical columns; forces are not needed.
+            Canonical columns, as the same rig records them; forces are not needed.
 
         Returns
         -------
         pandas.DataFrame
             ``fx``, ``fy`` in N and ``mx``, ``my``, ``mz`` in N m (those that were recorded when the
-            model was corrected), index as the recording's. Artefacts of the force sensors are put in,
-            too: this is what would be recorded.
+            model was corrected), index as the recording's. Artefacts are put in, too, wrong signs and
+            units and clipping as well: this is what would be recorded.
 
         Raises
         ------
@@ -70,14 +77,17 @@ class CorrectedModel:
         forces = simulate(data, self.changes)
         if self.moments:
             forces |= simulate_moments(data, self.changes, self.moments)
-        return pd.DataFrame(forces, index=recording.index)
+        recorded = {name: force / self.factors.get(name, 1.0) for name, force in forces.items()}
+        for name, (low, high) in self.limits.items():
+            recorded[name] = np.clip(recorded[name], low, high)
+        return pd.DataFrame(recorded, index=recording.index)
 
     def _data(self, recording: pd.DataFrame) -> Data:
         n = len(recording)
         if "normal_load" not in recording:
             raise RecordingError("no normal_load to predict forces from", todo="add the column")
         channels = {
-            str(c): recording[c].to_numpy(dtype=float, na_value=np.nan)
+            str(c): recording[c].to_numpy(dtype=float, na_value=np.nan) * self.factors.get(str(c), 1.0)
             for c in recording.columns
             if c in INPUTS
         }
@@ -171,3 +181,14 @@ class CorrectedModel:
         if sidecar:
             write_sidecar(written, sidecar)
         return written
+
+
+def force_limits(findings: Iterable[Finding], outputs: Iterable[str]) -> dict[str, tuple[float, float]]:
+    """Return the range in which each clipped force is recorded, as recorded."""
+    out = {}
+    for finding in findings:
+        if finding.name == "clipping" and finding.channel in outputs:
+            ends = [value for value, _, _ in finding.parameters.values()]
+            below, above = [v for v in ends if v <= 0.0], [v for v in ends if v > 0.0]
+            out[finding.channel] = (max(below, default=-np.inf), min(above, default=np.inf))
+    return out

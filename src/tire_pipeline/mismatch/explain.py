@@ -14,7 +14,7 @@ from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.ambiguity import experiment, rivals
 from tire_pipeline.mismatch.checks import Prepared, prepare
 from tire_pipeline.mismatch.confidence import confidence
-from tire_pipeline.mismatch.corrected import CorrectedModel
+from tire_pipeline.mismatch.corrected import CorrectedModel, force_limits
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
@@ -132,6 +132,8 @@ def _report(prepared: Prepared, search: Search) -> MismatchReport:
         outputs,
         data.beside is not None,
         recorded_moments(data),
+        prepared.factors,
+        force_limits(prepared.findings, outputs),
     )
     return MismatchReport(
         verdict=verdict,
