@@ -5,6 +5,7 @@ import pytest
 from tire_pipeline.concealed import make_case
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.checks import prepare
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.words import interval
 
@@ -114,6 +115,12 @@ def test_the_corrected_model_says_what_the_same_rig_would_record(tire, record, f
     predicted = explain_mismatch(tire, wrong).corrected.predict(again.drop(columns="fy"))["fy"]
     left = (predicted - again["fy"]) / abs(factors.get("fy", 1.0))
     assert np.std(left) < 2.0 * noise
+
+
+@pytest.mark.parametrize("seed", [225298103, 290109469])
+def test_what_reaches_its_limit_once_is_clipped_and_not_stuck(seed):
+    case, _ = make_case(seed, "artefact")
+    assert [f.name for f in prepare(case.tire, case.recording).findings] == ["clipping"]
 
 
 def test_a_clipped_force_is_predicted_clipped(tire, record):

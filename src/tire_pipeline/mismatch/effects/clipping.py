@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.shared import CLIPPED
 
 
 class Clipping(Effect):
@@ -51,7 +52,7 @@ class Clipping(Effect):
     def detect(self, channels: Mapping[str, Array], simulate: object) -> list[Finding]:
         """Find many samples exactly at one end of a channel's range."""
         found = []
-        for name in ("fy", "fx", "slip_angle", "normal_load", "mz"):
+        for name in CLIPPED:
             if name not in channels:
                 continue
             x = channels[name]

@@ -1,4 +1,4 @@
-"""Filters and states that several effects use."""
+"""Filters, states and names that several effects use."""
 
 from __future__ import annotations
 
@@ -11,6 +11,10 @@ except ImportError:  # pragma: no cover - numba is a dependency; this keeps the 
     def njit(*_args: object, **_kwargs: object):  # type: ignore[no-redef]
         """Leave the function as it is."""
         return lambda function: function
+
+
+CLIPPED = ("fy", "fx", "slip_angle", "normal_load", "mz")
+"""Channels in which clipping is looked for."""
 
 
 @njit(cache=True)

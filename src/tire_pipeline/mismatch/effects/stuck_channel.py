@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
+from tire_pipeline.mismatch.effects.shared import CLIPPED
 
 _CHANNELS = (
     "fy",
@@ -43,7 +44,7 @@ class StuckChannel(Effect):
         for name in _CHANNELS:
             if name not in channels:
                 continue
-            bad, value = _stuck(channels[name])
+            bad, value = _stuck(channels[name], once=name not in CLIPPED)
             if bad is None:
                 continue
             text = f"{name} repeats {value:.6g} exactly for {int(bad.sum())} samples"
@@ -52,8 +53,11 @@ class StuckChannel(Effect):
         return found
 
 
-def _stuck(x: Array) -> tuple[Array | None, float]:
-    """Runs of at least 25 equal samples, where a run is usually one or two samples long."""
+def _stuck(x: Array, *, once: bool) -> tuple[Array | None, float]:
+    """Runs of at least 25 equal samples, where a run is usually one or two samples long.
+
+    Those at an end of the range are clipping; where none is looked for, one alone may be there by chance.
+    """
     n = x.size
     if n < 60:
         return None, 0.0
@@ -68,8 +72,8 @@ def _stuck(x: Array) -> tuple[Array | None, float]:
     bad = np.zeros(n, bool)
     value = float("nan")
     for first, length in zip(starts[long], lengths[long], strict=True):
-        if x[first] in (low, high) and (x == x[first]).sum() > length:
-            continue  # comes back to the end of its range: clipping
+        if x[first] in (low, high) and not (once and (x == x[first]).sum() == length):
+            continue
         bad[first : first + length] = True
         value = float(x[first])
     return (bad, value) if bad.any() else (None, 0.0)
