@@ -16,6 +16,15 @@ def _spent(seed, kind):
     return case, {effect.name for effect in answer.effects}
 
 
+def _assert_found(seed, kind, names):
+    """A case of a spent proof conceals these, and these are what is found; return the report."""
+    case, truth = _spent(seed, kind)
+    assert truth == names
+    report = explain_mismatch(case.tire, case.recording)
+    assert set(_names(report)) == truth
+    return report
+
+
 @pytest.mark.parametrize("seed", [410006, 410002])
 def test_heat_without_its_channel_and_wear_are_both_named_where_the_tire_does_not_cool(seed):
     case, answer = make_case(seed, "ambiguous")
@@ -27,31 +36,24 @@ def test_heat_without_its_channel_and_wear_are_both_named_where_the_tire_does_no
 @pytest.mark.parametrize("seed", [108528631, 809634083])
 def test_what_the_form_of_one_effect_gets_wrong_does_not_choose_the_next(seed):
     """The turn's few samples would prefer a gain to friction, by more than all others prefer friction."""
-    case, truth = _spent(seed, "pair")
-    assert truth == {"turn_slip", "friction_scale"}
-    assert set(_names(explain_mismatch(case.tire, case.recording))) == truth
+    _assert_found(seed, "pair", {"turn_slip", "friction_scale"})
 
 
 def test_a_wheel_that_is_not_round_is_seen_beside_what_is_much_stronger():
     """It counted as noise when its share of the mismatch was measured."""
-    case, truth = _spent(548895028, "pair")
-    assert truth == {"combined_slip", "nonuniformity"}
-    assert set(_names(explain_mismatch(case.tire, case.recording))) == truth
+    _assert_found(548895028, "pair", {"combined_slip", "nonuniformity"})
 
 
 def test_pressure_without_brakes_has_one_stiffness_which_bends():
     """Two stiffnesses of one force left a valley where the fit stopped; its rest got a name."""
-    case, truth = _spent(130062434, "single")
-    report = explain_mismatch(case.tire, case.recording)
-    assert set(_names(report)) == truth == {"inflation_pressure"}
+    report = _assert_found(130062434, "single", {"inflation_pressure"})
     assert report.corrected.changes[0][1]["lateral_stiffness"] == 0.0
     assert report.remainder.nats < 10.0
 
 
 def test_two_effects_that_one_stands_in_for_are_found_from_another_beginning():
     """Temperature, with its reference, takes up compliance and wear together, but leaves something."""
-    case, truth = _spent(99807782, "pair")
-    assert set(_names(explain_mismatch(case.tire, case.recording))) == truth == {"compliance", "wear"}
+    _assert_found(99807782, "pair", {"compliance", "wear"})
 
 
 def test_a_change_of_surface_and_an_offset_of_the_angle_are_both_found():
@@ -90,21 +92,17 @@ def test_at_one_load_all_shifts_may_be_the_same():
 
 def test_camber_with_one_parameter_is_tried_where_all_of_them_leave_as_much():
     """All of them together gain 100 nats and remove nothing; the shift alone gains 38 and removes half."""
-    case, truth = _spent(843781358, "single")
-    assert set(_names(explain_mismatch(case.tire, case.recording))) == truth == {"camber"}
+    _assert_found(843781358, "single", {"camber"})
 
 
 def test_a_few_nats_beside_many_do_not_prefer_a_state():
     """Temperature is likelier than stiffness by 10 of 700 nats, less than stiffness' form may err."""
-    case, truth = _spent(538776526, "single")
-    assert set(_names(explain_mismatch(case.tire, case.recording))) == truth == {"stiffness_scale"}
+    _assert_found(538776526, "single", {"stiffness_scale"})
 
 
 def test_a_compliance_that_leaves_a_third_goes_before_a_likelier_stiffness():
     """The flexible form takes up what stiffness leaves, three times as much: it is likelier by 110 nats."""
-    case, truth = _spent(527258417, "single")
-    effects = explain_mismatch(case.tire, case.recording).effects
-    assert {e.name for e in effects} == truth == {"compliance"}
+    effects = _assert_found(527258417, "single", {"compliance"}).effects
     assert set(effects[0].alternatives) <= {"stiffness_scale"}
 
 
@@ -118,21 +116,15 @@ def test_a_compliance_that_leaves_a_third_goes_before_a_likelier_stiffness():
 )
 def test_what_is_many_times_as_strong_does_not_hide_what_is_sure(seed, names):
     """The weaker one removes less than a fiftieth of all, and has 100 nats or more."""
-    case, truth = _spent(seed, "pair")
-    assert truth == names
-    assert set(_names(explain_mismatch(case.tire, case.recording))) == truth
+    _assert_found(seed, "pair", names)
 
 
 def test_friction_and_compliance_are_found_where_a_gain_looks_like_both():
-    case, truth = _spent(26142098, "pair")
-    assert truth == {"friction_scale", "compliance"}
-    assert set(_names(explain_mismatch(case.tire, case.recording))) == truth
+    _assert_found(26142098, "pair", {"friction_scale", "compliance"})
 
 
 def test_friction_and_compliance_go_before_a_likelier_stiffness_that_leaves_three_times_as_much():
-    case, truth = _spent(961857672, "pair")
-    assert truth == {"friction_scale", "compliance"}
-    assert set(_names(explain_mismatch(case.tire, case.recording))) == truth
+    _assert_found(961857672, "pair", {"friction_scale", "compliance"})
 
 
 @pytest.mark.parametrize(
@@ -146,6 +138,4 @@ def test_two_lags_that_undo_each_other_are_not_named(seed, kind, names):
 
 def test_ply_steer_gives_way_to_conicity_of_the_same_name():
     """Beside the drift its conicity does better than the ply steer that came in first."""
-    case, truth = _spent(691805320, "pair")
-    assert truth == {"plysteer_conicity", "sensor_drift"}
-    assert set(_names(explain_mismatch(case.tire, case.recording))) == truth
+    _assert_found(691805320, "pair", {"plysteer_conicity", "sensor_drift"})

@@ -61,7 +61,7 @@ def rivals(search: Search, index: int) -> list[Rival]:
     """
     fit, data = search.fit, search.data
     changes = fit.changes
-    rest = [c for j, c in enumerate(changes) if j != index]
+    rest = fit.others(index)
     others = [v for j, v in enumerate(fit.variants) if j != index]
     whole, without = simulate(data, changes), simulate(data, rest)
     part = {o: whole[o] - without[o] for o in data.outputs}
@@ -102,7 +102,7 @@ def _apart(
     data = search.data
     i = trial.names.index(name)
     whole = simulate(data, trial.changes)
-    without = simulate(data, [c for j, c in enumerate(trial.changes) if j != i])
+    without = simulate(data, trial.others(i))
     own = [k for k, (j, _) in enumerate(trial.labels) if j == i]
     columns = {o: np.column_stack([whole[o] - without[o], trial.columns[o][:, own]]) for o in data.outputs}
     info, score, _ = system.reduce(system.sums(part, columns))

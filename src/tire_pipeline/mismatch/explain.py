@@ -132,8 +132,8 @@ def _report(prepared: Prepared, search: Search) -> MismatchReport:
         outputs,
         data.beside is not None,
         recorded_moments(data),
-        prepared.factors,
-        force_limits(prepared.findings, outputs),
+        factors=prepared.factors,
+        limits=force_limits(prepared.findings, outputs),
     )
     return MismatchReport(
         verdict=verdict,

@@ -86,7 +86,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
     out = []
     rest = residual(search.data, fit.changes)
     floors = floors_of(search, fit)
-    total = mismatch_of(residual(search.data, []), floors)
+    total = max(mismatch_of(residual(search.data, []), floors), 1e-12)
     for i, name in enumerate(fit.names):
         system = with_shapes(search, search.system, fit.changes, i)
         loose = with_shapes(search, search.loose, fit.changes, i)
@@ -99,10 +99,10 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
             less = _least(search, s, reduced, rest_without) - _least(search, s, fit, rest)
             gains.append(0.5 * less / search.inflation - search.price * count)
         judges = ((search.system, True), (search.frozen, False))
-        held = residual(search.data, [c for j, c in enumerate(fit.changes) if j != i])
+        held = residual(search.data, fit.others(i))
         own_part = _shown(search, held, rest)
         removed = max(_removed(search, floors, r, rest, own_part[1]) for r in (rest_without, held))
-        share = removed / max(total, 1e-12)
+        share = removed / total
         there = min(mismatch_of(r, floors) for r in (rest_without, held))
         p_values = [_p_value(s, own_part, (rest_without, reduced), (rest, fit), plain) for s, plain in judges]
         out.append(
@@ -117,7 +117,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
                 in_bounds=not fit.at_bound,
                 blocks=search.system.count,
                 least_gain=_least_gain(fit.names, i, share),
-                least_share=least_share(fit.names, i, gains[0], there / max(total, 1e-12)),
+                least_share=least_share(fit.names, i, gains[0], there / total),
             )
         )
     return [_of_one_kind(search, gate, out) for gate in out]

@@ -58,6 +58,10 @@ class Fit:
         """Its effects as forms to refit, from where they are."""
         return [Variant(n, p, f) for (n, p), f in zip(self.changes, self.free, strict=True)]
 
+    def others(self, *which: int) -> list[Change]:
+        """Return its effects as they stand, without those of some numbers."""
+        return [change for i, change in enumerate(self.changes) if i not in which]
+
     def judged_by(self, system: System) -> Fit:
         """Return the fit with the objective that another system gives to it."""
         return replace(self, objective=objective(system, self.changes))

@@ -253,17 +253,15 @@ def _visible(search: Search, fit: Fit) -> bool:
     floors = floors_of(search, fit)
 
     def left_without(*which: int) -> float:
-        kept = [c for j, c in enumerate(fit.changes) if j not in which]
-        return mismatch_of(residual(search.data, kept), floors)
+        return mismatch_of(residual(search.data, fit.others(*which)), floors)
 
-    total, left = left_without(*range(len(fit.names))), left_without()
+    total, left = max(left_without(*range(len(fit.names))), 1e-12), left_without()
     each = [left_without(i) for i in range(len(fit.names))]
     for i, there in enumerate(each):
         if there - left >= settings.LEAST_SHARE * total:
             continue
-        others = [c for j, c in enumerate(fit.changes) if j != i]
-        gain = gain_of(search, fit.judged_by(search.system), objective(search.system, others))
-        if there - left < total * least_share(fit.names, i, gain, there / max(total, 1e-12)):
+        gain = gain_of(search, fit.judged_by(search.system), objective(search.system, fit.others(i)))
+        if there - left < total * least_share(fit.names, i, gain, there / total):
             return False
     lags = [i for i, name in enumerate(fit.names) if catalogue()[name].dynamic]
     return len(lags) < 2 or max(each[i] for i in lags) < left_without(*lags)

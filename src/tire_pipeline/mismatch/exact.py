@@ -1,0 +1,107 @@
+"""Artefacts that show without a fit: what is stuck or clipped; wrong signs and units are repaired."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from scipy.ndimage import uniform_filter1d
+
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects.base import Finding
+from tire_pipeline.mismatch.effects.sign_convention import turned
+from tire_pipeline.mismatch.recorded import ABSOLUTE_SPREAD, SLOW, moves
+from tire_pipeline.mismatch.simulate import plain_forces
+
+Array = np.ndarray
+
+
+def repair(
+    tire: Any, arrays: dict[str, Array], time: Array | None
+) -> tuple[list[Finding], Array, dict[str, float]]:
+    """Find exact artefacts, and repair signs and units.
+
+    Parameters
+    ----------
+    tire : TireModel
+    arrays : dict of ndarray, shape (n,)
+        Channels; those with a wrong sign or unit are put right in place.
+    time : ndarray, shape (n,), optional
+        s.
+
+    Returns
+    -------
+    findings : list of Finding
+    bad : ndarray of bool, shape (n,)
+        Samples that no repair brings back: stuck or clipped.
+    factors : dict of str to float
+        Channel -> what it was multiplied by.
+    """
+    n = arrays["normal_load"].size
+    bad = np.zeros(n, bool)
+    findings: list[Finding] = []
+    for name in ("stuck_channel", "clipping") if time is not None else ("clipping",):
+        some = {k: a[~bad] for k, a in arrays.items()}
+        if time is None:
+            some["_steady_points"] = np.ones(1)
+        rows = np.flatnonzero(~bad)
+        for finding in catalogue()[name].detect(some, None):
+            hit = np.zeros(n, bool)
+            hit[rows[finding.bad]] = True
+            at = np.zeros(2) if time is None else time[hit]
+            span = (float(at[0]), float(at[-1])) if name == "stuck_channel" else None
+            bad |= hit
+            findings.append(replace(finding, bad=hit, span=span))
+    pick = np.flatnonzero(~bad)
+    pick = pick[:: max(1, pick.size // 4000)]
+
+    def run(channels: Mapping[str, Array]) -> dict[str, Array]:
+        zero = np.zeros(channels["normal_load"].size)
+        return plain_forces(
+            tire,
+            slip_angle=channels.get("slip_angle", zero),
+            slip_ratio=channels.get("slip_ratio", zero),
+            camber=channels.get("camber", zero),
+            normal_load=channels["normal_load"],
+        )
+
+    nominal = {"_nominal_pressure": np.array([float(tire.coefficients.get("NOMPRES", 0.0) or 2.3e5)])}
+    if tire.coefficients.get("FNOMIN", 0.0) > 0.0:
+        nominal["_nominal_load"] = np.array([float(tire.coefficients["FNOMIN"])])
+    still = _still(arrays, time)
+    signs: list[Finding] = []
+    factors: dict[str, float] = {}
+    for _ in range(3):
+        again = False
+        for name in ("sign_convention", "unit_error"):
+            some = {k: still.get(k, a)[pick] for k, a in arrays.items()} | nominal
+            for finding in catalogue()[name].detect(some, run):
+                for channel, repaired in finding.repaired.items():
+                    factor = _ratio(repaired, some[channel])
+                    arrays[channel] = arrays[channel] * factor
+                    factors[channel] = factors.get(channel, 1.0) * factor
+                kept = signs if name == "sign_convention" else findings
+                kept.append(replace(finding, repaired={}))
+                again = True
+        if not again:
+            break
+    return [*findings, *turned(signs)], bad, factors
+
+
+def _still(arrays: Mapping[str, Array], time: Array | None) -> dict[str, Array]:
+    """Return slips that do not move, on their mean: noise has no unit and no sign."""
+    if time is None:
+        return {}
+    width = max(int(SLOW / max(float(np.median(np.diff(time))), 1e-9)), 1)
+    out = {}
+    for name in ("slip_angle", "slip_ratio", "camber"):
+        if name in arrays and not moves(uniform_filter1d(arrays[name], width), ABSOLUTE_SPREAD[name]):
+            out[name] = np.full_like(arrays[name], np.mean(arrays[name]))
+    return out
+
+
+def _ratio(new: Array, old: Array) -> float:
+    k = int(np.argmax(np.abs(old)))
+    return float(new[k] / old[k])
