@@ -58,18 +58,21 @@ def flat_points() -> np.ndarray:
 
 
 @cache
-def tydex_tire(flat: bool = True, half: int | None = None) -> TireModel:
-    """Fit to the points at zero camber or to all, to the whole or to a random half."""
+def tydex_tire(flat: bool = True, half: int | str | None = None) -> TireModel:
+    """Fit to the points at zero camber or to all, to the whole or to a half."""
     points = tydex_part(flat, half, True)
     return fit_magic_formula(points[["slip_angle", "camber", "normal_load", "fy"]]).model
 
 
-def tydex_part(flat: bool, half: int | None, first: bool) -> pd.DataFrame:
-    """Points at zero camber or all of them; a random half of these, or the other."""
+def tydex_part(flat: bool, half: int | str | None, first: bool) -> pd.DataFrame:
+    """Points at zero camber or all of them; a half of these (random, or "even", "odd"), or the other."""
     points = tydex()[flat_points()] if flat else tydex()
     if half is None:
         return points
-    chosen = np.random.default_rng(half).permutation(len(points)) < len(points) // 2
+    if isinstance(half, str):
+        chosen = np.arange(len(points)) % 2 == ("even", "odd").index(half)
+    else:
+        chosen = np.random.default_rng(half).permutation(len(points)) < len(points) // 2
     return points[chosen if first else ~chosen]
 
 
@@ -94,8 +97,8 @@ def tydex_camber(seed: int = 0) -> tuple[MismatchReport, float, float]:
     return report, error(tydex_tire(), rest), after
 
 
-def tydex_halves(half: int) -> MismatchReport:
-    """Fit to a random half of the 37 points at zero camber, explain the others."""
+def tydex_halves(half: int | str) -> MismatchReport:
+    """Fit to a half of the 37 points at zero camber, explain the others."""
     return explain_mismatch(tydex_tire(True, half), tydex_part(True, half, False))
 
 
@@ -242,8 +245,8 @@ def main() -> None:
                 f"refitted: {tydex_refit(seed):.0f} N), {told(report)}",
                 flush=True,
             )
-        for half in range(10):
-            print(f"TYDEX zero camber, random half {half}: {told(tydex_halves(half))}", flush=True)
+        for half in (*range(10), "even", "odd"):
+            print(f"TYDEX zero camber, half {half}: {told(tydex_halves(half))}", flush=True)
     if "dart" in parts:
         for min_speed in (None, 1.0):
             print(f"DART, min_speed {min_speed}")

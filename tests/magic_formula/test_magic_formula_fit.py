@@ -10,7 +10,7 @@ from magic_formula_tires import tire_52, tire_61
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula
+from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula, typical
 
 TYDEX = Path(__file__).resolve().parents[2].parent / "shared" / "recordings" / "tydex"
 INPUTS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
@@ -93,6 +93,46 @@ def test_the_other_sign_gives_the_mirrored_model(tydex):
     assert fit.model.value("PKY1") > 0
     assert fit.relative_rms["fy"] < 0.015
     assert any("not in ISO axes" in note for note in fit.notes)
+
+
+def few_points(tire: TireModel, count: int, seed: int, noise: float) -> pd.DataFrame:
+    """Points at pure lateral slip, upright, at three loads, with a formula's own error and noise."""
+    rng = np.random.default_rng(seed)
+    table = pd.DataFrame(
+        {
+            "slip_angle": rng.choice(np.radians([-12, -6, -2, -1, -0.5, 0.5, 1, 2, 6, 12]), count),
+            "normal_load": rng.choice([0.4, 1.0, 1.6], count) * tire.value("FNOMIN"),
+        }
+    )
+    fy = tire.forces(**{n: table[n].to_numpy() for n in table}, limits="ignore").fy
+    return table.assign(fy=fy + noise * np.abs(fy).max() * rng.standard_normal(count))
+
+
+def test_few_points_give_a_tire_between_them_too(monkeypatch):
+    tire = tire_52()
+    dense = few_points(tire, 400, 99, 0.0)
+    where = {n: dense[n].to_numpy() for n in ("slip_angle", "normal_load")}
+    off = {}
+    for error in (typical.FORMULA_ERROR, 0.0):
+        monkeypatch.setattr(typical, "FORMULA_ERROR", error)
+        models = [fit_magic_formula(few_points(tire, 18, seed, 0.005)).model for seed in range(8)]
+        found = [m.forces(**where, limits="ignore") for m in models]
+        off[error] = [np.sqrt(np.mean((f.fy - dense["fy"]) ** 2)) / dense["fy"].abs().max() for f in found]
+    drawn, alone = off.values()
+    assert np.mean(drawn) < 0.5 * np.mean(alone)
+    assert np.max(drawn) < 0.05
+
+
+def test_few_points_are_said_to_be_few_and_many_are_left_alone():
+    tire = tire_52()
+    assert "are few for" in fit_magic_formula(few_points(tire, 30, 0, 0.005)).summary()
+    assert "are few for" not in fit_magic_formula(few_points(tire, 200, 0, 0.005)).summary()
+    assert typical.pull(["PCY1"], {"PCY1": 1.3}, np.ones(typical.FEW_POINTS)) is None
+
+
+def test_few_points_without_noise_are_met_exactly():
+    tire = tire_52()
+    assert fit_magic_formula(few_points(tire, 40, 1, 0.0)).relative_rms["fy"] < 1e-3
 
 
 @pytest.mark.slow

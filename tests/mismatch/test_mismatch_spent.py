@@ -139,3 +139,13 @@ def test_two_lags_that_undo_each_other_are_not_named(seed, kind, names):
 def test_ply_steer_gives_way_to_conicity_of_the_same_name():
     """Beside the drift its conicity does better than the ply steer that came in first."""
     _assert_found(691805320, "pair", {"plysteer_conicity", "sensor_drift"})
+
+
+def test_a_strong_delay_is_no_relaxation_and_a_weak_relaxation_may_be_a_delay():
+    """775 nats are more than a relaxation's form gets wrong; 6 are none."""
+    for seed, truth in ((132837727, "time_delay"), (695597051, "relaxation_length")):
+        case, names = _spent(seed, "ambiguous")
+        (effect,) = explain_mismatch(case.tire, case.recording).effects
+        assert names == {truth}
+        assert effect.name == "time_delay"
+        assert ("relaxation_length" in effect.alternatives) == (truth == "relaxation_length")

@@ -26,6 +26,7 @@ from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFi
 from tire_pipeline.mismatch.restart import search_all, unlike
 from tire_pipeline.mismatch.search import Search
 from tire_pipeline.mismatch.simulate import simulate
+from tire_pipeline.mismatch.steady import choose_parameters
 from tire_pipeline.mismatch.thinning import refit_on_all, thinned
 from tire_pipeline.mismatch.words import summary
 from tire_pipeline.progress import track
@@ -80,7 +81,9 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame) -> MismatchReport:
 
 
 def _refit(search: Search, prepared: Prepared) -> None:
-    """Refit the parameters to all samples if the search has seen a part of them."""
+    """Choose the parameters of steady points; refit to all samples if the search has seen a part of them."""
+    if prepared.data.time is None:
+        choose_parameters(search)
     whole, seen = prepared.data.size, search.data.size
     if whole == seen:
         return
@@ -100,7 +103,7 @@ def _report(prepared: Prepared, search: Search) -> MismatchReport:
         )
         search.fit, search.gates = Fit([], []), []
         left = replace(remainder(search), significant=True)
-    if search.unnamed:
+    if search.unnamed or (search.nearly and not search.fit.names):
         left = replace(left, significant=True)
     fit = prove(search)
     before = {o: data.recorded[o] - data.base[o] for o in data.outputs}

@@ -55,12 +55,18 @@ class Gates:
     least_gain: float
     least_share: float
 
+    @property
+    def explains_most(self) -> bool:
+        """Whether it has plain evidence, and most of the mismatch goes with it: without it nothing agrees."""
+        return self.gain > settings.REMAINDER_NATS and self.share > 0.5
+
     def why_not(self, level: float) -> str:
         """Return the first gate that is shut, in words."""
         if self.gain <= self.least_gain:
             return "does not pay for itself"
         if self.p_value >= level:
-            return f"held-out sweeps are not better with it (p {self.p_value:.2g})"
+            asked = f"p {self.p_value:.2g} of {self.blocks} sweeps, {level:.2g} is asked for"
+            return f"held-out sweeps do not show it surely ({asked})"
         if self.share <= self.least_share:
             return f"removes only {100.0 * self.share:.1f}% of the mismatch"
         if not self.free and self.loose <= settings.LEAST_GAIN:
@@ -188,11 +194,11 @@ def least_share(names: list[str], index: int, gain: float, there: float) -> floa
 
 
 def unsure(search: Search, index: int, other: str) -> float:
-    """Nats by which an accepted effect's own form may be wrong against another effect of its kind."""
+    """Nats by which another effect of an accepted one's kind may be less likely by its form alone."""
     this, that = catalogue()[search.gates[index].name], catalogue()[other]
     share = 0.0
-    if this.dynamic and that.dynamic:
-        share = settings.SHAPE_SHARE if that.kind == "physics" else settings.LAG_SHARE
+    if (this.dynamic and that.dynamic) or (this.shifts and that.shifts and that.exact):
+        share = settings.EXACT_SHARE
     elif this.shifts and that.shifts:
         blind = "camber_offset" in (this.name, that.name) and not search.data.varies("camber")
         share = settings.CAMBER_SHARE if blind else settings.SHIFT_SHARE
@@ -302,6 +308,12 @@ def open_but_loose(search: Search, gates: list[Gates]) -> bool:
 def of_coefficients(name: str) -> bool:
     """Whether coefficients nearly free explain an effect altogether, so that this gate is not asked of it."""
     return catalogue()[name].own_inputs or name == "camber"
+
+
+def reasons(search: Search, gates: list[Gates]) -> dict[str, str]:
+    """Return why effects of a set do not pass, by name."""
+    judged = zip(gates, _levels(search, gates), strict=True)
+    return {g.name: g.why_not(level) for g, level in judged if not g.passed(level)}
 
 
 def _open(gates: list[Gates], levels: list[float]) -> bool:

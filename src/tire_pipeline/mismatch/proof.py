@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.mismatch.data import Data
-from tire_pipeline.mismatch.refit import residual
+from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.report import OutputFit
 from tire_pipeline.mismatch.search import Search
 from tire_pipeline.mismatch.simulate import simulate_moments
@@ -22,9 +22,7 @@ def prove(search: Search, *, resamples: int = 400, seed: int = 0) -> dict[str, O
     """
     data, fit = search.data, search.fit
     before = {o: data.recorded[o] - data.base[o] for o in data.outputs}
-    after = residual(data, fit.changes)
-    if fit.labels and fit.sums is not None:
-        after = _jackknife(search, after)
+    after = left_out(search, fit)
     rng = np.random.default_rng(seed)
     name, rows = held_out_condition(data)
     condition = _condition(search, rows) if rows is not None else None
@@ -126,16 +124,16 @@ def _solve(info: Array, score: Array) -> Array:
     return np.linalg.solve(m, score / size) / size
 
 
-def _without(search: Search, left_out: Array) -> Array:
+def _without(fit: Fit, dropped: Array) -> Array:
     """Return the change of the parameters when some sweeps (bool, by number) are left out.
 
     A moment in time and a wheel's radius are locked: one sweep determines them, and a linear step says
     nothing about them without it.
     """
-    sums = search.fit.sums
+    sums = fit.sums
     assert sums is not None  # kept by the last fit
-    kept = ~left_out
-    free = np.array([name not in _LOCKED for _, name in search.fit.labels])
+    kept = ~dropped
+    free = np.array([name not in _LOCKED for _, name in fit.labels])
     info, score = sums.ee[kept].sum(axis=0), sums.er[kept].sum(axis=0)
     delta = np.zeros(score.size)
     if free.any():
@@ -143,18 +141,19 @@ def _without(search: Search, left_out: Array) -> Array:
     return delta
 
 
-def _jackknife(search: Search, after: dict[str, Array]) -> dict[str, Array]:
+def left_out(search: Search, fit: Fit) -> dict[str, Array]:
     """Return residuals with each sweep predicted by parameters fitted without it (no nuisance here)."""
-    columns = search.fit.columns
-    out = {o: r.copy() for o, r in after.items()}
-    base = _without(search, np.zeros(search.system.count, bool))
+    out = residual(search.data, fit.changes)
+    if not fit.labels or fit.sums is None:
+        return out
+    base = _without(fit, np.zeros(search.system.count, bool))
     for k in range(search.system.count):
         left = np.zeros(search.system.count, bool)
         left[k] = True
-        delta = _without(search, left) - base
+        delta = _without(fit, left) - base
         rows = search.block == k
         for o in out:
-            out[o][rows] = after[o][rows] - columns[o][rows] @ delta
+            out[o][rows] -= fit.columns[o][rows] @ delta
     return out
 
 
@@ -183,5 +182,5 @@ def _condition(search: Search, rows: Array) -> dict[str, Array] | None:
         touched = inside / np.maximum(size, 1) > 0.5
     if touched.all() or not touched.any():
         return None
-    delta = _without(search, touched) - _without(search, np.zeros(count, bool))
+    delta = _without(search.fit, touched) - _without(search.fit, np.zeros(count, bool))
     return {o: after[o][rows] - search.fit.columns[o][rows] @ delta for o in after}

@@ -6,10 +6,11 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.gram import System
-from tire_pipeline.mismatch.refit import Fit, refit, residual
+from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.simulate import simulate
 from tire_pipeline.mismatch.state import Search
 
@@ -120,16 +121,22 @@ def strength(search: Search, fit: Fit, row: int) -> float:
 
 
 def rank(search: Search, fit: Fit) -> int:
-    """Return how many effects of a set are the less usual of two that look the same.
+    """Return how many effects of a set are the less usual of two that look the same."""
+    return sum(catalogue()[name].unusual or hollow(search, fit, i) for i, name in enumerate(fit.names))
 
-    So is one without what makes it what it is: ply steer without conicity, an offset of the angle to the eye.
+
+def hollow(search: Search, fit: Fit, index: int) -> bool:
+    """Whether an effect lacks what makes it what it is: ply steer without conicity, an offset to the eye.
+
+    Its evidence does not pay for it, or is less than the form of the rest may get wrong.
     """
-    count = 0
-    for i, name in enumerate(fit.names):
-        needed = [k for k, (j, p) in enumerate(fit.labels) if j == i and p in catalogue()[name].needed]
-        hollow = all(strength(search, fit, k) < 2.0 * search.price for k in needed)
-        count += catalogue()[name].unusual or (bool(needed) and hollow)
-    return count
+    needed = catalogue()[fit.names[index]].needed
+    rows = [k for k, (j, p) in enumerate(fit.labels) if j == index and p in needed]
+    if not needed or not rows:
+        return bool(needed)
+    own = objective(search.system, fit.others(index)) - fit.judged_by(search.system).objective
+    least = max(2.0 * search.price, settings.EXACT_SHARE**2 * own / search.inflation)
+    return all(strength(search, fit, k) < least for k in rows)
 
 
 def zero_of(search: Search, fit: Fit, index: int, name: str) -> float:

@@ -21,10 +21,11 @@ from tire_pipeline.mismatch.gates import (
     mismatch_of,
     of_coefficients,
     open_but_loose,
+    reasons,
 )
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
-from tire_pipeline.mismatch.screening import gain_of, likeliest, prune, rank, screen, without
+from tire_pipeline.mismatch.screening import gain_of, hollow, likeliest, prune, rank, screen, without
 from tire_pipeline.mismatch.shapes import with_shapes
 from tire_pipeline.mismatch.state import Search, begin, renoise
 
@@ -173,9 +174,9 @@ def _take(search: Search, fits: list[Fit]) -> bool:
                 for g in gates
             )
         )
-        for g in gates:
-            if not g.passed(settings.LEVEL):
-                search.refused[g.name] = g.why_not(settings.LEVEL)
+        search.refused.update(reasons(search, gates))
+        if not ok and len(gates) == 1 and gates[0].explains_most:
+            search.nearly.add(fit.names[0])
         if ok:
             search.fit, search.gates = fit, gates
             search.doubted.pop(len(fit.names), None)
@@ -227,7 +228,8 @@ def _in_order(search: Search, fits: list[Fit], gains: list[float]) -> list[Fit]:
     Among effects that scale the force alone: the flexible form can take up what a poorer form leaves, at a
     price that its size makes small. By what each can leave at least, not where the flexible form helps.
     """
-    equal = sum(gain > gains[0] - settings.EQUAL for gain in gains)
+    within = 0.5 * settings.TIE if hollow(search, fits[0], len(fits[0].names) - 1) else settings.EQUAL
+    equal = sum(gain > gains[0] - within for gain in gains)
     first = sorted(fits[:equal], key=lambda f: (rank(search, f), _cost(search, f)))
     later = list(zip(fits, gains, strict=True))[equal:]
     near = [f for f, gain in later if _scales(f) and gain >= settings.LESS_LIKELY * gains[0]]

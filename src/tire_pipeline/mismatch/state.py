@@ -45,6 +45,7 @@ class Search:
     gates: list[Gates] = field(default_factory=list)
     screened: dict[str, float] = field(default_factory=dict)
     refused: dict[str, str] = field(default_factory=dict)
+    nearly: set[str] = field(default_factory=set)
     first: list[tuple[float, Variant]] = field(default_factory=list)
     unnamed: str = ""
     withdrawn: list[str] = field(default_factory=list)

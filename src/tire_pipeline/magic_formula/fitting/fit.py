@@ -16,6 +16,7 @@ from tire_pipeline.magic_formula.fitting.result import FitResult
 from tire_pipeline.magic_formula.fitting.solve import Problem, StageFit, solve
 from tire_pipeline.magic_formula.fitting.stages import STAGES, Stage
 from tire_pipeline.magic_formula.fitting.statistics import relative_rms, residual_table
+from tire_pipeline.magic_formula.fitting.typical import SPREAD, few, pull
 from tire_pipeline.magic_formula.model import TireModel
 
 _INPUTS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
@@ -122,6 +123,12 @@ def fit_magic_formula(
         kept = {n: _kept_value(n, model, start is not None) for n in removed}
         model = model.replace(**values, **{n: value for n, value in kept.items() if value != 0.0})
         report.add(stage, values, fit, kept if start is None else dict.fromkeys(removed, 0.0))
+        if few(measured.size, len(values)) and SPREAD.keys() & values.keys():
+            towards = "what tires are like" if start is None else "the start model"
+            report.notes.append(
+                f"{stage.title}: {measured.size} points are few for {len(values)} coefficients, "
+                f"which are drawn towards {towards}"
+            )
     if model.coefficients.get("PKY1", -1.0) > 0 and "fy" in forces:
         notes.append(
             "a positive slip angle gives a positive Fy: the data are not in ISO axes, nor is the model"
@@ -290,12 +297,14 @@ def _fit_stage(
     for name in active:
         vector[INDEX[name]] = first[name]
     rows = [np.ascontiguousarray(here[name]) for name in _INPUTS]
+    typical = _typical(active, model, first, from_start)
     removed: list[str] = []
     number = starts
     while True:
         names = [name for name in active if name not in removed]
         bounds = _bounds(names, first)
-        problem = Problem(vector, model.family, stage.output, names, rows, measured)
+        drawn = pull(names, typical, measured)
+        problem = Problem(vector, model.family, stage.output, names, rows, measured, drawn)
         fit = solve(problem, bounds, _starting_points(names, first, bounds, number, rng), loss)
         if not fit.open or len(removed) >= _MOST_REMOVED or len(names) == 1:
             break
@@ -307,6 +316,18 @@ def _fit_stage(
         first.update({n: float(v) for n, v in zip(names, fit.values, strict=True) if n != worst})
         number = 1
     return dict(zip(names, fit.values.tolist(), strict=True)), fit, removed
+
+
+def _typical(
+    names: list[str], model: TireModel, first: Mapping[str, float], from_start: bool
+) -> dict[str, float]:
+    """Return what few points are drawn to: the start model, or tires in general, of the recording's sign."""
+    values = {name: _bound_of(name)[2] for name in names}
+    if from_start:
+        values.update({n: model.coefficients[n] for n in names if n in model.coefficients})
+    elif "PKY1" in values:
+        values["PKY1"] = float(np.copysign(values["PKY1"], first["PKY1"]))
+    return values
 
 
 def _kept_value(name: str, model: TireModel, from_start: bool) -> float:

@@ -10,6 +10,7 @@ from scipy.optimize import OptimizeResult, least_squares
 
 from tire_pipeline.magic_formula import engine
 from tire_pipeline.magic_formula.coefficients import INDEX
+from tire_pipeline.magic_formula.fitting.typical import Pull
 from tire_pipeline.magic_formula.jacobian import packed_jacobian
 from tire_pipeline.magic_formula.numpy_form import OUTPUTS
 
@@ -32,7 +33,7 @@ class StageFit:
 
 @dataclass(frozen=True)
 class Problem:
-    """One output over some coefficients at some points."""
+    """One output over some coefficients at some points, and what draws them to what tires are like."""
 
     vector: np.ndarray
     family: int
@@ -40,6 +41,7 @@ class Problem:
     names: Sequence[str]
     points: list[np.ndarray]
     measured: np.ndarray
+    pull: Pull | None = None
 
     def filled(self, values: np.ndarray) -> np.ndarray:
         """Return the packed coefficients with these values."""
@@ -57,6 +59,16 @@ class Problem:
         """Return the residuals' derivatives, one column a coefficient."""
         found = packed_jacobian(self.filled(values), self.family, self.names, self.points, [self.output])
         return found[self.output].T
+
+    def rows(self, values: np.ndarray) -> np.ndarray:
+        """Return the residuals and, below them, those of the pull."""
+        residuals = self.residuals(values)
+        return residuals if self.pull is None else np.append(residuals, self.pull.residuals(values))
+
+    def rows_jacobian(self, values: np.ndarray) -> np.ndarray:
+        """Return the derivatives of ``rows``."""
+        found = self.jacobian(values)
+        return found if self.pull is None else np.vstack([found, self.pull.jacobian()])
 
 
 def solve(
@@ -103,9 +115,9 @@ def _once(
     low, high = bounds
     margin = 1e-6 * (high - low)
     return least_squares(
-        problem.residuals,
+        problem.rows,
         np.clip(start, low + margin, high - margin),
-        problem.jacobian,
+        problem.rows_jacobian,
         bounds=bounds,
         x_scale=np.maximum(np.abs(start), 0.05 * (high - low)),
         loss=loss,
@@ -127,9 +139,9 @@ def _judged(
     low, high = bounds
     near = 1e-4 * (high - low)
     bound = (values - low < near) | (high - values < near)
-    residuals = problem.residuals(values)
+    residuals = problem.rows(values)
     weights = 1.0 if loss == "linear" else 1.0 / np.sqrt(1.0 + (residuals / width) ** 2)
-    columns = problem.jacobian(values) * np.sqrt(np.broadcast_to(weights, residuals.shape))[:, None]
+    columns = problem.rows_jacobian(values) * np.sqrt(np.broadcast_to(weights, residuals.shape))[:, None]
     scale = 0.1 * (high - low)
     free = ~bound
     _, singular, turned = np.linalg.svd((columns * scale)[:, free], full_matrices=False)

@@ -120,6 +120,8 @@ class Effect:
         like it.
     shifts : bool
         True if it adds a side force while rolling straight: at one load and camber these look the same.
+    exact : bool
+        True for a shift of which nothing but what it is recorded beside can be wrong.
     as_noise : bool
         True if it counts as noise until it is modelled.
     needed : tuple of str
@@ -150,6 +152,7 @@ class Effect:
     errs_like: tuple[str, ...] = ()
     slow = False
     shifts = False
+    exact = False
     as_noise = False
     needed: tuple[str, ...] = ()
     scanned: tuple[str, ...] = ()

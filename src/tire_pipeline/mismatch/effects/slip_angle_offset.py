@@ -15,6 +15,7 @@ class SlipAngleOffset(Effect):
     source = "alignment of rig or optical sensor"
     own_inputs = True
     shifts = True
+    exact = True
     parameters = (Parameter("offset", "rad", -0.15, 0.15, 0.0005),)
     looks_like = {
         "plysteer_conicity": (

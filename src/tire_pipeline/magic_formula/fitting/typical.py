@@ -1,0 +1,98 @@
+"""What tires are like, for fits to few points: a formula with as many coefficients fits nothing else then."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+FEW_POINTS = 5
+"""Points a coefficient from which the recording speaks for itself."""
+
+FORMULA_ERROR = 0.01
+"""How far a Magic Formula is off a real tire, over the largest force: what a point can say at best."""
+
+SPREAD: dict[str, float] = {
+    "PCY1": 0.2,
+    "PDY1": 0.3,
+    "PDY2": 0.1,
+    "PDY3": 4.0,
+    "PEY1": 0.5,
+    "PEY2": 0.5,
+    "PEY3": 0.3,
+    "PEY4": 40.0,
+    "PKY1": 15.0,
+    "PKY2": 1.0,
+    "PKY3": 0.5,
+    "PHY1": 0.003,
+    "PHY2": 0.003,
+    "PHY3": 0.04,
+    "PVY1": 0.02,
+    "PVY2": 0.02,
+    "PVY3": 0.3,
+    "PVY4": 0.2,
+    "PCX1": 0.2,
+    "PDX1": 0.3,
+    "PDX2": 0.1,
+    "PDX3": 4.0,
+    "PEX1": 1.5,
+    "PEX2": 1.5,
+    "PEX3": 0.3,
+    "PEX4": 0.3,
+    "PKX1": 9.0,
+    "PKX2": 8.0,
+    "PKX3": 0.3,
+    "PHX1": 0.001,
+    "PHX2": 0.001,
+    "PVX1": 0.03,
+    "PVX2": 0.01,
+}
+"""Coefficient -> how much tires differ in it: half of the range of the middle four fifths of 16 public files
+of cars and trucks, or their standard deviation, to a digit. Others are left to the data."""
+
+
+@dataclass(frozen=True)
+class Pull:
+    """Rows that draw coefficients to what tires are like.
+
+    Parameters
+    ----------
+    centre : ndarray, shape (k,)
+    weight : ndarray, shape (k,)
+        Force a unit of the coefficient; 0 where the data alone decide.
+    """
+
+    centre: np.ndarray
+    weight: np.ndarray
+
+    def residuals(self, values: np.ndarray) -> np.ndarray:
+        """Return one row a coefficient, in the unit of the force."""
+        return self.weight * (values - self.centre)
+
+    def jacobian(self) -> np.ndarray:
+        """Return their derivatives."""
+        return np.diag(self.weight)
+
+
+def few(points: int, coefficients: int) -> bool:
+    """Whether points are too few to speak for themselves."""
+    return points < FEW_POINTS * coefficients
+
+
+def pull(names: Sequence[str], typical: Mapping[str, float], measured: np.ndarray) -> Pull | None:
+    """Return what draws a stage's coefficients, or None where the points are many.
+
+    Parameters
+    ----------
+    names : sequence of str
+    typical : mapping of str to float
+        Where to: the values of tires in general or of the model that the fit starts from.
+    measured : ndarray, shape (n,)
+        Force of the stage's points.
+    """
+    if not few(measured.size, len(names)):
+        return None
+    error = FORMULA_ERROR * float(np.abs(measured).max())
+    weight = [error / SPREAD[name] if name in SPREAD else 0.0 for name in names]
+    return Pull(np.array([typical[name] for name in names]), np.array(weight))
