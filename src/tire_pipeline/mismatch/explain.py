@@ -26,7 +26,6 @@ from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFi
 from tire_pipeline.mismatch.restart import search_all, unlike
 from tire_pipeline.mismatch.search import Search
 from tire_pipeline.mismatch.simulate import simulate
-from tire_pipeline.mismatch.steady import choose_parameters
 from tire_pipeline.mismatch.thinning import refit_on_all, thinned
 from tire_pipeline.mismatch.words import summary
 from tire_pipeline.progress import track
@@ -81,9 +80,7 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame) -> MismatchReport:
 
 
 def _refit(search: Search, prepared: Prepared) -> None:
-    """Choose the parameters of steady points; refit to all samples if the search has seen a part of them."""
-    if prepared.data.time is None:
-        choose_parameters(search)
+    """Refit the parameters to all samples if the search has seen a part of them."""
     whole, seen = prepared.data.size, search.data.size
     if whole == seen:
         return

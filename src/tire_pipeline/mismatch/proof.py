@@ -22,7 +22,7 @@ def prove(search: Search, *, resamples: int = 400, seed: int = 0) -> dict[str, O
     """
     data, fit = search.data, search.fit
     before = {o: data.recorded[o] - data.base[o] for o in data.outputs}
-    after = left_out(search, fit)
+    after = _left_out(search, fit)
     rng = np.random.default_rng(seed)
     name, rows = held_out_condition(data)
     condition = _condition(search, rows) if rows is not None else None
@@ -141,7 +141,7 @@ def _without(fit: Fit, dropped: Array) -> Array:
     return delta
 
 
-def left_out(search: Search, fit: Fit) -> dict[str, Array]:
+def _left_out(search: Search, fit: Fit) -> dict[str, Array]:
     """Return residuals with each sweep predicted by parameters fitted without it (no nuisance here)."""
     out = residual(search.data, fit.changes)
     if not fit.labels or fit.sums is None:
