@@ -16,7 +16,7 @@ from tire_pipeline.magic_formula.fitting.result import FitResult
 from tire_pipeline.magic_formula.fitting.solve import Problem, StageFit, solve
 from tire_pipeline.magic_formula.fitting.stages import STAGES, Stage
 from tire_pipeline.magic_formula.fitting.statistics import relative_rms, residual_table
-from tire_pipeline.magic_formula.fitting.typical import SPREAD, few, pull
+from tire_pipeline.magic_formula.fitting.typical import pull
 from tire_pipeline.magic_formula.model import TireModel
 
 _INPUTS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
@@ -123,7 +123,7 @@ def fit_magic_formula(
         kept = {n: _kept_value(n, model, start is not None) for n in removed}
         model = model.replace(**values, **{n: value for n, value in kept.items() if value != 0.0})
         report.add(stage, values, fit, kept if start is None else dict.fromkeys(removed, 0.0))
-        if few(measured.size, len(values)) and SPREAD.keys() & values.keys():
+        if pull(list(values), values, measured) is not None:
             towards = "what tires are like" if start is None else "the start model"
             report.notes.append(
                 f"{stage.title}: {measured.size} points are few for {len(values)} coefficients, "

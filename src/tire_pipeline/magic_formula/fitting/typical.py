@@ -58,30 +58,34 @@ class Pull:
 
     Parameters
     ----------
-    centre : ndarray, shape (k,)
-    weight : ndarray, shape (k,)
-        Force a unit of the coefficient; 0 where the data alone decide.
+    which : ndarray of int, shape (m,)
+        The stage's coefficients that are drawn.
+    centre : ndarray, shape (m,)
+        Where to.
+    weight : ndarray, shape (m,)
+        Force a unit of the coefficient.
+    count : int
+        Of the stage's coefficients.
     """
 
+    which: np.ndarray
     centre: np.ndarray
     weight: np.ndarray
+    count: int
 
     def residuals(self, values: np.ndarray) -> np.ndarray:
-        """Return one row a coefficient, in the unit of the force."""
-        return self.weight * (values - self.centre)
+        """Return one row a coefficient that is drawn, in the unit of the force."""
+        return self.weight * (values[self.which] - self.centre)
 
     def jacobian(self) -> np.ndarray:
-        """Return their derivatives."""
-        return np.diag(self.weight)
-
-
-def few(points: int, coefficients: int) -> bool:
-    """Whether points are too few to speak for themselves."""
-    return points < FEW_POINTS * coefficients
+        """Return their derivatives, shape (m, count)."""
+        rows = np.zeros((self.which.size, self.count))
+        rows[np.arange(self.which.size), self.which] = self.weight
+        return rows
 
 
 def pull(names: Sequence[str], typical: Mapping[str, float], measured: np.ndarray) -> Pull | None:
-    """Return what draws a stage's coefficients, or None where the points are many.
+    """Return what draws a stage's coefficients, or None where points are many or nothing is known.
 
     Parameters
     ----------
@@ -91,8 +95,14 @@ def pull(names: Sequence[str], typical: Mapping[str, float], measured: np.ndarra
     measured : ndarray, shape (n,)
         Force of the stage's points.
     """
-    if not few(measured.size, len(names)):
+    which = [i for i, name in enumerate(names) if name in SPREAD]
+    if not which or measured.size >= FEW_POINTS * len(names):
         return None
     error = FORMULA_ERROR * float(np.abs(measured).max())
-    weight = [error / SPREAD[name] if name in SPREAD else 0.0 for name in names]
-    return Pull(np.array([typical[name] for name in names]), np.array(weight))
+    known = [names[i] for i in which]
+    return Pull(
+        np.array(which),
+        np.array([typical[name] for name in known]),
+        np.array([error / SPREAD[name] for name in known]),
+        len(names),
+    )
