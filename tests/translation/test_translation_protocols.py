@@ -5,6 +5,7 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.pipelines.translate.nodes import TranslateParameters, translate_page
+from tire_pipeline.translation import protocol_search
 from tire_pipeline.translation.protocol_search import Dated, find_changes
 from tire_pipeline.translation.protocols import Change, Protocols, days_of
 
@@ -38,6 +39,18 @@ def test_a_change_is_found_and_its_day(rng, who):
 @pytest.mark.parametrize("seed", range(15))
 def test_none_is_found_where_there_is_none(seed):
     assert find_changes(_dated(np.random.default_rng(seed)), PARTS) == ()
+
+
+def test_few_tires_are_no_change_either(monkeypatch):
+    """The odds alone, which take spreads of a dozen tires for known, find one in a fifth of these."""
+    few = dict.fromkeys("ABCDEF", 14)
+    monkeypatch.setitem(globals(), "TIRES", few)
+    fleets = [_dated(np.random.default_rng(seed), who="A") for seed in range(40)]
+    parts = {str(i): slice(i, i + 1) for i in range(5)} | {"all": slice(0, 5)}
+    found = [len(find_changes(fleet, parts)) for fleet in fleets]
+    assert sum(found) <= 1
+    monkeypatch.setattr(protocol_search, "_SHUFFLES", 0)
+    assert sum(len(find_changes(fleet, parts)) for fleet in fleets) > sum(found) + 2
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -46,6 +46,8 @@ class Table:
         Significant digits of numbers.
     most_rows : int
         Further rows are counted, not shown.
+    below : str
+        A column of long texts, each shown below its row, over the whole width.
     """
 
     frame: pd.DataFrame
@@ -53,13 +55,26 @@ class Table:
     heading: str = ""
     digits: int = 3
     most_rows: int = 200
+    below: str = ""
     kind: str = field(default="table", init=False)
 
     @property
-    def rows(self) -> list[list[tuple[str, bool]]]:
-        """Cells as (text, is a number)."""
+    def columns(self) -> list[str]:
+        """Columns that stand beside each other."""
+        return [name for name in self.frame.columns if name != self.below]
+
+    @property
+    def rows(self) -> list[tuple[list[tuple[str, bool]], str]]:
+        """Cells as (text, is a number), and the text below."""
         shown = self.frame.head(self.most_rows)
-        return [[_cell(value, self.digits) for value in row] for row in shown.itertuples(index=False)]
+        cells = [
+            [_cell(value, self.digits) for value in row]
+            for row in shown[self.columns].itertuples(index=False)
+        ]
+        below = (
+            [_cell(value, self.digits)[0] for value in shown[self.below]] if self.below else [""] * len(cells)
+        )
+        return list(zip(cells, below, strict=True))
 
     @property
     def left_out(self) -> int:

@@ -224,25 +224,31 @@ def translate_page(
         "source_probability",
         *(["protocol"] if len(protocols) else []),
         "verdict",
-        "reason",
         "distance",
         "expected_ratio",
-        "changes",
     ]
-    shown = report.reindex(columns=columns)
+    why = report.reindex(columns=["reason", "changes"]).astype("object").fillna("")
+    shown = report.reindex(columns=columns).assign(
+        why=why["reason"].str.cat(why["changes"], sep=". ").str.strip(". ")
+    )
     parts: list[Text | Table | Figure] = [Text(lines, emphasis=True)]
     figure = band_figure(bands, shown.loc[shown["verdict"] == "translated", "file"].tolist())
     if figure is not None:
         caption = "Lateral force of some translated files with its 90% band, at each load."
         parts.append(Figure(figure, caption, heading="Curves"))
     if len(protocols):
-        parts.append(Table(protocols, _PROTOCOLS, heading="Changes of protocol"))
+        parts.append(Table(_spaced(protocols), _PROTOCOLS, heading="Changes of protocol"))
     caption = (
-        "distance: 1 is the edge of the training data, do not trust beyond. expected_ratio: expected squared "
+        "distance: 1 is the edge of the training data, do not trust beyond. expected ratio: expected squared "
         "error after translation over that before, by the translator's own estimate."
     )
-    parts.append(Table(shown, caption, heading="Every file", most_rows=500))
+    parts.append(Table(_spaced(shown), caption, heading="Every file", most_rows=500, below="why"))
     return render_page(f"Translated to {target}", parts)
+
+
+def _spaced(table: pd.DataFrame) -> pd.DataFrame:
+    """The table with column names that a browser can break."""
+    return table.rename(columns=lambda name: name.replace("_", " "))
 
 
 def band_figure(bands: pd.DataFrame, files: list[str]) -> MplFigure | None:
