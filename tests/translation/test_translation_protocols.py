@@ -41,16 +41,22 @@ def test_none_is_found_where_there_is_none(seed):
     assert find_changes(_dated(np.random.default_rng(seed)), PARTS) == ()
 
 
+def _few(seed):
+    """A dozen tires in each of six categories, with many scores that hang together, and nothing else."""
+    rng = np.random.default_rng(seed)
+    category = np.repeat(list("ABCDEF"), (11, 11, 11, 18, 17, 11))
+    day = FIRST + rng.integers(0, 3650, category.size)
+    gap = rng.normal(size=(category.size, 22)) @ (np.eye(22) + 0.3 * rng.normal(size=(22, 22)))
+    return Dated(gap, category, day, np.arange(category.size))
+
+
 def test_few_tires_are_no_change_either(monkeypatch):
-    """The odds alone, which take spreads of a dozen tires for known, find one in a fifth of these."""
-    few = dict.fromkeys("ABCDEF", 14)
-    monkeypatch.setitem(globals(), "TIRES", few)
-    fleets = [_dated(np.random.default_rng(seed), who="A") for seed in range(40)]
-    parts = {str(i): slice(i, i + 1) for i in range(5)} | {"all": slice(0, 5)}
-    found = [len(find_changes(fleet, parts)) for fleet in fleets]
-    assert sum(found) <= 1
-    monkeypatch.setattr(protocol_search, "_SHUFFLES", 0)
-    assert sum(len(find_changes(fleet, parts)) for fleet in fleets) > sum(found) + 2
+    """The odds alone take spreads of a dozen tires for known; by shuffles six categories have one in 3%."""
+    parts = {"a": slice(0, 6), "b": slice(6, 12), "c": slice(12, 17), "d": slice(17, 22)}
+    fleets = [_few(seed) for seed in range(40)]
+    assert sum(len(find_changes(fleet, parts)) > 0 for fleet in fleets) < 5
+    monkeypatch.setattr(protocol_search, "_RARE", 1.01)
+    assert sum(len(find_changes(fleet, parts)) > 0 for fleet in fleets) >= 5
 
 
 @pytest.mark.parametrize("seed", range(5))
