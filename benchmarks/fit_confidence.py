@@ -13,6 +13,7 @@ import json
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -40,8 +41,7 @@ def rows_of(planned: tuple[int, str]) -> list[Row]:
         rows.append((features(search, index, near, left), name in right, sure))
         return sure
 
-    explaining.confidence = noted  # type: ignore[assignment]
-    with threadpool_limits(1):
+    with patch.object(explaining, "confidence", noted), threadpool_limits(1):
         explaining.explain_mismatch(case.tire, case.recording)
     return rows
 

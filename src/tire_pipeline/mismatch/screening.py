@@ -132,9 +132,9 @@ def hollow(search: Search, fit: Fit, index: int) -> bool:
     """
     needed = catalogue()[fit.names[index]].needed
     rows = [k for k, (j, p) in enumerate(fit.labels) if j == index and p in needed]
-    if not needed or not rows:
+    if not rows:
         return bool(needed)
-    own = objective(search.system, fit.others(index)) - fit.judged_by(search.system).objective
+    own = objective(search.system, fit.others(index)) - objective(search.system, fit.changes)
     least = max(2.0 * search.price, settings.EXACT_SHARE**2 * own / search.inflation)
     return all(strength(search, fit, k) < least for k in rows)
 

@@ -123,7 +123,7 @@ def fit_magic_formula(
         kept = {n: _kept_value(n, model, start is not None) for n in removed}
         model = model.replace(**values, **{n: value for n, value in kept.items() if value != 0.0})
         report.add(stage, values, fit, kept if start is None else dict.fromkeys(removed, 0.0))
-        if pull(list(values), values, measured) is not None:
+        if fit.drawn:
             towards = "what tires are like" if start is None else "the start model"
             report.notes.append(
                 f"{stage.title}: {measured.size} points are few for {len(values)} coefficients, "
@@ -292,12 +292,14 @@ def _fit_stage(
     from_start: bool,
 ) -> tuple[dict[str, float], StageFit, list[str]]:
     """Fit a stage; drop, one by one, the coefficients that the data leave open."""
-    first = _first_values(stage, model, active, here, measured, from_start)
+    typical = _typical(active, model, from_start)
+    first = dict(typical) if from_start else _first_values(stage, typical, here, measured)
+    if "PKY1" in typical:
+        typical["PKY1"] = float(np.copysign(typical["PKY1"], first["PKY1"]))
     vector = model.packed.copy()
     for name in active:
         vector[INDEX[name]] = first[name]
     rows = [np.ascontiguousarray(here[name]) for name in _INPUTS]
-    typical = _typical(active, model, first, from_start)
     removed: list[str] = []
     number = starts
     while True:
@@ -318,15 +320,11 @@ def _fit_stage(
     return dict(zip(names, fit.values.tolist(), strict=True)), fit, removed
 
 
-def _typical(
-    names: list[str], model: TireModel, first: Mapping[str, float], from_start: bool
-) -> dict[str, float]:
-    """Return what few points are drawn to: the start model, or tires in general, of the recording's sign."""
+def _typical(names: list[str], model: TireModel, from_start: bool) -> dict[str, float]:
+    """Return what few points are drawn to: the start model, or what tires are like."""
     values = {name: _bound_of(name)[2] for name in names}
     if from_start:
         values.update({n: model.coefficients[n] for n in names if n in model.coefficients})
-    elif "PKY1" in values:
-        values["PKY1"] = float(np.copysign(values["PKY1"], first["PKY1"]))
     return values
 
 
@@ -354,18 +352,10 @@ def _bounds(names: list[str], first: Mapping[str, float]) -> tuple[np.ndarray, n
 
 
 def _first_values(
-    stage: Stage,
-    model: TireModel,
-    active: list[str],
-    here: Mapping[str, np.ndarray],
-    measured: np.ndarray,
-    from_start: bool,
+    stage: Stage, typical: Mapping[str, float], here: Mapping[str, np.ndarray], measured: np.ndarray
 ) -> dict[str, float]:
-    """Return where to start: the start model's values, or what the data show at a glance."""
-    first = {name: _bound_of(name)[2] for name in active}
-    if from_start:
-        first.update({n: model.coefficients[n] for n in active if n in model.coefficients})
-        return first
+    """Return where to start without a model: typical values, and what the data show at a glance."""
+    first = dict(typical)
     load = here["normal_load"]
     slip = here["slip_ratio" if stage.output == "fx" else "slip_angle"]
     if stage.title.endswith("pure slip") and stage.output in ("fx", "fy"):

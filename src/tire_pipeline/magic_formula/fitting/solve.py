@@ -23,12 +23,13 @@ _SINGULAR = 1e-9
 
 @dataclass(frozen=True)
 class StageFit:
-    """Values, standard errors and the names that the data leave open or that end at a bound."""
+    """Values, standard errors, the names that the data leave open or that end at a bound; whether drawn."""
 
     values: np.ndarray
     errors: np.ndarray
     open: list[str]
     at_bound: list[str]
+    drawn: bool
 
 
 @dataclass(frozen=True)
@@ -159,4 +160,5 @@ def _judged(
         errors,
         [n for n, is_open in zip(problem.names, unknown, strict=True) if is_open],
         [n for n, is_bound in zip(problem.names, bound, strict=True) if is_bound],
+        problem.pull is not None,
     )
