@@ -95,6 +95,18 @@ def test_the_other_sign_gives_the_mirrored_model(tydex):
     assert any("not in ISO axes" in note for note in fit.notes)
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_sweeps_in_coarse_steps_tell_the_sign(sign):
+    """Nothing but zero is among the smallest fifth of the slips."""
+    tire = tire_52()
+    load, angle = np.meshgrid([2000.0, 4000.0, 6000.0], np.radians(np.arange(-12.0, 13.0, 2.0)))
+    points = pd.DataFrame({"slip_angle": angle.ravel(), "normal_load": load.ravel()})
+    forces = tire.forces(**{n: points[n].to_numpy() for n in points}, limits="ignore")
+    fit = fit_magic_formula(points.assign(fy=sign * forces.fy))
+    assert np.sign(fit.model.value("PKY1")) == sign * np.sign(tire.value("PKY1"))
+    assert fit.relative_rms["fy"] < 0.01
+
+
 def few_points(tire: TireModel, count: int, seed: int, noise: float) -> pd.DataFrame:
     """Points at pure lateral slip, upright, at three loads, with a formula's own error and noise."""
     rng = np.random.default_rng(seed)

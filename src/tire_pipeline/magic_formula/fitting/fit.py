@@ -23,6 +23,8 @@ _INPUTS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressu
 _MOST_POINTS = 20_000
 _FEWEST_POINTS = 10
 _MOST_REMOVED = 12
+_NO_SLIP = 1e-6
+"""Slips below this are zero."""
 _POINTS_OF = {
     "lateral": "pure lateral slip",
     "longitudinal": "pure longitudinal slip",
@@ -362,14 +364,28 @@ def _first_values(
         friction = float(np.quantile(np.abs(measured) / load, 0.98))
         letter = stage.output[1].upper()
         first[f"PD{letter}1"] = min(max(1.05 * friction, 0.05), 3.5)
-        small = np.abs(slip) < max(0.03, float(np.quantile(np.abs(slip), 0.2)))
-        normalised = measured[small] / load[small]
-        slope = float(np.polyfit(slip[small], normalised, 1)[0]) if np.ptp(slip[small]) > 0 else 0.0
+        slope = _slope_at_small_slip(slip, measured / load)
         if stage.output == "fy" and slope != 0:
             first["PKY1"] = float(np.clip(1.6 * slope, -190, 190))
         elif slope > 1:
             first["PKX1"] = min(slope, 190.0)
     return first
+
+
+def _slope_at_small_slip(slip: np.ndarray, normalised: np.ndarray) -> float:
+    """Return the slope over the smallest fifth of the slips, or else to the smallest one that is not zero.
+
+    Sweeps in steps of two degrees have nothing but zero among their smallest fifth.
+    """
+    size = np.abs(slip)
+    small = size < max(0.03, float(np.quantile(size, 0.2)))
+    if small.any() and np.ptp(slip[small]) > _NO_SLIP:
+        return float(np.polyfit(slip[small], normalised[small], 1)[0])
+    moved = size > _NO_SLIP
+    if not moved.any():
+        return 0.0
+    small = moved & (size < 1.01 * size[moved].min())
+    return float(slip[small] @ normalised[small] / (slip[small] @ slip[small]))
 
 
 def _starting_points(

@@ -49,7 +49,8 @@ SPREAD: dict[str, float] = {
     "PVX2": 0.01,
 }
 """Coefficient -> how much tires differ in it: half of the range of the middle four fifths of 16 public files
-of cars and trucks, or their standard deviation, to a digit. Others are left to the data."""
+of cars and trucks, or their standard deviation, within a factor of two (`benchmarks/few_points.py` prints
+both). Others are left to the data."""
 
 
 @dataclass(frozen=True)
