@@ -32,13 +32,12 @@ Row = tuple[dict[str, float], bool, float]
 def rows_of(planned: tuple[int, str]) -> list[Row]:
     """Evidence of each effect that is named in a case, whether it is right, and its confidence so far."""
     case, answer = make_case(*planned)
-    right = {effect.name for effect in answer.effects} | set(answer.acceptable)
     rows: list[Row] = []
 
     def noted(search: Any, index: int, near: list[Any], left: Any) -> float:
         sure = confidence(search, index, near, left)
         name = search.fit.names[index]
-        rows.append((features(search, index, near, left), name in right, sure))
+        rows.append((features(search, index, near, left), name in answer.right_names, sure))
         return sure
 
     with patch.object(explaining, "confidence", noted), threadpool_limits(1):

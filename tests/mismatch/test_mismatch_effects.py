@@ -109,3 +109,28 @@ def test_a_soft_rig_is_no_softer_tire(tire, record):
     report = explain_mismatch(tire, recording.assign(fy=recording["fy"] + soft))
     assert [e.name for e in report.effects] == ["compliance"]
     assert report.effects[0].parameters["steer"][0] == pytest.approx(2.5e-6, rel=0.15)
+
+
+def _conicity(data, **parameters):
+    """What conicity adds to the side force, N."""
+    values = {**catalogue()["plysteer_conicity"].zeros(data), **parameters}
+    return simulate(data, [("plysteer_conicity", values)])["fy"] - data.base["fy"]
+
+
+def test_a_thrust_is_a_side_force_that_fades_where_the_tire_slides(tire, record):
+    data = prepare(tire, record()).data
+    angle, load = np.abs(data.get("slip_angle")), data.get("normal_load")
+    added = _conicity(data, thrust=0.01)
+    straight, sliding = angle < np.quantile(angle, 0.03), angle > np.quantile(angle, 0.97)
+    np.testing.assert_allclose(added[straight], 0.01 * load[straight], rtol=0.1)
+    assert np.abs(added[sliding]).max() < 0.3 * np.abs(added[straight]).min()
+
+
+def test_one_of_the_parameters_that_make_an_effect_what_it_is_stays(tire, record):
+    """A force that fades needs no other beside it; without both it would be an offset of the angle."""
+    recording = record(4)
+    added = _conicity(prepare(tire, recording).data, thrust=0.03)
+    report = explain_mismatch(tire, recording.assign(fy=recording["fy"] + added))
+    assert [e.name for e in report.effects] == ["plysteer_conicity"]
+    assert set(report.effects[0].parameters) == {"thrust"}
+    assert report.effects[0].parameters["thrust"][0] == pytest.approx(0.03, rel=0.1)

@@ -82,6 +82,11 @@ class Answer:
     noise: float
     oracle: Mapping[str, Mapping[str, float]]
 
+    @property
+    def right_names(self) -> set[str]:
+        """Names that are right: of what is concealed, and of what the recording cannot tell from it."""
+        return {effect.name for effect in self.effects} | set(self.acceptable)
+
     def to_dict(self) -> dict:
         """Return the answer as plain JSON types."""
         return json.loads(json.dumps(asdict(self)))

@@ -197,7 +197,7 @@ def covers(report: Report, answer: Answer) -> bool:
     """Whether the names given, with alternatives, hold the truth and nothing unacceptable."""
     given = covering(report)
     truth = {e.name for e in answer.effects}
-    return truth <= given and given <= truth | set(answer.acceptable)
+    return truth <= given <= answer.right_names
 
 
 def _value_scores(
@@ -211,12 +211,11 @@ def _value_scores(
     correct: list[bool] = []
     for report, answer in pairs:
         truth = {e.name: e for e in answer.effects}
-        right = set(truth) | set(answer.acceptable)
         for effect in report.get("effects", ()):
             if effect["name"] not in PHYSICS and effect["name"] not in ARTEFACTS:
                 continue
             confidence.append(float(effect.get("confidence", 1.0)))
-            correct.append(effect["name"] in right)
+            correct.append(effect["name"] in answer.right_names)
             true = truth.get(effect["name"])
             if true is not None and true.over_noise > LOCATION_LIMIT:
                 windows.append(interval_iou(effect.get("when", ()), true.when))

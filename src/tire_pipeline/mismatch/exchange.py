@@ -12,7 +12,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.gates import leaving_less, left_by
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, objective, refit
-from tire_pipeline.mismatch.screening import gain_of, likeliest, prune, rank, screen, without
+from tire_pipeline.mismatch.screening import frozen_cost, gain_of, likeliest, prune, rank, screen, without
 from tire_pipeline.mismatch.shapes import with_shapes
 from tire_pipeline.mismatch.state import Search
 
@@ -27,7 +27,8 @@ def exchanged(search: Search) -> list[Fit]:
     one effect at a time never leads there. A set with as many effects has to be likelier by ``TIE``; one
     with fewer, or with a more usual one of two that look the same, only about as likely. None may leave
     plainly more of the mismatch. Of two effects that scale the force, one that leaves plainly less may be
-    less likely; and a single one gives way to two others (friction and compliance look like a gain).
+    less likely; and a single one gives way to two others (friction and compliance look like a gain). Of two
+    that change the slope alone frozen coefficients decide, by as many nats.
 
     Parameters
     ----------
@@ -46,6 +47,10 @@ def exchanged(search: Search) -> list[Fit]:
         own = found - gain_of(search, rest.judged_by(shaped), empty)
         near = []
         for fit in _in_place_of(search, group, rest, shaped):
+            if _of_the_slope(search, group, fit):
+                if frozen_cost(search, fit) < frozen_cost(search, search.fit) - settings.TIE:
+                    out.append(fit)
+                continue
             gain = gain_of(search, fit, empty)
             simpler = len(group) > 1 or rank(search, fit) < usual
             less = _less(search, group, fit) if simpler else -settings.TIE
@@ -83,6 +88,12 @@ def _scaling(search: Search, group: tuple[int, ...], fit: Fit) -> bool:
     """Whether one effect that scales the force stands in for another one."""
     names = [search.fit.names[index] for index in group]
     return len(names) == 1 and all(catalogue()[name].scales for name in (*names, fit.names[-1]))
+
+
+def _of_the_slope(search: Search, group: tuple[int, ...], fit: Fit) -> bool:
+    """Whether one effect of the slope alone stands in for another: frozen coefficients tell them apart."""
+    names = [search.fit.names[index] for index in group] + [fit.names[-1]]
+    return len(names) == 2 and all(catalogue()[name].steepens for name in names)
 
 
 def _less(search: Search, group: tuple[int, ...], fit: Fit) -> float:

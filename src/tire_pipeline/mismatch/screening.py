@@ -77,6 +77,12 @@ def gain_of(search: Search, fit: Fit, against: float) -> float:
     return 0.5 * (against - fit.objective) / search.inflation - search.price * fit.parameters
 
 
+def frozen_cost(search: Search, fit: Fit) -> float:
+    """Return the information criterion of a set with frozen coefficients, nats."""
+    frozen = objective(search.frozen, fit.changes)
+    return 0.5 * frozen / search.inflation + search.price * fit.parameters
+
+
 def likeliest(search: Search, fits: Iterable[Fit]) -> list[Fit]:
     """Return fits in the order of how likely they are, parameters paid."""
     return sorted(fits, key=lambda f: -gain_of(search, f, 0.0))
@@ -94,7 +100,7 @@ def prune(search: Search, fit: Fit) -> Fit:
             i, name = fit.labels[row]
             if len(fit.free[i]) < 2 or name in {"reference", "lag", "moment", "length", "radius"}:
                 continue
-            if name in catalogue()[fit.names[i]].needed:
+            if set(catalogue()[fit.names[i]].needed) & set(fit.free[i]) == {name}:
                 continue
             if (fit.names[i] == "combined_slip" and zero_of(search, fit, i, name) == 0.0) or t2[
                 row

@@ -55,8 +55,9 @@ SECOND_LAG = 0.05
 
 SECOND_SCALE = 30.0
 SECOND_ALIKE = 50.0
-"""Least gain of an effect that scales the force beside a stronger one: false ones in the tuning cases have up
-to 24 nats, but friction and a gain beside stiffness 44."""
+"""Least gain of an effect that scales the force, or that the other's form error looks like (`errs_like`),
+beside a stronger one: false ones in the tuning cases have up to 24 nats, but friction and a gain beside
+stiffness 44 and camber beside conicity 46."""
 
 SECOND_SLOW = 50.0
 """Least gain of wear and of a change of surface beside a stronger temperature without its channel: a false

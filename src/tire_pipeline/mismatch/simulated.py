@@ -80,6 +80,25 @@ class Simulated(Nominal):
             self.fixed[key] = out
         return self.fixed[key]
 
+    @cached_property
+    def shift_by_thrust(self) -> Array:
+        """Slip angle (rad) for a side force as large as the load, by the slope while rolling straight."""
+        h, zero, load = 1e-3, np.zeros(self.size), self.get("normal_load")
+        up, down = (
+            plain_forces(
+                self.tire,
+                slip_angle=zero + sign * h,
+                slip_ratio=zero,
+                camber=zero,
+                normal_load=load,
+                speed=self.model_speed,
+                pressure=self.model_pressure,
+            )["fy"]
+            for sign in (1.0, -1.0)
+        )
+        slope = (up - down) / (2.0 * h)
+        return np.divide(load, slope, out=np.zeros(self.size), where=np.abs(slope) > 1.0)
+
     def _stiffness(self, axis: str) -> float:
         """Slip stiffness at nominal load, N per unit of slip, positive."""
         h = 1e-3

@@ -113,8 +113,11 @@ class Effect:
     scales : bool
         True if it makes the force larger or smaller by the model's own inputs alone, so that what the form of
         one such effect gets wrong looks like another.
+    steepens : bool
+        True if it changes the slip stiffness and leaves the peak: coefficients that may move hide what tells
+        two such apart.
     errs_like : tuple of str
-        Of those that scale, the ones that its form error looks most like.
+        Effects that its form error looks most like.
     slow : bool
         True if it is a change over the whole recording: what a state without its channel gets wrong looks
         like it.
@@ -125,7 +128,7 @@ class Effect:
     as_noise : bool
         True if it counts as noise until it is modelled.
     needed : tuple of str
-        Parameters that are never dropped for being small: without them it is another effect.
+        Parameters of which one always stays, however small: without any it is another effect.
     scanned : tuple of str
         Parameters that the starts scan, so that the screen need not move them.
     least_gain : float
@@ -149,6 +152,7 @@ class Effect:
     own_inputs = False
     dynamic = False
     scales = False
+    steepens = False
     errs_like: tuple[str, ...] = ()
     slow = False
     shifts = False

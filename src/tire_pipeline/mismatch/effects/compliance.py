@@ -14,6 +14,7 @@ class Compliance(Effect):
     source = "Milliken and Milliken, Race Car Vehicle Dynamics, ch. 23 (lateral, longitudinal force steer)"
     own_inputs = True
     scales = True
+    steepens = True
     needed = ("steer",)
     parameters = (
         Parameter("steer", "rad/N", -5e-5, 5e-5, 1e-8),

@@ -6,23 +6,28 @@ from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, S
 
 
 class PlysteerConicity(Effect):
-    """A side force without slip that comes from how the tire is built."""
+    """A side force without slip that comes from how the tire is built.
+
+    Conicity is a force that stays where the tire slides, or fades there (thrust), or both; or a camber.
+    """
 
     name = "plysteer_conicity"
     title = "conicity or ply steer"
     equation = (
-        "slip angle += ply_steer; and either Fy += conicity Fz, or camber += "
-        "pseudo_camber where the model answers to camber"
+        "slip angle += ply_steer + thrust Fz / K, K = dFy / d slip angle while rolling straight; "
+        "Fy += conicity Fz; or instead of thrust and conicity camber += pseudo_camber, where the model "
+        "answers to camber"
     )
     source = (
-        "SAE J1106; Pacejka, 3rd ed., 4.2.1: ply steer as equivalent slip angle, "
-        "conicity as equivalent camber"
+        "SAE J1106; Pacejka, 3rd ed., 4.2.1: ply steer as equivalent slip angle, conicity as equivalent "
+        "camber; 4.E27: camber's thrust over K as a shift of the slip angle"
     )
     own_inputs = True
     shifts = True
     parameters = (
         Parameter("conicity", "1", -0.15, 0.15, 0.001, output="fy"),
         Parameter("pseudo_camber", "rad", -0.2, 0.2, 0.001, output="fy"),
+        Parameter("thrust", "1", -0.3, 0.3, 0.001, output="fy"),
         Parameter("ply_steer", "rad", -0.05, 0.05, 0.0005, output="fy"),
     )
     looks_like = {
@@ -32,32 +37,38 @@ class PlysteerConicity(Effect):
     }
     experiment = "straight rolling at three loads, then with the tire turned on its rim"
     order = 12
-    needed = ("conicity", "pseudo_camber")
+    errs_like = ("stiffness_scale", "compliance", "camber")
+    needed = ("conicity", "pseudo_camber", "thrust")
 
     def starts(self, data: object) -> list[dict[str, float]]:
-        """As a force, and as camber where the model knows camber."""
+        """As a force that stays, as one that fades, and as camber where the model knows camber."""
         zero = self.zeros(data)
-        out = [zero]
+        out = [zero, {**zero, "thrust": 1e-9}]
         if data.knows_camber:  # type: ignore[attr-defined]
             out.append({**zero, "pseudo_camber": 1e-6})
         return out
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
-        """Return the parameters of one of the two forms."""
-        return ("pseudo_camber" if start["pseudo_camber"] else "conicity", "ply_steer")
+        """Return the parameters of one of the three forms."""
+        if start["pseudo_camber"]:
+            return ("pseudo_camber", "ply_steer")
+        return ("conicity", "thrust" if start["thrust"] else "ply_steer")
 
     def inputs(self, state: State, data: object, p: Parameters) -> None:
         """Shift slip angle and camber."""
         state.slip_angle = state.slip_angle + p["ply_steer"]
         state.camber = state.camber + p["pseudo_camber"]
+        if p["thrust"]:
+            shift = data.shift_by_thrust  # type: ignore[attr-defined]
+            state.slip_angle = state.slip_angle + p["thrust"] * shift
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Add the side force."""
         state.added_y = state.added_y + p["conicity"] * state.normal_load
 
     def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
-        """PVY1 and PHY1; an equivalent camber has no place."""
-        if p["pseudo_camber"]:
+        """PVY1 and PHY1; an equivalent camber and a force that fades have no place."""
+        if p["pseudo_camber"] or p["thrust"]:
             return {}
         c = tire.coefficients  # type: ignore[attr-defined]
         return {"PVY1": c.get("PVY1", 0.0) + p["conicity"], "PHY1": c.get("PHY1", 0.0) + p["ply_steer"]}

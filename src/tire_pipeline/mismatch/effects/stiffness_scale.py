@@ -15,6 +15,7 @@ class StiffnessScale(Effect):
     source = "Pacejka, Tire and Vehicle Dynamics, 3rd ed., similarity method (4.2.1); LKX, LKY"
     own_inputs = True
     scales = True
+    steepens = True
     errs_like = ("friction_scale", "force_gain")
     parameters = (Parameter("stiffness", "1", -0.7, 1.5, 0.01),)
     looks_like = {
