@@ -101,7 +101,7 @@ def _less(search: Search, group: tuple[int, ...], fit: Fit) -> float:
 
     Of two lags as much as their forms may get wrong: a short filter and a delay are the same but for it.
     """
-    least = 0.5 * settings.TIE
+    least = settings.USUAL_FIRST
     if len(group) > 1 or not catalogue()[fit.names[-1]].dynamic:
         return least
     return max(least, settings.SHAPE_SHARE**2 * search.gates[group[0]].gain)

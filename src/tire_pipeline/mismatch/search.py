@@ -237,7 +237,7 @@ def _in_order(search: Search, fits: list[Fit], gains: list[float]) -> list[Fit]:
     Among effects that scale the force alone: the flexible form can take up what a poorer form leaves, at a
     price that its size makes small. By what each can leave at least, not where the flexible form helps.
     """
-    within = 0.5 * settings.TIE if hollow(search, fits[0], len(fits[0].names) - 1) else settings.EQUAL
+    within = settings.USUAL_FIRST if hollow(search, fits[0], len(fits[0].names) - 1) else settings.EQUAL
     equal = sum(gain > gains[0] - within for gain in gains)
     first = sorted(fits[:equal], key=lambda f: (rank(search, f), frozen_cost(search, f)))
     later = list(zip(fits, gains, strict=True))[equal:]

@@ -66,6 +66,10 @@ one in the tuning cases has 36 nats."""
 TIE = 8.0
 """Nats within which two explanations are as good as each other."""
 
+USUAL_FIRST = 4.0
+"""Nats by which the simpler of two sets, or the more usual of two effects that look the same, may be less
+likely."""
+
 EQUAL = 1.5
 """Nats within which the more usual of two comes first, or the likelier one with frozen coefficients. (The
 latter likes a gain better than friction or combined slip, whose forms are a little wrong at small slip.)"""
