@@ -171,6 +171,27 @@ def test_a_conicity_that_fades_is_no_offset_of_the_angle(seed, kind, names):
     _assert_found(seed, kind, names)
 
 
+@pytest.mark.parametrize(
+    ("seed", "names"),
+    [
+        (222104745, {"friction_scale", "inflation_pressure"}),
+        (307532981, {"plysteer_conicity", "stiffness_scale"}),
+    ],
+)
+def test_pairs_of_the_thirteenth_proof_that_were_named_half(seed, names):
+    """Friction that leaves plainly less stays, no gain comes; 32 nats beside 1800 are no form error."""
+    _assert_found(seed, "pair", names)
+
+
+@pytest.mark.parametrize("seed", [960413590, 221764491])
+def test_a_friction_that_follows_the_rate_of_slip_is_no_gain(seed):
+    """At one rate of most sweeps it is one: the others have 307 and 172 nats."""
+    case, truth = _spent(seed, "unknown")
+    assert truth == {"slip_rate"}
+    report = explain_mismatch(case.tire, case.recording)
+    assert (_names(report), report.verdict) == ([], "unexplained")
+
+
 @pytest.mark.parametrize("seed", [607302503, 553059894])
 def test_what_the_form_of_a_conicity_gets_wrong_is_no_second_effect(seed):
     """Stiffness with 22 nats beside 11650, camber with 46 beside 20464."""

@@ -103,4 +103,4 @@ def _gain(search: Search, system: System, fit: Fit, rest: dict[str, Array], form
     if fit.labels:
         columns = {o: np.hstack([fit.columns[o], c]) for o, c in columns.items()}
     info, score, _ = system.reduce(system.sums(rest, columns))
-    return best_gain(info, score, len(fit.labels), search)
+    return best_gain(info, score, len(fit.labels), search) - form.less

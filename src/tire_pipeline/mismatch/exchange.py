@@ -55,7 +55,8 @@ def exchanged(search: Search) -> list[Fit]:
             simpler = len(group) > 1 or rank(search, fit) < usual
             less = _less(search, group, fit) if simpler else -settings.TIE
             if gain > found - less and left_by(search, fit) <= most:
-                out.append(fit)
+                if not (_scaling(search, group, fit) and leaving_less(search, [search.fit], fit)):
+                    out.append(fit)
             elif _scaling(search, group, fit) and gain > found - (1.0 - settings.LESS_LIKELY) * own:
                 near.append(fit)
         out += leaving_less(search, near, search.fit)

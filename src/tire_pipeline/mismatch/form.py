@@ -11,7 +11,8 @@ Array = np.ndarray
 
 @dataclass(frozen=True)
 class Form:
-    """Columns of one form, shape (n, k) for each output, N."""
+    """Columns of one form, shape (n, k) for each output, N; nats that it must have more than others."""
 
     label: str
     columns: dict[str, Array]
+    less: float = 0.0

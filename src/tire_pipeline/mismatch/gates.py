@@ -148,8 +148,10 @@ def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
     stronger = [other for other, gain in others if gain > gate.gain]
     if effect.scales and any(other.scales for other in stronger):
         least = max(least, settings.SECOND_SCALE)
-    if any(gate.name in other.errs_like for other in stronger):
-        least = max(least, settings.SECOND_ALIKE)
+    for other, gain in others:
+        if gain > gate.gain and gate.name in other.errs_like:
+            own = settings.SECOND_ALIKE if other.scales else settings.EXACT_SHARE**2 * gain
+            least = max(least, own)
     if effect.slow and any(other.blind(search.data) for other in stronger):
         least = max(least, settings.SECOND_SLOW)
     return replace(gate, least_gain=least)

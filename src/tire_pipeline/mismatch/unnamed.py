@@ -12,6 +12,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects.shared import first_order, njit
 from tire_pipeline.mismatch.form import Form
@@ -69,6 +70,10 @@ def forms(data: Data, changes: list[Change]) -> Iterator[Form]:
     ways = constant_form(data, changes).columns
     for label, driver in _drivers(data):
         yield Form(label, {o: ways[o] * driver[:, None] for o in data.outputs})
+    for name in (n for n in _SLIPS if data.varies(n)):
+        driver = _unit(np.abs(_rate(data, data.get(name))))
+        columns = {o: ways[o] * driver[:, None] for o in data.outputs}
+        yield Form(f"rate of {name}", columns, less=settings.TURNS)
     yield from repeating_forms(data, changes)
     for name, output in _SLIPS.items():
         if not data.varies(name) or output not in data.outputs:
