@@ -64,7 +64,10 @@ def constant_form(data: Data, changes: list[Change]) -> Form:
 
 
 def forms(data: Data, changes: list[Change]) -> Iterator[Form]:
-    """Yield all forms that the recording can show, around a model with some effects put in."""
+    """Yield all forms that the recording can show, around a model with some effects put in.
+
+    The rate of a slip comes twice: where slip and load are the same, and everywhere, for ``TURNS`` more nats.
+    """
     if data.time is None:
         return
     ways = constant_form(data, changes).columns
