@@ -1,6 +1,6 @@
 """What fits to few points are drawn to: how much tires differ, and what drawing does to the fit.
 
-Run: python benchmarks/few_points.py [--tires 60] [--points 18 40]
+Run: python benchmarks/few_points.py [--tires 60] [--points 18 39]
 
 The spreads are those of the public files in ../shared/tir beside `fitting/typical.py`. The fits are to brush
 tires of the rig simulator at some points of pure lateral slip, with and without being drawn; the error is
@@ -15,6 +15,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pandas as pd
+from real_recordings import error
 
 from tire_pipeline.concealed.constants import draw_constants
 from tire_pipeline.concealed.rig import World
@@ -83,12 +84,7 @@ def errors(seed: int, points: int) -> dict[str, float]:
     for name, instead in SETTINGS.items():
         with patch.object(fit, "pull", instead):
             model = fit_magic_formula(seen, nominal_load=constants.nominal_load).model
-        got = model.forces(
-            slip_angle=truth["slip_angle"].to_numpy(),
-            normal_load=truth["normal_load"].to_numpy(),
-            limits="ignore",
-        ).fy
-        out[name] = float(np.sqrt(np.mean((got - truth["fy"].to_numpy()) ** 2))) / largest
+        out[name] = error(model, truth) / largest
     return out
 
 

@@ -9,6 +9,7 @@ from itertools import combinations
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects.base import Effect
 from tire_pipeline.mismatch.gates import leaving_less, left_by
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, objective, refit
@@ -47,17 +48,19 @@ def exchanged(search: Search) -> list[Fit]:
         own = found - gain_of(search, rest.judged_by(shaped), empty)
         near = []
         for fit in _in_place_of(search, group, rest, shaped):
-            if _of_the_slope(search, group, fit):
+            pair = _one_for_one(search, group, fit)
+            if pair and all(effect.steepens for effect in pair):
                 if frozen_cost(search, fit) < frozen_cost(search, search.fit) - settings.TIE:
                     out.append(fit)
                 continue
             gain = gain_of(search, fit, empty)
             simpler = len(group) > 1 or rank(search, fit) < usual
             less = _less(search, group, fit) if simpler else -settings.TIE
+            scaling = bool(pair) and all(effect.scales for effect in pair)
             if gain > found - less and left_by(search, fit) <= most:
-                if not (_scaling(search, group, fit) and leaving_less(search, [search.fit], fit)):
+                if not (scaling and leaving_less(search, [search.fit], fit)):
                     out.append(fit)
-            elif _scaling(search, group, fit) and gain > found - (1.0 - settings.LESS_LIKELY) * own:
+            elif scaling and gain > found - (1.0 - settings.LESS_LIKELY) * own:
                 near.append(fit)
         out += leaving_less(search, near, search.fit)
     return likeliest(search, out)
@@ -85,16 +88,11 @@ def _divided(search: Search) -> list[Fit]:
     return likeliest(search, leaving_less(search, likelier, search.fit))
 
 
-def _scaling(search: Search, group: tuple[int, ...], fit: Fit) -> bool:
-    """Whether one effect that scales the force stands in for another one."""
-    names = [search.fit.names[index] for index in group]
-    return len(names) == 1 and all(catalogue()[name].scales for name in (*names, fit.names[-1]))
-
-
-def _of_the_slope(search: Search, group: tuple[int, ...], fit: Fit) -> bool:
-    """Whether one effect of the slope alone stands in for another: frozen coefficients tell them apart."""
-    names = [search.fit.names[index] for index in group] + [fit.names[-1]]
-    return len(names) == 2 and all(catalogue()[name].steepens for name in names)
+def _one_for_one(search: Search, group: tuple[int, ...], fit: Fit) -> tuple[Effect, ...]:
+    """Return the effect that goes and the one that comes, or nothing if two go."""
+    if len(group) > 1:
+        return ()
+    return catalogue()[search.fit.names[group[0]]], catalogue()[fit.names[-1]]
 
 
 def _less(search: Search, group: tuple[int, ...], fit: Fit) -> float:

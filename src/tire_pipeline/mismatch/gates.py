@@ -145,14 +145,14 @@ def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
     if effect.dynamic:
         lags = [gain for other, gain in others if other.dynamic]
         least = max(least, settings.SECOND_LAG * max(lags, default=0.0))
-    stronger = [other for other, gain in others if gain > gate.gain]
-    if effect.scales and any(other.scales for other in stronger):
+    stronger = [(other, gain) for other, gain in others if gain > gate.gain]
+    if effect.scales and any(other.scales for other, _ in stronger):
         least = max(least, settings.SECOND_SCALE)
-    for other, gain in others:
-        if gain > gate.gain and gate.name in other.errs_like:
+    for other, gain in stronger:
+        if gate.name in other.errs_like:
             own = settings.SECOND_ALIKE if other.scales else settings.EXACT_SHARE**2 * gain
             least = max(least, own)
-    if effect.slow and any(other.blind(search.data) for other in stronger):
+    if effect.slow and any(other.blind(search.data) for other, _ in stronger):
         least = max(least, settings.SECOND_SLOW)
     return replace(gate, least_gain=least)
 

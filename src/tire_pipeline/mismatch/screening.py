@@ -79,8 +79,7 @@ def gain_of(search: Search, fit: Fit, against: float) -> float:
 
 def frozen_cost(search: Search, fit: Fit) -> float:
     """Return the information criterion of a set with frozen coefficients, nats."""
-    frozen = objective(search.frozen, fit.changes)
-    return 0.5 * frozen / search.inflation + search.price * fit.parameters
+    return -gain_of(search, fit.judged_by(search.frozen), 0.0)
 
 
 def likeliest(search: Search, fits: Iterable[Fit]) -> list[Fit]:

@@ -255,10 +255,11 @@ def _steeper_first(search: Search, fits: list[Fit]) -> list[Fit]:
     """
     others = fits[0].names[:-1]
     places = [i for i, f in enumerate(fits) if f.names[:-1] == others and catalogue()[f.names[-1]].steepens]
+    if len(places) < 2:
+        return fits
     out = list(fits)
-    for place, fit in zip(
-        places, sorted((fits[i] for i in places), key=lambda f: frozen_cost(search, f)), strict=True
-    ):
+    ordered = sorted((fits[i] for i in places), key=lambda f: frozen_cost(search, f))
+    for place, fit in zip(places, ordered, strict=True):
         out[place] = fit
     return out
 

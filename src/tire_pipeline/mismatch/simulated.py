@@ -70,33 +70,26 @@ class Simulated(Nominal):
         """Return d force / d channel of the model by central differences."""
         key = f"slope {name}"
         if key not in self.fixed:
-            out: dict[str, Array] = {}
-            for sign in (1.0, -1.0):
-                c = {n: self.get(n) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
-                c[name] = c[name] + sign * step
-                f = plain_forces(self.tire, speed=self.model_speed, pressure=self.model_pressure, **c)
-                for axis, value in f.items():
-                    out[axis] = out.get(axis, 0.0) + sign * value / (2.0 * step)
-            self.fixed[key] = out
+            at = {n: self.get(n) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
+            self.fixed[key] = self._slope_at(at, name, step)
         return self.fixed[key]
+
+    def _slope_at(self, at: dict[str, Array], name: str, step: float) -> dict[str, Array]:
+        """Return d force / d channel at some inputs, one a sample."""
+        out: dict[str, Array] = {}
+        for sign in (1.0, -1.0):
+            c = {**at, name: at[name] + sign * step}
+            f = plain_forces(self.tire, speed=self.model_speed, pressure=self.model_pressure, **c)
+            for axis, value in f.items():
+                out[axis] = out.get(axis, 0.0) + sign * value / (2.0 * step)
+        return out
 
     @cached_property
     def shift_by_thrust(self) -> Array:
         """Slip angle (rad) for a side force as large as the load, by the slope while rolling straight."""
-        h, zero, load = 1e-3, np.zeros(self.size), self.get("normal_load")
-        up, down = (
-            plain_forces(
-                self.tire,
-                slip_angle=zero + sign * h,
-                slip_ratio=zero,
-                camber=zero,
-                normal_load=load,
-                speed=self.model_speed,
-                pressure=self.model_pressure,
-            )["fy"]
-            for sign in (1.0, -1.0)
-        )
-        slope = (up - down) / (2.0 * h)
+        zero, load = np.zeros(self.size), self.get("normal_load")
+        straight = {"slip_angle": zero, "slip_ratio": zero, "camber": zero, "normal_load": load}
+        slope = self._slope_at(straight, "slip_angle", 1e-3)["fy"]
         return np.divide(load, slope, out=np.zeros(self.size), where=np.abs(slope) > 1.0)
 
     def _stiffness(self, axis: str) -> float:

@@ -71,12 +71,8 @@ def forms(data: Data, changes: list[Change]) -> Iterator[Form]:
     if data.time is None:
         return
     ways = constant_form(data, changes).columns
-    for label, driver in _drivers(data):
-        yield Form(label, {o: ways[o] * driver[:, None] for o in data.outputs})
-    for name in (n for n in _SLIPS if data.varies(n)):
-        driver = _unit(np.abs(_rate(data, data.get(name))))
-        columns = {o: ways[o] * driver[:, None] for o in data.outputs}
-        yield Form(f"rate of {name}", columns, less=settings.TURNS)
+    for label, driver, less in _drivers(data):
+        yield Form(label, {o: ways[o] * driver[:, None] for o in data.outputs}, less)
     yield from repeating_forms(data, changes)
     for name, output in _SLIPS.items():
         if not data.varies(name) or output not in data.outputs:
@@ -94,26 +90,29 @@ def _with_play(data: Data, name: str, width: float) -> dict[str, Array]:
     return {o: moved[o] - data.all_base[o] for o in data.outputs}
 
 
-def _drivers(data: Data) -> Iterator[tuple[str, Array]]:
-    """Yield rates and memories of the inputs, each of about unit size."""
+def _drivers(data: Data) -> Iterator[tuple[str, Array, float]]:
+    """Yield rates and memories of the inputs, each of about unit size, and nats that it must have more."""
     for name in ("slip_angle", "slip_ratio", "normal_load"):
         if not data.varies(name):
             continue
         x = data.get(name)
         rate = _rate(data, x)
         if name in _SLIPS:
-            yield f"rate of {name}", _beyond_place(data, _unit(np.abs(rate)), name)
-            yield f"rise of {name}", _unit(np.sign(x) * rate)
+            size = _unit(np.abs(rate))
+            yield f"rate of {name}", _beyond_place(data, size, name), 0.0
+            yield f"rate of {name}", size, settings.TURNS
+            yield f"rise of {name}", _unit(np.sign(x) * rate), 0.0
             level = np.abs(x)
             level = level / (level + float(np.quantile(level, 0.9)) / 3.0)
         else:
-            yield f"rate of {name}", _unit(rate)
+            yield f"rate of {name}", _unit(rate), 0.0
             level = x
         for lag in _LAGS:
             gain = 1.0 - np.exp(-data.step / lag)
-            yield f"memory of {name} over {lag:g} s", _unit(first_order(level, gain, data.start) - level)
+            memory = _unit(first_order(level, gain, data.start) - level)
+            yield f"memory of {name} over {lag:g} s", memory, 0.0
             if name in _SLIPS:
-                yield f"state of {name} over {lag:g} s", _from_rest(level, gain)
+                yield f"state of {name} over {lag:g} s", _from_rest(level, gain), 0.0
 
 
 def _beyond_place(data: Data, driver: Array, name: str) -> Array:

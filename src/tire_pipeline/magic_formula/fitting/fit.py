@@ -15,6 +15,13 @@ from tire_pipeline.magic_formula.fitting.coverage import open_coefficients
 from tire_pipeline.magic_formula.fitting.result import FitResult
 from tire_pipeline.magic_formula.fitting.solve import Problem, StageFit, solve
 from tire_pipeline.magic_formula.fitting.stages import STAGES, Stage
+from tire_pipeline.magic_formula.fitting.starts import (
+    bounds_of,
+    first_values,
+    kept_value,
+    starting_points,
+    typical_values,
+)
 from tire_pipeline.magic_formula.fitting.statistics import relative_rms, residual_table
 from tire_pipeline.magic_formula.fitting.typical import pull
 from tire_pipeline.magic_formula.model import TireModel
@@ -23,8 +30,6 @@ _INPUTS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressu
 _MOST_POINTS = 20_000
 _FEWEST_POINTS = 10
 _MOST_REMOVED = 12
-_NO_SLIP = 1e-6
-"""Slips below this are zero."""
 _POINTS_OF = {
     "lateral": "pure lateral slip",
     "longitudinal": "pure longitudinal slip",
@@ -109,7 +114,7 @@ def fit_magic_formula(
             here["slip_ratio" if stage.points == "lateral" else "slip_angle"] *= 0.0
         left_out = open_coefficients(names, here, base["FNOMIN"])
         closed = {name for group in left_out.values() for name in group}
-        typical = {n: _kept_value(n, model, True) for n in sorted(closed)}
+        typical = {n: kept_value(n, model, True) for n in sorted(closed)}
         model = model.replace(**{n: value for n, value in typical.items() if value != 0.0})
         for reason, group in left_out.items():
             report.leave(reason, group, typical if start is None else None)
@@ -122,7 +127,7 @@ def fit_magic_formula(
             values, fit, removed = _fit_stage(
                 stage, model, active, here, measured, starts, loss, rng, start is not None
             )
-        kept = {n: _kept_value(n, model, start is not None) for n in removed}
+        kept = {n: kept_value(n, model, start is not None) for n in removed}
         model = model.replace(**values, **{n: value for n, value in kept.items() if value != 0.0})
         report.add(stage, values, fit, kept if start is None else dict.fromkeys(removed, 0.0))
         if fit.drawn:
@@ -294,8 +299,8 @@ def _fit_stage(
     from_start: bool,
 ) -> tuple[dict[str, float], StageFit, list[str]]:
     """Fit a stage; drop, one by one, the coefficients that the data leave open."""
-    typical = _typical(active, model, from_start)
-    first = dict(typical) if from_start else _first_values(stage, typical, here, measured)
+    typical = typical_values(active, model, from_start)
+    first = dict(typical) if from_start else first_values(stage, typical, here, measured)
     if "PKY1" in typical:
         typical["PKY1"] = float(np.copysign(typical["PKY1"], first["PKY1"]))
     vector = model.packed.copy()
@@ -306,99 +311,17 @@ def _fit_stage(
     number = starts
     while True:
         names = [name for name in active if name not in removed]
-        bounds = _bounds(names, first)
+        bounds = bounds_of(names, first)
         drawn = pull(names, typical, measured)
         problem = Problem(vector, model.family, stage.output, names, rows, measured, drawn)
-        fit = solve(problem, bounds, _starting_points(names, first, bounds, number, rng), loss)
+        fit = solve(problem, bounds, starting_points(names, first, bounds, number, rng), loss)
         if not fit.open or len(removed) >= _MOST_REMOVED or len(names) == 1:
             break
         ranges = (bounds[1] - bounds[0])[[names.index(name) for name in fit.open]]
         sizes = np.nan_to_num(fit.errors[[names.index(name) for name in fit.open]] / ranges, nan=np.inf)
         worst = fit.open[int(np.argmax(sizes))]
         removed.append(worst)
-        vector[INDEX[worst]] = first[worst] = _kept_value(worst, model, from_start)
+        vector[INDEX[worst]] = first[worst] = kept_value(worst, model, from_start)
         first.update({n: float(v) for n, v in zip(names, fit.values, strict=True) if n != worst})
         number = 1
     return dict(zip(names, fit.values.tolist(), strict=True)), fit, removed
-
-
-def _typical(names: list[str], model: TireModel, from_start: bool) -> dict[str, float]:
-    """Return what few points are drawn to: the start model, or what tires are like."""
-    values = {name: _bound_of(name)[2] for name in names}
-    if from_start:
-        values.update({n: model.coefficients[n] for n in names if n in model.coefficients})
-    return values
-
-
-def _kept_value(name: str, model: TireModel, from_start: bool) -> float:
-    """Return the value of a coefficient that stays open: the model's, else 0, or typical if 0 is no tire."""
-    if from_start and name in model.coefficients:
-        return model.coefficients[name]
-    low, _, typical = _bound_of(name)
-    return typical if low > 0.0 else 0.0
-
-
-def _bound_of(name: str) -> tuple[float, float, float]:
-    return stages.BOUNDS.get(name, stages.PRESSURE_BOUNDS)
-
-
-def _bounds(names: list[str], first: Mapping[str, float]) -> tuple[np.ndarray, np.ndarray]:
-    low = np.array([min(_bound_of(n)[0], first[n] - abs(first[n])) for n in names])
-    high = np.array([max(_bound_of(n)[1], first[n] + abs(first[n])) for n in names])
-    for i, name in enumerate(names):
-        if name == "PKY1":
-            low[i], high[i] = (low[i], -0.5) if first[name] < 0 else (0.5, high[i])
-        elif name in ("PEY1", "PEX1", "QEZ1", "REX1", "REY1"):
-            high[i] = 1.0
-    return low, high
-
-
-def _first_values(
-    stage: Stage, typical: Mapping[str, float], here: Mapping[str, np.ndarray], measured: np.ndarray
-) -> dict[str, float]:
-    """Return where to start without a model: typical values, and what the data show at a glance."""
-    first = dict(typical)
-    load = here["normal_load"]
-    slip = here["slip_ratio" if stage.output == "fx" else "slip_angle"]
-    if stage.title.endswith("pure slip") and stage.output in ("fx", "fy"):
-        friction = float(np.quantile(np.abs(measured) / load, 0.98))
-        letter = stage.output[1].upper()
-        first[f"PD{letter}1"] = min(max(1.05 * friction, 0.05), 3.5)
-        slope = _slope_at_small_slip(slip, measured / load)
-        if stage.output == "fy" and slope != 0:
-            first["PKY1"] = float(np.clip(1.6 * slope, -190, 190))
-        elif slope > 1:
-            first["PKX1"] = min(slope, 190.0)
-    return first
-
-
-def _slope_at_small_slip(slip: np.ndarray, normalised: np.ndarray) -> float:
-    """Return the slope over the smallest fifth of the slips, or else to the smallest one that is not zero.
-
-    Sweeps in steps of two degrees have nothing but zero among their smallest fifth.
-    """
-    size = np.abs(slip)
-    small = size < max(0.03, float(np.quantile(size, 0.2)))
-    if small.any() and np.ptp(slip[small]) > _NO_SLIP:
-        return float(np.polyfit(slip[small], normalised[small], 1)[0])
-    moved = size > _NO_SLIP
-    if not moved.any():
-        return 0.0
-    small = moved & (size < 1.01 * size[moved].min())
-    return float(slip[small] @ normalised[small] / (slip[small] @ slip[small]))
-
-
-def _starting_points(
-    names: list[str],
-    first: Mapping[str, float],
-    bounds: tuple[np.ndarray, np.ndarray],
-    number: int,
-    rng: np.random.Generator,
-) -> list[np.ndarray]:
-    begin = np.array([first[name] for name in names])
-    low, high = bounds
-    points = [begin]
-    for _ in range(number - 1):
-        shift = rng.normal(0.0, 0.3, len(names)) * np.maximum(np.abs(begin), 0.02 * (high - low))
-        points.append(np.clip(begin + shift, low, high))
-    return points

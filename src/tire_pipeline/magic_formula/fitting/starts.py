@@ -1,0 +1,97 @@
+"""Where a stage of a fit may start and how far it may go: typical values, what the data show, bounds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from tire_pipeline.magic_formula.fitting.stages import BOUNDS, PRESSURE_BOUNDS, Stage
+from tire_pipeline.magic_formula.model import TireModel
+
+_NO_SLIP = 1e-6
+"""Slips below this are zero."""
+
+
+def typical_values(names: list[str], model: TireModel, from_start: bool) -> dict[str, float]:
+    """Return what few points are drawn to: the start model, or what tires are like."""
+    values = {name: _bound_of(name)[2] for name in names}
+    if from_start:
+        values.update({n: model.coefficients[n] for n in names if n in model.coefficients})
+    return values
+
+
+def kept_value(name: str, model: TireModel, from_start: bool) -> float:
+    """Return the value of a coefficient that stays open: the model's, else 0, or typical if 0 is no tire."""
+    if from_start and name in model.coefficients:
+        return model.coefficients[name]
+    low, _, typical = _bound_of(name)
+    return typical if low > 0.0 else 0.0
+
+
+def _bound_of(name: str) -> tuple[float, float, float]:
+    return BOUNDS.get(name, PRESSURE_BOUNDS)
+
+
+def bounds_of(names: list[str], first: Mapping[str, float]) -> tuple[np.ndarray, np.ndarray]:
+    """Return the lowest and highest values: a start outside of the usual ones widens them; signs are kept."""
+    low = np.array([min(_bound_of(n)[0], first[n] - abs(first[n])) for n in names])
+    high = np.array([max(_bound_of(n)[1], first[n] + abs(first[n])) for n in names])
+    for i, name in enumerate(names):
+        if name == "PKY1":
+            low[i], high[i] = (low[i], -0.5) if first[name] < 0 else (0.5, high[i])
+        elif name in ("PEY1", "PEX1", "QEZ1", "REX1", "REY1"):
+            high[i] = 1.0
+    return low, high
+
+
+def first_values(
+    stage: Stage, typical: Mapping[str, float], here: Mapping[str, np.ndarray], measured: np.ndarray
+) -> dict[str, float]:
+    """Return where to start without a model: typical values, and what the data show at a glance."""
+    first = dict(typical)
+    load = here["normal_load"]
+    slip = here["slip_ratio" if stage.output == "fx" else "slip_angle"]
+    if stage.title.endswith("pure slip") and stage.output in ("fx", "fy"):
+        friction = float(np.quantile(np.abs(measured) / load, 0.98))
+        letter = stage.output[1].upper()
+        first[f"PD{letter}1"] = min(max(1.05 * friction, 0.05), 3.5)
+        slope = _slope_at_small_slip(slip, measured / load)
+        if stage.output == "fy" and slope != 0:
+            first["PKY1"] = float(np.clip(1.6 * slope, -190, 190))
+        elif slope > 1:
+            first["PKX1"] = min(slope, 190.0)
+    return first
+
+
+def _slope_at_small_slip(slip: np.ndarray, normalised: np.ndarray) -> float:
+    """Return the slope over the smallest fifth of the slips, or else to the smallest one that is not zero.
+
+    Sweeps in steps of two degrees have nothing but zero among their smallest fifth.
+    """
+    size = np.abs(slip)
+    small = size < max(0.03, float(np.quantile(size, 0.2)))
+    if small.any() and np.ptp(slip[small]) > _NO_SLIP:
+        return float(np.polyfit(slip[small], normalised[small], 1)[0])
+    moved = size > _NO_SLIP
+    if not moved.any():
+        return 0.0
+    small = moved & (size < 1.01 * size[moved].min())
+    return float(slip[small] @ normalised[small] / (slip[small] @ slip[small]))
+
+
+def starting_points(
+    names: list[str],
+    first: Mapping[str, float],
+    bounds: tuple[np.ndarray, np.ndarray],
+    number: int,
+    rng: np.random.Generator,
+) -> list[np.ndarray]:
+    """Return the first values, and others drawn around them, within bounds."""
+    begin = np.array([first[name] for name in names])
+    low, high = bounds
+    points = [begin]
+    for _ in range(number - 1):
+        shift = rng.normal(0.0, 0.3, len(names)) * np.maximum(np.abs(begin), 0.02 * (high - low))
+        points.append(np.clip(begin + shift, low, high))
+    return points
