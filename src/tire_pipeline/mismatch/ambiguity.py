@@ -50,7 +50,7 @@ class Rival:
     def possible(self) -> bool:
         """Whether the recording cannot exclude it."""
         by_design = self.nats < settings.AMBIGUITY_NATS or self.apart < settings.AMBIGUITY_SHARE
-        least = max(settings.TIE, settings.AMBIGUITY_LOST * self.nats, self.unsure)
+        least = max(settings.AMBIGUITY_NATS, settings.AMBIGUITY_LOST * self.nats, self.unsure)
         return by_design and self.lost - self.dearer < least
 
 

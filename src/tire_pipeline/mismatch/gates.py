@@ -18,6 +18,8 @@ from tire_pipeline.mismatch.state import Search, noise_beside
 Array = np.ndarray
 _PARTS = (1.0, 0.3, 0.1)
 """Parts of a step that are tried."""
+_EITHER, _WHOLE = 0.45, 0.1
+"""Weights of the tests over held-out sweeps: each of the first two, and the one with all that may be off."""
 
 
 @dataclass(frozen=True)
@@ -104,7 +106,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
         for s in (system, loose, frozen):
             less = _least(search, s, reduced, rest_without) - _least(search, s, fit, rest)
             gains.append(0.5 * less / search.inflation - search.price * count)
-        judges = ((search.system, True), (search.frozen, False))
+        judges = ((search.system, True), (search.frozen, False), (search.system, False))
         held = residual(search.data, fit.others(i))
         own_part = _shown(search, held, rest)
         removed = max(_removed(search, floors, r, rest, own_part[1]) for r in (rest_without, held))
@@ -115,7 +117,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
             Gates(
                 name=name,
                 gain=gains[0],
-                p_value=min(1.0, len(judges) * min(p_values)),
+                p_value=_joint(*p_values),
                 share=share,
                 loose=gains[1],
                 frozen=gains[2],
@@ -146,6 +148,8 @@ def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
         lags = [gain for other, gain in others if other.dynamic]
         least = max(least, settings.SECOND_LAG * max(lags, default=0.0))
     stronger = [(other, gain) for other, gain in others if gain > gate.gain]
+    if stronger:
+        least = max(least, effect.least_beside)
     if effect.scales and any(other.scales for other, _ in stronger):
         least = max(least, settings.SECOND_SCALE)
     for other, gain in stronger:
@@ -268,8 +272,19 @@ def _p_value(
     for rest, fit in (without, with_it):
         errors.append(system.held_out(rest, fit.columns if fit.labels else None, shown, plain=plain))
     strong = system.cut(energy, shown)
-    strong_ones = strong > 0.1 * (strong.mean() if strong.size else 0.0)
+    strong_ones = strong > 0.05 * (strong.mean() if strong.size else 0.0)
     return _wilcoxon(errors[0][strong_ones], errors[1][strong_ones])
+
+
+def _joint(plain: float, frozen: float, whole: float) -> float:
+    """Return the p-value of three tests: effects alone, with frozen coefficients, with all that may be off.
+
+    By weighted Bonferroni. The last test counts only where one of the others leans that way: two effects that
+    undo each other leave more than nothing does, and look good beside a misfit that takes it up.
+    """
+    either = min(plain, frozen)
+    p = min(either / _EITHER, whole / _WHOLE) if either < settings.LEVEL else either / _EITHER
+    return min(1.0, p)
 
 
 def _least(search: Search, system: System, fit: Fit, rest: dict[str, Array]) -> float:

@@ -88,34 +88,39 @@ def likeliest(search: Search, fits: Iterable[Fit]) -> list[Fit]:
 
 
 def prune(search: Search, fit: Fit) -> Fit:
-    """Drop parameters that do not pay for themselves, smallest t first."""
+    """Drop parameters that do not pay for themselves: first those that only refine, then the smallest t."""
     for _ in range(8):
         if not fit.labels or fit.sums is None:
             return fit
+        least = [_least_worth(search, fit.names[i], name) for i, name in fit.labels]
         t2 = [strength(search, fit, row) for row in range(len(fit.labels))]
-        order = np.argsort(t2)
         dropped = False
-        for row in order:
+        for row in sorted(range(len(t2)), key=lambda row: (-least[row], t2[row])):
             i, name = fit.labels[row]
             if len(fit.free[i]) < 2 or name in {"reference", "lag", "moment", "length", "radius"}:
                 continue
             if set(catalogue()[fit.names[i]].needed) & set(fit.free[i]) == {name}:
                 continue
-            if (fit.names[i] == "combined_slip" and zero_of(search, fit, i, name) == 0.0) or t2[
-                row
-            ] > 2.0 * search.price:
+            unknown = fit.names[i] == "combined_slip" and zero_of(search, fit, i, name) == 0.0
+            if unknown or t2[row] > 2.0 * least[row]:
                 continue
             changes = [(n, dict(p)) for n, p in fit.changes]
             changes[i][1][name] = catalogue()[changes[i][0]].zeros(search.data)[name]
             free = [tuple(f for f in fs if (j, f) != (i, name)) for j, fs in enumerate(fit.free)]
             shorter = [Variant(n, p, f) for (n, p), f in zip(changes, free, strict=True)]
             trial = refit(search.system, shorter, steps=2, start=changes)
-            if 0.5 * (trial.objective - fit.objective) / search.inflation < search.price:
+            if 0.5 * (trial.objective - fit.objective) / search.inflation < least[row]:
                 fit, dropped = trial, True
                 break
         if not dropped:
             return fit
     return fit
+
+
+def _least_worth(search: Search, effect: str, parameter: str) -> float:
+    """Nats that a parameter must be worth to be kept."""
+    further = next(p.further for p in catalogue()[effect].parameters if p.name == parameter)
+    return max(search.price, settings.TIE) if further else search.price
 
 
 def strength(search: Search, fit: Fit, row: int) -> float:

@@ -270,13 +270,15 @@ def _scales(fit: Fit) -> bool:
 
 
 def _visible(search: Search, fit: Fit) -> bool:
-    """Whether each effect of a set removes its least share of the mismatch, and no lag undoes another."""
+    """Whether a set removes some of the mismatch, each effect its least share, and no lag undoes another."""
     floors = floors_of(search, fit)
 
     def left_without(*which: int) -> float:
         return mismatch_of(residual(search.data, fit.others(*which)), floors)
 
     total, left = max(left_without(*range(len(fit.names))), 1e-12), left_without()
+    if left >= total:
+        return False
     each = [left_without(i) for i in range(len(fit.names))]
     for i, there in enumerate(each):
         if there - left >= settings.LEAST_SHARE * total:

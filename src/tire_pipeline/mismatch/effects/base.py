@@ -28,6 +28,8 @@ class Parameter:
         ``"fx"`` or ``"fy"`` if it acts on one output alone.
     ratio : bool
         Whether it moves by factors: a fit changes it by no more than a factor of e in one step.
+    further : bool
+        Whether it only refines what the others do, and has to be sure (``TIE`` nats) to be taken.
     """
 
     name: str
@@ -38,6 +40,7 @@ class Parameter:
     zero: float = 0.0
     output: str | None = None
     ratio: bool = False
+    further: bool = False
 
 
 @dataclass
@@ -133,6 +136,8 @@ class Effect:
         Parameters that the starts scan, so that the screen need not move them.
     least_gain : float
         Nats that it asks for in any case.
+    least_beside : float
+        Nats that it asks for beside a stronger effect.
     unusual : bool
         True if in a tie the other explanation is named first.
     parameters : tuple of Parameter
@@ -161,6 +166,7 @@ class Effect:
     needed: tuple[str, ...] = ()
     scanned: tuple[str, ...] = ()
     least_gain = 0.0
+    least_beside = 0.0
     unusual = False
     parameters: tuple[Parameter, ...] = ()
     looks_like: Mapping[str, str] = {}

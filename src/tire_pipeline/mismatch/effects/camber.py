@@ -21,8 +21,8 @@ class Camber(Effect):
     parameters = (
         Parameter("shift", "rad/rad", -2.0, 2.0, 0.01),
         Parameter("thrust", "1/rad", -4.0, 4.0, 0.02),
-        Parameter("thrust_load", "1/rad", -4.0, 4.0, 0.02),
-        Parameter("friction_loss", "1/rad^2", -40.0, 60.0, 0.5),
+        Parameter("thrust_load", "1/rad", -4.0, 4.0, 0.02, further=True),
+        Parameter("friction_loss", "1/rad^2", -40.0, 60.0, 0.5, further=True),
         Parameter("stiffness_loss", "1/rad", -6.0, 10.0, 0.05),
     )
     looks_like = {

@@ -20,6 +20,8 @@ class LoadSensitivity(Effect):
     looks_like = {"friction_scale": "a friction factor is the same at every load"}
     experiment = "sweeps to full sliding at four loads or more"
     order = 40
+    least_gain = 15.0
+    least_beside = 25.0  # false ones have 13 nats alone and 17 beside camber: few loads
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale the friction with load."""
