@@ -29,11 +29,21 @@ def real():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [0, 2, 4])
+@pytest.mark.parametrize("seed", [0, 1, 2, 4])
 def test_tydex_camber_is_found_and_put_in(real, seed):
     report, before, after = real.tydex_camber(seed)
     assert real.names(report) == ["camber"]
     assert after < 0.5 * before
+
+
+@pytest.mark.slow
+def test_tydex_camber_is_the_same_whatever_is_held_out(real):
+    """Its thrust's change with load and its loss of friction were in or out by chance, and moved the others."""
+    found = [real.tydex_camber(seed)[0].effects[0].parameters for seed in (1, 3)]
+    for name in ("shift", "thrust", "stiffness_loss"):
+        (first, error, _), (second, other, _) = (parameters[name] for parameters in found)
+        assert abs(first - second) < 2.0 * np.hypot(error, other)
+    assert all("friction_loss" not in parameters for parameters in found)
 
 
 @pytest.mark.slow
@@ -47,7 +57,7 @@ def test_tydex_halves_agree(real, half):
 def test_dart_other_half_agrees_or_shows_a_small_effect(real, half):
     report, other = real.dart_other_half(half)
     f = report.fit["fy"]
-    assert report.verdict == "agrees" or f.rms_before < 0.05 * real.largest(other)
+    assert report.verdict == "agrees" or f.rms_after <= f.rms_before < 0.05 * real.largest(other)
 
 
 @pytest.mark.slow
