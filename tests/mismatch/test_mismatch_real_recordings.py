@@ -38,7 +38,7 @@ def test_tydex_camber_is_found_and_put_in(real, seed):
 
 @pytest.mark.slow
 def test_tydex_camber_is_the_same_whatever_is_held_out(real):
-    """Its thrust's change with load and its loss of friction were in or out by chance, and moved the others."""
+    """Its thrust over load and its loss of friction were in or out by chance, and moved the others."""
     found = [real.tydex_camber(seed)[0].effects[0].parameters for seed in (1, 3)]
     for name in ("shift", "thrust", "stiffness_loss"):
         (first, error, _), (second, other, _) = (parameters[name] for parameters in found)

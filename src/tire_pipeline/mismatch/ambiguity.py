@@ -50,7 +50,8 @@ class Rival:
     def possible(self) -> bool:
         """Whether the recording cannot exclude it."""
         by_design = self.nats < settings.AMBIGUITY_NATS or self.apart < settings.AMBIGUITY_SHARE
-        least = max(settings.AMBIGUITY_NATS, settings.AMBIGUITY_LOST * self.nats, self.unsure)
+        near = settings.AMBIGUITY_NATS if self.unsure > 0.0 else settings.TIE
+        least = max(near, settings.AMBIGUITY_LOST * self.nats, self.unsure)
         return by_design and self.lost - self.dearer < least
 
 

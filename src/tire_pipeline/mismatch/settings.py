@@ -115,8 +115,9 @@ AMBIGUITY_SHARE = 0.04
 AMBIGUITY_NATS = 5.0
 AMBIGUITY_LOST = 0.5
 """Another effect is an alternative if so little of what the named one does is out of its reach, or if that is
-worth so few nats, and if its own fit loses less than these nats, or this part of what it should lose. In 240
-ambiguous tuning cases the true one, where it was not named first, lost 3.6 at most, form errors aside."""
+worth so few nats, and if its own fit loses less than this part of what it should lose, or TIE. A lag beside a
+lag and a shift beside a shift, whose form error is known, may lose these nats: in 160 ambiguous tuning cases
+the true one, where it was not named first, lost 3.6 at most, form errors aside."""
 
 REMAINDER_LIMIT = 1.3
 REMAINDER_NATS = 60.0
