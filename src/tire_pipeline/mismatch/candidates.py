@@ -47,7 +47,7 @@ def variants(data: Data, names: Sequence[str] | None = None) -> tuple[list[Varia
 
 
 def _acts(data: Data, effect: Effect, name: str) -> bool:
-    parameter = next(p for p in effect.parameters if p.name == name)
+    parameter = effect.parameter(name)
     return parameter.output is None or parameter.output in data.outputs
 
 
@@ -103,7 +103,7 @@ def screening_columns(
         parts.append({o: whole[o] - now[o] for o in data.outputs})
     free = [n for n in variant.free if n not in variant.effect.scanned]
     for name, column in derivatives(data, with_it, len(changes), free, whole):
-        step = next(p.step for p in variant.effect.parameters if p.name == name)
+        step = variant.effect.parameter(name).step
         parts.append({o: c * step for o, c in column.items()})
     if not parts:
         return {o: np.zeros((data.size, 0)) for o in data.outputs}

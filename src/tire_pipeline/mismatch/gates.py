@@ -106,18 +106,16 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
         for s in (system, loose, frozen):
             less = _least(search, s, reduced, rest_without) - _least(search, s, fit, rest)
             gains.append(0.5 * less / search.inflation - search.price * count)
-        judges = ((search.system, True), (search.frozen, False), (search.system, False))
         held = residual(search.data, fit.others(i))
         own_part = _shown(search, held, rest)
         removed = max(_removed(search, floors, r, rest, own_part[1]) for r in (rest_without, held))
         share = removed / total
         there = min(mismatch_of(r, floors) for r in (rest_without, held))
-        p_values = [_p_value(s, own_part, (rest_without, reduced), (rest, fit), plain) for s, plain in judges]
         out.append(
             Gates(
                 name=name,
                 gain=gains[0],
-                p_value=_joint(*p_values),
+                p_value=_joint(search, own_part, (rest_without, reduced), (rest, fit)),
                 share=share,
                 loose=gains[1],
                 frozen=gains[2],
@@ -276,15 +274,23 @@ def _p_value(
     return _wilcoxon(errors[0][strong_ones], errors[1][strong_ones])
 
 
-def _joint(plain: float, frozen: float, whole: float) -> float:
+def _joint(
+    search: Search,
+    part: tuple[Array, Array],
+    without: tuple[dict[str, Array], Fit],
+    with_it: tuple[dict[str, Array], Fit],
+) -> float:
     """Return the p-value of three tests: effects alone, with frozen coefficients, with all that may be off.
 
     By weighted Bonferroni. The last test counts only where one of the others leans that way: two effects that
     undo each other leave more than nothing does, and look good beside a misfit that takes it up.
     """
-    either = min(plain, frozen)
-    p = min(either / _EITHER, whole / _WHOLE) if either < settings.LEVEL else either / _EITHER
-    return min(1.0, p)
+    plain = _p_value(search.system, part, without, with_it, True)
+    either = min(plain, _p_value(search.frozen, part, without, with_it, False))
+    joint = either / _EITHER
+    if either < settings.LEVEL:
+        joint = min(joint, _p_value(search.system, part, without, with_it, False) / _WHOLE)
+    return min(1.0, joint)
 
 
 def _least(search: Search, system: System, fit: Fit, rest: dict[str, Array]) -> float:

@@ -179,7 +179,7 @@ def moved(changes: Sequence[Change], labels: Sequence[tuple[int, str]], delta: A
     """Return effects with some parameters, named by ``labels``, moved, within bounds."""
     out: list[Any] = [(n, dict(p)) for n, p in changes]
     for (i, name), d in zip(labels, delta, strict=True):
-        parameter = next(p for p in catalogue()[out[i][0]].parameters if p.name == name)
+        parameter = catalogue()[out[i][0]].parameter(name)
         values = out[i][1]
         width = parameter.high - parameter.low
         if parameter.ratio:

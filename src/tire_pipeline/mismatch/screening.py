@@ -119,7 +119,7 @@ def prune(search: Search, fit: Fit) -> Fit:
 
 def _least_worth(search: Search, effect: str, parameter: str) -> float:
     """Nats that a parameter must be worth to be kept."""
-    further = next(p.further for p in catalogue()[effect].parameters if p.name == parameter)
+    further = catalogue()[effect].parameter(parameter).further
     return max(search.price, settings.TIE) if further else search.price
 
 

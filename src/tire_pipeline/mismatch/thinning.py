@@ -128,7 +128,7 @@ def _moved(fit: Fit, delta: Array) -> list[Change]:
     """Return the effects with their parameters moved, inside of their bounds."""
     moved: list[tuple[str, dict[str, float]]] = [(n, dict(p)) for n, p in fit.changes]
     for (i, name), d in zip(fit.labels, delta, strict=True):
-        parameter = next(p for p in catalogue()[moved[i][0]].parameters if p.name == name)
+        parameter = catalogue()[moved[i][0]].parameter(name)
         values = moved[i][1]
         values[name] = float(np.clip(values[name] + d, parameter.low, parameter.high))
     return list(moved)

@@ -182,6 +182,10 @@ class Effect:
                 return f"{name} is not recorded or does not vary"
         return None
 
+    def parameter(self, name: str) -> Parameter:
+        """Return the parameter of a name."""
+        return next(p for p in self.parameters if p.name == name)
+
     def outside(self, data: object, p: Parameters) -> bool:
         """Whether parameters are outside of what this recording can show; bounds are checked besides."""
         return False
