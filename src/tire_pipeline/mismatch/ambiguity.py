@@ -48,7 +48,9 @@ class Rival:
 
     @property
     def possible(self) -> bool:
-        """Whether the recording cannot exclude it."""
+        """Whether the recording cannot exclude it: by the angle and its size, or being nearly as likely."""
+        if self.lost < settings.ODDS:
+            return True
         by_design = self.nats < settings.AMBIGUITY_NATS or self.apart < settings.AMBIGUITY_SHARE
         near = settings.AMBIGUITY_NATS if self.unsure > 0.0 else settings.TIE
         least = max(near, settings.AMBIGUITY_LOST * self.nats, self.unsure)

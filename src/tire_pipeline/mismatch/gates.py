@@ -43,6 +43,8 @@ class Gates:
         Number of sweeps.
     least_gain, least_share : float
         What ``gain`` and ``share`` have to exceed.
+    least_loose : float
+        What ``loose`` has to exceed, unless ``free``.
     """
 
     name: str
@@ -56,6 +58,7 @@ class Gates:
     blocks: int
     least_gain: float
     least_share: float
+    least_loose: float = settings.LEAST_GAIN
 
     @property
     def explains_most(self) -> bool:
@@ -71,7 +74,7 @@ class Gates:
             return f"held-out sweeps do not show it surely ({asked})"
         if self.share <= self.least_share:
             return f"removes only {100.0 * self.share:.1f}% of the mismatch"
-        if not self.free and self.loose <= settings.LEAST_GAIN:
+        if not self.free and self.loose <= self.least_loose:
             return "a refit of the coefficients explains as much"
         if self.frozen <= settings.LEAST_GAIN:
             return "with the coefficients as they are it explains nothing"
@@ -83,7 +86,7 @@ class Gates:
             self.gain > self.least_gain
             and self.p_value < level
             and self.share > self.least_share
-            and (self.free or self.loose > settings.LEAST_GAIN)
+            and (self.free or self.loose > self.least_loose)
             and self.frozen > settings.LEAST_GAIN
             and self.in_bounds
         )
@@ -124,6 +127,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
                 blocks=search.system.count,
                 least_gain=_least_gain(fit.names, i, share),
                 least_share=least_share(fit.names, i, gains[0], there / total),
+                least_loose=_least_loose(fit.names, i, gains[0]),
             )
         )
     return [_of_one_kind(search, gate, out) for gate in out]
@@ -135,6 +139,13 @@ def _least_gain(names: list[str], index: int, share: float) -> float:
         large = share > settings.LARGE_SHARE and not catalogue()[names[index]].shifts
         return settings.LEAST_GAIN_LARGE if large else settings.LEAST_GAIN_ALONE
     return settings.LEAST_GAIN_MORE if len(names) == 2 else settings.LEAST_GAIN_MANY
+
+
+def _least_loose(names: list[str], index: int, gain: float) -> float:
+    """Nats that an effect of a set has to gain with coefficients nearly free."""
+    alone = all(catalogue()[name].as_noise for j, name in enumerate(names) if j != index)
+    sure = alone and gain > settings.LEAST_GAIN_ALONE
+    return settings.LEAST_LOOSE if sure else settings.LEAST_GAIN
 
 
 def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
@@ -154,7 +165,7 @@ def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
         if gate.name in other.errs_like:
             own = settings.SECOND_ALIKE if other.scales else settings.EXACT_SHARE**2 * gain
             least = max(least, own)
-    if effect.slow and any(other.blind(search.data) for other, _ in stronger):
+    if effect.slow and any(other.scales or other.blind(search.data) for other, _ in stronger):
         least = max(least, settings.SECOND_SLOW)
     return replace(gate, least_gain=least)
 

@@ -11,6 +11,7 @@ from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.blocks import sweeps
 from tire_pipeline.mismatch.candidates import Variant, variants
 from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.noise import Noise, estimate_noise, refined
 from tire_pipeline.mismatch.nuisance import largest_force, make_nuisance
@@ -120,10 +121,12 @@ def _weigh(search: Search) -> None:
 def renoise(search: Search) -> None:
     """Take what the accepted effects show not to be noise off it, and set the weights anew.
 
-    Only a noise that is plainly smaller is taken: what effects leave may not pass for noise.
+    Only a noise that is plainly smaller is taken: what effects leave may not pass for noise. Beside an effect
+    that counts as noise until it is in, any that is smaller: it has another colour then, too.
     """
     now = noise_beside(search)
-    most = {o: settings.CALMER * n.floor for o, n in search.first_noise.items()}
+    share = 1.0 if any(catalogue()[name].as_noise for name in search.fit.names) else settings.CALMER
+    most = {o: share * n.floor for o, n in search.first_noise.items()}
     chosen = {o: n if n.floor < most[o] else search.first_noise[o] for o, n in now.items()}
     if all(chosen[o] is search.noise[o] for o in chosen):
         rescale(search)

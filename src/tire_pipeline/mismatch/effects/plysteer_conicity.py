@@ -26,7 +26,7 @@ class PlysteerConicity(Effect):
     shifts = True
     parameters = (
         Parameter("conicity", "1", -0.15, 0.15, 0.001, output="fy"),
-        Parameter("pseudo_camber", "rad", -0.2, 0.2, 0.001, output="fy"),
+        Parameter("pseudo_camber", "rad", -0.35, 0.35, 0.001, output="fy"),
         Parameter("thrust", "1", -0.3, 0.3, 0.001, output="fy"),
         Parameter("ply_steer", "rad", -0.05, 0.05, 0.0005, output="fy"),
     )

@@ -31,7 +31,7 @@ class Temperature(Effect):
         Parameter("curvature", "1", -0.8, 0.8, 0.01),
         Parameter("stiffness", "1", -1.0, 1.0, 0.01),
         Parameter("reference", "degC or 1", -1.0, 200.0, 0.5),
-        Parameter("lag", "s", 2.0, 1000.0, 0.2),
+        Parameter("lag", "s", 2.0, 3000.0, 0.2),
     )
     looks_like = {
         "wear": "wear never goes back; temperature does, when the tire rests",
