@@ -91,6 +91,7 @@ def test_the_report_is_plain_json_and_one_page(tire, record, tmp_path):
     assert report.summary.split(".")[0] in page
     assert not re.search(r"(src|href)\s*=\s*[\"']https?:", page)
     assert "inflation_pressure" in page
+    assert "Fy over time. The bars at the top" in page
 
 
 def test_points_without_time_are_steady(tire, record):

@@ -51,3 +51,5 @@ def test_the_form_is_in_dictionary_and_page_and_has_no_name(tire, record, tmp_pa
     page = report.to_html(tmp_path / "r.html").read_text()
     assert "Gaussian process" in page
     assert "in time as well" in page
+    assert "Fy over time." in page
+    assert "bars at the top" not in page  # no effect, no bars

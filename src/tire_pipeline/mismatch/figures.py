@@ -134,12 +134,14 @@ def drawings(report: MismatchReport) -> list[dict[str, Any]]:
                     "caption": f"{name} over slip and load: recorded minus simulated force (cells: means).",
                 }
             )
-        out.append(
-            {
-                "svg": svg(time_line(report, o)),
-                "caption": f"{name} over time. The bars at the top say when each effect is above the noise."
-                if report.series["time"] is not None
-                else f"{name} over the points in their order.",
-            }
-        )
+        out.append({"svg": svg(time_line(report, o)), "caption": _time_caption(report, o)})
     return out
+
+
+def _time_caption(report: MismatchReport, output: str) -> str:
+    name = output.capitalize()
+    if report.series["time"] is None:
+        return f"{name} over the points in their order."
+    bars = any(effect.when for effect in report.effects if effect.output == output)
+    said = " The bars at the top say when each effect is above the noise." if bars else ""
+    return f"{name} over time.{said}"
