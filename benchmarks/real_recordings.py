@@ -146,6 +146,14 @@ def dart_repair(
     return report, error(tire, other), after
 
 
+def dart_refit(fitted: int, min_speed: float | None = None) -> tuple[float, float]:
+    """Errors on the other drive of a whole formula fitted to one drive, and to that other drive itself."""
+    session, columns = drives("second_session", min_speed), ["slip_angle", "normal_load", "fy"]
+    other = session[1 - fitted]
+    naive, best = (fit_magic_formula(drive[columns]).model for drive in (session[fitted], other))
+    return error(naive, other), error(best, other)
+
+
 # Artefacts
 
 
@@ -261,9 +269,11 @@ def main() -> None:
                 )
                 for fitted in (0, 1):
                     report, before, after = dart_repair(fitted, half, min_speed)
+                    naive, best = dart_refit(fitted, min_speed)
                     print(
                         f"  second session, fitted on drive {fitted}: the other's error {before:.3f} -> "
-                        f"{after:.3f} N ({100 * (1 - after / before):.0f}% gone), {told(report)}",
+                        f"{after:.3f} N ({100 * (1 - after / before):.0f}% gone; a whole formula refitted: "
+                        f"{naive:.3f} N; fitted to the other itself: {best:.3f} N), {told(report)}",
                         flush=True,
                     )
     if "artefacts" in parts:

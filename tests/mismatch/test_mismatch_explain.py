@@ -1,5 +1,6 @@
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -8,6 +9,7 @@ from mismatch_shared import shared
 
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.words import summary
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
 
@@ -92,6 +94,23 @@ def test_the_report_is_plain_json_and_one_page(tire, record, tmp_path):
     assert not re.search(r"(src|href)\s*=\s*[\"']https?:", page)
     assert "inflation_pressure" in page
     assert "Fy over time. The bars at the top" in page
+
+
+@pytest.mark.parametrize(
+    ("when", "said"),
+    [
+        ([(10.0, 20.0)], " (seen between 10 and 20 s)."),
+        ([(10.0, 20.0), (30.0, 41.5)], " (seen between 10 and 20 s, 30 and 41.5 s)."),
+        ([(0.0, 80.0)], "."),
+        ([], "."),
+    ],
+)
+def test_the_summary_says_when_an_effect_is_seen(tire, record, when, said):
+    report = explain_mismatch(tire, record(3, pressure_effect=-0.35))
+    (effect,) = report.effects
+    left, ranges = report.remainder, {"time": (0.0, 100.0)}
+    text = summary("explained", [replace(effect, when=when)], report.fit, [], left, "", ranges)
+    assert f"Left out of the model: {effect.title}{said}" in text
 
 
 def test_points_without_time_are_steady(tire, record):

@@ -27,6 +27,9 @@ _UNITS = {
 _FINEST = {"slip_angle": 5e-5, "camber": 5e-5, "slip_ratio": 1e-4}
 """What is smaller is written as 0, SI: no rig holds it."""
 
+_FEW_STRETCHES = 3
+"""More stretches of time are not listed in the summary; the report has them all."""
+
 
 def unit_of(axis: str, size: float) -> tuple[float, str, str]:
     """Return factor, unit and name of an axis; loads below 100 N (model cars) are shown in N."""
@@ -108,7 +111,7 @@ def summary(
     exact = bool(effects) and not any(np.isfinite(e.share) for e in effects)
     parts = [_where(located, ranges or {})] if located and not (exact and not remainder.significant) else []
     if effects:
-        parts += _cause(effects, fit)
+        parts += _cause(effects, fit, ranges or {})
     parts += [_doubt(e) for e in effects if e.alternatives]
     if remainder.significant:
         parts += _left(bool(effects), remainder, ranges or {})
@@ -143,10 +146,12 @@ def _agreement(fit: dict[str, OutputFit]) -> str:
     )
 
 
-def _cause(effects: Sequence[EffectReport], fit: dict[str, OutputFit]) -> list[str]:
+def _cause(
+    effects: Sequence[EffectReport], fit: dict[str, OutputFit], ranges: Mapping[str, tuple[float, float]]
+) -> list[str]:
     """What was left out or is wrong, and what it brings."""
-    physics = [e.title for e in effects if e.kind == "physics"]
-    artefacts = [e.title for e in effects if e.kind != "physics"]
+    physics = [e.title + _while(e, ranges) for e in effects if e.kind == "physics"]
+    artefacts = [e.title + _while(e, ranges) for e in effects if e.kind != "physics"]
     parts = []
     if physics:
         parts.append(f"Left out of the model: {' and '.join(physics)}.")
@@ -168,6 +173,16 @@ def _cause(effects: Sequence[EffectReport], fit: dict[str, OutputFit]) -> list[s
         )
         parts.append(f"With that set right the difference is {sizes} RMS.")
     return parts
+
+
+def _while(effect: EffectReport, ranges: Mapping[str, tuple[float, float]]) -> str:
+    """Return `` (seen between 25 and 65 s)`` for an effect above the noise less than half of the time."""
+    first, last = ranges.get("time", (0.0, 0.0))
+    shows = sum(b - a for a, b in effect.when)
+    if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > 0.5 * (last - first):
+        return ""
+    stretches = [f"{figure('time', a)} and {figure('time', b)} s" for a, b in effect.when]
+    return f" (seen between {', '.join(stretches)})"
 
 
 def _doubt(effect: EffectReport) -> str:
