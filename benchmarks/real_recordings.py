@@ -253,6 +253,16 @@ def main() -> None:
                 f"refitted: {tydex_refit(seed):.0f} N), {told(report)}",
                 flush=True,
             )
+        draws = [tydex_camber(seed)[1:] for seed in range(20)]
+        before, after = (rms(np.array(column)) for column in zip(*draws, strict=True))
+        print(f"TYDEX camber, 20 draws together: {before:.0f} N -> {after:.0f} N", flush=True)
+        report = explain_mismatch(tydex_tire(), tydex()[~flat_points()])
+        f = report.fit["fy"]
+        print(
+            f"TYDEX camber, all cambered points, each held out once: {f.rms_before:.0f} N -> "
+            f"{f.rms_after:.0f} N, {told(report)}",
+            flush=True,
+        )
         for half in (*range(10), "even", "odd"):
             print(f"TYDEX zero camber, half {half}: {told(tydex_halves(half))}", flush=True)
     if "dart" in parts:
