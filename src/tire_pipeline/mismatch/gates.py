@@ -58,7 +58,7 @@ class Gates:
     blocks: int
     least_gain: float
     least_share: float
-    least_loose: float = settings.LEAST_GAIN
+    least_loose: float
 
     @property
     def explains_most(self) -> bool:
