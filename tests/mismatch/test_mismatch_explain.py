@@ -9,6 +9,7 @@ from mismatch_shared import shared
 
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.locate import Located
 from tire_pipeline.mismatch.words import summary
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
@@ -111,6 +112,19 @@ def test_the_summary_says_when_an_effect_is_seen(tire, record, when, said):
     left, ranges = report.remainder, {"time": (0.0, 100.0)}
     text = summary("explained", [replace(effect, when=when)], report.fit, [], left, "", ranges)
     assert f"Left out of the model: {effect.title}{said}" in text
+
+
+@pytest.mark.parametrize(
+    ("when", "mean"), [([(10.0, 20.0)], 0.1), ([(10.0, 20.0)], 0.3), ([(0.0, 80.0)], 0.1)]
+)
+def test_what_differs_to_both_sides_is_not_said_by_a_small_mean(tire, record, when, mean):
+    report = explain_mismatch(tire, record(3, pressure_effect=-0.35))
+    effect = replace(report.effects[0], when=when, share=0.9)
+    at = Located("fy", "slip_angle", 0.05, 0.1, mean * report.fit["fy"].rms_before, 0.01, 0.04, True)
+    text = summary("explained", [effect], report.fit, [at], report.remainder, "", {"time": (0.0, 100.0)})
+    said = "Fy differs most between 10 and 20 s, to both sides." in text
+    assert said == (when == [(10.0, 20.0)] and mean < 0.2)
+    assert ("is up to" in text) != said
 
 
 def test_points_without_time_are_steady(tire, record):

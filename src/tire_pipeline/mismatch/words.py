@@ -30,6 +30,11 @@ _FINEST = {"slip_angle": 5e-5, "camber": 5e-5, "slip_ratio": 1e-4}
 _FEW_STRETCHES = 3
 """More stretches of time are not listed in the summary; the report has them all."""
 
+_MOST = 0.5
+_HARDLY = 0.2
+"""An effect makes most of the mismatch from this share, and a mean difference shows hardly anything of it
+below this part of its RMS."""
+
 
 def unit_of(axis: str, size: float) -> tuple[float, str, str]:
     """Return factor, unit and name of an axis; loads below 100 N (model cars) are shown in N."""
@@ -109,7 +114,9 @@ def summary(
     if verdict == "agrees":
         return _agreement(fit)
     exact = bool(effects) and not any(np.isfinite(e.share) for e in effects)
-    parts = [_where(located, ranges or {})] if located and not (exact and not remainder.significant) else []
+    parts = []
+    if located and not (exact and not remainder.significant):
+        parts = [_to_both_sides(effects, fit, located, ranges or {}) or _where(located, ranges or {})]
     if effects:
         parts += _cause(effects, fit, ranges or {})
     parts += [_doubt(e) for e in effects if e.alternatives]
@@ -177,12 +184,37 @@ def _cause(
 
 def _while(effect: EffectReport, ranges: Mapping[str, tuple[float, float]]) -> str:
     """Return `` (seen between 25 and 65 s)`` for an effect above the noise less than half of the time."""
+    stretches = _stretches(effect, ranges)
+    return f" (seen {stretches})" if stretches else ""
+
+
+def _stretches(effect: EffectReport, ranges: Mapping[str, tuple[float, float]]) -> str:
+    """Return ``between 25 and 65 s``, or nothing where that is most of the time or many stretches."""
     first, last = ranges.get("time", (0.0, 0.0))
     shows = sum(b - a for a, b in effect.when)
     if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > 0.5 * (last - first):
         return ""
-    stretches = [f"{figure('time', a)} and {figure('time', b)} s" for a, b in effect.when]
-    return f" (seen between {', '.join(stretches)})"
+    return "between " + ", ".join(f"{figure('time', a)} and {figure('time', b)} s" for a, b in effect.when)
+
+
+def _to_both_sides(
+    effects: Sequence[EffectReport],
+    fit: dict[str, OutputFit],
+    located: Sequence[Located],
+    ranges: Mapping[str, tuple[float, float]],
+) -> str:
+    """Say when the force differs, if one effect makes most of it and no mean of a stretch shows it.
+
+    A camber to both sides adds to the force and takes from it: what is then clearest is next to nothing.
+    """
+    main = max(effects, key=lambda e: e.share if np.isfinite(e.share) else 0.0, default=None)
+    if main is None or not main.share > _MOST or main.output not in fit:
+        return ""
+    means = [abs(f.mean) for f in located if f.output == main.output]
+    stretches = _stretches(main, ranges)
+    if not stretches or max(means, default=0.0) > _HARDLY * fit[main.output].rms_before:
+        return ""
+    return f"{main.output.capitalize()} differs most {stretches}, to both sides."
 
 
 def _doubt(effect: EffectReport) -> str:
