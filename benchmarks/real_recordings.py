@@ -24,6 +24,7 @@ from tire_pipeline.recordings import DART_CAR, axle_recording, read_dart, read_r
 RECORDINGS = Path(__file__).resolve().parents[2] / "shared" / "recordings"
 FLAT = 0.002
 INPUTS = ("slip_angle", "slip_ratio", "camber", "normal_load")
+AXLE = ["slip_angle", "normal_load", "fy"]
 Change = Callable[[pd.DataFrame], pd.DataFrame]
 
 
@@ -88,6 +89,7 @@ def tydex_refit(seed: int) -> float:
     return error(fit_magic_formula(points[~held]).model, tydex()[held])
 
 
+@cache
 def tydex_camber(seed: int = 0) -> tuple[MismatchReport, float, float]:
     """Explain all but 40% of the cambered points; errors before and after on these 40%."""
     held = tydex_held(seed)
@@ -126,7 +128,7 @@ def joined(parts: tuple[pd.DataFrame, ...]) -> pd.DataFrame:
 def dart_tire(half: int = 0, min_speed: float | None = None) -> TireModel:
     """Fit the rear axle to every second drive on the rubber floor."""
     train = joined(drives("rubber_floor_ramps", min_speed)[half::2])
-    return fit_magic_formula(train[["slip_angle", "normal_load", "fy"]]).model
+    return fit_magic_formula(train[AXLE]).model
 
 
 def dart_other_half(half: int = 0, min_speed: float | None = None) -> tuple[MismatchReport, pd.DataFrame]:
@@ -146,12 +148,11 @@ def dart_repair(
     return report, error(tire, other), after
 
 
-def dart_refit(fitted: int, min_speed: float | None = None) -> tuple[float, float]:
-    """Errors on the other drive of a whole formula fitted to one drive, and to that other drive itself."""
-    session, columns = drives("second_session", min_speed), ["slip_angle", "normal_load", "fy"]
-    other = session[1 - fitted]
-    naive, best = (fit_magic_formula(drive[columns]).model for drive in (session[fitted], other))
-    return error(naive, other), error(best, other)
+@cache
+def dart_refit(fitted: int, on: int, min_speed: float | None = None) -> float:
+    """Error on one drive of the second session of a whole formula fitted to the other, or to the same."""
+    session = drives("second_session", min_speed)
+    return error(fit_magic_formula(session[fitted][AXLE]).model, session[on])
 
 
 # Artefacts
@@ -279,7 +280,7 @@ def main() -> None:
                 )
                 for fitted in (0, 1):
                     report, before, after = dart_repair(fitted, half, min_speed)
-                    naive, best = dart_refit(fitted, min_speed)
+                    naive, best = (dart_refit(d, 1 - fitted, min_speed) for d in (fitted, 1 - fitted))
                     print(
                         f"  second session, fitted on drive {fitted}: the other's error {before:.3f} -> "
                         f"{after:.3f} N ({100 * (1 - after / before):.0f}% gone; a whole formula refitted: "

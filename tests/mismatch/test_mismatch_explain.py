@@ -19,6 +19,12 @@ def names(report):
     return [e.name for e in report.effects]
 
 
+@pytest.fixture(scope="module")
+def pressed(tire, record):
+    """Report of a recording in which the pressure matters."""
+    return explain_mismatch(tire, record(3, pressure_effect=-0.35))
+
+
 @pytest.mark.parametrize("seed", [0, 1])
 def test_nothing_missing_agrees(tire, record, seed):
     report = explain_mismatch(tire, record(seed))
@@ -86,12 +92,11 @@ def test_another_simulator_stands_in_for_the_tire(tire, record):
     assert np.sqrt(np.mean(left**2)) < 0.6 * report.fit["fy"].rms_before
 
 
-def test_the_report_is_plain_json_and_one_page(tire, record, tmp_path):
-    report = explain_mismatch(tire, record(3, pressure_effect=-0.35))
-    table = report.to_dict()
+def test_the_report_is_plain_json_and_one_page(pressed, tmp_path):
+    table = pressed.to_dict()
     assert json.loads(json.dumps(table, allow_nan=False)) == table
-    page = report.to_html(tmp_path / "report.html").read_text(encoding="utf-8")
-    assert report.summary.split(".")[0] in page
+    page = pressed.to_html(tmp_path / "report.html").read_text(encoding="utf-8")
+    assert pressed.summary.split(".")[0] in page
     assert not re.search(r"(src|href)\s*=\s*[\"']https?:", page)
     assert "inflation_pressure" in page
     assert "Fy over time. The bars at the top" in page
@@ -106,22 +111,20 @@ def test_the_report_is_plain_json_and_one_page(tire, record, tmp_path):
         ([], "."),
     ],
 )
-def test_the_summary_says_when_an_effect_is_seen(tire, record, when, said):
-    report = explain_mismatch(tire, record(3, pressure_effect=-0.35))
-    (effect,) = report.effects
-    left, ranges = report.remainder, {"time": (0.0, 100.0)}
-    text = summary("explained", [replace(effect, when=when)], report.fit, [], left, "", ranges)
+def test_the_summary_says_when_an_effect_is_seen(pressed, when, said):
+    (effect,) = pressed.effects
+    left, ranges = pressed.remainder, {"time": (0.0, 100.0)}
+    text = summary("explained", [replace(effect, when=when)], pressed.fit, [], left, "", ranges)
     assert f"Left out of the model: {effect.title}{said}" in text
 
 
 @pytest.mark.parametrize(
     ("when", "mean"), [([(10.0, 20.0)], 0.1), ([(10.0, 20.0)], 0.3), ([(0.0, 80.0)], 0.1)]
 )
-def test_what_differs_to_both_sides_is_not_said_by_a_small_mean(tire, record, when, mean):
-    report = explain_mismatch(tire, record(3, pressure_effect=-0.35))
-    effect = replace(report.effects[0], when=when, share=0.9)
-    at = Located("fy", "slip_angle", 0.05, 0.1, mean * report.fit["fy"].rms_before, 0.01, 0.04, True)
-    text = summary("explained", [effect], report.fit, [at], report.remainder, "", {"time": (0.0, 100.0)})
+def test_what_differs_to_both_sides_is_not_said_by_a_small_mean(pressed, when, mean):
+    effect = replace(pressed.effects[0], when=when, share=0.9)
+    at = Located("fy", "slip_angle", 0.05, 0.1, mean * pressed.fit["fy"].rms_before, 0.01, 0.04, True)
+    text = summary("explained", [effect], pressed.fit, [at], pressed.remainder, "", {"time": (0.0, 100.0)})
     said = "Fy differs most between 10 and 20 s, to both sides." in text
     assert said == (when == [(10.0, 20.0)] and mean < 0.2)
     assert ("is up to" in text) != said

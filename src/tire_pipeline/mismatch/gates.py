@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, moved, objective, refit, residual
 from tire_pipeline.mismatch.screening import without
 from tire_pipeline.mismatch.shapes import with_shapes
-from tire_pipeline.mismatch.state import Search, noise_beside
+from tire_pipeline.mismatch.state import Search, noise_beside, of_noise
 
 Array = np.ndarray
 _PARTS = (1.0, 0.3, 0.1)
@@ -176,7 +176,7 @@ def floors_of(search: Search, fit: Fit) -> dict[str, float]:
     Estimated beside a set that puts in what counts as noise until then.
     """
     noise = search.noise
-    if any(catalogue()[name].as_noise for name in set(fit.names) - set(search.fit.names)):
+    if of_noise(set(fit.names) - set(search.fit.names)):
         noise = noise_beside(replace(search, fit=fit))
     return {o: min(noise[o].floor, search.noise[o].floor) for o in search.data.outputs}
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -125,7 +126,7 @@ def renoise(search: Search) -> None:
     that counts as noise until it is in, any that is smaller: it has another colour then, too.
     """
     now = noise_beside(search)
-    share = 1.0 if any(catalogue()[name].as_noise for name in search.fit.names) else settings.CALMER
+    share = 1.0 if of_noise(search.fit.names) else settings.CALMER
     most = {o: share * n.floor for o, n in search.first_noise.items()}
     chosen = {o: n if n.floor < most[o] else search.first_noise[o] for o, n in now.items()}
     if all(chosen[o] is search.noise[o] for o in chosen):
@@ -133,6 +134,11 @@ def renoise(search: Search) -> None:
         return
     search.noise = chosen
     _weigh(search)
+
+
+def of_noise(names: Iterable[str]) -> bool:
+    """Whether one of some effects counts as noise until it is in."""
+    return any(catalogue()[name].as_noise for name in names)
 
 
 def noise_beside(search: Search) -> dict[str, Noise]:

@@ -32,8 +32,8 @@ _FEW_STRETCHES = 3
 
 _MOST = 0.5
 _HARDLY = 0.2
-"""An effect makes most of the mismatch from this share, and a mean difference shows hardly anything of it
-below this part of its RMS."""
+"""What is most of the time or of the mismatch, and below which part of its RMS a mean difference shows hardly
+anything of it."""
 
 
 def unit_of(axis: str, size: float) -> tuple[float, str, str]:
@@ -113,15 +113,16 @@ def summary(
     fit = {o: f for o, f in fit.items() if o in ("fx", "fy")}
     if verdict == "agrees":
         return _agreement(fit)
+    ranges = ranges or {}
     exact = bool(effects) and not any(np.isfinite(e.share) for e in effects)
     parts = []
     if located and not (exact and not remainder.significant):
-        parts = [_to_both_sides(effects, fit, located, ranges or {}) or _where(located, ranges or {})]
+        parts = [_to_both_sides(effects, fit, located, ranges) or _where(located, ranges)]
     if effects:
-        parts += _cause(effects, fit, ranges or {})
+        parts += _cause(effects, fit, ranges)
     parts += [_doubt(e) for e in effects if e.alternatives]
     if remainder.significant:
-        parts += _left(bool(effects), remainder, ranges or {})
+        parts += _left(bool(effects), remainder, ranges)
     if next_experiment:
         parts.append(in_words(next_experiment))
     return " ".join(parts)
@@ -192,7 +193,7 @@ def _stretches(effect: EffectReport, ranges: Mapping[str, tuple[float, float]]) 
     """Return ``between 25 and 65 s``, or nothing where that is most of the time or many stretches."""
     first, last = ranges.get("time", (0.0, 0.0))
     shows = sum(b - a for a, b in effect.when)
-    if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > 0.5 * (last - first):
+    if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > _MOST * (last - first):
         return ""
     return "between " + ", ".join(f"{figure('time', a)} and {figure('time', b)} s" for a, b in effect.when)
 
