@@ -24,7 +24,7 @@ from sklearn.linear_model import RidgeCV
 from sklearn.model_selection import GroupKFold, cross_val_predict
 
 from tire_pipeline.evaluation import Curves, curves_of, evaluate_translations
-from tire_pipeline.fleet import FleetSettings, make_fleet
+from tire_pipeline.fleet import Fleet, FleetSettings, make_fleet
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
@@ -136,28 +136,41 @@ def oracle(judge: Judge, translator: PairedMixedModel) -> pd.DataFrame:
     return translator._decode(rows, replace(found, target=found.source + moved))
 
 
+def make_judged_fleet(kind: str, size: float, seed: int, sets: tuple[str, ...], tires: int = 100) -> Fleet:
+    """Make one fleet with so many tires in each of the evaluation sets ``sets``."""
+    counts = {f"{name}_tires": tires if name in sets else 1 for name in ("tuning", "hidden")}
+    return make_fleet(FleetSettings(seed=seed, kind=kind, bias_size=size, threads=1, **counts))
+
+
+def training_of(fleet: Fleet) -> pd.DataFrame:
+    """The training files as a table."""
+    kept, _ = dedupe_and_filter(read_all(fleet.files), features=LATERAL_WITHOUT_CAMBER)
+    return normalize_table(kept, 6000.0).reset_index(drop=True)
+
+
+def evaluation_table(files: Mapping[str, str], name: str, categories: tuple[str, ...] = ()) -> pd.DataFrame:
+    """The files of one evaluation set, of these categories only if any are named."""
+    chosen = {
+        path: text
+        for path, text in files.items()
+        if path.startswith(f"{name}/") and (not categories or path.split("/")[1] in categories)
+    }
+    return normalize_table(read_all(chosen).reset_index(drop=True), 6000.0)
+
+
+def judge_of(fleet: Fleet, name: str) -> Judge:
+    """The judge of one evaluation set."""
+    own = (fleet.settings.target,)
+    truth = (evaluation_table(files, name, own) for files in (fleet.truth.first, fleet.truth.second))
+    return Judge(evaluation_table(fleet.evaluation, name), *truth)
+
+
 def load_fleet(
     kind: str, size: float, seed: int, sets: tuple[str, ...]
 ) -> tuple[str, pd.DataFrame, dict[str, Judge]]:
     """Make one fleet: its target, training table and, by evaluation set, judge."""
-    counts = {f"{name}_tires": 100 if name in sets else 1 for name in ("tuning", "hidden")}
-    fleet = make_fleet(FleetSettings(seed=seed, kind=kind, bias_size=size, threads=1, **counts))
-    target = fleet.settings.target
-    kept, _ = dedupe_and_filter(read_all(fleet.files), features=LATERAL_WITHOUT_CAMBER)
-    training = normalize_table(kept, 6000.0)
-    truth = [
-        read_all({k: v for k, v in files.items() if f"/{target}/" in k and "four" not in k})
-        for files in (fleet.truth.first, fleet.truth.second)
-    ]
-    inputs = read_all({k: v for k, v in fleet.evaluation.items() if not k.startswith("four")})
-    judges = {}
-    for name in sets:
-        part = [
-            normalize_table(t[t["file"].str.startswith(name)].reset_index(drop=True), 6000.0)
-            for t in (inputs, *truth)
-        ]
-        judges[name] = Judge(*part)
-    return target, training.reset_index(drop=True), judges
+    fleet = make_judged_fleet(kind, size, seed, sets)
+    return fleet.settings.target, training_of(fleet), {name: judge_of(fleet, name) for name in sets}
 
 
 def measure_fleet(

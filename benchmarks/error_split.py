@@ -1,10 +1,12 @@
-"""Where the error of the translator with pairs comes from, on tuning tires; parts of it put right by truth.
+"""Where the error of the translator with pairs comes from, on tuning tires: parts of it put right by truth,
+and how it shrinks with more tires that all actors measured.
 
     python benchmarks/error_split.py           # prints
     python benchmarks/error_split.py --write   # puts the table between the marks in docs/translation.md
 
-Nothing here is a translator: biases put right are fitted on the sealed truth, each tire's by the other tires;
-parts put right are the tire's own truth.
+Biases put right are fitted on the sealed truth of the tires that are not judged; parts put right are the
+tire's own truth: nothing of that is a translator. Rows with more pairs are: they have the first measurement
+of such tires by all actors beside the training files, and nothing else. Other tires than those judged.
 """
 
 from __future__ import annotations
@@ -15,25 +17,23 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from bench_translation import Judge, load_fleet
+from bench_translation import Judge, evaluation_table, judge_of, make_judged_fleet, training_of
 from doc_tables import markdown, write_between
+from joblib import Parallel, delayed
 from sklearn.linear_model import RidgeCV
-from sklearn.model_selection import GroupKFold, cross_val_predict
 
 from tire_pipeline.evaluation import curves_of, evaluate_translations
+from tire_pipeline.translation.curve_mixed import Prediction
 from tire_pipeline.translation.curve_translator import MixedModel, PairedMixedModel
 
 PAGE = Path(__file__).parent.parent / "docs" / "translation.md"
 BEGIN = "<!-- from error_split.py -->"
 METRICS = ["forces", "cornering_stiffness", "peak_friction"]
 PARTS = ("cornering stiffness", "lateral friction", "lateral shape")
-ROWS = (
-    "as it is",
-    "mean bias of each actor right",
-    "bias right as far as the file's curves and metadata tell it",
-    *(f"{part} right" for part in PARTS),
-    "all scores right",
-)
+JUDGED = 200
+"""Tires that are judged; the others teach what truth could tell, or serve as further pairs."""
+MORE_PAIRS = (8, 24, 56)
+"""Tires that all actors measured, beyond the fleet's own eight."""
 
 
 class Errors:
@@ -50,65 +50,96 @@ class Errors:
         return found.summary.loc[METRICS, "ratio"].to_numpy()
 
 
-def learned(judge: Judge, gap: np.ndarray, known: np.ndarray | None) -> np.ndarray:
-    """What of ``gap`` (n, p) a ridge on ``known`` (n, d), or the mean alone, tells of tires left out."""
+def learned(judge: Judge, gap: np.ndarray, known: np.ndarray | None, judged: np.ndarray) -> np.ndarray:
+    """What of ``gap`` (n, p) a ridge on ``known`` (n, d), or the mean alone, tells of the judged rows.
+
+    It is fitted to the other rows of the same category; the result is (judged, p).
+    """
     out = np.zeros_like(gap)
-    for category in np.unique(judge.inputs["category"]):
-        own = np.flatnonzero(judge.inputs["category"] == category)
-        folds = GroupKFold(min(10, own.size))
+    category = judge.inputs["category"].to_numpy(dtype=str)
+    for name in np.unique(category):
+        taught, asked = (np.flatnonzero((category == name) & side) for side in (~judged, judged))
         if known is None:
-            for others, left in folds.split(own, groups=judge.tire[own]):
-                out[own[left]] = gap[own[others]].mean(axis=0)
+            out[asked] = gap[taught].mean(axis=0)
             continue
-        x = (known[own] - known[own].mean(axis=0)) / (known[own].std(axis=0) + 1e-9)
+        middle, spread = known[taught].mean(axis=0), known[taught].std(axis=0) + 1e-9
         ridge = RidgeCV(np.logspace(0, 5, 11), alpha_per_target=True)
-        out[own] = cross_val_predict(ridge, x, gap[own], cv=folds, groups=judge.tire[own])
-    return out
+        ridge.fit((known[taught] - middle) / spread, gap[taught])
+        out[asked] = ridge.predict((known[asked] - middle) / spread)
+    return out[judged]
 
 
-def split(judge: Judge, translator: MixedModel) -> pd.DataFrame:
-    """Errors as multiples of the floor's, one line for each of ``ROWS``."""
+def put_right(judge: Judge, translator: MixedModel, judged: np.ndarray) -> dict[str, Prediction]:
+    """The translator's prediction for the judged rows, and the same with parts put right."""
     space = translator.model.space
     found = translator.predict(judge.inputs)
     target, _ = space.encode(judge.target)
     gap = target - found.target
     known = np.concatenate([found.source, translator.model.metadata.regressors(judge.inputs)], axis=1)
-    wanted = [
-        found.target,
-        found.target + learned(judge, gap, None),
-        found.target + learned(judge, gap, known),
-    ]
+    own = Prediction(**{name: getattr(found, name)[judged] for name in vars(found)})
+    wanted = {
+        "as it is": own.target,
+        "mean bias of each actor right": own.target + learned(judge, gap, None, judged),
+        "bias right as far as the file's curves and metadata tell it": own.target
+        + learned(judge, gap, known, judged),
+    }
     for part in PARTS:
-        scores = found.target.copy()
-        scores[:, space.slices[part]] = target[:, space.slices[part]]
-        wanted.append(scores)
-    errors = Errors(judge)
-    floor = errors.of(judge.second)
-    tables = [translator._decode(judge.inputs, replace(found, target=one)) for one in (*wanted, target)]
-    found_ratios = [errors.of(table) / floor for table in tables]
-    return pd.DataFrame(found_ratios, index=pd.Index(ROWS, name="what"), columns=METRICS)
+        scores = own.target.copy()
+        scores[:, space.slices[part]] = target[judged][:, space.slices[part]]
+        wanted[f"{part} right"] = scores
+    wanted["all scores right"] = target[judged]
+    return {what: replace(own, target=scores) for what, scores in wanted.items()}
+
+
+def split(kind: str, seed: int, tires: int) -> pd.DataFrame:
+    """Errors as multiples of the floor's, one line for each thing that is put right."""
+    fleet = make_judged_fleet(kind, 1.0, seed, ("tuning",), tires)
+    target, training, every = fleet.settings.target, training_of(fleet), judge_of(fleet, "tuning")
+    names = np.unique(every.tire)
+    judged = np.isin(every.tire, names[:JUDGED])
+    rows, truth, second = (
+        t[judged].reset_index(drop=True) for t in (every.inputs, every.target, every.second)
+    )
+    errors = Errors(Judge(rows, *(t.drop_duplicates("file") for t in (truth, second))))
+    floor = errors.of(second)
+    translator = PairedMixedModel().fit(training, target=target, seed=seed)
+    found = {
+        what: errors.of(translator._decode(rows, one)) / floor
+        for what, one in put_right(every, translator, judged).items()
+    }
+    measured = evaluation_table(fleet.truth.first, "tuning")
+    tire = measured["file"].str.split("/").str[-1].to_numpy()
+    for more in (-fleet.settings.paired_tires, *MORE_PAIRS):
+        further = measured[np.isin(tire, names[JUDGED : JUDGED + max(more, 0)])]
+        kind_of = PairedMixedModel() if more > 0 else MixedModel()
+        other = kind_of.fit(pd.concat([training, further], ignore_index=True), target=target, seed=seed)
+        count = fleet.settings.paired_tires + more
+        what = f"{count} tires measured by all" if count else "without pairs"
+        found[what] = errors.of(other._decode(rows, other.predict(rows))) / floor
+    return pd.DataFrame.from_dict(found, orient="index", columns=METRICS)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--kinds", nargs="+", default=["additive", "drifting", "interacting"])
-    parser.add_argument("--seeds", type=int, nargs="+", default=[202])
+    parser.add_argument("--seeds", type=int, nargs="+", default=[213, 214, 215])
+    parser.add_argument("--tires", type=int, default=1000)
     parser.add_argument("--write", action="store_true")
     asked = parser.parse_args()
+    jobs = [(kind, seed) for kind in asked.kinds for seed in asked.seeds]
+    tables = Parallel(n_jobs=2)(delayed(split)(kind, seed, asked.tires) for kind, seed in jobs)
     columns = {}
     for kind in asked.kinds:
-        of_seeds = []
-        for seed in asked.seeds:
-            target, training, judges = load_fleet(kind, 1.0, seed, ("tuning",))
-            translator = PairedMixedModel().fit(training, target=target, seed=seed)
-            of_seeds.append(split(judges["tuning"], translator))
-        mean = sum(of_seeds) / len(of_seeds)
-        columns[kind] = [" / ".join(f"{value:.2f}" for value in row) for row in mean.to_numpy()]
-    rows = [(what, *(columns[kind][i] for kind in asked.kinds)) for i, what in enumerate(ROWS)]
-    text = markdown(("", *asked.kinds), rows)
+        own = [table for (of, _), table in zip(jobs, tables, strict=True) if of == kind]
+        mean = sum(table.to_numpy() for table in own) / len(own)
+        columns[kind] = [" / ".join(f"{value:.2f}" for value in row) for row in mean]
+    rows = [(what, *(columns[kind][i] for kind in asked.kinds)) for i, what in enumerate(tables[0].index)]
     seeds = ", ".join(map(str, asked.seeds))
-    head = f"Tuning tires (seeds: {seeds}) at the calibrated bias, forces / stiffness / peak friction."
-    text = f"{head}\n\n{text}"
+    head = (
+        f"{JUDGED} tuning tires of each fleet (seeds {seeds}) at the calibrated bias, forces / stiffness / "
+        f"peak friction; truth of {asked.tires - JUDGED} others."
+    )
+    text = f"{head}\n\n{markdown(('', *asked.kinds), rows)}"
     print(text)
     if asked.write:
         write_between(PAGE, BEGIN, text)
