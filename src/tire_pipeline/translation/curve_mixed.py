@@ -4,7 +4,8 @@ For every score: tire (metadata, size, class, what is its own) + category + cate
 protocol + category x kind of tire + category x class + tire in this category + noise. The target's
 measurement of a tire is then predicted from the source's measurement of it: the source's score, moved by the
 difference of the categories' effects, and drawn a little towards what the metadata lets expect, by as much as
-the source is noise or its own fit.
+the source is noise or its own fit. Stiffness and shape of one output are drawn together, because their errors
+belong together (:mod:`.fit_links`).
 """
 
 from __future__ import annotations
@@ -18,9 +19,11 @@ import pandas as pd
 
 from tire_pipeline.translation.class_search import with_classes
 from tire_pipeline.translation.curve_space import CurveSpace
+from tire_pipeline.translation.fit_links import FitLinks, linked_blocks
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.mixed_effects import Fitted
 from tire_pipeline.translation.protocols import NO_CHANGE, Protocols
+from tire_pipeline.translation.score_prediction import Reading, predict_block
 from tire_pipeline.translation.tire_classes import TireClasses
 from tire_pipeline.translation.tire_kinds import TireKinds, with_kinds
 
@@ -80,6 +83,8 @@ class CurveMixedModel:
         How much a category spreads what is the tires' own.
     alone : ndarray, shape (categories, p)
         Variance of what one tire does in this category only, scores in their standard deviations.
+    links : FitLinks
+        What the errors of one fit have to do with each other.
     classes : TireClasses or None
         Classes of tires that no metadata names.
     protocols : Protocols
@@ -95,6 +100,7 @@ class CurveMixedModel:
     fitted: tuple[Fitted, ...]
     spread: np.ndarray
     alone: np.ndarray
+    links: FitLinks
     classes: TireClasses | None = None
     protocols: Protocols = NO_CHANGE
 
@@ -163,10 +169,19 @@ class CurveMixedModel:
         alone = np.tile(once, (len(table), 1))
         return self.classes.probability(self.metadata.regressors(table), gap, alone)
 
-    def _reading(self, place: np.ndarray, target: int, k: int) -> Reading:
-        """How files of the categories ``place`` (n,), and ``target``, read score ``k``."""
-        spread, alone = self.spread[:, k], self.alone[:, k]
-        return Reading(spread[place], spread[target], alone[place], alone[target], place == target)
+    def _reading(self, place: np.ndarray, target: int, block: np.ndarray) -> Reading:
+        """How files of the categories ``place`` (n,), and ``target``, read the scores of ``block``."""
+        spread, alone = self.spread[:, block], self.alone[:, block]
+        here = np.ix_(block, block)
+        return Reading(
+            spread[place],
+            spread[target],
+            alone[place],
+            alone[target],
+            place == target,
+            self.links.own[here],
+            self.links.error[here],
+        )
 
     def predict(self, table: pd.DataFrame, target: str, *, trust: float = 1.0) -> Prediction:
         """Predict what ``target`` would measure.
@@ -194,21 +209,16 @@ class CurveMixedModel:
         here = self.regressors(blocks, own)
         now = self.protocols.newest(target, len(table))
         there = self.regressors(self.blocks(table, np.full(len(table), target), now), own)
-        found = [
-            _predict_score(
-                fitted,
-                source[:, k] / self.scale[k],
-                here,
-                there,
-                likely,
-                trust,
-                self._reading(place, self.categories.index(target), k),
-            )
-            for k, fitted in enumerate(self.fitted)
-        ]
-        shift, shift_variance, aim, variance, surprise, expected = (
-            np.stack(part, axis=1) for part in zip(*found, strict=True)
-        )
+        found = [np.empty_like(source) for _ in range(6)]
+        for block in linked_blocks(self.space.slices):
+            reading = self._reading(place, self.categories.index(target), block)
+            fitted = tuple(self.fitted[k] for k in block)
+            own_units = source[:, block] / self.scale[block]
+            for whole, part in zip(
+                found, predict_block(fitted, own_units, here, there, likely, trust, reading), strict=True
+            ):
+                whole[:, block] = part
+        shift, shift_variance, aim, variance, surprise, expected = found
         steps = np.stack([one.mean[columns_of(self, "protocol")] for one in self.fitted], axis=1)
         unsure = self.protocols.unsure(table) @ steps**2
         return Prediction(
@@ -233,6 +243,7 @@ class CurveMixedModel:
             "scale": self.scale,
             "spread": self.spread,
             "alone": self.alone,
+            **self.links.to_state(),
             **(self.kinds.to_state() if self.kinds else {}),
             **(self.classes.to_state() if self.classes else {}),
             **(self.protocols.to_state() if self.protocols.changes else {}),
@@ -262,87 +273,10 @@ class CurveMixedModel:
             fitted,
             np.asarray(state["spread"]),
             np.asarray(state["alone"]),
+            FitLinks.from_state(state, len(fitted)),
             TireClasses.from_state(state) if "class_own" in state else None,
             Protocols.from_state(state),
         )
-
-
-@dataclass(frozen=True)
-class Reading:
-    """How source and target read one score of what is a tire's own.
-
-    Attributes
-    ----------
-    mine : ndarray, shape (n,)
-        Spread of each file's category.
-    theirs : float
-        Spread of the target.
-    alone_here : ndarray, shape (n,)
-        Variance of what a tire does in the file's category only.
-    alone_there : float
-        The same in the target.
-    same : ndarray of bool, shape (n,)
-        Whether the file is the target's own.
-    """
-
-    mine: np.ndarray
-    theirs: float
-    alone_here: np.ndarray
-    alone_there: float
-    same: np.ndarray
-
-
-def _predict_score(
-    fitted: Fitted,
-    source: np.ndarray,
-    here: list[np.ndarray],
-    there: list[np.ndarray],
-    likely: np.ndarray,
-    trust: float,
-    reading: Reading,
-) -> tuple[np.ndarray, ...]:
-    """Shift, its variance, prediction, its variance, surprise, expectation, in deviations of the score.
-
-    Each is what it is for each class of tire, drawn together by the classes' probabilities.
-    """
-    each = [
-        _predict_in_class(fitted, source, mine, theirs, trust, reading)
-        for mine, theirs in zip(here, there, strict=True)
-    ]
-    columns = [np.stack(part, axis=1) for part in zip(*each, strict=True)]
-    mean = [(likely * values).sum(axis=1) for values in columns]
-    for value, variance in ((0, 1), (2, 3)):  # what the class leaves open
-        mean[variance] = mean[variance] + (likely * (columns[value] - mean[value][:, None]) ** 2).sum(axis=1)
-    return tuple(mean)
-
-
-def _predict_in_class(
-    fitted: Fitted,
-    source: np.ndarray,
-    here: np.ndarray,
-    there: np.ndarray,
-    trust: float,
-    reading: Reading,
-) -> tuple[np.ndarray, ...]:
-    """As :func:`_predict_score`, for a tire of a known class."""
-    count = here.shape[1]
-    weights, covariance = fitted.mean[:count], fitted.covariance[:count, :count]
-    at_source, at_target = here @ weights, there @ weights
-    own = fitted.variances["tire"]
-    noise = fitted.variances["noise"]
-    to_here, to_there = here @ covariance, there @ covariance
-    mine, theirs = reading.mine, reading.theirs
-    source_variance = (to_here * here).sum(1) + mine**2 * own + reading.alone_here + noise
-    target_variance = (to_there * there).sum(1) + theirs**2 * own + reading.alone_there + noise
-    together = (to_here * there).sum(1) + mine * theirs * own + reading.same * reading.alone_there
-    apart = there - here
-    shift = at_target - at_source
-    shift_variance = ((apart @ covariance) * apart).sum(1)
-    slope = 1.0 - trust * (1.0 - together / source_variance)
-    residual = source - at_source
-    target = at_target + slope * residual
-    variance = target_variance - 2.0 * slope * together + slope**2 * source_variance
-    return shift, shift_variance, target, variance, residual / np.sqrt(source_variance), at_target
 
 
 def columns_of(model: CurveMixedModel, block: str) -> slice:

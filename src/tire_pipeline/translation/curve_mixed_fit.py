@@ -11,6 +11,7 @@ from tire_pipeline.translation.class_question import Question
 from tire_pipeline.translation.class_search import find_classes, with_classes
 from tire_pipeline.translation.curve_mixed import CurveMixedModel, design_blocks
 from tire_pipeline.translation.curve_space import PARTS, Cells, CurveSpace, fit_curve_space
+from tire_pipeline.translation.fit_links import Deviations, FitLinks, find_links, linked_blocks
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.mixed_effects import Design, Fitted, fit_mixed_effects
 from tire_pipeline.translation.own_spread import FEWEST_SHARED, Residuals, own_spread, shared_cells
@@ -122,6 +123,7 @@ class Prepared:
 
     def model(self, fitted: tuple[Fitted, ...]) -> CurveMixedModel:
         """Give the model with these weights."""
+        spread, alone = _spread_by_category(self.design, self.cells, self.scale, fitted)
         return CurveMixedModel(
             self.space,
             self.metadata,
@@ -130,7 +132,9 @@ class Prepared:
             self.kinds,
             self.scale,
             fitted,
-            *_spread_by_category(self.design, self.cells, self.scale, fitted),
+            spread,
+            alone,
+            _links(self.design, self.cells, self.space, self.scale, fitted, alone),
             self.classes,
             self.protocols,
         )
@@ -280,18 +284,52 @@ def _spread_by_category(
     design: Design, cells: Cells, scale: np.ndarray, fitted: tuple[Fitted, ...]
 ) -> tuple[np.ndarray, np.ndarray]:
     """How much a category spreads what is the tires' own, and its variance alone, each (categories, p)."""
-    x = np.concatenate(list(design.blocks.values()), axis=1)
+    gaps = _gaps(design, cells, scale, fitted)
     count = design.blocks["category"].shape[1]
     category = design.blocks["category"].argmax(axis=1)
     shared = shared_cells(design.tire, category, count)
     spread, alone = np.ones((count, scale.size)), np.ones((count, scale.size))
     for k, one in enumerate(fitted):
-        gap = cells.scores[:, k] / scale[k] - x @ one.mean[: x.shape[1]]
-        residuals = Residuals(gap, category, one.variances["noise"] / design.files, shared)
+        residuals = Residuals(gaps[:, k], category, one.variances["noise"] / design.files, shared)
         spread[:, k], alone[:, k] = own_spread(
             residuals, one.variances["tire"], one.variances["tire_category"]
         )
     return spread, alone
+
+
+def _gaps(design: Design, cells: Cells, scale: np.ndarray, fitted: tuple[Fitted, ...]) -> np.ndarray:
+    """Cells less their expectation, what is the tire's own left in, (cells, p)."""
+    x = np.concatenate(list(design.blocks.values()), axis=1)
+    return cells.scores / scale - x @ np.stack([one.mean[: x.shape[1]] for one in fitted], axis=1)
+
+
+def _links(
+    design: Design,
+    cells: Cells,
+    space: CurveSpace,
+    scale: np.ndarray,
+    fitted: tuple[Fitted, ...],
+    alone: np.ndarray,
+) -> FitLinks:
+    """Find what the errors of one fit have to do with each other; ``alone`` is (categories, p)."""
+    gaps = _gaps(design, cells, scale, fitted)
+    own, once, noise = (
+        np.array([one.variances[name] for one in fitted]) for name in ("tire", "tire_category", "noise")
+    )
+    category = design.blocks["category"].argmax(axis=1)
+    shared = np.flatnonzero(design.tire.any(axis=1))
+    apart = gaps[shared] - _means_of(gaps[shared], design.tire[shared])
+    apart -= _means_of(apart, design.blocks["category"][shared])
+    spread = np.sqrt(alone[category[shared]] + noise)
+    error = once + noise * (1.0 / cells.files).mean()
+    found = Deviations(gaps, cells.repeats / scale, apart / spread, own, error)
+    return find_links(found, linked_blocks(space.slices))
+
+
+def _means_of(values: np.ndarray, member: np.ndarray) -> np.ndarray:
+    """Mean of each row's group, (n, p); ``member`` (n, groups) are indicators."""
+    count = np.maximum(member.sum(axis=0), 1.0)
+    return np.asarray(member @ ((member.T @ values) / count[:, None]))
 
 
 def _kinds(

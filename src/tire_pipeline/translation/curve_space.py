@@ -25,6 +25,8 @@ UNIT = {"lateral": 0.01, "camber": 0.01, "longitudinal": 0.01, "aligning": 0.002
 """What counts as 1 in the features of a group: 1% of a force, 2 mm/m of torque over load and radius."""
 
 _USUAL_SHARE = 0.6  # of repeats, from which the noise is found
+_NOMINAL = 0.01  # of the logarithm of test over nominal pressure
+_SEVERAL = 4  # files of a cell tell its noise
 _NOISE_SHARE = 0.05  # of the spread between tires, where no tire has three files in one category
 
 _LOADS = slice(0, LOADS.size), slice(LOADS.size, 2 * LOADS.size), slice(2 * LOADS.size, None)
@@ -76,12 +78,15 @@ class Cells:
         How many files.
     cell : ndarray of int, shape (n,)
         The cell of each file.
+    repeats : ndarray, shape (m, p)
+        Scores less their cell's, of the files at nominal pressure in cells of four or more.
     """
 
     row: np.ndarray
     scores: np.ndarray
     files: np.ndarray
     cell: np.ndarray
+    repeats: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -175,19 +180,23 @@ def fit_curve_space(table: pd.DataFrame) -> tuple[CurveSpace, Cells]:
     over = _over_pressure(table)
     known = _known(table.iloc[row])
     parts: dict[str, tuple[np.ndarray, ...]] = {}
-    scores, noise = [], []
+    scores, apart, noise = [], [], []
     features = encode(table)
     for name, part in PARTS.items():
         values = features[part.group][:, part.columns] / UNIT[part.group]
         if not np.isfinite(values).all():
             bad = table["file"].iloc[int(np.flatnonzero(~np.isfinite(values).all(axis=1))[0])]
             raise DomainError(f"the curves of {bad} are not finite", todo="drop the file")
-        *fitted, own, spread = _fit_part(values, cell, over, known, part.components)
+        *fitted, own, left, spread = _fit_part(values, cell, over, known, part.components)
         parts[name] = tuple(fitted)  # type: ignore[assignment]
         scores.append(own)
+        apart.append(left)
         noise.append(spread)
     mean, onto, back, limit = ({name: found[k] for name, found in parts.items()} for k in range(4))
-    cells = Cells(row, np.concatenate(scores, axis=1), np.bincount(cell).astype(float), cell)
+    files = np.bincount(cell)
+    repeated = (np.abs(over) < _NOMINAL) & (files[cell] >= _SEVERAL)
+    repeats = np.concatenate(apart, axis=1)[repeated]
+    cells = Cells(row, np.concatenate(scores, axis=1), files.astype(float), cell, repeats)
     return CurveSpace(mean, onto, back, limit, np.concatenate(noise)), cells
 
 
@@ -226,7 +235,7 @@ def _cell_medians(values: np.ndarray, cell: np.ndarray) -> np.ndarray:
 def _fit_part(
     values: np.ndarray, cell: np.ndarray, over: np.ndarray, known: np.ndarray, components: int
 ) -> tuple[np.ndarray, ...]:
-    """Mean, onto, back, limit, scores of the cells, noise."""
+    """Mean, onto, back, limit, scores of the cells, of each file less its cell's, noise."""
     values = values - over[:, None] * _pressure_slope(values, cell, over)
     middle = _cell_medians(values, cell)
     mean = np.median(middle, axis=0)
@@ -238,7 +247,7 @@ def _fit_part(
     location = _robust_location(scores, cell)
     own = location - known @ np.linalg.lstsq(known, location, rcond=None)[0]
     between = np.atleast_2d(np.cov(np.clip(own, *np.quantile(own, [0.01, 0.99], axis=0)).T))
-    usual = np.abs(over) < 0.01
+    usual = np.abs(over) < _NOMINAL
     within = _noise_covariance((scores - location[cell])[usual], cell[usual])
     if within is None:
         within = _NOISE_SHARE * between
@@ -249,11 +258,12 @@ def _fit_part(
     back = np.linalg.inv(turn) @ axes
     left = (middle - mean) - ((middle - mean) @ onto) @ back
     limit = np.maximum(4.0 * 1.4826 * np.median(np.abs(left), axis=0), 0.05)
+    apart = (scores - location[cell]) @ turn
     location = location @ turn
     bound = 6.0 * 1.4826 * np.median(np.abs(location - np.median(location, axis=0)), axis=0) + 3.0
     centre = np.median(location, axis=0)
     location = np.clip(location, centre - bound, centre + bound)
-    return mean, onto, back, limit, location, np.ones(onto.shape[1])
+    return mean, onto, back, limit, location, apart, np.ones(onto.shape[1])
 
 
 def _pressure_slope(values: np.ndarray, cell: np.ndarray, over: np.ndarray) -> np.ndarray:
@@ -281,7 +291,7 @@ def _robust_location(scores: np.ndarray, cell: np.ndarray) -> np.ndarray:
 def _noise_covariance(apart: np.ndarray, cell: np.ndarray) -> np.ndarray | None:
     """Covariance of one file about its cell without worn and odd ones; None if too few repeat."""
     count = np.bincount(cell)
-    several = count[cell] >= 4
+    several = count[cell] >= _SEVERAL
     if several.sum() < 10 * apart.shape[1]:
         return None
     lost = 1.0 - 1.0 / count[cell[several]].mean()

@@ -1,0 +1,132 @@
+"""The target's score of a tire given the source's: Gaussian conditioning, for scores whose errors belong
+together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tire_pipeline.translation.mixed_effects import Fitted
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How source and target read what is a tire's own in the b scores of a block.
+
+    Attributes
+    ----------
+    mine : ndarray, shape (n, b)
+        Spread of each file's category.
+    theirs : ndarray, shape (b,)
+        Spread of the target.
+    alone_here : ndarray, shape (n, b)
+        Variance of what a tire does in the file's category only.
+    alone_there : ndarray, shape (b,)
+        The same in the target.
+    same : ndarray of bool, shape (n,)
+        Whether the file is the target's own.
+    own_link, error_link : ndarray, shape (b, b)
+        As in :class:`.fit_links.FitLinks`.
+    """
+
+    mine: np.ndarray
+    theirs: np.ndarray
+    alone_here: np.ndarray
+    alone_there: np.ndarray
+    same: np.ndarray
+    own_link: np.ndarray
+    error_link: np.ndarray
+
+
+def predict_block(
+    fitted: tuple[Fitted, ...],
+    source: np.ndarray,
+    here: list[np.ndarray],
+    there: list[np.ndarray],
+    likely: np.ndarray,
+    trust: float,
+    reading: Reading,
+) -> tuple[np.ndarray, ...]:
+    """Predict the scores of a block, in their standard deviations.
+
+    Parameters
+    ----------
+    fitted : tuple of Fitted
+        One a score.
+    source : ndarray, shape (n, b)
+    here, there : list of ndarray
+        Regressors (n, m) for each class of tire, as the source and as the target measures.
+    likely : ndarray, shape (n, k)
+        Probability of each class.
+    trust : float
+        0: what is the file's own is kept as it is; 1: it is drawn towards the expectation by as much as it is
+        error.
+    reading : Reading
+
+    Returns
+    -------
+    tuple of ndarray
+        Shift, its variance, prediction, its variance, surprise, expectation, each (n, b): what they are for
+        each class, drawn together by the classes' probabilities.
+    """
+    each = [
+        _in_class(fitted, source, mine, theirs, trust, reading)
+        for mine, theirs in zip(here, there, strict=True)
+    ]
+    columns = [np.stack(part, axis=1) for part in zip(*each, strict=True)]
+    weight = likely[:, :, None]
+    mean = [(weight * values).sum(axis=1) for values in columns]
+    for value, variance in ((0, 1), (2, 3)):  # what the class leaves open
+        apart = columns[value] - mean[value][:, None]
+        mean[variance] = mean[variance] + (weight * apart**2).sum(axis=1)
+    return tuple(mean)
+
+
+def _in_class(
+    fitted: tuple[Fitted, ...],
+    source: np.ndarray,
+    here: np.ndarray,
+    there: np.ndarray,
+    trust: float,
+    reading: Reading,
+) -> tuple[np.ndarray, ...]:
+    """As :func:`predict_block`, for tires of a known class."""
+    count = here.shape[1]
+    weights = np.stack([one.mean[:count] for one in fitted], axis=1)
+    own, noise = (np.sqrt([one.variances[name] for one in fitted]) for name in ("tire", "noise"))
+    of_weights = [one.covariance[:count, :count] for one in fitted]
+    at_source, at_target = here @ weights, there @ weights
+    tire_here, tire_there = reading.mine * own, reading.theirs * own
+    alone = _outer(np.sqrt(reading.alone_here)) * reading.error_link
+    together = tire_there[:, None] * tire_here[:, None, :] * reading.own_link
+    together = together + reading.same[:, None, None] * alone + _diagonal(here, of_weights, there)
+    source_covariance = _outer(tire_here) * reading.own_link + alone
+    source_covariance = source_covariance + np.outer(noise, noise) * reading.error_link
+    source_covariance = source_covariance + _diagonal(here, of_weights, here)
+    target_variance = _along(there, of_weights, there) + tire_there**2 + reading.alone_there + noise**2
+    drawn = np.linalg.solve(source_covariance, together.transpose(0, 2, 1)).transpose(0, 2, 1)
+    slope = np.eye(len(fitted)) - trust * (np.eye(len(fitted)) - drawn)
+    residual = source - at_source
+    target = at_target + (slope @ residual[:, :, None])[:, :, 0]
+    variance = target_variance - 2.0 * (slope * together).sum(axis=2)
+    variance = variance + ((slope @ source_covariance) * slope).sum(axis=2)
+    apart = there - here
+    shift_variance = _along(apart, of_weights, apart)
+    surprise = residual / np.sqrt(np.diagonal(source_covariance, axis1=1, axis2=2))
+    return at_target - at_source, shift_variance, target, variance, surprise, at_target
+
+
+def _outer(values: np.ndarray) -> np.ndarray:
+    """Products of the b columns of each row, (n, b, b)."""
+    return np.asarray(values[:, :, None] * values[:, None, :])
+
+
+def _along(left: np.ndarray, of_weights: list[np.ndarray], right: np.ndarray) -> np.ndarray:
+    """Covariance of the expectations at two designs (n, m), by score, (n, b)."""
+    return np.stack([((left @ one) * right).sum(axis=1) for one in of_weights], axis=1)
+
+
+def _diagonal(left: np.ndarray, of_weights: list[np.ndarray], right: np.ndarray) -> np.ndarray:
+    """The same as diagonal matrices, (n, b, b)."""
+    return np.asarray(_along(left, of_weights, right)[:, :, None] * np.eye(len(of_weights)))
