@@ -130,8 +130,7 @@ def tables(measured: pd.DataFrame) -> str:
     ]
     if BEFORE.exists():
         parts += [
-            "The same fleets by the translators before the last change (commit 8824abb), which were measured "
-            "on other fleets when they were published:",
+            "The same fleets by the translators before the last change (commit cf4f281):",
             before_and_now(hidden, pd.read_csv(BEFORE)),
         ]
     return "\n\n".join(parts)

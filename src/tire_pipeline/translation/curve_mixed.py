@@ -209,15 +209,17 @@ class CurveMixedModel:
         here = self.regressors(blocks, own)
         now = self.protocols.newest(target, len(table))
         there = self.regressors(self.blocks(table, np.full(len(table), target), now), own)
-        found = [np.empty_like(source) for _ in range(6)]
+        found = np.empty((6, *source.shape))
         for block in linked_blocks(self.space.slices):
-            reading = self._reading(place, self.categories.index(target), block)
-            fitted = tuple(self.fitted[k] for k in block)
-            own_units = source[:, block] / self.scale[block]
-            for whole, part in zip(
-                found, predict_block(fitted, own_units, here, there, likely, trust, reading), strict=True
-            ):
-                whole[:, block] = part
+            found[:, :, block] = predict_block(
+                tuple(self.fitted[k] for k in block),
+                source[:, block] / self.scale[block],
+                here,
+                there,
+                likely,
+                trust,
+                self._reading(place, self.categories.index(target), block),
+            )
         shift, shift_variance, aim, variance, surprise, expected = found
         steps = np.stack([one.mean[columns_of(self, "protocol")] for one in self.fitted], axis=1)
         unsure = self.protocols.unsure(table) @ steps**2
