@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import pkgutil
 import sys
+from collections.abc import Sequence
 from typing import Any
 
 import click
 from kedro.framework.cli.project import run as kedro_run
 
+from tire_pipeline import pipelines
+from tire_pipeline.errors import DomainError
 from tire_pipeline.run_errors import one_line
+
+_BESIDE_FOLDERS = ("__default__", "story")
 
 
 @click.group(name="tire_pipeline")
@@ -20,6 +26,7 @@ def _run(**options: Any) -> Any:
     if options.get("pipeline") and not options.get("pipelines"):
         options["pipelines"], options["pipeline"] = [options["pipeline"]], None
     try:
+        _check_names(options.get("pipelines") or ())
         return kedro_run.callback(**options)  # type: ignore[misc]
     except Exception as error:
         line = one_line(error)
@@ -27,6 +34,14 @@ def _run(**options: Any) -> Any:
             raise
         click.secho(f"error: {line}", fg="red", err=True)
         sys.exit(1)
+
+
+def _check_names(asked: Sequence[str]) -> None:
+    """A misspelt pipeline is an error of one line, not an import that failed somewhere in Kedro."""
+    known = sorted(module.name for module in pkgutil.iter_modules(pipelines.__path__) if module.ispkg)
+    for name in asked:
+        if name not in (*known, *_BESIDE_FOLDERS):
+            raise DomainError(f"there is no pipeline {name!r}", todo=f"use one of {', '.join(known)}")
 
 
 cli.add_command(

@@ -67,6 +67,14 @@ def test_a_misspelt_parameter_is_named(tmp_path):
     assert "binz" in _one_line(kedro(tmp_path, "--params", "bin.binz=3"))
 
 
+@pytest.mark.parametrize("option", ["--pipeline", "--pipelines"])
+def test_a_misspelt_pipeline_is_named_with_those_there_are(tmp_path, option):
+    line = _one_line(kedro(tmp_path, option, "ingest"))
+    assert "no pipeline 'ingest'" in line
+    assert "ingest_tir" in line
+    assert "translate" in line
+
+
 def test_a_binary_file_is_set_aside_and_the_run_goes_on(tmp_path, small_fleet):
     folder = _folder(tmp_path, small_fleet, "A", "B", "D", "E")
     (folder / "data/01_raw/tir/A/bad.tir").write_bytes(bytes(range(256)) * 20)
