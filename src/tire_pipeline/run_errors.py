@@ -61,5 +61,17 @@ def one_line(error: BaseException) -> str | None:
         outermost = next((each for each in errors if isinstance(each, DatasetError)), None)
         if outermost is None:
             return None
-        text = str(outermost)
+        text = _missing(str(outermost))
     return re.sub(r"\s*\n\s*", " | ", f"{prefix}{text}".strip())
+
+
+def _missing(text: str) -> str:
+    """Say of a dataset that no run has made yet what to run first; other texts stay as they are."""
+    found = re.match(r"(.*)Did not find any versions for .*?filepath=\w+\('([^']+)'\)", text, re.DOTALL)
+    if found is None:
+        return text
+    name, path = found.groups()
+    return (
+        f"{name}{path} is not there yet -> run first what makes it: `kedro run` runs the eight pipelines in "
+        "their order (with the same --env)"
+    )

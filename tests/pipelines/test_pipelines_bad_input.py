@@ -75,6 +75,13 @@ def test_a_misspelt_pipeline_is_named_with_those_there_are(tmp_path, option):
     assert "translate" in line
 
 
+def test_a_dataset_that_no_run_has_made_yet_says_what_to_run_first(tmp_path):
+    line = _one_line(kedro(tmp_path, "--pipeline", "represent"))
+    assert "normalized_table" in line
+    assert "not there yet" in line
+    assert "kedro run" in line
+
+
 def test_a_binary_file_is_set_aside_and_the_run_goes_on(tmp_path, small_fleet):
     folder = _folder(tmp_path, small_fleet, "A", "B", "D", "E")
     (folder / "data/01_raw/tir/A/bad.tir").write_bytes(bytes(range(256)) * 20)
