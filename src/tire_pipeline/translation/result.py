@@ -9,8 +9,9 @@ from dataclasses import dataclass, field
 import numpy as np
 import pandas as pd
 
-VERSION = "1"
-"""Version of the translators, written into every translated file."""
+VERSION = "2"
+"""Version of the translators, written into every translated file: another one where the same training files
+give another translation. 2: stiffness and shape are drawn together (:mod:`.fit_links`)."""
 
 TRANSLATED = "translated"
 UNBIASED = "already unbiased"
