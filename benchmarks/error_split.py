@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from bench_translation import Judge, evaluation_table, judge_of, make_judged_fleet, training_of
+from bench_translation import Judge, judge_of, make_judged_fleet, training_of
 from doc_tables import markdown, write_between
 from joblib import Parallel, delayed
 from sklearn.linear_model import RidgeCV
@@ -107,14 +107,15 @@ def split(kind: str, seed: int, tires: int) -> pd.DataFrame:
         what: errors.of(translator._decode(rows, one)) / floor
         for what, one in put_right(every, translator, judged).items()
     }
-    measured = evaluation_table(fleet.truth.first, "tuning")
+    others = {"without pairs": MixedModel().fit(training, target=target, seed=seed)}
+    measured = pd.concat([every.inputs, every.target.drop_duplicates("file")], ignore_index=True)
     tire = measured["file"].str.split("/").str[-1].to_numpy()
-    for more in (-fleet.settings.paired_tires, *MORE_PAIRS):
-        further = measured[np.isin(tire, names[JUDGED : JUDGED + max(more, 0)])]
-        kind_of = PairedMixedModel() if more > 0 else MixedModel()
-        other = kind_of.fit(pd.concat([training, further], ignore_index=True), target=target, seed=seed)
-        count = fleet.settings.paired_tires + more
-        what = f"{count} tires measured by all" if count else "without pairs"
+    for more in MORE_PAIRS:
+        further = measured[np.isin(tire, names[JUDGED : JUDGED + more])]
+        table = pd.concat([training, further], ignore_index=True)
+        what = f"{fleet.settings.paired_tires + more} tires measured by all"
+        others[what] = PairedMixedModel().fit(table, target=target, seed=seed)
+    for what, other in others.items():
         found[what] = errors.of(other._decode(rows, other.predict(rows))) / floor
     return pd.DataFrame.from_dict(found, orient="index", columns=METRICS)
 

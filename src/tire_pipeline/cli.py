@@ -14,8 +14,6 @@ from tire_pipeline import pipelines
 from tire_pipeline.errors import DomainError
 from tire_pipeline.run_errors import one_line
 
-_BESIDE_FOLDERS = ("__default__", "story")
-
 
 @click.group(name="tire_pipeline")
 def cli() -> None:
@@ -40,7 +38,7 @@ def _check_names(asked: Sequence[str]) -> None:
     """A misspelt pipeline is an error of one line, not an import that failed somewhere in Kedro."""
     known = sorted(module.name for module in pkgutil.iter_modules(pipelines.__path__) if module.ispkg)
     for name in asked:
-        if name not in (*known, *_BESIDE_FOLDERS):
+        if name not in (*known, "__default__"):
             raise DomainError(f"there is no pipeline {name!r}", todo=f"use one of {', '.join(known)}")
 
 

@@ -11,7 +11,7 @@ from tire_pipeline.translation.class_question import Question
 from tire_pipeline.translation.class_search import find_classes, with_classes
 from tire_pipeline.translation.curve_mixed import CurveMixedModel, design_blocks
 from tire_pipeline.translation.curve_space import PARTS, Cells, CurveSpace, fit_curve_space
-from tire_pipeline.translation.fit_links import Deviations, FitLinks, find_links, linked_blocks
+from tire_pipeline.translation.fit_links import Deviations, find_links, linked_blocks
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.mixed_effects import Design, Fitted, fit_mixed_effects
 from tire_pipeline.translation.own_spread import FEWEST_SHARED, Residuals, own_spread, shared_cells
@@ -123,7 +123,8 @@ class Prepared:
 
     def model(self, fitted: tuple[Fitted, ...]) -> CurveMixedModel:
         """Give the model with these weights."""
-        spread, alone = _spread_by_category(self.design, self.cells, self.scale, fitted)
+        gaps = _gaps(self.design, self.cells, self.scale, fitted)
+        spread, alone = _spread_by_category(self.design, gaps, fitted)
         return CurveMixedModel(
             self.space,
             self.metadata,
@@ -134,7 +135,10 @@ class Prepared:
             fitted,
             spread,
             alone,
-            _links(self.design, self.cells, self.space, self.scale, fitted, alone),
+            find_links(
+                _deviations(self.design, self.cells, gaps, self.scale, fitted, alone),
+                linked_blocks(self.space.slices),
+            ),
             self.classes,
             self.protocols,
         )
@@ -281,14 +285,16 @@ def _fit_score(
 
 
 def _spread_by_category(
-    design: Design, cells: Cells, scale: np.ndarray, fitted: tuple[Fitted, ...]
+    design: Design, gaps: np.ndarray, fitted: tuple[Fitted, ...]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """How much a category spreads what is the tires' own, and its variance alone, each (categories, p)."""
-    gaps = _gaps(design, cells, scale, fitted)
+    """How much a category spreads what is the tires' own, and its variance alone, each (categories, p).
+
+    ``gaps`` are :func:`_gaps`.
+    """
     count = design.blocks["category"].shape[1]
     category = design.blocks["category"].argmax(axis=1)
     shared = shared_cells(design.tire, category, count)
-    spread, alone = np.ones((count, scale.size)), np.ones((count, scale.size))
+    spread, alone = (np.ones((count, len(fitted))) for _ in range(2))
     for k, one in enumerate(fitted):
         residuals = Residuals(gaps[:, k], category, one.variances["noise"] / design.files, shared)
         spread[:, k], alone[:, k] = own_spread(
@@ -303,16 +309,15 @@ def _gaps(design: Design, cells: Cells, scale: np.ndarray, fitted: tuple[Fitted,
     return cells.scores / scale - x @ np.stack([one.mean[: x.shape[1]] for one in fitted], axis=1)
 
 
-def _links(
+def _deviations(
     design: Design,
     cells: Cells,
-    space: CurveSpace,
+    gaps: np.ndarray,
     scale: np.ndarray,
     fitted: tuple[Fitted, ...],
     alone: np.ndarray,
-) -> FitLinks:
-    """Find what the errors of one fit have to do with each other; ``alone`` is (categories, p)."""
-    gaps = _gaps(design, cells, scale, fitted)
+) -> Deviations:
+    """What tells how errors of one fit belong together; ``alone`` is (categories, p)."""
     own, once, noise = (
         np.array([one.variances[name] for one in fitted]) for name in ("tire", "tire_category", "noise")
     )
@@ -322,8 +327,7 @@ def _links(
     apart -= _means_of(apart, design.blocks["category"][shared])
     spread = np.sqrt(alone[category[shared]] + noise)
     error = once + noise * (1.0 / cells.files).mean()
-    found = Deviations(gaps, cells.repeats / scale, apart / spread, own, error)
-    return find_links(found, linked_blocks(space.slices))
+    return Deviations(gaps, cells.repeats / scale, apart / spread, own, error)
 
 
 def _means_of(values: np.ndarray, member: np.ndarray) -> np.ndarray:

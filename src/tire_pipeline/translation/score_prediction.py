@@ -96,24 +96,24 @@ def _in_class(
     weights = np.stack([one.mean[:count] for one in fitted], axis=1)
     own, noise = (np.sqrt([one.variances[name] for one in fitted]) for name in ("tire", "noise"))
     of_weights = [one.covariance[:count, :count] for one in fitted]
+    from_here, from_there, from_apart = (_times(x, of_weights) for x in (here, there, there - here))
     at_source, at_target = here @ weights, there @ weights
     tire_here, tire_there = reading.mine * own, reading.theirs * own
     alone = _outer(np.sqrt(reading.alone_here)) * reading.error_link
     together = tire_there[:, None] * tire_here[:, None, :] * reading.own_link
-    together = together + reading.same[:, None, None] * alone + _diagonal(here, of_weights, there)
+    together = together + reading.same[:, None, None] * alone + _diagonal(_dot(from_here, there))
     source_covariance = _outer(tire_here) * reading.own_link + alone
     source_covariance = source_covariance + np.outer(noise, noise) * reading.error_link
-    source_covariance = source_covariance + _diagonal(here, of_weights, here)
-    target_variance = _along(there, of_weights, there) + tire_there**2 + reading.alone_there + noise**2
+    source_covariance = source_covariance + _diagonal(_dot(from_here, here))
+    target_variance = _dot(from_there, there) + tire_there**2 + reading.alone_there + noise**2
     drawn = np.linalg.solve(source_covariance, together.transpose(0, 2, 1)).transpose(0, 2, 1)
     slope = np.eye(len(fitted)) - trust * (np.eye(len(fitted)) - drawn)
     residual = source - at_source
     target = at_target + (slope @ residual[:, :, None])[:, :, 0]
     variance = target_variance - 2.0 * (slope * together).sum(axis=2)
     variance = variance + ((slope @ source_covariance) * slope).sum(axis=2)
-    apart = there - here
-    shift_variance = _along(apart, of_weights, apart)
     surprise = residual / np.sqrt(np.diagonal(source_covariance, axis1=1, axis2=2))
+    shift_variance = _dot(from_apart, there - here)
     return at_target - at_source, shift_variance, target, variance, surprise, at_target
 
 
@@ -122,11 +122,16 @@ def _outer(values: np.ndarray) -> np.ndarray:
     return np.asarray(values[:, :, None] * values[:, None, :])
 
 
-def _along(left: np.ndarray, of_weights: list[np.ndarray], right: np.ndarray) -> np.ndarray:
-    """Covariance of the expectations at two designs (n, m), by score, (n, b)."""
-    return np.stack([((left @ one) * right).sum(axis=1) for one in of_weights], axis=1)
+def _times(design: np.ndarray, of_weights: list[np.ndarray]) -> list[np.ndarray]:
+    """A design (n, m) times the covariance of each score's weights."""
+    return [design @ one for one in of_weights]
 
 
-def _diagonal(left: np.ndarray, of_weights: list[np.ndarray], right: np.ndarray) -> np.ndarray:
-    """The same as diagonal matrices, (n, b, b)."""
-    return np.asarray(_along(left, of_weights, right)[:, :, None] * np.eye(len(of_weights)))
+def _dot(left: list[np.ndarray], right: np.ndarray) -> np.ndarray:
+    """Covariance of the expectations at two designs, by score, (n, b): :func:`_times` one, and the other."""
+    return np.stack([(one * right).sum(axis=1) for one in left], axis=1)
+
+
+def _diagonal(values: np.ndarray) -> np.ndarray:
+    """The b columns of each row as a diagonal matrix, (n, b, b)."""
+    return np.asarray(values[:, :, None] * np.eye(values.shape[1]))
