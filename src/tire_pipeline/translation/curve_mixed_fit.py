@@ -39,6 +39,13 @@ TIRE_CATEGORY_SHARE = {"shape": 2.0, "aligning": 9.0}
 The shape of a curve depends on what else was fitted; stiffness and friction hardly do."""
 
 _OTHER_SHARE = 0.5
+
+SPREAD_WIDTH = {"stiffness": 0.02}
+"""How far categories may differ in how they spread what is a tire's own, by part: standard deviation of a
+logarithm. A fit draws shapes as it likes; what a rig does to a stiff tire more than to a soft one is what its
+kind tells (:mod:`.tire_kinds`), and a few dozen tires tell a spread to 10% only."""
+
+_OTHER_WIDTH = 0.2
 _POOLED = ("category", "category_metadata", "category_kind", "category_class")
 _POOLED_WIDTH = 1.0
 _WIDTH = 3.0
@@ -124,7 +131,7 @@ class Prepared:
     def model(self, fitted: tuple[Fitted, ...]) -> CurveMixedModel:
         """Give the model with these weights."""
         gaps = _gaps(self.design, self.cells, self.scale, fitted)
-        spread, alone = _spread_by_category(self.design, gaps, fitted)
+        spread, alone = _spread_by_category(self.design, gaps, fitted, self.space)
         return CurveMixedModel(
             self.space,
             self.metadata,
@@ -237,9 +244,10 @@ def _classes(
     return find_classes(question)
 
 
-def _alone_share(space: CurveSpace, k: int) -> float:
+def _of_part(space: CurveSpace, k: int, values: dict[str, float], other: float) -> float:
+    """Value of the part that score ``k`` belongs to, by a word of its name."""
     part = next(name for name, place in space.slices.items() if place.start <= k < place.stop)
-    return next((share for word, share in TIRE_CATEGORY_SHARE.items() if word in part), _OTHER_SHARE)
+    return next((value for word, value in values.items() if word in part), other)
 
 
 def _fit_scores(design: Design, cells: Cells, space: CurveSpace, scale: np.ndarray) -> tuple[Fitted, ...]:
@@ -271,7 +279,7 @@ def _fit_score(
     alone_known: bool = False,
 ) -> Fitted:
     noise = float(space.noise[k] / scale[k] ** 2)
-    alone = _alone_share(space, k) * noise
+    alone = _of_part(space, k, TIRE_CATEGORY_SHARE, _OTHER_SHARE) * noise
     guess = {**guess, "tire_category": alone}
     estimated = design.tire.shape[1] >= FEWEST_SHARED and not alone_known
     return fit_mixed_effects(
@@ -285,7 +293,7 @@ def _fit_score(
 
 
 def _spread_by_category(
-    design: Design, gaps: np.ndarray, fitted: tuple[Fitted, ...]
+    design: Design, gaps: np.ndarray, fitted: tuple[Fitted, ...], space: CurveSpace
 ) -> tuple[np.ndarray, np.ndarray]:
     """How much a category spreads what is the tires' own, and its variance alone, each (categories, p).
 
@@ -297,8 +305,9 @@ def _spread_by_category(
     spread, alone = (np.ones((count, len(fitted))) for _ in range(2))
     for k, one in enumerate(fitted):
         residuals = Residuals(gaps[:, k], category, one.variances["noise"] / design.files, shared)
+        width = _of_part(space, k, SPREAD_WIDTH, _OTHER_WIDTH)
         spread[:, k], alone[:, k] = own_spread(
-            residuals, one.variances["tire"], one.variances["tire_category"]
+            residuals, one.variances["tire"], one.variances["tire_category"], width
         )
     return spread, alone
 

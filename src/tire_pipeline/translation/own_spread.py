@@ -17,7 +17,6 @@ from scipy.optimize import minimize
 FEWEST_SHARED = 4
 """Fewer tires that several categories measured do not tell what is alone."""
 
-_SPREAD_WIDTH = 0.2  # standard deviation of the logarithm of a category's spread about the common one
 _ALONE_WIDTH = 1.0  # of the logarithm of a category's variance alone about the common one
 _COMMON_WIDTHS = (0.5, 1.0)  # of the common ones about what the mixed model found
 _HELD = 1e-2  # of what is not to be found
@@ -53,7 +52,7 @@ def shared_cells(tire: np.ndarray, category: np.ndarray, categories: int) -> np.
     return place
 
 
-def own_spread(found: Residuals, own: float, alone: float) -> tuple[np.ndarray, np.ndarray]:
+def own_spread(found: Residuals, own: float, alone: float, width: float) -> tuple[np.ndarray, np.ndarray]:
     """Find spread and variance alone of every category, each (categories,), by their posterior's mode.
 
     Parameters
@@ -63,6 +62,8 @@ def own_spread(found: Residuals, own: float, alone: float) -> tuple[np.ndarray, 
         Variance of what is the tires' own, where the spread is 1.
     alone : float
         Variance of what one tire does in one category only, in the mean of the categories.
+    width : float
+        Standard deviation of the logarithm of a category's spread about the common one, beforehand.
     """
     count = found.shared.shape[1]
     single = np.ones(len(found.gap), dtype=bool)
@@ -73,7 +74,7 @@ def own_spread(found: Residuals, own: float, alone: float) -> tuple[np.ndarray, 
         spread, extra = np.exp(logs[0] + logs[2 : 2 + count]), alone * np.exp(logs[1] + logs[2 + count :])
         one = _single_cost(found, single, own, spread, extra)
         several = _shared_cost(found, own, spread, extra)
-        prior, pull = _prior(logs, told)
+        prior, pull = _prior(logs, told, width)
         by_spread, by_extra = one[1] + several[1], one[2] + several[2]
         slope = np.concatenate([[by_spread.sum(), by_extra.sum()], by_spread, by_extra])
         return one[0] + several[0] + prior, slope + pull
@@ -83,10 +84,10 @@ def own_spread(found: Residuals, own: float, alone: float) -> tuple[np.ndarray, 
     return np.exp(logs[0] + logs[2 : 2 + count]), alone * np.exp(logs[1] + logs[2 + count :])
 
 
-def _prior(logs: np.ndarray, told: np.ndarray) -> tuple[float, np.ndarray]:
+def _prior(logs: np.ndarray, told: np.ndarray, width: float) -> tuple[float, np.ndarray]:
     """Cost and slope of the prior; ``told`` (categories,): whose variance alone its shared tires tell."""
     common = [_COMMON_WIDTHS[0], _COMMON_WIDTHS[1] if told.any() else _HELD]
-    spread = np.full(told.size, _SPREAD_WIDTH)
+    spread = np.full(told.size, width)
     widths = np.concatenate([common, spread, np.where(told, _ALONE_WIDTH, _HELD)])
     return 0.5 * float(((logs / widths) ** 2).sum()), logs / widths**2
 

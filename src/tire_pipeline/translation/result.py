@@ -9,9 +9,10 @@ from dataclasses import dataclass, field
 import numpy as np
 import pandas as pd
 
-VERSION = "2"
+VERSION = "3"
 """Version of the translators, written into every translated file: another one where the same training files
-give another translation. 2: stiffness and shape are drawn together (:mod:`.fit_links`)."""
+give another translation. 2: stiffness and shape are drawn together (:mod:`.fit_links`); 3: categories
+spread stiffness alike (:data:`.curve_mixed_fit.SPREAD_WIDTH`)."""
 
 TRANSLATED = "translated"
 UNBIASED = "already unbiased"
