@@ -130,7 +130,7 @@ def tables(measured: pd.DataFrame) -> str:
     ]
     if BEFORE.exists():
         parts += [
-            "The same fleets by the translators before the last change (commit cf4f281):",
+            "The same fleets by the translators before the last change (commit fb7ed00):",
             before_and_now(hidden, pd.read_csv(BEFORE)),
         ]
     return "\n\n".join(parts)
