@@ -223,6 +223,13 @@ def test_what_is_a_tires_own_does_not_depend_on_how_its_category_spreads_it(pair
     np.testing.assert_allclose(model._own(source, place, here)[0], own, rtol=1e-6)
 
 
+def test_categories_spread_stiffness_alike_and_shapes_each_in_its_own_way(paired):
+    slices = paired.model.space.slices
+    apart = {name: np.log(paired.model.spread[:, place]).std(axis=0).max() for name, place in slices.items()}
+    assert max(apart["cornering stiffness"], apart["slip stiffness"]) < 0.02
+    assert min(apart["lateral shape"], apart["longitudinal shape"]) > 0.05
+
+
 @pytest.fixture(scope="module")
 def changed(training):
     """Training files of which E's of the second half show 8% more friction."""

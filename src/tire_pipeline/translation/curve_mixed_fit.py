@@ -46,6 +46,7 @@ logarithm. A fit draws shapes as it likes; what a rig does to a stiff tire more 
 kind tells (:mod:`.tire_kinds`), and a few dozen tires tell a spread to 10% only."""
 
 _OTHER_WIDTH = 0.2
+
 _POOLED = ("category", "category_metadata", "category_kind", "category_class")
 _POOLED_WIDTH = 1.0
 _WIDTH = 3.0
