@@ -19,6 +19,8 @@ TRANSLATORS: dict[str, tuple[str, str]] = {
     "curious_agent": ("tire_pipeline.translation.likelihood_agent", "CuriousAgent"),
     "cycle_consistent": ("tire_pipeline.translation.cycle_consistent", "CycleConsistent"),
     "paired_mixed_model": ("tire_pipeline.translation.curve_translator", "PairedMixedModel"),
+    "batch_mixed_model": ("tire_pipeline.translation.batch_translator", "BatchMixedModel"),
+    "paired_batch_mixed_model": ("tire_pipeline.translation.batch_translator", "PairedBatchMixedModel"),
 }
 """Name of a translator -> module and class; imported only when asked for.
 

@@ -50,6 +50,8 @@ class Prediction:
         What the target would measure of such a tire, from metadata and class alone.
     classes : ndarray, shape (n, k)
         Probability of each class of tire.
+    taught : ndarray, shape (n,)
+        By how many files of other tires in the same batch: 0 but for :mod:`.batch_translator`.
     """
 
     source: np.ndarray
@@ -60,6 +62,7 @@ class Prediction:
     surprise: np.ndarray
     expected: np.ndarray
     classes: np.ndarray
+    taught: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -232,6 +235,7 @@ class CurveMixedModel:
             surprise,
             expected * self.scale,
             likely,
+            np.zeros(len(table)),
         )
 
     def to_state(self) -> dict[str, Any]:

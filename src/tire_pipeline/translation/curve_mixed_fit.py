@@ -11,7 +11,7 @@ from tire_pipeline.translation.class_question import Question
 from tire_pipeline.translation.class_search import find_classes, with_classes
 from tire_pipeline.translation.curve_mixed import CurveMixedModel, design_blocks
 from tire_pipeline.translation.curve_space import PARTS, Cells, CurveSpace, fit_curve_space
-from tire_pipeline.translation.fit_links import Deviations, find_links, linked_blocks
+from tire_pipeline.translation.fit_links import Deviations, FitLinks, find_links, linked_blocks
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.mixed_effects import Design, Fitted, fit_mixed_effects
 from tire_pipeline.translation.own_spread import FEWEST_SHARED, Residuals, own_spread, shared_cells
@@ -131,8 +131,17 @@ class Prepared:
 
     def model(self, fitted: tuple[Fitted, ...]) -> CurveMixedModel:
         """Give the model with these weights."""
-        gaps = _gaps(self.design, self.cells, self.scale, fitted)
-        spread, alone = _spread_by_category(self.design, gaps, fitted, self.space)
+        category = self.design.blocks["category"]
+        spread, alone, links = own_and_links(
+            fitted,
+            _gaps(self.design, self.cells, self.scale, fitted),
+            category.argmax(axis=1),
+            self.design.tire,
+            self.cells.files,
+            self.cells.repeats / self.scale,
+            self.space,
+            category.shape[1],
+        )
         return CurveMixedModel(
             self.space,
             self.metadata,
@@ -143,10 +152,7 @@ class Prepared:
             fitted,
             spread,
             alone,
-            find_links(
-                _deviations(self.design, self.cells, gaps, self.scale, fitted, alone),
-                linked_blocks(self.space.slices),
-            ),
+            links,
             self.classes,
             self.protocols,
         )
@@ -293,51 +299,62 @@ def _fit_score(
     )
 
 
-def _spread_by_category(
-    design: Design, gaps: np.ndarray, fitted: tuple[Fitted, ...], space: CurveSpace
-) -> tuple[np.ndarray, np.ndarray]:
-    """How much a category spreads what is the tires' own, and its variance alone, each (categories, p).
+def own_and_links(
+    fitted: tuple[Fitted, ...],
+    gaps: np.ndarray,
+    category: np.ndarray,
+    shared: np.ndarray,
+    files: np.ndarray,
+    repeats: np.ndarray,
+    space: CurveSpace,
+    categories: int,
+) -> tuple[np.ndarray, np.ndarray, FitLinks]:
+    """How much a category spreads what is the tires' own, its variance alone, and how errors belong together.
 
-    ``gaps`` are :func:`_gaps`.
+    Parameters
+    ----------
+    fitted : tuple of Fitted
+    gaps : ndarray, shape (c, p)
+        Cells less their expectation, what is the tire's own left in, scores in their standard deviations.
+    category : ndarray of int, shape (c,)
+    shared : ndarray, shape (c, t)
+        A column for each tire that several categories measured.
+    files : ndarray, shape (c,)
+    repeats : ndarray, shape (n, p)
+        Files less their cell's location, in the same unit.
+    space : CurveSpace
+    categories : int
+        How many there are.
+
+    Returns
+    -------
+    spread, alone : ndarray, shape (categories, p)
+    links : FitLinks
     """
-    count = design.blocks["category"].shape[1]
-    category = design.blocks["category"].argmax(axis=1)
-    shared = shared_cells(design.tire, category, count)
-    spread, alone = (np.ones((count, len(fitted))) for _ in range(2))
+    place = shared_cells(shared, category, categories)
+    spread, alone = (np.ones((categories, len(fitted))) for _ in range(2))
     for k, one in enumerate(fitted):
-        residuals = Residuals(gaps[:, k], category, one.variances["noise"] / design.files, shared)
+        residuals = Residuals(gaps[:, k], category, one.variances["noise"] / files, place)
         width = _of_part(space, k, SPREAD_WIDTH, _OTHER_WIDTH)
         spread[:, k], alone[:, k] = own_spread(
             residuals, one.variances["tire"], one.variances["tire_category"], width
         )
-    return spread, alone
+    own, once, noise = (
+        np.array([one.variances[name] for one in fitted]) for name in ("tire", "tire_category", "noise")
+    )
+    linked = np.flatnonzero(shared.any(axis=1))
+    apart = gaps[linked] - _means_of(gaps[linked], shared[linked])
+    apart -= _means_of(apart, np.eye(categories)[category[linked]])
+    apart /= np.sqrt(alone[category[linked]] + noise)
+    error = once + noise * (1.0 / files).mean()
+    found = Deviations(gaps, repeats, apart, own, error)
+    return spread, alone, find_links(found, linked_blocks(space.slices))
 
 
 def _gaps(design: Design, cells: Cells, scale: np.ndarray, fitted: tuple[Fitted, ...]) -> np.ndarray:
     """Cells less their expectation, what is the tire's own left in, (cells, p)."""
     x = np.concatenate(list(design.blocks.values()), axis=1)
     return cells.scores / scale - x @ np.stack([one.mean[: x.shape[1]] for one in fitted], axis=1)
-
-
-def _deviations(
-    design: Design,
-    cells: Cells,
-    gaps: np.ndarray,
-    scale: np.ndarray,
-    fitted: tuple[Fitted, ...],
-    alone: np.ndarray,
-) -> Deviations:
-    """What tells how errors of one fit belong together; ``alone`` is (categories, p)."""
-    own, once, noise = (
-        np.array([one.variances[name] for one in fitted]) for name in ("tire", "tire_category", "noise")
-    )
-    category = design.blocks["category"].argmax(axis=1)
-    shared = np.flatnonzero(design.tire.any(axis=1))
-    apart = gaps[shared] - _means_of(gaps[shared], design.tire[shared])
-    apart -= _means_of(apart, design.blocks["category"][shared])
-    spread = np.sqrt(alone[category[shared]] + noise)
-    error = once + noise * (1.0 / cells.files).mean()
-    return Deviations(gaps, cells.repeats / scale, apart / spread, own, error)
 
 
 def _means_of(values: np.ndarray, member: np.ndarray) -> np.ndarray:

@@ -22,6 +22,7 @@ _COMMON_WIDTHS = (0.5, 1.0)  # of the common ones about what the mixed model fou
 _HELD = 1e-2  # of what is not to be found
 _FREEDOM = 6.0  # of the Student distribution: a fit that went astray is no usual tire
 _ABSENT = 1e8
+_FARTHEST = 3.0  # that a logarithm moves: beyond it a covariance may be singular
 
 
 @dataclass(frozen=True)
@@ -80,7 +81,8 @@ def own_spread(found: Residuals, own: float, alone: float, width: float) -> tupl
         return one[0] + several[0] + prior, slope + pull
 
     start = np.zeros(2 + 2 * count)
-    logs = minimize(cost, start, jac=True, method="L-BFGS-B", options={"maxiter": 100}).x
+    bounds = [(-_FARTHEST, _FARTHEST)] * start.size
+    logs = minimize(cost, start, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": 100}).x
     return np.exp(logs[0] + logs[2 : 2 + count]), alone * np.exp(logs[1] + logs[2 + count :])
 
 

@@ -9,10 +9,11 @@ from dataclasses import dataclass, field
 import numpy as np
 import pandas as pd
 
-VERSION = "3"
+VERSION = "4"
 """Version of the translators, written into every translated file: another one where the same training files
 give another translation. 2: stiffness and shape are drawn together (:mod:`.fit_links`); 3: categories
-spread stiffness alike (:data:`.curve_mixed_fit.SPREAD_WIDTH`)."""
+spread stiffness alike (:data:`.curve_mixed_fit.SPREAD_WIDTH`); 4: spreads are bounded, and translators that
+learn from the batch."""
 
 TRANSLATED = "translated"
 UNBIASED = "already unbiased"
@@ -54,8 +55,9 @@ class TranslationResult:
         given),
         ``target``, ``verdict``, ``reason``, ``distance`` (1: at the edge of the training data),
         ``expected_ratio`` (expected squared error of the curves over that of the unchanged file),
-        ``harm_probability``, ``protocol`` (under which of its category's protocols the file was measured, if
-        that changed) and ``changes`` (what moved and why, in words).
+        ``harm_probability``, ``taught`` (by how many files of other tires that were translated with it, see
+        :mod:`.batch_translator`), ``protocol`` (under which of its category's protocols the file was
+        measured, if that changed) and ``changes`` (what moved and why, in words).
     bands : dict of str to Band
         ``fy``, ``fx``, ``mz``; empty if the translator gives none.
     coefficients : DataFrame
@@ -144,6 +146,8 @@ def comment_lines(result: TranslationResult, row: int, names: tuple[str, ...]) -
         f"distance to the training data: {said['distance']:.2f} (1 is its edge)",
         f"hash: {translation_hash(result.table.iloc[row].to_dict(), names)}",
     ]
+    if said.get("taught", 0):
+        lines.append(f"learned also from {said['taught']} files of other tires in the same batch")
     if said.get("protocol", ""):
         lines.append(f"protocol of the source category: {said['protocol']}")
     return [*lines, *(str(said["changes"]).split("; ") if said["changes"] else [])]

@@ -39,14 +39,21 @@ class TranslateParameters(Parameters):
     Attributes
     ----------
     translator : str
-        Which of those that give bands and verdicts.
+        Which of those that give bands and verdicts. The ``batch`` ones learn from the files to translate as
+        well.
     pairs : bool
         May tires that several actors measured be used?
     trials : int
         Most files that are translated; 0 is all.
     """
 
-    translator: Literal["mixed_model", "paired_mixed_model", "likelihood_agent"] = "paired_mixed_model"
+    translator: Literal[
+        "mixed_model",
+        "paired_mixed_model",
+        "batch_mixed_model",
+        "paired_batch_mixed_model",
+        "likelihood_agent",
+    ] = "paired_mixed_model"
     pairs: bool = True
     trials: int = Field(0, ge=0)
 

@@ -1,0 +1,179 @@
+"""Translators that learn from the files they translate: what teaches, what must not, and that it helps."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from tire_pipeline.fleet import FleetSettings, make_fleet
+from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
+from tire_pipeline.tir import read_tir
+from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
+from tire_pipeline.translation.base import make_translator, translator_from_state
+from tire_pipeline.translation.batch_learning import TaughtCells, _updated, learn_from
+from tire_pipeline.translation.batch_translator import BatchMixedModel, PairedBatchMixedModel
+from tire_pipeline.translation.curve_mixed_fit import prepare
+from tire_pipeline.translation.curve_translator import COEFFICIENTS
+from tire_pipeline.translation.mixed_effects import posterior_weights
+from tire_pipeline.translation.result import comment_lines
+
+
+def _table(files):
+    models = ((path, path.split("/")[-2], read_tir(text.encode("latin-1"))) for path, text in files.items())
+    return normalize_table(from_models(models), 6000.0)
+
+
+@pytest.fixture(scope="module")
+def fleet():
+    return make_fleet(FleetSettings(seed=78, files=450, tuning_tires=1, hidden_tires=40))
+
+
+@pytest.fixture(scope="module")
+def training(fleet):
+    return dedupe_and_filter(_table(fleet.files), features=LATERAL_WITHOUT_CAMBER)[0].reset_index(drop=True)
+
+
+@pytest.fixture(scope="module")
+def batch(fleet):
+    return _table({k: v for k, v in fleet.evaluation.items() if k.startswith("hidden")})
+
+
+@pytest.fixture(scope="module")
+def truth(fleet, batch):
+    table = _table({k: v for k, v in fleet.truth.first.items() if k.startswith("hidden/D")})
+    names = batch["file"].str.split("/").str[-1]
+    return table.set_index(table["file"].str.split("/").str[-1]).loc[names].reset_index(drop=True)
+
+
+@pytest.fixture(scope="module")
+def made(training):
+    return {pairs: prepare(training, pairs=pairs) for pairs in (False, True)}
+
+
+@pytest.fixture(scope="module")
+def mixed(training, made):
+    return BatchMixedModel().fit(training, target="D", seed=0, made=made[False])
+
+
+@pytest.fixture(scope="module")
+def paired(training, made):
+    return PairedBatchMixedModel().fit(training, target="D", seed=0, made=made[True])
+
+
+@pytest.fixture(scope="module")
+def found(paired, batch):
+    return paired.predict(batch)
+
+
+def _error(translator, scores, truth):
+    """Squared error of the scores of lateral and longitudinal force, in their standard deviations."""
+    model = translator.model
+    measured, _ = model.space.encode(truth)
+    kept = np.ones(model.scale.size, dtype=bool)
+    kept[model.space.slices["aligning torque"]] = False
+    return (((scores - measured) / model.scale)[:, kept] ** 2).mean()
+
+
+@pytest.mark.parametrize(("name", "alone"), [("mixed", "mixed_model"), ("paired", "paired_mixed_model")])
+def test_what_the_batch_teaches_makes_translations_better(name, alone, request, training, made, batch, truth):
+    translator = request.getfixturevalue(name)
+    plain = make_translator(alone).fit(training, target="D", made=made[name == "paired"])
+    by_file, by_batch = (_error(translator, one.predict(batch).target, truth) for one in (plain, translator))
+    assert by_batch < 0.97 * by_file
+
+
+def test_a_file_alone_is_translated_as_without_a_batch(paired, training, made, batch):
+    plain = make_translator("paired_mixed_model").fit(training, target="D", made=made[True])
+    rows = batch.iloc[[3]]
+    pd.testing.assert_frame_equal(paired.translate(rows), plain.translate(rows), check_exact=True)
+
+
+def test_no_file_of_its_own_tire_has_a_say_and_others_have(paired, batch, found):
+    tire = batch["tire_id"].iloc[0]
+    own = (batch["tire_id"] == tire).to_numpy()
+    changed = batch.copy()
+    changed.loc[own & (np.arange(len(batch)) != 0), "PKY1"] *= 1.1
+    again = paired.predict(changed)
+    np.testing.assert_array_equal(again.target[0], found.target[0])
+    assert np.abs(again.target - found.target)[~own].max() > 0.0
+
+
+def test_what_the_target_measured_of_the_batch_never_teaches(paired, batch, truth, found):
+    """Not even if it lies among the files: what is left is bit for bit what it was without it."""
+    one_each = truth.drop_duplicates("file")
+    result = paired.translation(pd.concat([batch, one_each], ignore_index=True), bands=False)
+    without = paired.translation(batch, bands=False)
+    names = list(COEFFICIENTS)
+    with_it = result.table.iloc[: len(batch)][names]
+    assert with_it.to_numpy().tobytes() == without.table[names].to_numpy().tobytes()
+
+
+def test_who_teaches(paired, training, batch):
+    rows = batch.copy()
+    rows["category_probability"] = 1.0
+    rows.loc[0, "category_probability"] = 0.9
+    rows.loc[1, "tire_id"] = training["tire_id"].iloc[0]
+    rows.loc[2, ["PKY1", "PDY1"]] *= 4.0
+    teaches = paired._teaches(rows, paired.predict(rows))
+    assert not teaches[:3].any()
+    assert teaches[3:].mean() > 0.9
+
+
+def test_files_of_one_tire_in_one_category_are_one_cell(mixed, paired, batch):
+    rows = pd.concat([batch.head(8), batch.head(3)], ignore_index=True)
+    cells = TaughtCells.of_files(paired.model, rows)
+    once = TaughtCells.of_files(paired.model, batch.head(8))
+    np.testing.assert_array_equal(cells.files, [2, 2, 2, 1, 1, 1, 1, 1])
+    np.testing.assert_allclose(cells.scores, once.scores)
+    linked = TaughtCells.of_files(paired.model, batch)
+    assert linked.shared().sum(axis=0).max() == 5  # of five categories
+    assert TaughtCells.of_files(mixed.model, batch).shared().size == 0  # pairs may not be used
+
+
+def test_learning_is_what_a_fit_to_all_cells_gives(mixed, made, batch):
+    """With spreads of 1 and errors alike, conjugate updating is exact: a fit of both gives the same."""
+    model, k = mixed.model, 0
+    one = model.fitted[k]
+    variances = {**one.variances, "tire_category": 0.3}
+    start = posterior_weights(made[False].design, mixed.training.scores[:, k], variances)
+    alike = replace(
+        model,
+        fitted=(start,) * model.scale.size,
+        spread=np.ones_like(model.spread),
+        alone=np.full_like(model.alone, 0.3),
+    )
+    cells = TaughtCells.of_files(model, batch.head(20))
+    cells = replace(cells, scores=np.tile(cells.design @ start.mean[:, None] + 0.1, model.scale.size))
+    learnt = _updated(alike, cells)[k]
+    design = made[False].design
+    ends = np.cumsum([block.shape[1] for block in design.blocks.values()])[:-1]
+    more = dict(zip(design.blocks, np.split(cells.design, ends, axis=1), strict=True))
+    both = replace(
+        design,
+        blocks={name: np.concatenate([block, more[name]]) for name, block in design.blocks.items()},
+        tire=np.zeros((len(design.files) + len(cells), 0)),
+        files=np.concatenate([design.files, cells.files]),
+    )
+    scores = np.concatenate([mixed.training.scores[:, k], cells.scores[:, k]])
+    at_once = posterior_weights(both, scores, variances)
+    np.testing.assert_allclose(learnt.mean, at_once.mean, atol=1e-7)
+    np.testing.assert_allclose(learnt.covariance, at_once.covariance, atol=1e-7)
+
+
+def test_nothing_is_learnt_from_nothing(paired, batch):
+    none = TaughtCells.of_files(paired.model, batch.head(2))
+    none = TaughtCells(**{name: value[:0] for name, value in vars(none).items()})
+    assert learn_from(paired.model, none, paired.training, paired.repeats) is paired.model
+
+
+def test_the_same_after_a_round_trip_and_the_file_says_what_taught(paired, batch):
+    rows = batch.head(30)
+    first = paired.translation(rows, bands=False)
+    back = translator_from_state(paired.to_state()).translation(rows, bands=False)
+    pd.testing.assert_frame_equal(first.table, back.table, check_exact=True)
+    taught = first.report["taught"].iloc[0]
+    assert 0 < taught < 30
+    assert f"learned also from {taught} files of other tires in the same batch" in comment_lines(
+        first, 0, COEFFICIENTS
+    )
