@@ -12,17 +12,15 @@ from pathlib import Path
 import pandas as pd
 from doc_tables import markdown, write_between
 
-from tire_pipeline.reporting.translation_page import check_goals
+from tire_pipeline.reporting.translation_page import MIXED, check_goals
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benchmarks" / "results" / "translation.csv"
-BEFORE = RESULTS.with_name("translation_before.csv")
 PAGE = ROOT / "docs" / "translation.md"
 BEGIN = "<!-- from translation_tables.py -->"
 
 RATIOS = ["ratio_forces", "ratio_cornering_stiffness", "ratio_peak_friction"]
 MORE = ["ratio_forces_camber", "ratio_fx", "ratio_mz"]
-MAIN = ("mixed_model", "paired_mixed_model")
 
 
 def _slashed(values: pd.Series) -> str:
@@ -30,10 +28,10 @@ def _slashed(values: pd.Series) -> str:
 
 
 def by_fleet(hidden: pd.DataFrame) -> str:
-    """Ratios of the two mixed models, the floor and the oracle, by kind and size."""
+    """Ratios of the mixed models, the floor and the oracle, by kind and size."""
     rows = []
     for (kind, size), own in hidden.groupby(["kind", "bias_size"]):
-        for name in (*MAIN, "floor", "oracle"):
+        for name in (*MIXED, "floor", "oracle"):
             mine = own[own["translator"] == name]
             if mine.empty:
                 continue
@@ -70,7 +68,7 @@ def bands_and_refusals(hidden: pd.DataFrame) -> str:
     names = ["coverage_fy", "coverage_fx", "coverage_mz"]
     refusals = ["left_alone", "harmful", "refusal_precision", "refusal_recall"]
     rows = []
-    for (kind, size, name), own in hidden[hidden["translator"].isin(MAIN)].groupby(
+    for (kind, size, name), own in hidden[hidden["translator"].isin(MIXED)].groupby(
         ["kind", "bias_size", "translator"]
     ):
         means = own[[*names, *refusals]].mean()
@@ -86,29 +84,10 @@ def goals(hidden: pd.DataFrame) -> str:
     return markdown(tuple(found.columns), [tuple(map(str, row)) for row in found.to_numpy()])
 
 
-def before_and_now(hidden: pd.DataFrame, before: pd.DataFrame) -> str:
-    """Mean ratios over the floor's on the same fleets, by the translators before the last change and now."""
-    rows = []
-    keys = ["kind", "bias_size", "seed"]
-    old = before[before["set"] == "hidden"].astype({"bias_size": float})
-    now = hidden.merge(old[keys].drop_duplicates(), on=keys)
-    for (kind, size), own in old.groupby(["kind", "bias_size"]):
-        same = now[(now["kind"] == kind) & (now["bias_size"] == size)]
-        floor = same.loc[same["translator"] == "floor", RATIOS].mean()
-        seeds = " ".join(str(seed) for seed in sorted(own["seed"].unique()))
-        for name in MAIN:
-            both = [t[t["translator"] == name] for t in (own, same)]
-            over = [" / ".join(f"{value:.2f}" for value in t[RATIOS].mean() / floor) for t in both]
-            improved = [f"{t['improved'].mean():.3f}" for t in both]
-            rows.append((str(kind), f"{size:g}", name, seeds, *over, *improved))
-    head = ("kind", "size", "translator", "seeds", "before, x floor", "now, x floor")
-    return markdown((*head, "improved before", "improved now"), rows)
-
-
 def tables(measured: pd.DataFrame) -> str:
     """All tables, as markdown."""
     hidden = measured[measured["set"] == "hidden"]
-    main = hidden[hidden["translator"].isin(MAIN)]
+    main = hidden[hidden["translator"].isin(MIXED)]
     fleets = len(main[["kind", "bias_size", "seed"]].drop_duplicates())
     seeds = ", ".join(str(seed) for seed in sorted(main["seed"].unique()))
     refusals = main.dropna(subset=["left_alone"])
@@ -128,11 +107,6 @@ def tables(measured: pd.DataFrame) -> str:
         "Goals:",
         goals(hidden),
     ]
-    if BEFORE.exists():
-        parts += [
-            "The same fleets by the translators before the last change (commit fb7ed00):",
-            before_and_now(hidden, pd.read_csv(BEFORE)),
-        ]
     return "\n\n".join(parts)
 
 

@@ -26,15 +26,21 @@ IN_WORDS = {
     "curious_agent": "agent with random network distillation, no pairs",
     "likelihood_agent": "agent paid in likelihood given the metadata, no pairs",
     "mixed_model": "mixed model conditioned on the metadata, no pairs",
-    "paired_mixed_model": "the same with the tires that several actors measured",
+    "batch_mixed_model": "the same, learning from the files to translate, too",
+    "paired_mixed_model": "mixed model with the tires that several actors measured",
+    "paired_batch_mixed_model": "the same, learning from the files to translate, too",
     "oracle": "oracle: fitted on the hidden truth itself",
     "floor": "floor: the target measures the tire a second time",
 }
+MIXED = ("mixed_model", "batch_mixed_model", "paired_mixed_model", "paired_batch_mixed_model")
 GOALS = (
     ("likelihood_agent", ("additive",), 1.0, (0.30, 0.30, 0.30), 0.85, None),
     ("mixed_model", ("additive", "interacting", "drifting"), 1.0, None, 0.90, 3.0),
+    ("batch_mixed_model", ("additive", "interacting", "drifting"), 1.0, None, 0.90, 3.0),
     ("paired_mixed_model", ("additive", "interacting", "drifting"), 1.0, None, 0.90, 1.5),
     ("paired_mixed_model", ("interacting",), 1.0, (0.30, 0.25, 0.30), None, None),
+    ("paired_batch_mixed_model", ("additive", "interacting", "drifting"), 1.0, None, 0.90, 1.5),
+    ("paired_batch_mixed_model", ("interacting",), 1.0, (0.30, 0.25, 0.30), None, None),
 )
 
 
@@ -104,7 +110,7 @@ def translation_page(
 
 
 def _summary(hidden: pd.DataFrame) -> list[str]:
-    worst = hidden[hidden["translator"].isin(["mixed_model", "paired_mixed_model"])]
+    worst = hidden[hidden["translator"].isin(MIXED)]
     largest = worst[list(RATIOS)].max(axis=1)
     row = worst.loc[largest.idxmax()]
     fleets = len(hidden[["kind", "bias_size", "seed"]].drop_duplicates())
@@ -169,9 +175,11 @@ def check_goals(hidden: pd.DataFrame) -> pd.DataFrame:
                 goal, got = f"improved at least {improved:.2f}", float(means.loc[name, "improved"])
                 best = f"{means.loc['oracle', 'improved']:.2f}"
                 rows.append((name, kind, goal, f"{got:.2f}", best, got >= improved))
-    for name in ("mixed_model", "paired_mixed_model"):
+    for name in MIXED:
         mine = hidden[hidden["translator"] == name]
-        largest = float(mine[list(RATIOS)].max(axis=None)) if len(mine) else np.nan
+        if mine.empty:
+            continue
+        largest = float(mine[list(RATIOS)].max(axis=None))
         rows.append(
             (name, "all kinds and sizes", "no ratio above 1", f"largest {largest:.2f}", "", largest <= 1.0)
         )
@@ -193,7 +201,7 @@ def _bands_and_refusals(hidden: pd.DataFrame) -> pd.DataFrame:
         "refusal_precision": "precision of leaving alone",
         "refusal_recall": "recall of leaving alone",
     }
-    own = hidden[hidden["translator"].isin(["mixed_model", "paired_mixed_model"])]
+    own = hidden[hidden["translator"].isin(MIXED)]
     rows = own.groupby(["kind", "bias_size", "translator"])[list(names)].mean().reset_index()
     return rows.rename(columns={**names, "bias_size": "bias size"}).round(3)
 
@@ -204,7 +212,14 @@ def _by_size(hidden: pd.DataFrame) -> MplFigure:
     for row, kind in zip(np.asarray(axes), kinds, strict=True):
         for axis, (column, what) in zip(row, RATIOS.items(), strict=True):
             for k, name in enumerate(
-                ("mixed_model", "paired_mixed_model", "oracle", "floor", "greedy_forest")
+                (
+                    "mixed_model",
+                    "paired_mixed_model",
+                    "paired_batch_mixed_model",
+                    "oracle",
+                    "floor",
+                    "greedy_forest",
+                )
             ):
                 own = hidden[(hidden["kind"] == kind) & (hidden["translator"] == name)]
                 line = own.groupby("bias_size")[column].mean()

@@ -16,6 +16,7 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.translation.class_question import per_tire
 from tire_pipeline.translation.curve_mixed import CurveMixedModel
 from tire_pipeline.translation.curve_mixed_fit import Prepared, own_and_links
 from tire_pipeline.translation.mixed_effects import Fitted
@@ -66,22 +67,24 @@ class TaughtCells:
     def of_files(cls, model: CurveMixedModel, table: pd.DataFrame) -> Self:
         """Lay out n files of known categories; ``model.pairs`` says whether tires link them.
 
-        A file counts as of each class by that class's probability, and as of the mean kind of tire given
-        metadata and class, like a training file of a tire that one category measured.
+        A file counts as of each class by that class's probability, which all files of its tire tell together,
+        and as of the mean kind of tire given metadata and class, like a training file of a tire that one
+        category measured.
         """
         source, _ = model.space.encode(table)
         category = table["category"].to_numpy(dtype=str)
-        every = model.regressors(model.blocks(table, category, model.protocols.code(table)))
-        likely = model.class_probability(table, source, every)
-        design = sum(likely[:, [k]] * one for k, one in enumerate(every))
-        place = np.array([model.categories.index(name) for name in category])
         names = table["tire_id"].astype(str)
         cell = pd.factorize(category + "|" + names)[0]
+        alike = pd.factorize(names)[0] if model.pairs else cell
+        every = model.regressors(model.blocks(table, category, model.protocols.code(table)))
+        likely = model.class_probability(table, source, every, alike)
+        design = sum(likely[:, [k]] * one for k, one in enumerate(every))
+        place = np.array([model.categories.index(name) for name in category])
         first = np.unique(cell, return_index=True)[1]
-        tire = pd.factorize(names)[0][first] if model.pairs else np.arange(first.size)
+        tire = alike[first]
         return cls(
-            _means(np.asarray(design), cell),
-            _means(source / model.scale, cell),
+            per_tire(np.asarray(design), cell),
+            per_tire(source / model.scale, cell),
             place[first],
             tire,
             np.bincount(cell).astype(float),
@@ -104,12 +107,6 @@ class TaughtCells:
         """Bring back what :meth:`to_state` gave."""
         names = ("design", "scores", "category", "tire", "files")
         return cls(*(np.asarray(state[f"taught_{name}"]) for name in names))
-
-
-def _means(values: np.ndarray, group: np.ndarray) -> np.ndarray:
-    total = np.zeros((group.max() + 1, values.shape[1]))
-    np.add.at(total, group, values)
-    return np.asarray(total / np.bincount(group)[:, None])
 
 
 def learn_from(

@@ -17,6 +17,7 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.translation.class_question import per_tire
 from tire_pipeline.translation.class_search import with_classes
 from tire_pipeline.translation.curve_space import CurveSpace
 from tire_pipeline.translation.fit_links import FitLinks, linked_blocks
@@ -155,22 +156,29 @@ class CurveMixedModel:
         return [source[:, chosen] / self.scale[chosen] - x @ weights for x in here]
 
     def class_probability(
-        self, table: pd.DataFrame, source: np.ndarray, here: list[np.ndarray]
+        self,
+        table: pd.DataFrame,
+        source: np.ndarray,
+        here: list[np.ndarray],
+        tire: np.ndarray | None = None,
     ) -> np.ndarray:
         """Probability of each class of tire, (n, k), given its metadata and its scores (n, p).
 
-        Spread and variance alone are the common ones of all categories, as in the search for the classes: on
-        tuning fleets each category's own made translations 1% worse.
+        ``tire`` (n,) numbers the tires from 0: files of one tell its class together; without it each file is
+        of a tire of its own. Spread and variance alone are the common ones of all categories, as in the
+        search for the classes: on tuning fleets each category's own made translations 1% worse.
         """
         if self.classes is None:
             return np.ones((len(table), 1))
+        tire = np.arange(len(table)) if tire is None else tire
         telling = self.classes.scores
-        gap = np.stack(self._gap(source, telling, here), axis=1)
-        once = [
-            self.fitted[k].variances["tire_category"] + self.fitted[k].variances["noise"] for k in telling
-        ]
-        alone = np.tile(once, (len(table), 1))
-        return self.classes.probability(self.metadata.regressors(table), gap, alone)
+        gap = per_tire(np.stack(self._gap(source, telling, here), axis=1), tire)
+        once = np.array(
+            [self.fitted[k].variances["tire_category"] + self.fitted[k].variances["noise"] for k in telling]
+        )
+        alone = once / np.bincount(tire)[:, None]
+        metadata = per_tire(self.metadata.regressors(table), tire)
+        return self.classes.probability(metadata, gap, alone)[tire]
 
     def _reading(self, place: np.ndarray, target: int, block: np.ndarray) -> Reading:
         """How files of the categories ``place`` (n,), and ``target``, read the scores of ``block``."""
