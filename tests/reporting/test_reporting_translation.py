@@ -57,6 +57,10 @@ def test_harm_is_said(level, word, met):
 def test_a_translator_that_was_not_measured_has_no_goal():
     assert "likelihood_agent" not in goals(measured()).index.get_level_values(0)
     assert "likelihood_agent" in goals(measured(likelihood_agent=0.2)).index.get_level_values(0)
+    assert "paired_batch_mixed_model" not in goals(measured()).index.get_level_values(0)
+    met = goals(measured(paired_batch_mixed_model=0.15))
+    assert met["paired_batch_mixed_model", "drifting", "at most 1.5 x floor"] == "yes"
+    assert met["paired_batch_mixed_model", "all kinds and sizes", "no ratio above 1"] == "yes"
 
 
 def test_bias_and_truth_are_shown_with_intervals():
