@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.fleet import FleetSettings, make_fleet
+from tire_pipeline.pipelines.translate.nodes import TranslateParameters, translate_page
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
@@ -177,3 +178,11 @@ def test_the_same_after_a_round_trip_and_the_file_says_what_taught(paired, batch
     assert f"learned also from {taught} files of other tires in the same batch" in comment_lines(
         first, 0, COEFFICIENTS
     )
+
+
+def test_the_page_says_that_the_files_taught():
+    report = pd.DataFrame({"file": ["E/a.tir"], "verdict": ["refused"]})
+    bands = pd.DataFrame(columns=["file", "output", "normal_load", "slip", "middle", "low", "high"])
+    for name, said in (("paired_batch_mixed_model", True), ("paired_mixed_model", False)):
+        page = translate_page(report, bands, pd.DataFrame(), TranslateParameters(translator=name), "D")
+        assert ("With other files beside it, it would come out a little differently" in page) is said
