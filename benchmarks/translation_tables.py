@@ -16,6 +16,7 @@ from tire_pipeline.reporting.translation_page import MIXED, check_goals
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benchmarks" / "results" / "translation.csv"
+BANDS = RESULTS.with_name("translation_bands.csv")
 PAGE = ROOT / "docs" / "translation.md"
 BEGIN = "<!-- from translation_tables.py -->"
 
@@ -84,6 +85,21 @@ def goals(hidden: pd.DataFrame) -> str:
     return markdown(tuple(found.columns), [tuple(map(str, row)) for row in found.to_numpy()])
 
 
+def bands_since(measured: pd.DataFrame) -> str:
+    """Coverage on the fleets that were measured after the bands had been changed."""
+    rows = []
+    hidden = measured[measured["set"] == "hidden"]
+    for (kind, size, name), own in hidden.groupby(["kind", "bias_size", "translator"]):
+        means = [f"{own[f'coverage_{curve}'].mean():.2f}" for curve in ("fy", "fx", "mz")]
+        rows.append((str(kind), f"{size:g}", str(name), *means))
+    seeds = ", ".join(str(seed) for seed in sorted(hidden["seed"].unique()))
+    head = ("kind", "size", "translator", "fy", "fx", "mz")
+    return (
+        "Bands of the translators without pairs since those of the aligning torque were made wider (above they "
+        f"are as before), seeds {seeds}:\n\n{markdown(head, rows)}"
+    )
+
+
 def tables(measured: pd.DataFrame) -> str:
     """All tables, as markdown."""
     hidden = measured[measured["set"] == "hidden"]
@@ -106,6 +122,7 @@ def tables(measured: pd.DataFrame) -> str:
         bands_and_refusals(hidden),
         "Goals:",
         goals(hidden),
+        *([bands_since(pd.read_csv(BANDS))] if BANDS.exists() else []),
     ]
     return "\n\n".join(parts)
 

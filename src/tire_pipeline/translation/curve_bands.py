@@ -23,15 +23,17 @@ QUANTILE = 1.6449 * 1.04
 """Standard deviations to either side of the middle: those that hold 90% of a Gaussian, and 4% more, since the
 variances are estimates and the errors have longer tails (found on tuning tires)."""
 
-_TORQUE = 1.08
-"""How much wider still those of the aligning torque are: its fits go astray more often (tuning tires)."""
+_TORQUE = {True: 1.08, False: 1.30}
+"""How much wider still those of the aligning torque are, with and without tires that several categories
+measured: its fits go astray more often, and without such tires nothing tells by how much. So that on tuning
+tires the bands hold 90% in the mean of the fleets."""
 
 _REST_SHARE = 1.0  # variance of what the scores leave out, over that of the same between tires
 _LEFT_OUT = 4.0  # CurveSpace.limit is in these deviations
 
 
 def curve_bands(
-    space: CurveSpace, translated: pd.DataFrame, variance: np.ndarray, changed: np.ndarray
+    space: CurveSpace, translated: pd.DataFrame, variance: np.ndarray, changed: np.ndarray, *, pairs: bool
 ) -> dict[str, Band]:
     """Give the bands of lateral force, longitudinal force and aligning torque at zero camber.
 
@@ -44,6 +46,8 @@ def curve_bands(
         Of the target's scores about the translated ones.
     changed : ndarray of bool, shape (n,)
         Files that were translated; the others have no band (NaN).
+    pairs : bool
+        Whether tires that several categories measured told what one tire does in one category alone.
 
     Returns
     -------
@@ -65,7 +69,7 @@ def curve_bands(
         "fx": (longitudinal_force(p, points), _force_deviation(space, features, variance, "longitudinal")),
         "mz": (
             aligning_torque(p, points),
-            _TORQUE * _torque_deviation(space, features, variance, p["UNLOADED_RADIUS"]),
+            _TORQUE[pairs] * _torque_deviation(space, features, variance, p["UNLOADED_RADIUS"]),
         ),
     }
     bands = {}

@@ -178,7 +178,7 @@ class MixedModel:
             out[usable] = values
             return out
 
-        own = curve_bands(self.model.space, table.iloc[usable], found.variance, act)
+        own = curve_bands(self.model.space, table.iloc[usable], found.variance, act, pairs=self.model.pairs)
         return {
             name: Band(b.slip, b.normal_load, spread(b.middle), spread(b.low), spread(b.high))
             for name, b in own.items()
