@@ -95,8 +95,8 @@ def bands_since(measured: pd.DataFrame) -> str:
     seeds = ", ".join(str(seed) for seed in sorted(hidden["seed"].unique()))
     head = ("kind", "size", "translator", "fy", "fx", "mz")
     return (
-        "Bands of the translators without pairs since those of the aligning torque were made wider (above they "
-        f"are as before), seeds {seeds}:\n\n{markdown(head, rows)}"
+        "Bands of the translators without pairs since those of the aligning torque were made wider (above "
+        f"they are as before), seeds {seeds}:\n\n{markdown(head, rows)}"
     )
 
 
