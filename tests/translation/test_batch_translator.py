@@ -16,6 +16,7 @@ from tire_pipeline.translation.batch_learning import TaughtCells, _updated, lear
 from tire_pipeline.translation.batch_translator import BatchMixedModel, PairedBatchMixedModel
 from tire_pipeline.translation.curve_mixed_fit import prepare
 from tire_pipeline.translation.curve_translator import COEFFICIENTS
+from tire_pipeline.translation.leave_one_out import leave_one_tire_out
 from tire_pipeline.translation.mixed_effects import posterior_weights
 from tire_pipeline.translation.result import comment_lines
 
@@ -178,6 +179,17 @@ def test_the_same_after_a_round_trip_and_the_file_says_what_taught(paired, batch
     assert f"learned also from {taught} files of other tires in the same batch" in comment_lines(
         first, 0, COEFFICIENTS
     )
+
+
+def test_leaving_one_tire_out_tells_whether_to_let_a_batch_teach(training, made, paired, batch):
+    """What lies in the batch of the training tires, or of the target, makes no difference."""
+    options = {"pairs": True, "model": paired.model, "made": made[True]}
+    without, with_it = (leave_one_tire_out(training, "D", batch=b, **options) for b in (None, batch))
+    keys = ["tire_id", "source", "error_unchanged"]
+    pd.testing.assert_frame_equal(with_it[keys], without[keys])
+    assert (with_it["error"] != without["error"]).all()
+    more = pd.concat([batch, training.head(20), batch.head(3).assign(category="D")], ignore_index=True)
+    pd.testing.assert_frame_equal(leave_one_tire_out(training, "D", batch=more, **options), with_it)
 
 
 def test_the_page_says_that_the_files_taught():

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.translation.batch_learning import TaughtCells, learn_from
 from tire_pipeline.translation.caution import cautious
 from tire_pipeline.translation.curve_mixed import CurveMixedModel
 from tire_pipeline.translation.curve_mixed_fit import Prepared, fit_curve_mixed_model, prepare
@@ -22,6 +23,7 @@ def leave_one_tire_out(
     pairs: bool,
     model: CurveMixedModel | None = None,
     made: Prepared | None = None,
+    batch: pd.DataFrame | None = None,
 ) -> pd.DataFrame:
     """Translate each tire that the target and others measured by a model that has not seen it.
 
@@ -38,6 +40,9 @@ def leave_one_tire_out(
         Already fitted to ``training`` with the same ``pairs``: saves fitting it again.
     made : Prepared, optional
         What :func:`.curve_mixed_fit.prepare` gave for the same.
+    batch : DataFrame, optional
+        Source files that are to be translated, and teach as in :mod:`.batch_translator`: tells whether to
+        let them. Files of tires that are in ``training`` do not.
 
     Returns
     -------
@@ -60,10 +65,16 @@ def leave_one_tire_out(
         raise DomainError(
             f"no tire of {target} was measured by another category", todo="use the tuning set instead"
         )
-    return pd.concat([_one(made, full, target, tire) for tire in shared], ignore_index=True)
+    cells = None
+    if batch is not None:
+        known = batch["tire_id"].isin(training["tire_id"]) | (batch["category"] == target)
+        cells = TaughtCells.of_files(full, batch[~known])
+    return pd.concat([_one(made, full, target, tire, cells) for tire in shared], ignore_index=True)
 
 
-def _one(made: Prepared, full: CurveMixedModel, target: str, tire: str) -> pd.DataFrame:
+def _one(
+    made: Prepared, full: CurveMixedModel, target: str, tire: str, cells: TaughtCells | None
+) -> pd.DataFrame:
     keep = (made.rows["tire_id"] != tire).to_numpy()
     design = made.design
     columns = design.tire[keep].sum(axis=0) > 1
@@ -77,6 +88,10 @@ def _one(made: Prepared, full: CurveMixedModel, target: str, tire: str) -> pd.Da
         for k in range(made.scale.size)
     )
     model = replace(full, fitted=fitted)
+    if cells is not None:
+        training = TaughtCells.of_training(made)
+        others = TaughtCells(**{name: value[keep] for name, value in vars(training).items()})
+        model = learn_from(model, cells, others, made.cells.repeats / made.scale)
     left = made.rows.loc[~keep]
     sources = left.loc[left["category"] != target]
     found = cautious(model, model.predict(sources, target))
