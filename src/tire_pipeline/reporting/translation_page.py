@@ -124,6 +124,8 @@ def _summary(hidden: pd.DataFrame) -> list[str]:
         f"The mixed model {harm}: its largest ratio anywhere is {largest.max():.2f} ({where}).",
         "The metadata, which is known to be right, is the compass; classes of tires that no metadata "
         "names are found from the curves, the same for all actors (see docs/translation.md).",
+        "Translators that learn from the files to translate have seen the sources' files of the other hidden "
+        "tires, and no file of the target.",
     ]
 
 
