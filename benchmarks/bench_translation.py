@@ -25,6 +25,7 @@ from sklearn.model_selection import GroupKFold, cross_val_predict
 
 from tire_pipeline.evaluation import Curves, curves_of, evaluate_translations
 from tire_pipeline.fleet import Fleet, FleetSettings, make_fleet
+from tire_pipeline.reporting.translation_page import MIXED
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
@@ -43,7 +44,6 @@ from tire_pipeline.translation.pure_slip import (
 from tire_pipeline.translation.result import TRANSLATED, TranslationResult
 
 RESULTS = Path(__file__).parent / "results" / "translation.csv"
-MIXED = ("mixed_model", "paired_mixed_model", "batch_mixed_model", "paired_batch_mixed_model")
 ALWAYS = ("no_change", "greedy_forest", *MIXED)
 AT_CALIBRATED = ("likelihood_agent", "curious_agent", "cycle_consistent")
 _FORCES = {"fy": lateral_force, "fx": longitudinal_force, "mz": aligning_torque}

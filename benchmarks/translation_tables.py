@@ -22,6 +22,7 @@ BEGIN = "<!-- from translation_tables.py -->"
 
 RATIOS = ["ratio_forces", "ratio_cornering_stiffness", "ratio_peak_friction"]
 MORE = ["ratio_forces_camber", "ratio_fx", "ratio_mz"]
+COVERAGE = ["coverage_fy", "coverage_fx", "coverage_mz"]
 
 
 def _slashed(values: pd.Series) -> str:
@@ -64,19 +65,22 @@ def all_translators(hidden: pd.DataFrame) -> str:
     return markdown(head, rows)
 
 
-def bands_and_refusals(hidden: pd.DataFrame) -> str:
-    """Coverage of the bands; how often a file was left alone, and rightly."""
-    names = ["coverage_fy", "coverage_fx", "coverage_mz"]
-    refusals = ["left_alone", "harmful", "refusal_precision", "refusal_recall"]
+def _means_by_case(hidden: pd.DataFrame, columns: list[str]) -> list[tuple[str, ...]]:
+    """Means of columns over the seeds, a row for each kind, size and mixed model; empty where not known."""
     rows = []
     for (kind, size, name), own in hidden[hidden["translator"].isin(MIXED)].groupby(
         ["kind", "bias_size", "translator"]
     ):
-        means = own[[*names, *refusals]].mean()
-        cells = ["" if pd.isna(value) else f"{value:.2f}" for value in means]
+        cells = ["" if pd.isna(value) else f"{value:.2f}" for value in own[columns].mean()]
         rows.append((str(kind), f"{size:g}", str(name), *cells))
+    return rows
+
+
+def bands_and_refusals(hidden: pd.DataFrame) -> str:
+    """Coverage of the bands; how often a file was left alone, and rightly."""
+    refusals = ["left_alone", "harmful", "refusal_precision", "refusal_recall"]
     head = ("kind", "size", "translator", "fy", "fx", "mz", "left alone", "would grow", "precision", "recall")
-    return markdown(head, rows)
+    return markdown(head, _means_by_case(hidden, [*COVERAGE, *refusals]))
 
 
 def goals(hidden: pd.DataFrame) -> str:
@@ -87,11 +91,8 @@ def goals(hidden: pd.DataFrame) -> str:
 
 def bands_since(measured: pd.DataFrame) -> str:
     """Coverage on the fleets that were measured after the bands had been changed."""
-    rows = []
     hidden = measured[measured["set"] == "hidden"]
-    for (kind, size, name), own in hidden.groupby(["kind", "bias_size", "translator"]):
-        means = [f"{own[f'coverage_{curve}'].mean():.2f}" for curve in ("fy", "fx", "mz")]
-        rows.append((str(kind), f"{size:g}", str(name), *means))
+    rows = _means_by_case(hidden, COVERAGE)
     seeds = ", ".join(str(seed) for seed in sorted(hidden["seed"].unique()))
     head = ("kind", "size", "translator", "fy", "fx", "mz")
     return (

@@ -101,7 +101,7 @@ def test_no_file_of_its_own_tire_has_a_say_and_others_have(paired, batch, found)
     assert np.abs(again.target - found.target)[~own].max() > 0.0
 
 
-def test_what_the_target_measured_of_the_batch_never_teaches(paired, batch, truth, found):
+def test_what_the_target_measured_of_the_batch_never_teaches(paired, batch, truth):
     """Not even if it lies among the files: what is left is bit for bit what it was without it."""
     one_each = truth.drop_duplicates("file")
     result = paired.translation(pd.concat([batch, one_each], ignore_index=True), bands=False)
@@ -164,8 +164,7 @@ def test_learning_is_what_a_fit_to_all_cells_gives(mixed, made, batch):
 
 
 def test_nothing_is_learnt_from_nothing(paired, batch):
-    none = TaughtCells.of_files(paired.model, batch.head(2))
-    none = TaughtCells(**{name: value[:0] for name, value in vars(none).items()})
+    none = TaughtCells.of_files(paired.model, batch.head(2)).part(np.arange(0))
     assert learn_from(paired.model, none, paired.training, paired.repeats) is paired.model
 
 
@@ -193,8 +192,9 @@ def test_leaving_one_tire_out_tells_whether_to_let_a_batch_teach(training, made,
 
 
 def test_the_page_says_that_the_files_taught():
-    report = pd.DataFrame({"file": ["E/a.tir"], "verdict": ["refused"]})
+    parameters = TranslateParameters(translator="paired_batch_mixed_model")
     bands = pd.DataFrame(columns=["file", "output", "normal_load", "slip", "middle", "low", "high"])
-    for name, said in (("paired_batch_mixed_model", True), ("paired_mixed_model", False)):
-        page = translate_page(report, bands, pd.DataFrame(), TranslateParameters(translator=name), "D")
+    for taught, said in ((40, True), (0, False)):  # a file alone learns from no other
+        report = pd.DataFrame({"file": ["E/a.tir"], "verdict": ["refused"], "taught": taught})
+        page = translate_page(report, bands, pd.DataFrame(), parameters, "D")
         assert ("With other files beside it, it would come out a little differently" in page) is said

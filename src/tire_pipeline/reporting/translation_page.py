@@ -33,6 +33,14 @@ IN_WORDS = {
     "floor": "floor: the target measures the tire a second time",
 }
 MIXED = ("mixed_model", "batch_mixed_model", "paired_mixed_model", "paired_batch_mixed_model")
+DRAWN = (
+    "mixed_model",
+    "paired_mixed_model",
+    "paired_batch_mixed_model",
+    "oracle",
+    "floor",
+    "greedy_forest",
+)
 GOALS = (
     ("likelihood_agent", ("additive",), 1.0, (0.30, 0.30, 0.30), 0.85, None),
     ("mixed_model", ("additive", "interacting", "drifting"), 1.0, None, 0.90, 3.0),
@@ -213,16 +221,7 @@ def _by_size(hidden: pd.DataFrame) -> MplFigure:
     figure, axes = new_figure(len(kinds), 3, width=9.0, height=2.7 * len(kinds), squeeze=False, sharex=True)
     for row, kind in zip(np.asarray(axes), kinds, strict=True):
         for axis, (column, what) in zip(row, RATIOS.items(), strict=True):
-            for k, name in enumerate(
-                (
-                    "mixed_model",
-                    "paired_mixed_model",
-                    "paired_batch_mixed_model",
-                    "oracle",
-                    "floor",
-                    "greedy_forest",
-                )
-            ):
+            for k, name in enumerate(DRAWN):
                 own = hidden[(hidden["kind"] == kind) & (hidden["translator"] == name)]
                 line = own.groupby("bias_size")[column].mean()
                 axis.plot(

@@ -20,8 +20,7 @@ from tire_pipeline.translation.class_question import per_tire
 from tire_pipeline.translation.curve_mixed import CurveMixedModel
 from tire_pipeline.translation.curve_mixed_fit import Prepared, own_and_links
 from tire_pipeline.translation.mixed_effects import Fitted
-
-_FREEDOM = 6.0  # of the Student distribution: a fit that went astray teaches less
+from tire_pipeline.translation.own_spread import FREEDOM
 
 
 @dataclass(frozen=True)
@@ -51,10 +50,9 @@ class TaughtCells:
     @classmethod
     def of_training(cls, made: Prepared) -> Self:
         """Lay out the training cells."""
-        columns = made.design.tire
-        linked = columns.any(axis=1)
-        tire = np.where(linked, columns.argmax(axis=1) if columns.size else 0, 0)
-        tire[~linked] = columns.shape[1] + np.arange(int((~linked).sum()))
+        linked, column = np.nonzero(made.design.tire)
+        tire = made.design.tire.shape[1] + np.arange(len(made.rows))
+        tire[linked] = column
         return cls(
             np.concatenate(list(made.design.blocks.values()), axis=1),
             made.cells.scores / made.scale,
@@ -92,6 +90,10 @@ class TaughtCells:
 
     def __len__(self) -> int:
         return len(self.scores)
+
+    def part(self, rows: np.ndarray) -> TaughtCells:
+        """Give some of the cells, by their places or a mask."""
+        return TaughtCells(**{name: value[rows] for name, value in vars(self).items()})
 
     def shared(self) -> np.ndarray:
         """Give an indicator column for each tire that more than one cell is of, (c, t)."""
@@ -167,7 +169,7 @@ def _updated(model: CurveMixedModel, cells: TaughtCells) -> tuple[Fitted, ...]:
         reach = np.sqrt(one.variances["tire"]) * model.spread[cells.category, k]
         error = model.alone[cells.category, k] + one.variances["noise"] / cells.files
         expected = reach**2 + error + ((cells.design @ covariance) * cells.design).sum(axis=1)
-        doubt = np.sqrt(np.maximum((_FREEDOM - 2.0 + gap**2 / expected) / (_FREEDOM + 1.0), 1.0))
+        doubt = np.sqrt(np.maximum((FREEDOM - 2.0 + gap**2 / expected) / (FREEDOM + 1.0), 1.0))
         white = _whitened(np.column_stack([cells.design, gap]), groups, reach, error, doubt)
         design, response = white[:, :-1], white[:, -1]
         posterior = np.linalg.inv(np.linalg.inv(covariance) + design.T @ design)

@@ -65,16 +65,21 @@ def leave_one_tire_out(
         raise DomainError(
             f"no tire of {target} was measured by another category", todo="use the tuning set instead"
         )
-    cells = None
+    taught = None
     if batch is not None:
         known = batch["tire_id"].isin(training["tire_id"]) | (batch["category"] == target)
-        cells = TaughtCells.of_files(full, batch[~known])
-    return pd.concat([_one(made, full, target, tire, cells) for tire in shared], ignore_index=True)
+        taught = TaughtCells.of_files(full, batch[~known]), TaughtCells.of_training(made)
+    return pd.concat([_one(made, full, target, tire, taught) for tire in shared], ignore_index=True)
 
 
 def _one(
-    made: Prepared, full: CurveMixedModel, target: str, tire: str, cells: TaughtCells | None
+    made: Prepared,
+    full: CurveMixedModel,
+    target: str,
+    tire: str,
+    taught: tuple[TaughtCells, TaughtCells] | None,
 ) -> pd.DataFrame:
+    """Translate one such tire; ``taught``: cells of the batch, if one teaches, and of the training files."""
     keep = (made.rows["tire_id"] != tire).to_numpy()
     design = made.design
     columns = design.tire[keep].sum(axis=0) > 1
@@ -88,10 +93,9 @@ def _one(
         for k in range(made.scale.size)
     )
     model = replace(full, fitted=fitted)
-    if cells is not None:
-        training = TaughtCells.of_training(made)
-        others = TaughtCells(**{name: value[keep] for name, value in vars(training).items()})
-        model = learn_from(model, cells, others, made.cells.repeats / made.scale)
+    if taught is not None:
+        cells, training = taught
+        model = learn_from(model, cells, training.part(keep), made.cells.repeats / made.scale)
     left = made.rows.loc[~keep]
     sources = left.loc[left["category"] != target]
     found = cautious(model, model.predict(sources, target))

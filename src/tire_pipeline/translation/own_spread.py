@@ -17,10 +17,12 @@ from scipy.optimize import minimize
 FEWEST_SHARED = 4
 """Fewer tires that several categories measured do not tell what is alone."""
 
+FREEDOM = 6.0
+"""Of the Student distribution of a cell: a fit that went astray is no usual tire."""
+
 _ALONE_WIDTH = 1.0  # of the logarithm of a category's variance alone about the common one
 _COMMON_WIDTHS = (0.5, 1.0)  # of the common ones about what the mixed model found
 _HELD = 1e-2  # of what is not to be found
-_FREEDOM = 6.0  # of the Student distribution: a fit that went astray is no usual tire
 _ABSENT = 1e8
 _FARTHEST = 3.0  # that a logarithm moves: beyond it a covariance may be singular
 
@@ -102,8 +104,8 @@ def _single_cost(
     variance = own * spread[place] ** 2 + extra[place] + found.noise[single]
     size = gap**2 / variance
     value = 0.5 * np.log(variance).sum()
-    value += 0.5 * (_FREEDOM + 1.0) * np.log1p(size / (_FREEDOM - 2.0)).sum()
-    slope = 0.5 / variance * (1.0 - (_FREEDOM + 1.0) / (_FREEDOM - 2.0 + size) * size)
+    value += 0.5 * (FREEDOM + 1.0) * np.log1p(size / (FREEDOM - 2.0)).sum()
+    slope = 0.5 / variance * (1.0 - (FREEDOM + 1.0) / (FREEDOM - 2.0 + size) * size)
     by_spread = np.bincount(place, slope * 2.0 * own * spread[place] ** 2, spread.size)
     return float(value), by_spread, np.bincount(place, slope * extra[place], spread.size)
 
@@ -124,8 +126,8 @@ def _shared_cost(
     weighted = (inverse @ gap[:, :, None])[:, :, 0]
     size, known = (weighted * gap).sum(axis=1), there.sum(axis=1)
     value = 0.5 * np.linalg.slogdet(covariance)[1].sum()
-    value += (0.5 * (_FREEDOM + known) * np.log1p(size / (_FREEDOM - 2.0))).sum()
-    trust = (_FREEDOM + known) / (_FREEDOM - 2.0 + size)
+    value += (0.5 * (FREEDOM + known) * np.log1p(size / (FREEDOM - 2.0))).sum()
+    trust = (FREEDOM + known) / (FREEDOM - 2.0 + size)
     slope = 0.5 * (inverse - trust[:, None, None] * weighted[:, :, None] * weighted[:, None, :]) * both
     by_extra = slope[:, diagonal, diagonal].sum(axis=0) * extra
     return float(value), 2.0 * own * ((slope @ spread) * spread).sum(axis=0), by_extra

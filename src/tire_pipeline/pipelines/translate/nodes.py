@@ -225,7 +225,7 @@ def translate_page(
         f"Method: {parameters.translator}, tires measured by several actors "
         + ("used." if parameters.pairs else "not used."),
     ]
-    if "batch" in parameters.translator:
+    if "taught" in report and report["taught"].max() > 0:
         lines.append(
             "The files to translate taught, too: each was translated by what those of other tires say of "
             "their categories. With other files beside it, it would come out a little differently."
