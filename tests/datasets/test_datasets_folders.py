@@ -70,7 +70,7 @@ def test_files_are_found_in_any_case_and_depth(tmp_path):
 
 
 @pytest.mark.skipif(os.name == "nt" or os.geteuid() != 0, reason="needs root to drop rights")
-def test_a_folder_without_permission_is_named(tmp_path):
+def test_a_folder_without_permission_is_named_and_stops_nothing_else(tmp_path):
     locked = tmp_path / "A"
     locked.mkdir(mode=0o700)
     (locked / "one.tir").write_text("x")
@@ -80,9 +80,11 @@ def test_a_folder_without_permission_is_named(tmp_path):
             parent.chmod(0o755)
     code = (
         "import os; from tire_pipeline.datasets import TirFolderDataset;"
-        f"os.setuid(65534); TirFolderDataset(path={str(tmp_path)!r}).load()"
+        f"os.setuid(65534); files = TirFolderDataset(path={str(tmp_path)!r}).load();"
+        "print(list(files)); files['A/']()"
     )
+    (tmp_path / "B.tir").write_text("x")
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert done.returncode != 0
-    assert "may not be read" in done.stderr
+    assert "['A/', 'B.tir']" in done.stdout
+    assert "this folder may not be read (Permission denied)" in done.stderr
     assert str(locked) in done.stderr

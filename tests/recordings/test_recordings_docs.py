@@ -1,11 +1,11 @@
-"""The tables of docs/recordings.md are made from the code; run this file to make them anew."""
+"""The tables of docs/reference/recordings.md are made from the code; run this file to make them anew."""
 
 from pathlib import Path
 
 from tire_pipeline.recordings.channels import CANONICAL, FURTHER
 from tire_pipeline.recordings.units import UNITS, find_unit
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "recordings.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "recordings.md"
 MARK = "<!-- {}: made by tests/recordings/test_recordings_docs.py -->"
 
 

@@ -48,7 +48,7 @@ def test_versions_are_those_of_the_provenance():
 
 @pytest.mark.parametrize("path", PUBLIC, ids=lambda p: p.name)
 def test_forces_are_sensible(path: Path):
-    tire = read_tir(path)
+    tire = read_tir(path, unloaded_radius=0.3)  # one file states none
     load = tire.coefficients["FNOMIN"]
     slip = np.linspace(-0.25, 0.25, 101)
     lateral = tire.forces(normal_load=load, slip_angle=slip)
@@ -98,6 +98,7 @@ def test_what_the_files_lack_is_listed():
     brian = tires["BrianN92__Pacejka-tire-model__example.tir"]
     assert "UNLOADED_RADIUS" in brian.defaulted  # its [DIMENSION] is empty
     assert "UNLOADED_RADIUS" not in brian.coefficients
+    assert "there is no UNLOADED_RADIUS" in " ".join(brian.metadata["warnings"])
     audi = tires["aunyks__tread__audi-temp.tir"]
     assert {"RBX1", "QSX1", "QSY1"} <= set(audi.defaulted)
     assert "TEMPERATURE_COEFFICIENTS.TX1" in audi.metadata

@@ -4,6 +4,7 @@ from tire_pipeline.datasets.computed_folder import ComputedFolderDataset
 from tire_pipeline.datasets.folder import FolderDataset
 from tire_pipeline.datasets.html_page import HtmlPageDataset
 from tire_pipeline.datasets.ingest_store import IngestStoreDataset
+from tire_pipeline.datasets.made_files import MadeFilesDataset
 from tire_pipeline.datasets.recording_folder import RecordingFolderDataset
 from tire_pipeline.datasets.release import ReleaseDataset
 from tire_pipeline.datasets.state import StateDataset
@@ -16,6 +17,7 @@ __all__ = [
     "FolderDataset",
     "HtmlPageDataset",
     "IngestStoreDataset",
+    "MadeFilesDataset",
     "RecordingFolderDataset",
     "ReleaseDataset",
     "StateDataset",

@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 import contextlib
-import fcntl
 from collections.abc import Iterator
 from pathlib import Path
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.runs.system_lock import system_lock
 
 
 @contextlib.contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold ``<folder>/.lock``; the kernel lets go of it when the process ends, even when it is killed."""
+    """Hold ``<folder>/.lock``; the system lets go of it when the process ends, even when it is killed.
+
+    Where the file system has no locks, the run's ticket (:mod:`tire_pipeline.runs`) keeps others away.
+    """
     folder.mkdir(parents=True, exist_ok=True)
-    with open(folder / ".lock", "a+b") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
+    lock = system_lock(folder / ".lock", wait_seconds=-1.0)
+    try:
         yield
+    finally:
+        if lock is not None:
+            lock.release()
 
 
 def refuse_other_revision(found: int, expected: int, where: Path) -> None:

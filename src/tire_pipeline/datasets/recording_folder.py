@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import pandas as pd
 from kedro.io.core import AbstractDataset
 
 from tire_pipeline.errors import DomainError, RecordingError
+from tire_pipeline.folder_walk import walk
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.recordings.read import SUFFIXES
@@ -22,8 +23,9 @@ Pair = tuple[TireModel | None, pd.DataFrame]
 class RecordingFolderDataset(AbstractDataset[None, dict[str, Callable[[], Pair]]]):
     """Gives every recording below a folder, with its tire; it never writes.
 
-    The tire is the ``.tir`` of the same name, else the only one in the same folder. A recording with a
-    ``simulated_fy`` (or ``simulated_fx``) column needs none.
+    The tire is the ``.tir`` of the same name, else the only one in the same folder; the function takes
+    another one, and ``axes``, ``units`` and ``names`` as :func:`tire_pipeline.recordings.read_recording`. A
+    recording with a ``simulated_fy`` (or ``simulated_fx``) column needs no tire.
 
     Parameters
     ----------
@@ -44,15 +46,19 @@ class RecordingFolderDataset(AbstractDataset[None, dict[str, Callable[[], Pair]]
 
     def load(self) -> dict[str, Callable[[], Pair]]:
         """Relative path of each recording to the function that reads it and its tire."""
-        folder = Path(self._path)
-        found = sorted(p for p in folder.rglob("*") if p.is_file() and p.suffix.lower() in SUFFIXES)
-        if not found:
+        found = walk(self._path, lambda name: Path(name).suffix.lower() in SUFFIXES)
+        recordings: dict[str, Callable[[], Pair]] = {
+            name: partial(read_pair, Path(path), root=Path(self._path)) for name, path in found.files.items()
+        }
+        for name, reason in found.aside.items():
+            recordings[name] = partial(_refuse, str(Path(self._path, name)), reason)
+        if not recordings:
             raise DomainError(
                 "there are no recordings below this folder",
                 where=self._path,
                 todo="put <name>/recording.csv and <name>/model.tir there; its README says what is read",
             )
-        return {str(p.relative_to(folder).as_posix()): partial(read_pair, p) for p in found}
+        return dict(sorted(recordings.items()))
 
     def save(self, data: None) -> None:
         """Refuse: the recordings are the user's."""
@@ -65,13 +71,27 @@ class RecordingFolderDataset(AbstractDataset[None, dict[str, Callable[[], Pair]]
         return {"path": self._path}
 
 
-def read_pair(path: Path) -> Pair:
+def read_pair(
+    path: Path,
+    *,
+    root: Path | None = None,
+    tir: str = "",
+    axes: str | None = None,
+    units: Mapping[str, str] | None = None,
+    names: Mapping[str, str] | None = None,
+) -> Pair:
     """Read a recording and the tire that belongs to it.
 
     Parameters
     ----------
     path : Path
         The recording.
+    root : Path, optional
+        The folder of all recordings.
+    tir : str
+        The tire's file, relative to the recording's folder or to ``root``; by the rule above if empty.
+    axes, units, names
+        As for :func:`tire_pipeline.recordings.read_recording`.
 
     Returns
     -------
@@ -83,8 +103,18 @@ def read_pair(path: Path) -> Pair:
     RecordingError, TirError
         If one of them cannot be read, or it is not clear which tire belongs to the recording.
     """
-    recording = read_recording(path)
-    tirs = sorted(p for p in path.parent.iterdir() if p.suffix.lower() == ".tir")
+    recording = read_recording(path, axes=axes, units=units, names=names)
+    if tir:
+        places = [path.parent / tir, (root or path.parent) / tir]
+        stated = next((place for place in places if place.is_file()), None)
+        if stated is None:
+            raise RecordingError(
+                f"the .tir file that belongs to it is not there: {tir}",
+                where=str(path),
+                todo="give it relative to the recording's folder, or to that of all recordings",
+            )
+        return read_tir(stated), recording
+    tirs = sorted(p for p in path.parent.iterdir() if p.suffix.lower() == ".tir" and p.is_file())
     same = [p for p in tirs if p.stem == path.stem]
     chosen = same or tirs
     if len(chosen) == 1:
@@ -96,3 +126,7 @@ def read_pair(path: Path) -> Pair:
         where=str(path),
         todo=f"put one .tir beside it, or name it {path.stem}.tir",
     )
+
+
+def _refuse(path: str, reason: str, **_: object) -> NoReturn:
+    raise RecordingError(reason, where=path, todo="take it out, or put a recording there")

@@ -11,10 +11,10 @@ from kedro.io.core import AbstractDataset
 
 from tire_pipeline.atomic import write_bytes
 from tire_pipeline.datasets._one_at_a_time import locked, refuse_other_revision
-from tire_pipeline.datasets.state import pack_state, unpack_state
 from tire_pipeline.errors import DomainError
 from tire_pipeline.retraining.model import CategoryModel
 from tire_pipeline.retraining.release import KEPT_MODELS, Release, Shelf
+from tire_pipeline.state_files import pack_state, unpack_state
 
 _NAME = re.compile(r"[0-9A-Za-z][0-9A-Za-z.\-]*").fullmatch
 
@@ -29,6 +29,9 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
     ----------
     path : str
         The folder.
+    for_going_back : bool
+        Load the record, and which of its models are unusable, instead of the model in use: that one may be
+        what is gone.
     metadata : dict, optional
         For kedro-viz.
 
@@ -38,23 +41,45 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
         On loading: record or model are damaged. On saving: another run was faster.
     """
 
-    def __init__(self, *, path: str, metadata: dict[str, Any] | None = None) -> None:
+    def __init__(
+        self, *, path: str, for_going_back: bool = False, metadata: dict[str, Any] | None = None
+    ) -> None:
         self._path = path
+        self._for_going_back = for_going_back
         self.metadata = metadata
 
     def load(self) -> Shelf:
         """The record and the model in use; an empty shelf if nothing was released."""
         release = self._record()
+        if self._for_going_back:
+            return Shelf(release, unusable=self._unusable(release))
         if release.current is None:
             return Shelf(release)
-        path = self._model(release.current)
+        return Shelf(release, self._load_model(release.current))
+
+    def _load_model(self, name: str) -> CategoryModel:
+        path = self._model(name)
+        todo = "`kedro run --pipeline rollback` puts the last one back whose file is whole; or bring it back"
         try:
-            content = path.read_bytes()
+            state = unpack_state(path.read_bytes(), where=str(path))
         except FileNotFoundError as error:
-            raise DomainError(
-                "the model in use is gone", where=str(path), todo="roll back, or bring the file back"
-            ) from error
-        return Shelf(release, CategoryModel.from_state(unpack_state(content, where=str(path))))
+            raise DomainError("the model in use is gone", where=str(path), todo=todo) from error
+        except DomainError as error:
+            what = f"{error.what} (the one in use); it is not loaded"
+            raise DomainError(what, where=str(path), todo=todo) from error
+        return CategoryModel.from_state(state)
+
+    def _unusable(self, release: Release) -> dict[str, str]:
+        found: dict[str, str] = {}
+        for name in release.models:
+            path = self._model(name)
+            try:
+                unpack_state(path.read_bytes(), where=str(path))
+            except OSError as error:
+                found[name] = f"gone ({path}: {error.strerror})"
+            except DomainError:
+                found[name] = f"damaged ({path})"
+        return found
 
     def save(self, data: Shelf) -> None:
         """Store the model if it is new, then the record."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import shutil
 from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
@@ -14,13 +15,16 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.progress import track
 
 MARKER = ".made_by_tire_pipeline"
+_HEAD = "Replaced as a whole on the next run. Made:"
 _KEPT = (".gitkeep", "README.md")
+_LONGEST = 255
 
 
 class TextFolderDataset(AbstractDataset[Mapping[str, str | bytes], dict[str, bytes]]):
     """Saves ``{relative path: text}`` as files; loads them back as bytes.
 
-    The folder is replaced whole. A folder that holds anything this project did not make is never touched.
+    The folder is replaced whole, or, with ``keep``, what earlier runs made stays beside what is new. A folder
+    that holds anything this project did not make is never touched.
 
     Parameters
     ----------
@@ -28,13 +32,18 @@ class TextFolderDataset(AbstractDataset[Mapping[str, str | bytes], dict[str, byt
         The folder.
     suffix : str
         Only files with this ending are loaded.
+    keep : bool
+        Keep files of earlier runs until the user removes them.
     metadata : dict, optional
         For kedro-viz.
     """
 
-    def __init__(self, *, path: str, suffix: str = "", metadata: dict[str, Any] | None = None) -> None:
+    def __init__(
+        self, *, path: str, suffix: str = "", keep: bool = False, metadata: dict[str, Any] | None = None
+    ) -> None:
         self._path = path
         self._suffix = suffix
+        self._keep = keep
         self.metadata = metadata
 
     def load(self) -> dict[str, bytes]:
@@ -58,6 +67,8 @@ class TextFolderDataset(AbstractDataset[Mapping[str, str | bytes], dict[str, byt
         self.check()
         folder = Path(self._path)
         with replaced_folder(folder) as temporary:
+            if self._keep and folder.exists():
+                shutil.copytree(folder, temporary, dirs_exist_ok=True)
             for name, text in track(data.items(), f"writing {folder.name}", total=len(data)):
                 target = temporary / _inside(name)
                 target.parent.mkdir(parents=True, exist_ok=True)
@@ -65,7 +76,9 @@ class TextFolderDataset(AbstractDataset[Mapping[str, str | bytes], dict[str, byt
             for name in _KEPT:
                 if (folder / name).exists():
                     shutil.copy2(folder / name, temporary / name)
-            (temporary / MARKER).write_text("Replaced as a whole on the next run.\n")
+            earlier = made_here(folder) if self._keep else set()
+            made = sorted({str(_inside(name)) for name in data} | earlier)
+            (temporary / MARKER).write_text("\n".join([_HEAD, *made, ""]), encoding="utf-8")
 
     def _exists(self) -> bool:
         return Path(self._path).exists()
@@ -80,8 +93,26 @@ def _belongs_to_user(folder: Path) -> bool:
     return any(p.is_file() and p.name not in _KEPT for p in folder.rglob("*"))
 
 
+def made_here(folder: Path) -> set[str]:
+    """Paths, relative to a folder, of the files that this project has put there; read from its marker."""
+    marker = folder / MARKER
+    if not marker.is_file():
+        return set()
+    return set(marker.read_text(encoding="utf-8", errors="replace").splitlines()[1:])
+
+
 def _inside(name: str) -> PurePosixPath:
     path = PurePosixPath(name)
     if path.is_absolute() or ".." in path.parts:
         raise DomainError(f"{name!r} would be written outside of its folder")
-    return path
+    return PurePosixPath(*map(_fitting, path.parts))
+
+
+def _fitting(name: str) -> str:
+    """A name that a file system takes: one over 255 bytes (an escaped one can be) ends in its hash."""
+    if len(name.encode()) <= _LONGEST:
+        return name
+    suffix = "".join(PurePosixPath(name).suffixes)[-40:]
+    digest = hashlib.sha256(name.encode()).hexdigest()[:16]
+    kept = name.encode()[: _LONGEST - len(digest) - 1 - len(suffix.encode())].decode(errors="ignore")
+    return f"{kept}-{digest}{suffix}"

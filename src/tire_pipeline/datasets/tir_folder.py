@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from collections.abc import Callable
-from pathlib import Path
-from typing import Any
+from functools import partial
+from typing import Any, NoReturn
 
 from kedro_datasets.partitions import PartitionedDataset
 
 from tire_pipeline.datasets.tir_file import TirDataset
-from tire_pipeline.errors import DomainError
+from tire_pipeline.errors import DomainError, TirError
+from tire_pipeline.folder_walk import walk
+from tire_pipeline.tir import read_tir
+
+LOG = logging.getLogger(__name__)
 
 
 class TirFolderDataset(PartitionedDataset):
     """A ``PartitionedDataset`` of :class:`TirDataset` that says clearly when there is nothing to read.
 
-    Files are found at any depth, ``.tir`` in any case; hidden files are left out. It never writes.
+    Files are found at any depth, ``.tir`` in any case, each once by its real path; hidden files are left out.
+    What is no regular file, or may not be read, is among the partitions and says so when it is loaded: one
+    entry never stops the rest. Names that are not UTF-8 are escaped
+    (:func:`tire_pipeline.file_names.shown_name`). It never writes.
 
     Parameters
     ----------
@@ -30,7 +38,7 @@ class TirFolderDataset(PartitionedDataset):
     Raises
     ------
     DomainError
-        The folder is absent, empty, or a part of it may not be read.
+        The folder is absent or empty, or may not be read itself.
     """
 
     def __init__(
@@ -41,20 +49,13 @@ class TirFolderDataset(PartitionedDataset):
 
     def _list_partitions(self) -> list[str]:
         if self._cached_partitions is None:
-            if self._protocol == "file":
-                found = _walk(Path(self._path))
-            else:
-                found = self._filesystem.find(self._normalized_path)
-            self._cached_partitions = sorted(p for p in found if p.lower().endswith(".tir"))
+            found = self._filesystem.find(self._normalized_path)
+            self._cached_partitions = sorted(p for p in found if _is_tir(p))
         return self._cached_partitions
 
     def load(self) -> dict[str, Callable[[], Any]]:
         """Partition name (``category/file.tir``) to a function that reads it."""
-        self._invalidate_caches()
-        partitions: dict[str, Callable[[], Any]] = {}
-        for path in self._list_partitions():
-            dataset = TirDataset(filepath=self._join_protocol(path))
-            partitions[self._path_to_partition(path)] = dataset.load
+        partitions = self._local() if self._protocol == "file" else self._remote()
         if not partitions and not self._may_be_absent:
             raise DomainError(
                 "there are no .tir files below this folder",
@@ -63,6 +64,26 @@ class TirFolderDataset(PartitionedDataset):
                 "demonstration fleet with `kedro run --pipeline make_fleet`",
             )
         return partitions
+
+    def _local(self) -> dict[str, Callable[[], Any]]:
+        if not os.path.isdir(self._path):
+            return {}
+        found = walk(self._path, _is_tir)
+        for name, other in found.again.items():
+            LOG.info("%s is a link to %s, which is taken already.", name, other)
+        partitions: dict[str, Callable[[], Any]] = {
+            name: partial(read_tir, path) for name, path in found.files.items()
+        }
+        for name, reason in found.aside.items():
+            partitions[name] = partial(_refuse, os.path.join(self._path, name), reason)
+        return dict(sorted(partitions.items()))
+
+    def _remote(self) -> dict[str, Callable[[], Any]]:
+        self._invalidate_caches()
+        return {
+            self._path_to_partition(path): TirDataset(filepath=self._join_protocol(path)).load
+            for path in self._list_partitions()
+        }
 
     def save(self, data: dict[str, Any]) -> None:
         """Refuse: the files are the user's."""
@@ -75,18 +96,9 @@ class TirFolderDataset(PartitionedDataset):
         return f"TirFolderDataset(path={self._path!r})"
 
 
-def _walk(folder: Path) -> list[str]:
-    def stop(error: OSError) -> None:
-        if isinstance(error, FileNotFoundError):
-            return
-        raise DomainError(
-            f"this folder may not be read ({error.strerror})",
-            where=str(error.filename),
-            todo="allow reading it, or take it out of the folder of .tir files",
-        ) from error
+def _is_tir(name: str) -> bool:
+    return name.lower().endswith(".tir")
 
-    found = []
-    for root, folders, files in os.walk(folder.absolute(), onerror=stop, followlinks=True):
-        folders[:] = sorted(each for each in folders if not each.startswith("."))
-        found += [os.path.join(root, file) for file in files if not file.startswith(".")]
-    return found
+
+def _refuse(path: str, reason: str) -> NoReturn:
+    raise TirError(reason, path=path, todo="take it out, or put a .tir file there")

@@ -26,11 +26,11 @@ def to_iso_w(
     frame: pd.DataFrame,
     origin: dict[str, str],
     constants: dict[str, dict[str, object]],
-    axes: str,
+    axes: str | None,
     notes: list[str],
     conversions: list[str],
     source: str,
-) -> None:
+) -> tuple[str, str]:
     """Turn the forces and moments of `frame` into ISO W, in place, and say what was done.
 
     Parameters
@@ -41,17 +41,26 @@ def to_iso_w(
         By column, the name in the file: its last letter (`FYH`, `MZC`) gives the system.
     constants : dict
         The file's constants; `LOADRAD`, else half of `OVALLDIA`, for the wheel centre's height.
-    axes : {"ISO", "SAE"}
-        System of what the names do not tell.
+    axes : {"ISO", "SAE"}, optional
+        System of what the names do not tell. Left out: ISO is assumed.
+
+    Returns
+    -------
+    said : str
+        In which axes the channels are taken to be, and who says so.
+    doubt : str
+        What in the file speaks against axes that were assumed; "" if nothing does.
 
     Raises
     ------
     RecordingError
         `axes` is not one of those.
     """
-    if axes.upper() not in ("ISO", "SAE"):
+    told = axes is not None
+    if axes is not None and axes.upper() not in ("ISO", "SAE"):
         raise RecordingError(f"axes={axes!r}", todo='choose "ISO" or "SAE"')
-    if axes.upper() == "SAE":
+    axes = (axes or "ISO").upper()
+    if axes == "SAE":
         # SAE J670e: y to the right and z down. Fz is taken as given and looked at below.
         for column in ("slip_angle", "fy", "my", "mz"):
             if column in frame:
@@ -60,12 +69,20 @@ def to_iso_w(
     systems = {c: _system(origin[c]) for c in _COMPONENT if c in frame}
     if "C" in systems.values():
         _c_to_h(frame, systems, notes, conversions)
-    _flip_load(frame, axes, notes, conversions)
+    mirrored = _flip_load(frame, axes, notes, conversions)
     if {"H", "C"} & {s for c, s in systems.items() if c in ("mx", "my", "mz")}:
         _moments_to_contact(frame, systems, constants, notes, conversions)
     bare = [origin[c] for c in systems if systems[c] == "?" and origin[c] not in _COMPONENT]
-    if bare and axes.upper() == "ISO":
+    if bare and axes == "ISO" and not told:
         notes.append(f"{', '.join(bare)}: no axis system given; ISO W assumed")
+    if told:
+        return f"{axes} axes, as stated", ""
+    if systems and "?" not in systems.values():
+        return "axes by the names of the channels (TYDEX)", ""
+    doubt = "Fz is negative throughout in the file, as in SAE axes" if mirrored else ""
+    return "ISO W axes, which nobody has stated" + (
+        f" ({doubt}; only Fz was mirrored)" if doubt else ""
+    ), doubt
 
 
 def _system(name: str) -> str:
@@ -94,22 +111,24 @@ def _c_to_h(frame: pd.DataFrame, systems: dict[str, str], notes: list[str], conv
             notes.append(f"{here[0]} is in C axes and its partner is missing: not turned")
 
 
-def _flip_load(frame: pd.DataFrame, axes: str, notes: list[str], conversions: list[str]) -> None:
+def _flip_load(frame: pd.DataFrame, axes: str, notes: list[str], conversions: list[str]) -> bool:
+    """Mirror a load that is negative throughout; return whether that was done."""
     if "normal_load" not in frame:
-        return
+        return False
     load = frame["normal_load"].to_numpy()
     finite = load[np.isfinite(load) & (load != 0)]
     if finite.size == 0 or (finite > 0).any():
         if finite.size and (finite < 0).any():
             notes.append(f"{(finite < 0).sum()} of {finite.size} normal loads are negative: kept")
-        return
+        return False
     frame["normal_load"] = -load
     conversions.append("normal_load: negative throughout, mirrored (compression is positive)")
-    if axes.upper() == "ISO":
+    if axes == "ISO":
         notes.append(
             "Fz is negative throughout, as in SAE axes; only Fz was mirrored. If the file is in "
             'SAE axes, read it with axes="SAE"'
         )
+    return True
 
 
 def _moments_to_contact(

@@ -41,7 +41,7 @@ def canonical_frame(
     raw: RawRecording,
     *,
     source: str,
-    axes: str = "ISO",
+    axes: str | None = None,
     units: Mapping[str, str] | None = None,
     names: Mapping[str, str] | None = None,
 ) -> pd.DataFrame:
@@ -52,8 +52,8 @@ def canonical_frame(
     raw : RawRecording
     source : str
         The file, for messages and `attrs`.
-    axes : {"ISO", "SAE"}
-        The axes the file is in where its names do not say.
+    axes : {"ISO", "SAE"}, optional
+        The axes the file is in where its names do not say. Left out: ISO W is assumed, and that is said.
     units, names : mapping, optional
         By the file's channel name: the unit that holds, the column that it is.
 
@@ -62,7 +62,7 @@ def canonical_frame(
     DataFrame
         See :func:`tire_pipeline.recordings.read_recording`.
     """
-    notes, conversions = list(raw.notes), []
+    notes, conversions, assumed = list(raw.notes), [], []
     chosen = _assign(raw, dict(names or {}), notes, source)
     columns: dict[str, NDArray[np.float64]] = {}
     unit_names: dict[str, str] = {}
@@ -80,6 +80,7 @@ def canonical_frame(
         columns[column], origin[column] = values, item.name
     if unsaid:
         notes.append(f"no unit given, SI assumed: {', '.join(unsaid)}")
+        assumed.append(f"SI units of {', '.join(unsaid)}, for which the file gives none")
     if not any(name in _SI for name in columns):
         raise RecordingError(
             f"no channel is recognised among {', '.join(c.name for c in raw.channels[:12])!r}",
@@ -87,7 +88,8 @@ def canonical_frame(
             todo="name them with names={'their name': 'slip_angle', ...}",
         )
     frame = _ordered(columns)
-    to_iso_w(frame, origin, raw.constants, axes, notes, conversions, source)
+    axes_said, doubt = to_iso_w(frame, origin, raw.constants, axes, notes, conversions, source)
+    assumed.insert(0, axes_said)
     frame, repeats = _repeats(frame, notes)
     frame = frame.reset_index(drop=True)
     frame.attrs = {
@@ -101,6 +103,8 @@ def canonical_frame(
         "constants": raw.constants,
         "comments": raw.comments,
         "notes": notes,
+        "assumed": assumed,
+        "axes_doubt": doubt,
     }
     return frame
 
@@ -128,6 +132,7 @@ def _assign(
             best[hit[0].name] = (hit[1], index)
     result: list[tuple[RawChannel, Channel | None, str]] = []
     taken: set[str] = set(best)
+    numbers: dict[str, int] = {}
     for index, (item, hit) in enumerate(zip(raw.channels, found, strict=True)):
         if hit and best[hit[0].name][1] == index:
             result.append((item, hit[0], hit[0].name))
@@ -136,9 +141,10 @@ def _assign(
         if hit:
             winner = raw.channels[best[hit[0].name][1]].name
             notes.append(f"{item.name}: {hit[0].name} is taken from {winner}; kept beside it")
-        base, number = column, 2
+        base = column
         while column in taken:
-            column, number = f"{base}_{number}", number + 1
+            numbers[base] = numbers.get(base, 1) + 1
+            column = f"{base}_{numbers[base]}"
         taken.add(column)
         result.append((item, None, column))
     return result

@@ -156,10 +156,10 @@ def _time(frame: pd.DataFrame) -> list[Issue]:
 
 def _values(frame: pd.DataFrame) -> list[Issue]:
     issues = []
-    for column in frame.columns:
-        if not pd.api.types.is_numeric_dtype(frame[column]):
+    for column, series in pd.DataFrame(frame, copy=False).items():  # without attrs: pandas copies them
+        if not pd.api.types.is_numeric_dtype(series):
             continue
-        values = frame[column].to_numpy(dtype=float)
+        values = series.to_numpy(dtype=float)
         bad = ~np.isfinite(values)
         if bad.all() and len(values):
             issues.append(Issue("empty_channel", "warning", str(column), "no number in it: leave it out"))

@@ -16,7 +16,7 @@ from tire_pipeline.recordings.channels import find_channel
 from tire_pipeline.recordings.names import split_unit
 from tire_pipeline.recordings.units import find_unit
 
-_HEAD_BYTES = 1 << 16
+_HEAD_BYTES = (1 << 16, 1 << 20, 1 << 24)  # the next where no row of numbers is whole in the one before
 _MOST_PREAMBLE = 200
 _EMPTY = {"", "nan", "na", "n/a", "null", "none", "-nan", "inf", "-inf", "+inf"}
 _NUMBER = re.compile(r"^[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?$")
@@ -88,9 +88,24 @@ def read_csv(path: Path) -> RawRecording:
 
 
 def _find_layout(path: Path) -> _Layout:
-    with path.open("rb") as file:
-        head = file.read(_HEAD_BYTES)
-        whole = len(head) < _HEAD_BYTES
+    for size in _HEAD_BYTES:
+        with path.open("rb") as file:
+            head = file.read(size)
+        whole = len(head) < size
+        layout = _layout_of(head, whole, path)
+        if layout is not None:
+            return layout
+        if whole:
+            break
+    raise RecordingError(
+        f"no row of numbers in the first {min(len(head.splitlines()), _MOST_PREAMBLE + 20)} lines",
+        where=str(path),
+        todo="give a text table with a header row",
+    )
+
+
+def _layout_of(head: bytes, whole: bool, path: Path) -> _Layout | None:
+    """Where the table begins; None if no row of numbers is whole in this much of the file."""
     encoding = "utf-8-sig"
     if head[:2] in (b"\xff\xfe", b"\xfe\xff"):
         encoding = "utf-16"
@@ -110,11 +125,7 @@ def _find_layout(path: Path) -> _Layout:
         if found and (best is None or found[0] > best[0]):
             best = (*found, delimiter, decimal)
     if best is None:
-        raise RecordingError(
-            f"no row of numbers in the first {len(lines)} lines",
-            where=str(path),
-            todo="give a text table with a header row",
-        )
+        return None
     fields, line, delimiter, decimal = best
     header, units = _header_above(lines, line, fields, delimiter)
     if header is None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import scipy.io
+import scipy
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.canonical import RawChannel, RawRecording

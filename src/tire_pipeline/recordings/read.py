@@ -44,7 +44,7 @@ def read_recording(
     path: str | Path,
     *,
     format: str | None = None,
-    axes: str = "ISO",
+    axes: str | None = None,
     units: Mapping[str, str] | None = None,
     names: Mapping[str, str] | None = None,
 ) -> pd.DataFrame:
@@ -58,9 +58,9 @@ def read_recording(
     path : str or Path
     format : {"TYDEX", "CSV", "MDF4", "MAT", "Parquet"}, optional
         Left out: by content, else by suffix.
-    axes : {"ISO", "SAE"}
+    axes : {"ISO", "SAE"}, optional
         Axes of the file where its names do not tell (TYDEX names do). "SAE" (J670e: y to the
-        right, z down) mirrors slip_angle, fy, my and mz.
+        right, z down) mirrors slip_angle, fy, my and mz. Left out: ISO W is assumed, and `attrs` say so.
     units, names : mapping, optional
         By the file's channel name: its unit (over what the file says), the column that it is.
 
@@ -71,7 +71,8 @@ def read_recording(
         positive), `speed` m/s, `pressure` Pa, `tread_temperature` degC, `fx`, `fy` N, `mx`, `my`,
         `mz` N m those that the file has, then its further channels. `attrs`: `source`, `format`,
         `steady_points`, `channels` (the file's names), `units`, `conversions`, `repeats`,
-        `constants`, `comments`, `notes`.
+        `constants`, `comments`, `notes`, `assumed` (axes and units that nobody has stated),
+        `axes_doubt` (what speaks against the axes that were assumed).
 
     Raises
     ------

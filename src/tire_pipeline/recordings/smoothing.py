@@ -10,9 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.ndimage import binary_dilation, uniform_filter1d
-from scipy.signal import butter, freqz, savgol_coeffs, savgol_filter, sosfiltfilt, sosfreqz
 
 from tire_pipeline.errors import RecordingError
 
@@ -50,26 +49,28 @@ class Smoother:
     @property
     def stop(self) -> float:
         """Frequency above which the long filter passes less than a tenth of the power, Hz."""
-        frequency, response = freqz(savgol_coeffs(self.long, _ORDER), worN=8192)
+        frequency, response = scipy.signal.freqz(scipy.signal.savgol_coeffs(self.long, _ORDER), worN=8192)
         passed = np.flatnonzero(np.abs(response) ** 2 > 0.1)
         return float(frequency[passed[-1]] / (2 * np.pi * self.dt))
 
     def first(self, signal: Array) -> Array:
         """First derivative through the short filter."""
-        return np.asarray(savgol_filter(signal, self.short, _ORDER, deriv=1, delta=self.dt))
+        return np.asarray(scipy.signal.savgol_filter(signal, self.short, _ORDER, deriv=1, delta=self.dt))
 
     def smooth(self, signal: Array, derivative: int = 0) -> Array:
         """The signal, or its derivative, through the long filter."""
-        return np.asarray(savgol_filter(signal, self.long, _ORDER, deriv=derivative, delta=self.dt))
+        return np.asarray(
+            scipy.signal.savgol_filter(signal, self.long, _ORDER, deriv=derivative, delta=self.dt)
+        )
 
     def gain(self, short_derivative: int, long_derivative: int) -> float:
         """Standard deviation at the output for white noise of 1 at the input.
 
         ``short_derivative`` is 1 where the short filter comes first and 0 where it is not used.
         """
-        last = savgol_coeffs(self.long, _ORDER, deriv=long_derivative, delta=self.dt)
+        last = scipy.signal.savgol_coeffs(self.long, _ORDER, deriv=long_derivative, delta=self.dt)
         if short_derivative:
-            last = np.convolve(savgol_coeffs(self.short, _ORDER, deriv=1, delta=self.dt), last)
+            last = np.convolve(scipy.signal.savgol_coeffs(self.short, _ORDER, deriv=1, delta=self.dt), last)
         return float(np.linalg.norm(last))
 
     def rotation_gain(self) -> float:
@@ -78,10 +79,10 @@ class Smoother:
         The yaw's error turns the velocity one way and enters the yaw rate the other way. The two
         cancel but for the difference of the filters that they pass.
         """
-        direct = savgol_coeffs(self.long, _ORDER, deriv=1, delta=self.dt)
+        direct = scipy.signal.savgol_coeffs(self.long, _ORDER, deriv=1, delta=self.dt)
         rate = np.convolve(
-            savgol_coeffs(self.short, _ORDER, deriv=1, delta=self.dt),
-            savgol_coeffs(self.long, _ORDER, deriv=0, delta=self.dt),
+            scipy.signal.savgol_coeffs(self.short, _ORDER, deriv=1, delta=self.dt),
+            scipy.signal.savgol_coeffs(self.long, _ORDER, deriv=0, delta=self.dt),
         )
         return float(np.linalg.norm(rate - np.pad(direct, (self.short - 1) // 2)))
 
@@ -105,14 +106,16 @@ class Smoother:
             return np.ones(rate.size)
         filled = np.interp(np.arange(values.size), np.flatnonzero(finite), values[finite])
         top = min(4.0 * self.bandwidth, 0.45 / self.dt)
-        band = butter(2, (self.bandwidth, top), "bandpass", fs=1.0 / self.dt, output="sos")
+        band = scipy.signal.butter(2, (self.bandwidth, top), "bandpass", fs=1.0 / self.dt, output="sos")
         # Twice, forth and back: the response is squared, and so is its power.
-        passed = np.asarray(sosfiltfilt(band, filled)) ** 2
-        frequency, response = sosfreqz(band, worN=8192)
-        _, first = freqz(savgol_coeffs(self.short, _ORDER, deriv=1, delta=self.dt), worN=frequency)
+        passed = np.asarray(scipy.signal.sosfiltfilt(band, filled)) ** 2
+        frequency, response = scipy.signal.sosfreqz(band, worN=8192)
+        _, first = scipy.signal.freqz(
+            scipy.signal.savgol_coeffs(self.short, _ORDER, deriv=1, delta=self.dt), worN=frequency
+        )
         white = input_std**2 * float(np.mean(np.abs(response) ** 4 * np.abs(first) ** 2))
-        weight = uniform_filter1d(finite.astype(float), length, mode="nearest")
-        local = uniform_filter1d(np.where(finite, passed, 0.0), length, mode="nearest")
+        weight = scipy.ndimage.uniform_filter1d(finite.astype(float), length, mode="nearest")
+        local = scipy.ndimage.uniform_filter1d(np.where(finite, passed, 0.0), length, mode="nearest")
         return np.sqrt(np.maximum(local / np.maximum(weight, 1.0 / length) / white, 1.0))
 
 
@@ -145,7 +148,7 @@ def make_smoother(dt: float, bandwidth: float) -> Smoother:
 
 def half_power(window: int, dt: float) -> float:
     """Half-power frequency, Hz, of a Savitzky-Golay filter of second order."""
-    frequency, response = freqz(savgol_coeffs(window, _ORDER), worN=8192)
+    frequency, response = scipy.signal.freqz(scipy.signal.savgol_coeffs(window, _ORDER), worN=8192)
     below = np.flatnonzero(np.abs(response) ** 2 < 0.5)
     return float(frequency[below[0]] / (2 * np.pi * dt))
 
@@ -172,4 +175,4 @@ def reached_by_gap(missing: NDArray[np.bool_], reach: int, longest: int) -> NDAr
     for start, stop in zip(edges[::2], edges[1::2], strict=True):
         if stop - start > longest:
             bad[start:stop] = True
-    return np.asarray(binary_dilation(bad, iterations=reach)) if bad.any() else bad
+    return np.asarray(scipy.ndimage.binary_dilation(bad, iterations=reach)) if bad.any() else bad

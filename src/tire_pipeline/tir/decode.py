@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-import stat
 from pathlib import Path
 
 from tire_pipeline.errors import TirError, TirSyntaxError
+from tire_pipeline.regular_file import NotRegularError, open_regular
 
 MAX_BYTES = 5_000_000
 """A larger file is refused: real ones have 2 to 60 kB."""
@@ -45,14 +45,11 @@ def load_bytes(source: str | os.PathLike[str] | bytes, path: str | None = None) 
 
 
 def _load_file(file: Path, path: str) -> bytes:
-    with open(file, "rb", opener=_open_without_waiting) as stream:
-        if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
-            raise TirError("is not a regular file", path=path, todo="give a .tir file")
-        return stream.read(MAX_BYTES + 1)
-
-
-def _open_without_waiting(name: str, flags: int) -> int:
-    return os.open(name, flags | getattr(os, "O_NONBLOCK", 0))
+    try:
+        with open_regular(file) as stream:
+            return stream.read(MAX_BYTES + 1)
+    except NotRegularError as error:
+        raise TirError("is not a regular file", path=path, todo="give a .tir file") from error
 
 
 def _too_large(path: str | None) -> TirSyntaxError:

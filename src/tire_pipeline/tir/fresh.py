@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 
-from tire_pipeline.errors import TirValueError
-from tire_pipeline.magic_formula.coefficients import check_values
+from tire_pipeline.magic_formula.coefficients import is_possible
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.tir.escaping import comment_lines, quoted
 from tire_pipeline.tir.keys import DIMENSION, NEVER_COEFFICIENTS, names_coefficient, section_name
@@ -76,15 +75,7 @@ def metadata_entries(metadata: Mapping[str, object]) -> dict[tuple[str, str], st
 def writable_defaults(model: TireModel) -> dict[str, float]:
     """Return what stands in for missing coefficients, without the zeros that no file may hold (a radius,
     PCX1)."""
-    return {name: value for name, value in model.defaulted.items() if _may_be_written(name, value)}
-
-
-def _may_be_written(name: str, value: float) -> bool:
-    try:
-        check_values({"FNOMIN": 1.0, name: value})
-    except TirValueError:
-        return False
-    return True
+    return {name: value for name, value in model.defaulted.items() if is_possible(name, value)}
 
 
 def value_text(value: str | float) -> str:

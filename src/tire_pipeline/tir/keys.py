@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from tire_pipeline.magic_formula.coefficients import INDEX
+
 SECTION_ALIASES = {
     "UNIT": "UNITS",
     "MDI": "MDI_HEADER",
@@ -60,7 +62,7 @@ FORCE_SECTIONS = frozenset(
         "LOADED_RADIUS_COEFFICIENTS",
     ]
 )
-"""Here every value has to be a number."""
+"""Here every value that an equation reads has to be a number."""
 
 COEFFICIENT_SECTIONS = FORCE_SECTIONS | frozenset(
     [
@@ -110,6 +112,17 @@ _FORCE_COEFFICIENT = re.compile(r"[PQRS][A-Z]+\d+").fullmatch
 def names_force_coefficient(key: str) -> bool:
     """Whether a key looks like a p, q, r or s coefficient: letters and a number."""
     return _FORCE_COEFFICIENT(key) is not None
+
+
+def is_in_equations(key: str) -> bool:
+    """Whether some version's equations may read a key: its value must be a number.
+
+    Examples
+    --------
+    >>> is_in_equations("PKY1"), is_in_equations("LMUY"), is_in_equations("CONTACT_MODEL")
+    (True, True, False)
+    """
+    return names_force_coefficient(key) or key in INDEX
 
 
 def names_coefficient(section: str, key: str) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from dataclasses import dataclass, field
 
 from tire_pipeline.errors import TirSyntaxError, TirValueError
@@ -15,6 +16,7 @@ from tire_pipeline.tir.keys import (
     FORCE_SECTIONS,
     KEY_ALIASES,
     NEVER_COEFFICIENTS,
+    is_in_equations,
     names_coefficient,
     names_force_coefficient,
 )
@@ -25,6 +27,7 @@ from tire_pipeline.tir.values import parse_number
 from tire_pipeline.tir.version import detect_version
 
 _MAX_WARNINGS = 100
+_HEADER_IN_COMMENT = re.compile(r"[$!][$! \t]*\[[^\[\]]+\]").match
 _DIVISORS = ("PCX1", "PCY1", "PKY2")
 _FORCES = {"longitudinal": ("PCX1", "PDX1", "PKX1"), "lateral": ("PCY1", "PDY1", "PKY1", "PKY2")}
 
@@ -46,12 +49,14 @@ class Reading:
     factors: dict[str, float] = field(default_factory=dict)
 
 
-def read_tir(source: str | os.PathLike[str] | bytes, *, path: str | None = None) -> TireModel:
+def read_tir(
+    source: str | os.PathLike[str] | bytes, *, path: str | None = None, unloaded_radius: float | None = None
+) -> TireModel:
     """Read a tire property file.
 
     Values become SI (m, N, rad, kg, s, Pa) here, by the file's ``[UNITS]``, and nowhere else. The p, q, r, s
     coefficients and the scale factors are taken as they are (:mod:`tire_pipeline.tir.units`). See
-    ``docs/tir_format.md`` for every rule.
+    ``docs/reference/tir_format.md`` for every rule.
 
     Parameters
     ----------
@@ -59,6 +64,8 @@ def read_tir(source: str | os.PathLike[str] | bytes, *, path: str | None = None)
         The file, or its content.
     path : str, optional
         What to call it in messages and in the model when ``source`` is bytes.
+    unloaded_radius : float, optional
+        ``UNLOADED_RADIUS`` (m) where the file states none. Without it such a file's moments are NaN.
 
     Returns
     -------
@@ -77,7 +84,7 @@ def read_tir(source: str | os.PathLike[str] | bytes, *, path: str | None = None)
         Empty, binary, over 5 MB, or without any Magic Formula coefficient.
     TirValueError
         A coefficient is not a number, is not finite, or has a value that the equations divide by (``FNOMIN =
-        0``, ``PCY1 = 0``); a unit is not known. With file, line and key.
+        0``, ``PCY1 = 0``); a unit is not known. With file, line and key. ``unloaded_radius`` is not positive.
     TirVersionError
         The version is not one that is known.
 
@@ -89,6 +96,7 @@ def read_tir(source: str | os.PathLike[str] | bytes, *, path: str | None = None)
     """
     file = parse_tir(source, path=path)
     reading = interpret(file)
+    _state_radius(reading, unloaded_radius)
     metadata = reading.metadata
     metadata["warnings"] = tuple(_bounded(reading.warnings))
     day = measurement_date(file.text)
@@ -108,6 +116,23 @@ def read_tir(source: str | os.PathLike[str] | bytes, *, path: str | None = None)
         )
     except TirValueError as error:
         raise _with_line(error, reading, file) from None
+
+
+def _state_radius(reading: Reading, radius: float | None) -> None:
+    """Take the caller's radius where the file has none, and say so; say what is lost where nobody has one."""
+    own = reading.coefficients.get("UNLOADED_RADIUS")
+    if own is None and radius is None:
+        reading.warnings.append(
+            "there is no UNLOADED_RADIUS: Mx, My, Mz, the trail and relaxation lengths that are shares of it "
+            "are NaN; state it (m) by read_tir(path, unloaded_radius=...)"
+        )
+    elif own is None and radius is not None:
+        reading.coefficients["UNLOADED_RADIUS"] = radius
+        reading.warnings.append(f"UNLOADED_RADIUS = {radius:g} m is the caller's: the file has none")
+    elif radius is not None and radius != own:
+        reading.warnings.append(
+            f"UNLOADED_RADIUS = {own:g} m is the file's; the caller's {radius:g} m is not used"
+        )
 
 
 def interpret(file: TirFile) -> Reading:
@@ -171,8 +196,10 @@ def _read_entries(scan: Scan, file: TirFile, reading: Reading) -> None:
         factor = factors[dimension] if dimension else 1.0
         number = parse_number(text)
         if number is None:
-            if is_coefficient and (section in FORCE_SECTIONS or dimension):
+            if is_coefficient and (dimension or (section in FORCE_SECTIONS and is_in_equations(key))):
                 raise _not_a_number(entry, file)
+            if section in FORCE_SECTIONS:
+                reading.warnings.append(_text_among_coefficients(entry, scan, file))
             if dimension:
                 reading.warnings.append(f"{key} = {text[:40]!r} is not a number (line {entry.line})")
             metadata[f"{section}.{key}"] = text
@@ -277,6 +304,22 @@ def _note_lines(scan: Scan, reading: Reading) -> None:
             first = seen[section.name]
             reading.warnings.append(f"[{section.name[:40]}] stands twice (lines {first} and {section.line})")
         seen[section.name] = section.line
+
+
+def _text_among_coefficients(entry: Entry, scan: Scan, file: TirFile) -> str:
+    """Say what a text that no equation reads does in a section of numbers."""
+    said = (
+        f"{entry.key} = {entry.value[:40]!r} (line {entry.line}) is a text in [{entry.section}]: kept as "
+        "metadata, no equation reads it"
+    )
+    top = max(each.line for each in scan.sections if each.line < entry.line)
+    headers = [
+        (line, text) for line, text in file.comments if top < line < entry.line and _HEADER_IN_COMMENT(text)
+    ]
+    if headers:
+        line, text = headers[-1]
+        said += f"; the section header above it is commented out ({text[:40]}, line {line})"
+    return said
 
 
 def _not_a_number(entry: Entry, file: TirFile) -> TirValueError:

@@ -14,6 +14,7 @@ only that it is JSON of that form.
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 from collections.abc import Mapping
@@ -21,6 +22,7 @@ from pathlib import Path
 
 from tire_pipeline.atomic import write_bytes
 from tire_pipeline.errors import TirError, TirSyntaxError
+from tire_pipeline.regular_file import open_regular
 
 SUFFIX = ".sidecar.json"
 FORMAT = "tire-pipeline sidecar"
@@ -54,11 +56,13 @@ def read_sidecar(path: str | os.PathLike[str]) -> dict[str, dict[str, object]] |
     """
     file = sidecar_path(path)
     try:
-        with open(file, "rb") as stream:
+        with open_regular(file) as stream:
             data = stream.read(MAX_BYTES + 1)
     except FileNotFoundError:
         return None
     except (OSError, ValueError) as error:
+        if getattr(error, "errno", None) == errno.ENAMETOOLONG:  # no file can have that name
+            return None
         raise TirError(f"cannot be read: {error}", path=str(file)) from error
     if len(data) > MAX_BYTES:
         raise _wrong(file, "is larger than 1 MB")

@@ -1,0 +1,41 @@
+"""Which files of a folder this project has made itself."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, NoReturn
+
+from kedro.io.core import AbstractDataset
+
+from tire_pipeline.datasets.text_folder import made_here
+from tire_pipeline.errors import DomainError
+
+
+class MadeFilesDataset(AbstractDataset[NoReturn, list[str]]):
+    """Loads as the paths of those files in a folder that :class:`.TextFolderDataset` wrote; never written.
+
+    Parameters
+    ----------
+    path : str
+        The folder; it may be absent.
+    metadata : dict, optional
+        For kedro-viz.
+    """
+
+    def __init__(self, *, path: str, metadata: dict[str, Any] | None = None) -> None:
+        self._path = path
+        self.metadata = metadata
+
+    def load(self) -> list[str]:
+        """Paths relative to the folder."""
+        return sorted(made_here(Path(self._path)))
+
+    def save(self, data: NoReturn) -> None:
+        """Refuse: the folder's own dataset writes it."""
+        raise DomainError("this dataset only reads", where=self._path)
+
+    def _exists(self) -> bool:
+        return Path(self._path).exists()
+
+    def _describe(self) -> dict[str, Any]:
+        return {"path": self._path}

@@ -1,0 +1,220 @@
+"""Several recordings of one tire as one, so that one explanation has to hold for all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.recordings.channels import CANONICAL, FURTHER
+
+LEAST_GAP = 1.0
+"""Least time between two recordings that are joined, s."""
+GAP_STEPS = 20.0
+"""The same in sampling steps: enough to be an interruption wherever time is looked at."""
+_SURE = 0.5
+_FORCES = ("fx", "fy", "mx", "my", "mz")
+_SLIPS = {"slip_angle": 0.005, "camber": 0.008, "slip_ratio": 0.01}
+"""Inputs that count as zero where they are not recorded, and the size from which that is wrong, rad or 1."""
+_KNOWN = tuple(channel.name for channel in (*CANONICAL, *FURTHER) if channel.name != "time")
+
+
+def join_recordings(recordings: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
+    """Join recordings of one tire on one rig.
+
+    Each recording follows the one before it after a gap in time, so that no filter, lag or delay runs over
+    the seam. Only channels that all of them have are kept. Recordings of different rates are brought to the
+    slowest by averages of neighbours.
+
+    Parameters
+    ----------
+    recordings : mapping of str to DataFrame
+        Name -> canonical columns in SI, as from :func:`read_recording`, in the order they were recorded in.
+
+    Returns
+    -------
+    DataFrame
+        One row a sample, new index. ``attrs["joined"]`` lists ``name``, ``first`` and ``last`` (rows) and
+        ``offset`` (s, added to the recording's own time) of each; ``attrs["notes"]`` says which channels were
+        left out and what else was done.
+
+    Raises
+    ------
+    RecordingError
+        Some have ``time`` and others do not; time does not rise; one has no force or load in common with the
+        others; a slip or camber that varies in one is missing from another; the axes of two differ.
+
+    Examples
+    --------
+    >>> run = pd.DataFrame(
+    ...     {"time": [0.0, 0.1], "normal_load": [4e3, 4e3], "slip_angle": 0.01, "fy": -800.0}
+    ... )
+    >>> join_recordings({"a": run, "b": run})["time"].tolist()
+    [0.0, 0.1, 2.1, 2.2]
+    """
+    if not recordings:
+        raise RecordingError("there is no recording to join", todo="give at least one")
+    recordings = {name: frame.dropna(axis=1, how="all") for name, frame in recordings.items()}
+    timed = {name for name, frame in recordings.items() if "time" in frame}
+    if timed and len(timed) < len(recordings):
+        without = ", ".join(name for name in recordings if name not in timed)
+        raise RecordingError(
+            f"{without} has no time, other recordings have",
+            todo="explain steady points and runs over time apart",
+        )
+    notes: list[str] = []
+    columns = _common(recordings, notes)
+    _one_axis_system(recordings)
+    parts = {name: frame[columns] for name, frame in recordings.items()}
+    if timed:
+        parts = _one_rate(parts, notes)
+    return _laid_end_to_end(parts, recordings, bool(timed), notes)
+
+
+def _common(recordings: Mapping[str, pd.DataFrame], notes: list[str]) -> list[str]:
+    """Columns of all recordings, in the first one's order; note or refuse what some lack."""
+    frames = list(recordings.values())
+    common = [str(c) for c in frames[0].columns if all(c in frame for frame in frames)]
+    for channel in _KNOWN:
+        lacking = [name for name, frame in recordings.items() if channel not in frame]
+        if not 0 < len(lacking) < len(frames):
+            continue
+        moving = [name for name, frame in recordings.items() if channel in frame and _moves(frame, channel)]
+        if channel in _SLIPS and moving:
+            raise RecordingError(
+                f"{channel} is not zero in {moving[0]}, and missing from {lacking[0]}: it would count as 0",
+                where=channel,
+                todo="name the channel, or leave one of the two recordings out",
+            )
+        note = f"{channel} is left out: {', '.join(lacking)} {_have(lacking)} none"
+        if moving and channel not in _FORCES:
+            note += f". It varies in {', '.join(moving)}: what depends on it cannot be told there"
+        notes.append(note)
+    missing = [what for what, names in _NEEDED.items() if not set(names) & set(common)]
+    if missing:
+        raise RecordingError(
+            f"{' and '.join(missing)} is not in all of {', '.join(recordings)}",
+            todo="name the channels, or explain the recordings apart",
+        )
+    return common
+
+
+_NEEDED = {"a force": ("fx", "fy"), "normal_load": ("normal_load",)}
+
+
+def _have(names: list[str]) -> str:
+    return "has" if len(names) == 1 else "have"
+
+
+def _moves(frame: pd.DataFrame, channel: str) -> bool:
+    values = frame[channel].to_numpy(dtype=float)
+    values = values[np.isfinite(values)]
+    if values.size == 0:
+        return False
+    low, high = np.quantile(values, [0.01, 0.99])
+    if channel in _SLIPS:
+        return bool(max(abs(low), abs(high)) > _SLIPS[channel])
+    return bool(high - low > 0.03 * max(abs(low), abs(high)))
+
+
+def _one_axis_system(recordings: Mapping[str, pd.DataFrame]) -> None:
+    """Refuse recordings in which a positive slip makes forces of different signs: their axes differ."""
+    for slip, force in (("slip_angle", "fy"), ("slip_ratio", "fx")):
+        signs: dict[float, str] = {}
+        for name, frame in recordings.items():
+            if slip not in frame or force not in frame or not _moves(frame, slip):
+                continue
+            pair = frame[[slip, force]].to_numpy(dtype=float)
+            pair = pair[np.isfinite(pair).all(axis=1)]
+            if len(pair) < 3 or np.any(np.ptp(pair, axis=0) == 0.0):
+                continue
+            together = float(np.corrcoef(pair.T)[0, 1])
+            if abs(together) > _SURE:
+                signs.setdefault(float(np.sign(together)), name)
+        if len(signs) > 1:
+            raise RecordingError(
+                f"a positive {slip} gives a positive {force} in {signs[1.0]}, a negative in {signs[-1.0]}",
+                where=force,
+                todo='the axes differ: read one of them with axes="SAE", or leave it out',
+            )
+
+
+def _one_rate(parts: Mapping[str, pd.DataFrame], notes: list[str]) -> dict[str, pd.DataFrame]:
+    """Average neighbours of the faster recordings, so that all have about the rate of the slowest."""
+    steps = {name: _step(name, frame) for name, frame in parts.items()}
+    slowest = max(steps.values())
+    result = dict(parts)
+    for name, step in steps.items():
+        count = round(slowest / step)
+        if count > 1:
+            result[name] = _averaged(parts[name], step, count)
+            notes.append(
+                f"{name}: {count} samples each averaged, {1 / step:.4g} to {1 / (step * count):.4g} Hz"
+            )
+    return result
+
+
+def _step(name: str, frame: pd.DataFrame) -> float:
+    time = frame["time"].to_numpy(dtype=float)
+    steps = np.diff(time[np.isfinite(time)])
+    if steps.size == 0 or np.any(steps <= 0.0):
+        raise RecordingError(
+            "time does not rise from sample to sample",
+            where=name,
+            todo="sort the recording and drop repeated rows, or split it where time begins anew",
+        )
+    return float(np.median(steps))
+
+
+def _averaged(frame: pd.DataFrame, step: float, count: int) -> pd.DataFrame:
+    """Mean of each ``count`` neighbours; nothing is averaged over a gap."""
+    time = frame["time"].to_numpy(dtype=float)
+    frame = frame[np.isfinite(time)]
+    time = time[np.isfinite(time)]
+    piece = np.cumsum(np.diff(time, prepend=time[0]) > 3.5 * step)
+    within = np.arange(time.size) - np.searchsorted(piece, piece)
+    numbers = frame.select_dtypes("number")
+    groups = numbers.groupby([piece, within // count])
+    return groups.mean()[(groups.size() == count).to_numpy()].reset_index(drop=True)
+
+
+def _laid_end_to_end(
+    parts: Mapping[str, pd.DataFrame],
+    recordings: Mapping[str, pd.DataFrame],
+    timed: bool,
+    notes: list[str],
+) -> pd.DataFrame:
+    laid: list[pd.DataFrame] = []
+    joined: list[dict[str, object]] = []
+    row, end = 0, 0.0
+    for name, frame in parts.items():
+        offset = 0.0
+        if timed:
+            time = frame["time"].to_numpy(dtype=float)
+            gap = max(LEAST_GAP, GAP_STEPS * float(np.nanmedian(np.diff(time)))) if laid else 0.0
+            offset = end + gap - float(np.nanmin(time)) if laid else 0.0
+            frame = frame.assign(time=time + offset)
+            end = float(np.nanmax(frame["time"]))
+        joined.append({"name": name, "first": row, "last": row + len(frame) - 1, "offset": offset})
+        row += len(frame)
+        laid.append(frame)
+    if timed and len(laid) > 1:
+        notes.append(
+            f"{len(laid)} recordings were joined in the order {', '.join(parts)}; heat, wear and drift go on "
+            "from one to the next, as if nothing happened between them"
+        )
+    said: dict[str, list[str]] = {}
+    for name, frame in recordings.items():
+        for note in frame.attrs.get("notes", []):
+            said.setdefault(note, []).append(name)
+    notes += [f"{', '.join(names)}: {note}" for note, names in said.items()]
+    result = pd.concat([frame.reset_index(drop=True) for frame in laid], ignore_index=True)
+    result.attrs = {"joined": joined, "notes": notes, "steady_points": not timed}
+    frames = recordings.values()
+    assumed = dict.fromkeys(text for frame in frames for text in frame.attrs.get("assumed", []))
+    doubts = dict.fromkeys(str(frame.attrs.get("axes_doubt", "")) for frame in frames)
+    if assumed:
+        result.attrs |= {"assumed": list(assumed), "axes_doubt": "; ".join(filter(None, doubts))}
+    return result
