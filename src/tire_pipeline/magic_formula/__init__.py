@@ -8,14 +8,14 @@ from tire_pipeline.magic_formula.axes import AXES
 from tire_pipeline.magic_formula.batch import forces_batch, model_of, pack, pack_matrix
 from tire_pipeline.magic_formula.coefficients import COEFFICIENT_NAMES
 from tire_pipeline.magic_formula.convert import conversion_notes, to_version
-from tire_pipeline.magic_formula.forces import TireForces
+from tire_pipeline.magic_formula.forces import MissingRadiusWarning, TireForces
 from tire_pipeline.magic_formula.inputs import DegreesWarning, TireRangeWarning
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.nominal_load import changed_coefficients, nominal_load_changed
 from tire_pipeline.magic_formula.numpy_form import OUTPUTS
 
 if TYPE_CHECKING:
-    from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula
+    from tire_pipeline.magic_formula.fitting import FitResult, PoorFitWarning, fit_magic_formula
 
 __all__ = [
     "AXES",
@@ -23,6 +23,8 @@ __all__ = [
     "OUTPUTS",
     "DegreesWarning",
     "FitResult",
+    "MissingRadiusWarning",
+    "PoorFitWarning",
     "TireForces",
     "TireModel",
     "TireRangeWarning",
@@ -40,7 +42,7 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     """Import the fitter, and with it SciPy's optimizers, only when it is asked for."""
-    if name in ("FitResult", "fit_magic_formula"):
+    if name in ("FitResult", "PoorFitWarning", "fit_magic_formula"):
         from tire_pipeline.magic_formula import fitting
 
         return getattr(fitting, name)

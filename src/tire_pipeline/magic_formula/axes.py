@@ -6,7 +6,8 @@
 - adapted SAE (Pacejka's book): the SAE axes, but a positive slip angle is a contact point that moves to the
   left, so that it gives a positive side force.
 
-Camber is positive in all three when the wheel's top leans to the right. docs/axes.md shows each sign.
+Camber is positive in all three when the wheel's top leans to the right. docs/reference/axes.md shows
+each sign.
 """
 
 from __future__ import annotations

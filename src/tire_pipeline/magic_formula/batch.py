@@ -13,6 +13,7 @@ from tire_pipeline.magic_formula.coefficients import (
     COEFFICIENT_NAMES,
     INDEX,
     family_of,
+    is_possible,
     missing_defaults,
     pack_mapping,
 )
@@ -150,7 +151,13 @@ def model_of(vector: np.ndarray, version: str, metadata: Mapping[str, object] | 
     from tire_pipeline.magic_formula.model import TireModel
 
     used = NAMES_BY_FAMILY[family_of(version)]
-    coefficients = {name: float(vector[INDEX[name]]) for name in used}
+    given = {name: float(vector[INDEX[name]]) for name in used}
+    neutral = missing_defaults({}, version)
+    coefficients = {  # what no model may state and only stands in is missing: a radius of NaN, PCX1 = 0
+        name: value
+        for name, value in given.items()
+        if is_possible(name, value) or not np.array_equal(value, neutral[name], equal_nan=True)
+    }
     extensions = {name: float(vector[INDEX[name]]) for name in EXTENSIONS_6}
     coefficients.update({name: value for name, value in extensions.items() if value != 0})
     return TireModel.from_coefficients(coefficients, version, metadata)

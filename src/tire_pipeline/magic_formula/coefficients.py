@@ -137,7 +137,7 @@ Coefficients.__doc__ = "All coefficients by name, as the equations read them."
 
 _DEFAULTS = dict.fromkeys(COEFFICIENT_NAMES, 0.0)
 _DEFAULTS.update(dict.fromkeys(SCALE_FACTORS, 1.0))
-_DEFAULTS.update(PKY4=2.0, QSY7=1.0, LONGVL=16.7)
+_DEFAULTS.update(PKY4=2.0, QSY7=1.0, LONGVL=16.7, UNLOADED_RADIUS=np.nan)
 
 RANGES: dict[str, tuple[str, str]] = {
     "slip_angle": ("ALPMIN", "ALPMAX"),
@@ -173,7 +173,8 @@ def missing_defaults(coefficients: Mapping[str, float], version: str) -> dict[st
     """Return the coefficients that the version's equations use and that are missing, with what stands in.
 
     A missing scale factor is 1, ``PKY4`` 2 and ``QSY7`` 1 (both give the 5.2 form), ``LONGVL`` 16.7 m/s,
-    ``NOMPRES`` takes ``INFLPRES`` and the other way round, everything else 0.
+    ``NOMPRES`` takes ``INFLPRES`` and the other way round, everything else 0. Nothing stands in for
+    ``UNLOADED_RADIUS``: it is NaN, and so is what needs it.
     """
     missing = {
         name: _DEFAULTS[name] for name in NAMES_BY_FAMILY[family_of(version)] if name not in coefficients
@@ -222,6 +223,15 @@ def check_values(coefficients: Mapping[str, float], path: str | None = None) -> 
                 path=path,
                 todo="give the tire's own value, or leave the key out where the force is not modelled",
             )
+
+
+def is_possible(name: str, value: float) -> bool:
+    """Whether a file or model may state this value, see :func:`check_values`."""
+    try:
+        check_values({"FNOMIN": 1.0, name: value})
+    except TirValueError:
+        return False
+    return True
 
 
 def pack_mapping(coefficients: Mapping[str, float], defaulted: Mapping[str, float]) -> np.ndarray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tire_pipeline.errors import TirValueError, TirVersionError
-from tire_pipeline.magic_formula.coefficients import NAMES_BY_FAMILY, family_of
+from tire_pipeline.magic_formula.coefficients import NAMES_BY_FAMILY, family_of, is_possible
 
 if TYPE_CHECKING:
     from tire_pipeline.magic_formula.model import TireModel
@@ -92,6 +92,7 @@ def _renamed(model: TireModel, version: str, coefficients: dict[str, float]) -> 
 
 def _as_61(model: TireModel) -> dict[str, float]:
     used = {name: model.value(name) for name in NAMES_BY_FAMILY[5]}
+    used = {name: value for name, value in used.items() if is_possible(name, value)}
     if used["LMX"] == 0:
         raise TirValueError("LMX = 0: QSX1 cannot be kept in 6.1", key="LMX", path=model.path)
     lgax, lgay, lgaz = (used.pop(name) for name in ("LGAX", "LGAY", "LGAZ"))

@@ -1,7 +1,7 @@
 """Magic Formula 5.2 (and PAC2002, 5.0, 5.1): the thesis' Appendix A, equations (A.1) to (A.72), in order.
 
 Each function works on arrays of operating points or on one of them. Where the printed appendix slips, the
-right form stands here and the docstring names the equation; docs/magic_formula.md lists them all.
+right form stands here and the docstring names the equation; docs/explanation/magic_formula.md lists them all.
 """
 
 from __future__ import annotations

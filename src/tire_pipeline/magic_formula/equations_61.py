@@ -2,7 +2,7 @@
 (4.E78).
 
 Angles enter as they are (alpha* = alpha, gamma* = gamma), as MF-Tyre does. Where MF-Tyre and the book
-differ, the equations follow MF-Tyre; docs/magic_formula.md lists every such place.
+differ, the equations follow MF-Tyre; docs/explanation/magic_formula.md lists every such place.
 """
 
 from __future__ import annotations

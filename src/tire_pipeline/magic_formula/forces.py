@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -23,8 +24,20 @@ _BUFFER = 32768
 """Points at a time where the arguments have to be broadcast against each other."""
 
 
+NEEDS_RADIUS = ("mx", "my", "mz", "trail", "relaxation_lateral", "relaxation_longitudinal")
+"""Outputs that are proportional to ``UNLOADED_RADIUS``; turn slip needs it for all outputs."""
+
+_BY_CARCASS = {
+    "relaxation_lateral": "LATERAL_STIFFNESS",
+    "relaxation_longitudinal": "LONGITUDINAL_STIFFNESS",
+}  # MF 6.1 takes these instead of the radius where it has them
+_STACK_LEVEL = 4
 _POINT = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure", "turn_slip")
 _NUMBERS = frozenset((float, int, np.float64))
+
+
+class MissingRadiusWarning(UserWarning):
+    """Moments are NaN because the model has no ``UNLOADED_RADIUS``."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +49,8 @@ class TireForces:
     fx, fy : float or ndarray
         Longitudinal and lateral force (N).
     mx, my, mz : float or ndarray
-        Overturning, rolling resistance and aligning moment (N m).
+        Overturning, rolling resistance and aligning moment (N m); NaN where the model has no
+        ``UNLOADED_RADIUS``, and so are the trail and what else is a share of the radius.
     trail : float or ndarray
         Pneumatic trail (m).
     friction_x, friction_y : float or ndarray
@@ -87,7 +101,13 @@ def tire_forces(
     elif pressure is None:
         pressure = model.value("NOMPRES")
     point = (slip_angle, slip_ratio, camber, normal_load, speed, pressure)
-    if model.simple and axes == "ISO" and side is None and turn_slip.__class__ in _NUMBERS:
+    if (
+        model.simple
+        and not model.lacks_radius
+        and axes == "ISO"
+        and side is None
+        and turn_slip.__class__ in _NUMBERS
+    ):
         quick = _one_point(model, point, turn_slip, limits, outputs)
         if quick is not None:
             return quick
@@ -99,6 +119,8 @@ def tire_forces(
     arrays, largest = inputs.apply_limits(arrays, model.ranges, limits, flipped)
     turn = arrays.pop("turn_slip")
     turning = sixth and bool(turn.any() if turn.ndim else turn)
+    if model.lacks_radius:
+        _warn_of_radius(model, wanted, turning)
     values = _evaluate(
         model,
         [*arrays.values(), turn * signs.turn_slip] if turning else list(arrays.values()),
@@ -132,6 +154,24 @@ def _one_point(
     if outputs is None:
         return TireForces(*values)
     return TireForces(**{name: values[OUTPUTS.index(name)] for name in checked_outputs(outputs)})
+
+
+def _warn_of_radius(model: TireModel, wanted: Sequence[str], turning: bool) -> None:
+    lost = [name for name in wanted if turning or _needs_radius(model, name)]
+    if not lost:
+        return
+    place = f" of {model.path}" if model.path else ""
+    warnings.warn(
+        f"the model{place} has no UNLOADED_RADIUS: {', '.join(lost)} are NaN; state the radius (m) by "
+        "model.replace(UNLOADED_RADIUS=...) or read_tir(path, unloaded_radius=...)",
+        MissingRadiusWarning,
+        stacklevel=_STACK_LEVEL,
+    )
+
+
+def _needs_radius(model: TireModel, name: str) -> bool:
+    carcass = _BY_CARCASS.get(name) if model.family == 6 else None
+    return name in NEEDS_RADIUS and not (carcass and model.value(carcass) != 0)
 
 
 @lru_cache(maxsize=16)

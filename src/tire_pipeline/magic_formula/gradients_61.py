@@ -12,7 +12,7 @@ from tire_pipeline.magic_formula.ops import (
 from tire_pipeline.magic_formula.unpacking import unpack
 
 BLOCK = 64
-STAMP = "ceff17bb97818aa3"
+STAMP = "e9b824e641dbc5b9"
 OVER = {
     "fx": (
         "FNOMIN",

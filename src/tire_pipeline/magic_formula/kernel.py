@@ -211,18 +211,17 @@ def _held(x):
 
 @njit(error_model="numpy", forceinline=True)
 def _unloaded(values, loaded):
-    on = 1.0 if loaded else 0.0
     return (
-        values[0] * on,
-        values[1] * on,
-        values[2] * on,
-        values[3] * on,
-        values[4] * on,
-        values[5] * on,
-        values[6] * on,
-        values[7] * on,
-        values[8] * on,
-        values[9] * on,
-        values[10] * on,
-        values[11] * on,
+        values[0] if loaded else 0.0,
+        values[1] if loaded else 0.0,
+        values[2] if loaded else 0.0,
+        values[3] if loaded else 0.0,
+        values[4] if loaded else 0.0,
+        values[5] if loaded else 0.0,
+        values[6] if loaded else 0.0,
+        values[7] if loaded else 0.0,
+        values[8] if loaded else 0.0,
+        values[9] if loaded else 0.0,
+        values[10] if loaded else 0.0,
+        values[11] if loaded else 0.0,
     )

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -25,8 +25,11 @@ from tire_pipeline.magic_formula.engine import compiles
 from tire_pipeline.magic_formula.forces import TireForces, tire_forces
 from tire_pipeline.magic_formula.nominal_load import nominal_load_changed
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class TireModel:
     """A Magic Formula tire model.
 
@@ -85,7 +88,7 @@ class TireModel:
         ----------
         coefficients : mapping of str to float
             By ``.tir`` name, SI units. ``FNOMIN`` must be there; what else is missing is filled in and
-            listed in ``defaulted`` (scale factors 1, PKY4 2, QSY7 1, others 0).
+            listed in ``defaulted`` (scale factors 1, PKY4 2, QSY7 1, ``UNLOADED_RADIUS`` NaN, others 0).
         version : str
         metadata : mapping, optional
 
@@ -101,6 +104,20 @@ class TireModel:
     def __reduce__(self) -> tuple[Any, ...]:
         parts = (dict(self.coefficients), dict(self.defaulted), dict(self.metadata))
         return TireModel, (self.version, *parts, self.source, self.path)
+
+    def __repr__(self) -> str:
+        where = f"{self.path!r}, " if self.path else ""
+        return (
+            f"TireModel({where}version {self.version!r}, FNOMIN = {self.value('FNOMIN'):g} N, "
+            f"{len(self.coefficients)} coefficients, {len(self.defaulted)} missing)"
+        )
+
+    def _repr_html_(self) -> str:
+        from tire_pipeline.magic_formula.key_figures import key_figures
+        from tire_pipeline.notebook import card
+
+        rows = [(figure.name, f"{figure.value:.4g}", figure.unit) for figure in key_figures(self)]
+        return card(repr(self), "At the nominal load, without camber:", ("", "value", "unit"), rows)
 
     @cached_property
     def family(self) -> int:
@@ -118,6 +135,11 @@ class TireModel:
     def simple(self) -> bool:
         """Whether compiled code is there for this model."""
         return compiles(self.packed[None, :])
+
+    @cached_property
+    def lacks_radius(self) -> bool:
+        """Whether there is no ``UNLOADED_RADIUS``: moments are NaN then."""
+        return bool(np.isnan(self.packed[INDEX["UNLOADED_RADIUS"]]))
 
     @cached_property
     def ranges(self) -> dict[str, tuple[str, str, float, float]]:
@@ -208,11 +230,16 @@ class TireModel:
         TirValueError
             If an argument is not numeric or an option is not known, or with ``limits="raise"``.
 
+        Warns
+        -----
+        MissingRadiusWarning
+            If outputs are NaN because the model has no ``UNLOADED_RADIUS``.
+
         Notes
         -----
         MF 5.2, PAC2002, 5.0 and 5.1: Appendix A of the thesis. MF 6.1 and 6.2: Pacejka, Tire and Vehicle
-        Dynamics, 3rd edition, section 4.3.2, with MF-Tyre's conventions. docs/magic_formula.md names every
-        deviation.
+        Dynamics, 3rd edition, section 4.3.2, with MF-Tyre's conventions. docs/explanation/magic_formula.md
+        names every deviation.
 
         Examples
         --------
@@ -236,6 +263,25 @@ class TireModel:
             limits=limits,
             outputs=outputs,
         )
+
+    def plot(self, *, loads: Sequence[float] | None = None, camber: float = 0.0) -> Figure:
+        """Draw Fy, Fx and Mz over slip and the cornering stiffness over load.
+
+        Parameters
+        ----------
+        loads : sequence of float, optional
+            Normal loads (N); half, one and one and a half nominal loads if left out.
+        camber : float
+            rad.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+        from tire_pipeline.drawing import captioned
+        from tire_pipeline.magic_formula.plots import draw_models
+
+        return captioned(*draw_models({self.path or "tire": self}, loads=loads, camber=camber))
 
     def replace(self, **coefficients: float) -> TireModel:
         """Return a model with some coefficients changed.

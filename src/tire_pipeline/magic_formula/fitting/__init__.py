@@ -2,5 +2,6 @@
 
 from tire_pipeline.magic_formula.fitting.fit import fit_magic_formula
 from tire_pipeline.magic_formula.fitting.result import FitResult
+from tire_pipeline.magic_formula.fitting.verdict import PoorFitWarning
 
-__all__ = ["FitResult", "fit_magic_formula"]
+__all__ = ["FitResult", "PoorFitWarning", "fit_magic_formula"]

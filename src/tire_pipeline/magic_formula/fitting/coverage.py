@@ -14,10 +14,14 @@ MIN_CAMBER = np.deg2rad(0.4)
 MIN_PRESSURE_SPREAD = 0.03
 MIN_SPEED_SPREAD = 0.1
 MIN_SLIP = 0.01
+NO_CAMBER = "no camber sweeps"
+RANGES = ("one load only", "one load only at camber", "one pressure only", "one speed only")
+BARELY = 0.5
+"""An input that varies by less than this share of what counts as different varies by its noise."""
 
 
 def open_coefficients(
-    names: tuple[str, ...], points: Mapping[str, np.ndarray], nominal_load: float
+    names: tuple[str, ...], points: Mapping[str, np.ndarray], nominal_load: float, share: float = 1.0
 ) -> dict[str, list[str]]:
     """Return the coefficients of a stage that its points cannot determine, by the reason.
 
@@ -27,6 +31,8 @@ def open_coefficients(
     points : mapping of str to ndarray
         The stage's points, by canonical column.
     nominal_load : float
+    share : float
+        Of the spreads that count as different.
 
     Returns
     -------
@@ -35,25 +41,26 @@ def open_coefficients(
     """
     load, camber = points["normal_load"], points["camber"]
     tilted = np.abs(camber) > MIN_CAMBER
-    loads_differ = _spread(load) > MIN_LOAD_SPREAD * nominal_load
+    loads_differ = _spread(load) > share * MIN_LOAD_SPREAD * nominal_load
     rules = [
-        (not tilted.any(), "no camber sweeps", stages.CAMBER | stages.CAMBER_AND_LOAD),
+        (not tilted.any(), NO_CAMBER, stages.CAMBER | stages.CAMBER_AND_LOAD),
         (not loads_differ, "one load only", stages.LOAD | stages.LOAD_SQUARED | stages.CAMBER_AND_LOAD),
         (_levels(load, nominal_load) < 3, "fewer than three loads", stages.LOAD_SQUARED),
         (
-            tilted.any() and _spread(load[tilted]) <= MIN_LOAD_SPREAD * nominal_load,
+            tilted.any() and _spread(load[tilted]) <= share * MIN_LOAD_SPREAD * nominal_load,
             "one load only at camber",
             stages.CAMBER_AND_LOAD,
         ),
         (_one_sided(points["slip_angle"]), "slip angles of one sign only", stages.ONE_SIDED_SLIP),
         (_one_sided(points["slip_ratio"]), "slip ratios of one sign only", stages.ONE_SIDED_RATIO),
         (
-            _spread(points["pressure"]) <= MIN_PRESSURE_SPREAD * max(np.median(points["pressure"]), 1.0),
+            _spread(points["pressure"])
+            <= share * MIN_PRESSURE_SPREAD * max(np.median(points["pressure"]), 1.0),
             "one pressure only",
             stages.PRESSURE,
         ),
         (
-            _spread(points["speed"]) <= MIN_SPEED_SPREAD * max(np.median(points["speed"]), 1.0),
+            _spread(points["speed"]) <= share * MIN_SPEED_SPREAD * max(np.median(points["speed"]), 1.0),
             "one speed only",
             stages.SPEED,
         ),
@@ -82,3 +89,9 @@ def _levels(load: np.ndarray, nominal_load: float) -> int:
 
 def _one_sided(slip: np.ndarray) -> bool:
     return not ((slip > MIN_SLIP).any() and (slip < -MIN_SLIP).any())
+
+
+def noise_alone(names: tuple[str, ...], points: Mapping[str, np.ndarray], nominal_load: float) -> set[str]:
+    """Return the coefficients whose input varies by no more than its noise: nothing is to be had from it."""
+    barely = open_coefficients(names, points, nominal_load, BARELY)
+    return {name for reason in (NO_CAMBER, *RANGES) for name in barely.get(reason, ())}

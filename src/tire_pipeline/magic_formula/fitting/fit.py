@@ -2,34 +2,23 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
-from tire_pipeline.errors import RecordingError
-from tire_pipeline.magic_formula.coefficients import INDEX, family_of
-from tire_pipeline.magic_formula.fitting import stages
-from tire_pipeline.magic_formula.fitting.coverage import open_coefficients
+from tire_pipeline.magic_formula.fitting import given
 from tire_pipeline.magic_formula.fitting.result import FitResult
-from tire_pipeline.magic_formula.fitting.solve import Problem, StageFit, solve
+from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome, fit_stage
 from tire_pipeline.magic_formula.fitting.stages import STAGES, Stage
-from tire_pipeline.magic_formula.fitting.starts import (
-    bounds_of,
-    first_values,
-    kept_value,
-    starting_points,
-    typical_values,
-)
 from tire_pipeline.magic_formula.fitting.statistics import relative_rms, residual_table
-from tire_pipeline.magic_formula.fitting.typical import pull
+from tire_pipeline.magic_formula.fitting.typical import FEW_POINTS
+from tire_pipeline.magic_formula.fitting.verdict import PoorFitWarning, doubts_about
 from tire_pipeline.magic_formula.model import TireModel
 
-_INPUTS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
 _MOST_POINTS = 20_000
-_FEWEST_POINTS = 10
-_MOST_REMOVED = 12
 _POINTS_OF = {
     "lateral": "pure lateral slip",
     "longitudinal": "pure longitudinal slip",
@@ -45,7 +34,7 @@ def fit_magic_formula(
     *,
     nominal_load: float | None = None,
     unloaded_radius: float | None = None,
-    starts: int = 4,
+    starts: int = 40,
     loss: str = "soft_l1",
     seed: int = 0,
 ) -> FitResult:
@@ -83,245 +72,161 @@ def fit_magic_formula(
     RecordingError
         If there is no load, no force or moment, or there are fewer than ten points.
 
+    Warns
+    -----
+    PoorFitWarning
+        If the fit leaves more than 10% of an output's largest magnitude, or its force falls with slip in the
+        tire's own convention; with the likely reason. ``poor`` and the summary of the result say so, too.
+
     Notes
     -----
     The stages: Fy, Fx and Mz at pure slip, then at combined slip, Mx, My (thesis, Appendix A, and Pacejka's
     appendix on the estimation of parameters). The model reproduces the recording's own signs: data in which a
     positive slip angle gives a positive Fy give a positive PKY1, and a note.
     """
-    family = family_of(version)
-    points, forces = _columns(recording, start)
-    base, notes = _base(recording, version, start, points, nominal_load, unloaded_radius)
-    points["speed"] = _filled(points["speed"], base["LONGVL"])
-    points["pressure"] = _filled(points["pressure"], base.get("NOMPRES", 0.0))
+    points, forces = given.columns(recording)
+    base, notes = given.base(recording, version, start, points, nominal_load, unloaded_radius)
+    points["speed"] = given.filled(points["speed"], base["LONGVL"])
+    points["pressure"] = given.filled(points["pressure"], base.get("NOMPRES", 0.0))
     model = TireModel.from_coefficients(base, version)
-    report = _Report("0" if start is None else "their start values", notes)
-    rng = np.random.default_rng(seed)
-    for stage in STAGES:
-        names = stage.over(family)
-        if stage.output not in forces:
-            report.leave(f"no {stage.output} measured", names)
-            continue
-        chosen = _choose(stage, points, forces[stage.output])
-        if chosen.size < max(_FEWEST_POINTS, len(names)):
-            why = "no" if chosen.size == 0 else f"only {chosen.size} points of"
-            report.leave(f"{why} {_POINTS_OF[stage.points]}", names)
-            continue
-        if chosen.size > _MOST_POINTS:
-            chosen = np.sort(rng.choice(chosen, _MOST_POINTS, replace=False))
-        here = {name: x[chosen] for name, x in points.items()}
-        if stage.points in ("lateral", "longitudinal"):
-            here["slip_ratio" if stage.points == "lateral" else "slip_angle"] *= 0.0
-        left_out = open_coefficients(names, here, base["FNOMIN"])
-        closed = {name for group in left_out.values() for name in group}
-        typical = {n: kept_value(n, model, True) for n in sorted(closed)}
-        model = model.replace(**{n: value for n, value in typical.items() if value != 0.0})
-        for reason, group in left_out.items():
-            report.leave(reason, group, typical if start is None else None)
-        active = [name for name in names if name not in closed]
-        if stage.braking_alone:
-            chosen = np.union1d(chosen, _braking_alone(points, forces[stage.output], chosen.size))
-            here = {name: x[chosen] for name, x in points.items()}
-        measured = forces[stage.output][chosen]
-        with threadpool_limits(1):  # many small problems: threads in each only get in each other's way
-            values, fit, removed = _fit_stage(
-                stage, model, active, here, measured, starts, loss, rng, start is not None
-            )
-        kept = {n: kept_value(n, model, start is not None) for n in removed}
-        model = model.replace(**values, **{n: value for n, value in kept.items() if value != 0.0})
-        report.add(stage, values, fit, kept if start is None else dict.fromkeys(removed, 0.0))
-        if fit.drawn:
-            towards = "what tires are like" if start is None else "the start model"
-            report.notes.append(
-                f"{stage.title}: {measured.size} points are few for {len(values)} coefficients, "
-                f"which are drawn towards {towards}"
-            )
+    report = _Report(notes, start is not None)
+    options = Options(starts, loss, start is not None, np.random.default_rng(seed))
+    with threadpool_limits(1):  # many small problems: threads in each only get in each other's way
+        simpler = None
+        if model.family == 6 and start is None:
+            simpler = _as_52(base, points, forces, options).to_version(version)
+        model = _stages(model, points, forces, options, report, simpler)
     if model.coefficients.get("PKY1", -1.0) > 0 and "fy" in forces:
         notes.append(
             "a positive slip angle gives a positive Fy: the data are not in ISO axes, nor is the model"
         )
     table, shares = residual_table(model, points, forces), relative_rms(model, points, forces)
-    return FitResult(model, report.errors, table, report.undetermined, notes, shares)
+    measured = pd.DataFrame({**points, **forces})
+    poor = doubts_about(model, points, forces, shares, report.fitted, start)
+    for output, text in poor.items():
+        warnings.warn(f"{output}: {text}", PoorFitWarning, stacklevel=2)
+    return FitResult(
+        model,
+        report.errors,
+        table,
+        report.undetermined,
+        notes,
+        shares,
+        measured,
+        poor,
+        sorted(set(forces) - report.fitted),
+    )
+
+
+def _stages(
+    model: TireModel,
+    points: Mapping[str, np.ndarray],
+    forces: Mapping[str, np.ndarray],
+    options: Options,
+    report: _Report,
+    simpler: TireModel | None,
+) -> TireModel:
+    """Go through the stages, each on top of those before."""
+    for stage in STAGES:
+        names = stage.over(model.family)
+        if stage.output not in forces:
+            report.leave(f"no {stage.output} measured", names)
+            continue
+        chosen = given.choose(stage, points, forces[stage.output])
+        if chosen.size < given.FEWEST_POINTS:
+            why = "no" if chosen.size == 0 else f"only {chosen.size} points of"
+            report.leave(f"{why} {_POINTS_OF[stage.points]}", names)
+            continue
+        chosen = _thinned(chosen)
+        ranges = {name: x[chosen] for name, x in points.items()}
+        if stage.braking_alone:
+            chosen = np.union1d(chosen, given.braking_alone(points, forces[stage.output], chosen.size))
+        here = {name: x[chosen] for name, x in points.items()}
+        if stage.points in ("lateral", "longitudinal"):
+            here["slip_ratio" if stage.points == "lateral" else "slip_angle"] *= 0.0
+        measured = forces[stage.output][chosen]
+        seeds, bar = [], np.inf
+        if simpler is not None:
+            found = simpler.forces(**here, limits="ignore", outputs=(stage.output,))
+            bar = 1.01 * float(np.sqrt(np.mean((getattr(found, stage.output) - measured) ** 2)))
+            seeds = [_camber_shift_moved(simpler)]
+        outcome = fit_stage(stage, names, model, here, measured, ranges, options, seeds, bar)
+        kept = {n: v for group in outcome.kept.values() for n, v in group.items() if v != 0.0}
+        model = model.replace(**outcome.values, **kept)
+        report.add(stage, outcome, measured.size)
+    return model
+
+
+def _as_52(
+    base: Mapping[str, float],
+    points: Mapping[str, np.ndarray],
+    forces: Mapping[str, np.ndarray],
+    options: Options,
+) -> TireModel:
+    """Return the fit of 5.2, from which one of 6.x starts: it has to be as good."""
+    plain = TireModel.from_coefficients(
+        {n: v for n, v in base.items() if n not in ("NOMPRES", "INFLPRES")}, "5.2"
+    )
+    return _stages(plain, points, forces, options, _Report([], False), None).replace(
+        **{n: base[n] for n in ("NOMPRES", "INFLPRES")}
+    )
+
+
+def _camber_shift_moved(model: TireModel) -> TireModel:
+    """Return a 6.x model that came from 5.2 with PHY3 in PKY6, which gives its shift at the nominal load."""
+    if not {"PHY3", "PKY1", "PKY2"} <= set(model.coefficients):
+        return model
+    stiffness = model.value("PKY1") * np.sin(2.0 * np.arctan(1.0 / model.value("PKY2")))
+    return model.replace(PHY3=0.0, PKY6=model.value("PKY6") + model.value("PHY3") * float(stiffness))
+
+
+def _thinned(rows: np.ndarray) -> np.ndarray:
+    """Return no more rows than a stage needs, evenly spread."""
+    if rows.size <= _MOST_POINTS:
+        return rows
+    return rows[np.linspace(0, rows.size - 1, _MOST_POINTS).round().astype(int)]
 
 
 class _Report:
     """What the stages have to say, gathered."""
 
-    def __init__(self, kept: str, notes: list[str]) -> None:
-        self.kept = kept
+    def __init__(self, notes: list[str], from_start: bool) -> None:
         self.notes = notes
+        self.from_start = from_start
         self.errors: dict[str, float] = {}
         self.undetermined: list[str] = []
+        self.fitted: set[str] = set()
 
     def leave(self, reason: str, names: Sequence[str], at: Mapping[str, float] | None = None) -> None:
         """Note coefficients that are not fitted, and where they stay if not at 0 or at their start."""
-        typical = {n: at[n] for n in names if at and at[n] != 0.0}
-        zero = [n for n in names if n not in typical]
-        parts = [f"{', '.join(zero)} kept at {self.kept}"] if zero else []
+        typical = {} if self.from_start else {n: at[n] for n in names if at and at[n] != 0.0}
+        rest = [n for n in names if n not in typical]
+        where = "their start values" if self.from_start else "0"
+        parts = [f"{', '.join(rest)} kept at {where}"] if rest else []
         parts += [f"{n} kept at {value:g}" for n, value in typical.items()]
         self.undetermined.append(f"{reason}: {', '.join(parts)}")
 
-    def add(
-        self, stage: Stage, values: Mapping[str, float], fit: StageFit, removed: Mapping[str, float]
-    ) -> None:
+    def add(self, stage: Stage, outcome: Outcome, rows: int) -> None:
         """Note what a stage has found."""
-        self.errors.update(zip(values, fit.errors.tolist(), strict=True))
-        if removed:
-            self.leave(f"{stage.title} does not depend on them enough", list(removed), removed)
-        if fit.at_bound:
-            self.notes.append(f"{stage.title}: {', '.join(fit.at_bound)} at the bound")
-
-
-def _columns(
-    recording: pd.DataFrame, start: TireModel | None
-) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    if "normal_load" not in recording:
-        raise RecordingError("there is no normal_load", todo="name the load's column normal_load, in newtons")
-    wanted = [name for name in ("fx", "fy", "mx", "my", "mz") if name in recording]
-    if not wanted:
-        raise RecordingError("there is no force or moment to fit", todo="name them fx, fy, mx, my, mz")
-    load = recording["normal_load"].to_numpy(dtype=float)
-    good = np.isfinite(load) & (load > 0)
-    points = {}
-    for name in _INPUTS:
-        missing = np.nan if name in ("speed", "pressure") else 0.0
-        column = recording[name].to_numpy(dtype=float) if name in recording else np.full(load.size, missing)
-        if name in recording:
-            good &= np.isfinite(column)
-        points[name] = column
-    if int(good.sum()) < _FEWEST_POINTS:
-        raise RecordingError(
-            f"only {int(good.sum())} points have a positive load and finite slips",
-            todo=f"give at least {_FEWEST_POINTS}",
-        )
-    forces = {name: recording[name].to_numpy(dtype=float)[good] for name in wanted}
-    kept = {
-        name: value
-        for name, value in forces.items()
-        if np.isfinite(value).any() and np.nanmax(np.abs(value)) > 0
-    }
-    return {name: x[good].copy() for name, x in points.items()}, kept
-
-
-def _base(
-    recording: pd.DataFrame,
-    version: str,
-    start: TireModel | None,
-    points: Mapping[str, np.ndarray],
-    nominal_load: float | None,
-    unloaded_radius: float | None,
-) -> tuple[dict[str, float], list[str]]:
-    """Return the coefficients that are known before any fit, and what was assumed."""
-    notes: list[str] = []
-    base: dict[str, float] = {}
-    if start is not None:
-        begin = start.to_version(version)
-        begin = begin if nominal_load is None else begin.nominal_load_changed(nominal_load)
-        base.update(begin.coefficients)
-    median = float(np.median(points["normal_load"]))
-    if nominal_load is None:
-        nominal_load = base.get("FNOMIN", float(f"{median:.2g}"))
-        if start is None:
-            notes.append(f"FNOMIN = {nominal_load:g} N is the median load to two digits")
-    base["FNOMIN"] = float(nominal_load)
-    if unloaded_radius is None and "UNLOADED_RADIUS" not in base:
-        unloaded_radius = _radius_of(recording)
-        if unloaded_radius is None:
-            unloaded_radius = 0.3
-            notes.append("UNLOADED_RADIUS = 0.3 m is assumed; the moments' coefficients are relative to it")
-    if unloaded_radius is not None:
-        base["UNLOADED_RADIUS"] = float(unloaded_radius)
-    base.setdefault("LONGVL", _median(points["speed"], 16.7))
-    if family_of(version) == 6:
-        base.setdefault("NOMPRES", _median(points["pressure"], 220_000.0))
-        base.setdefault("INFLPRES", base["NOMPRES"])
-    return base, notes
-
-
-def _radius_of(recording: pd.DataFrame) -> float | None:
-    constants = recording.attrs.get("constants", {})
-    entry = constants.get("OVALLDIA") if isinstance(constants, Mapping) else None
-    if not isinstance(entry, Mapping) or not isinstance(entry.get("value"), int | float):
-        return None
-    factor = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "inch": 0.0254}.get(str(entry.get("unit")))
-    return None if factor is None else 0.5 * factor * float(entry["value"])
-
-
-def _median(x: np.ndarray, otherwise: float) -> float:
-    finite = x[np.isfinite(x)]
-    return float(np.median(finite)) if finite.size else otherwise
-
-
-def _filled(x: np.ndarray, value: float) -> np.ndarray:
-    return np.where(np.isfinite(x), x, value)
-
-
-def _choose(stage: Stage, points: Mapping[str, np.ndarray], measured: np.ndarray) -> np.ndarray:
-    rolling, straight = _pure(points)
-    which = np.isfinite(measured)
-    if stage.points == "lateral":
-        which &= rolling
-    elif stage.points == "longitudinal":
-        which &= straight
-        if not (which & ~rolling).any():
-            which &= False
-    elif stage.points == "combined":
-        which &= ~rolling & ~straight
-    return np.flatnonzero(which)
-
-
-def _pure(points: Mapping[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """Which points roll freely, and which have no slip angle."""
-    rolling = np.abs(points["slip_ratio"]) <= stages.PURE_SLIP_RATIO
-    return rolling, np.abs(points["slip_angle"]) <= stages.PURE_SLIP_ANGLE
-
-
-def _braking_alone(points: Mapping[str, np.ndarray], fy: np.ndarray, most: int) -> np.ndarray:
-    """Return points at pure longitudinal slip, spread over the recording.
-
-    They show the side force that braking or driving makes (RVY1 to RVY6). Combined slip measured at a few
-    slip angles leaves it open between them.
-    """
-    rolling, straight = _pure(points)
-    rows = np.flatnonzero(np.isfinite(fy) & straight & ~rolling)
-    return rows[:: max(1, -(-rows.size // most))]
-
-
-def _fit_stage(
-    stage: Stage,
-    model: TireModel,
-    active: list[str],
-    here: Mapping[str, np.ndarray],
-    measured: np.ndarray,
-    starts: int,
-    loss: str,
-    rng: np.random.Generator,
-    from_start: bool,
-) -> tuple[dict[str, float], StageFit, list[str]]:
-    """Fit a stage; drop, one by one, the coefficients that the data leave open."""
-    typical = typical_values(active, model, from_start)
-    first = dict(typical) if from_start else first_values(stage, typical, here, measured)
-    if "PKY1" in typical:
-        typical["PKY1"] = float(np.copysign(typical["PKY1"], first["PKY1"]))
-    vector = model.packed.copy()
-    for name in active:
-        vector[INDEX[name]] = first[name]
-    rows = [np.ascontiguousarray(here[name]) for name in _INPUTS]
-    removed: list[str] = []
-    number = starts
-    while True:
-        names = [name for name in active if name not in removed]
-        bounds = bounds_of(names, first)
-        drawn = pull(names, typical, measured)
-        problem = Problem(vector, model.family, stage.output, names, rows, measured, drawn)
-        fit = solve(problem, bounds, starting_points(names, first, bounds, number, rng), loss)
-        if not fit.open or len(removed) >= _MOST_REMOVED or len(names) == 1:
-            break
-        ranges = (bounds[1] - bounds[0])[[names.index(name) for name in fit.open]]
-        sizes = np.nan_to_num(fit.errors[[names.index(name) for name in fit.open]] / ranges, nan=np.inf)
-        worst = fit.open[int(np.argmax(sizes))]
-        removed.append(worst)
-        vector[INDEX[worst]] = first[worst] = kept_value(worst, model, from_start)
-        first.update({n: float(v) for n, v in zip(names, fit.values, strict=True) if n != worst})
-        number = 1
-    return dict(zip(names, fit.values.tolist(), strict=True)), fit, removed
+        self.fitted.add(stage.output)
+        self.errors.update(zip(outcome.values, outcome.fit.errors.tolist(), strict=True))
+        for reason, kept in outcome.kept.items():
+            self.leave(reason, list(kept), kept)
+        towards = "the start model" if self.from_start else "typical values"
+        for reason, names in outcome.released.items():
+            self.undetermined.append(
+                f"{reason}: {', '.join(names)} drawn to {towards}, left only as far as the points ask for it"
+            )
+        drawn = [n for n in outcome.fit.open if not any(n in group for group in outcome.released.values())]
+        if drawn:
+            self.undetermined.append(
+                f"{stage.title} tells less of them than tires in general do: {', '.join(drawn)} "
+                f"drawn to {towards}"
+            )
+        if outcome.fit.at_bound:
+            self.notes.append(f"{stage.title}: {', '.join(outcome.fit.at_bound)} at the bound")
+        if rows < FEW_POINTS * len(outcome.values):
+            self.notes.append(
+                f"{stage.title}: {rows} points are few for {len(outcome.values)} coefficients, "
+                f"which are drawn to {towards}"
+            )

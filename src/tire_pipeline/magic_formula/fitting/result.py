@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
 from tire_pipeline.magic_formula.forces import TireForces
 from tire_pipeline.magic_formula.model import TireModel
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class FitResult:
     """A fitted tire model and how far to trust it.
 
@@ -30,6 +33,12 @@ class FitResult:
         What else to know: bounds that were reached, values that were assumed, signs.
     relative_rms : mapping of str to float
         RMS of all residuals of an output over its largest magnitude.
+    measured : DataFrame, optional
+        The points that were fitted, by canonical name in SI units.
+    poor : mapping of str to str
+        Outputs that may not pass for a tire's, with what is wrong and the likely reason; empty for a success.
+    not_fitted : sequence of str
+        Outputs that were measured, but at no points that a stage could fit; ``undetermined`` says why.
     """
 
     model: TireModel
@@ -38,16 +47,63 @@ class FitResult:
     undetermined: list[str]
     notes: list[str]
     relative_rms: Mapping[str, float]
+    measured: pd.DataFrame | None = None
+    poor: Mapping[str, str] = field(default_factory=dict)
+    not_fitted: Sequence[str] = ()
 
     def forces(self, **points: Any) -> TireForces:
         """Return the fitted model's forces; see :meth:`TireModel.forces`."""
         return self.model.forces(**points)
 
+    def plot(self) -> Figure:
+        """Draw measured points with the fitted curves, and the residuals, at pure slip.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+
+        Raises
+        ------
+        DomainError
+            No point is at pure slip.
+        """
+        from tire_pipeline.drawing import captioned
+        from tire_pipeline.magic_formula.fitting.plots import draw_fit
+
+        return captioned(*draw_fit(self.model, self.measured))
+
+    def __repr__(self) -> str:
+        errors = ", ".join(
+            f"{name} not fitted" if name in self.not_fitted else f"{name} {100 * value:.2g} %"
+            for name, value in self.relative_rms.items()
+        )
+        poor = f"; POOR FIT of {', '.join(self.poor)}" if self.poor else ""
+        return f"FitResult({self.model!r}; RMS of residuals over the largest magnitude: {errors}{poor})"
+
+    def _repr_html_(self) -> str:
+        from tire_pipeline.notebook import card
+
+        rows = [
+            (name, f"{self.model.value(name):.6g}", f"{error:.2g}")
+            for name, error in self.standard_errors.items()
+        ]
+        return card(
+            repr(self),
+            " ".join([*(f"{o}: {t}" for o, t in self.poor.items()), *self.notes]),
+            ("coefficient", "value", "standard error"),
+            rows,
+        )
+
     def summary(self) -> str:
         """Return the fit in plain text."""
         lines = [f"Magic Formula {self.model.version}, FNOMIN = {self.model.value('FNOMIN'):g} N", ""]
         for output, value in self.relative_rms.items():
+            if output in self.not_fitted:
+                lines.append(f"{output}: measured, but not fitted")
+                continue
             lines.append(f"{output}: RMS of residuals {100 * value:.2f} % of the largest magnitude")
+            if output in self.poor:
+                lines.append(f"{output}: POOR FIT, not to be used: {self.poor[output]}")
         lines += ["", "coefficient        value   standard error"]
         for name, error in self.standard_errors.items():
             lines.append(f"{name:<11} {self.model.value(name):>12.6g}   {error:.2g}")

@@ -1,12 +1,13 @@
-"""One stage's robust, bounded least squares from several starts."""
+"""One bounded least squares problem: an output over some coefficients at some points."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
-from scipy.optimize import OptimizeResult, least_squares
+import scipy
 
 from tire_pipeline.magic_formula import engine
 from tire_pipeline.magic_formula.coefficients import INDEX
@@ -15,21 +16,7 @@ from tire_pipeline.magic_formula.jacobian import packed_jacobian
 from tire_pipeline.magic_formula.numpy_form import OUTPUTS
 
 _NO_SIGNS = np.ones(2 + len(OUTPUTS))
-_ROBUST_WIDTH = 2.0
-"""Residuals beyond this many robust standard deviations count less and less."""
-_SINGULAR = 1e-9
-"""Directions whose singular value is below this share of the largest are open."""
-
-
-@dataclass(frozen=True)
-class StageFit:
-    """Values, standard errors, the names that the data leave open or that end at a bound; whether drawn."""
-
-    values: np.ndarray
-    errors: np.ndarray
-    open: list[str]
-    at_bound: list[str]
-    drawn: bool
+Bounds = tuple[np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -42,7 +29,7 @@ class Problem:
     names: Sequence[str]
     points: list[np.ndarray]
     measured: np.ndarray
-    pull: Pull | None = None
+    pull: Pull
 
     def filled(self, values: np.ndarray) -> np.ndarray:
         """Return the packed coefficients with these values."""
@@ -61,104 +48,116 @@ class Problem:
         found = packed_jacobian(self.filled(values), self.family, self.names, self.points, [self.output])
         return found[self.output].T
 
-    def rows(self, values: np.ndarray) -> np.ndarray:
-        """Return the residuals and, below them, those of the pull."""
-        residuals = self.residuals(values)
-        return residuals if self.pull is None else np.append(residuals, self.pull.residuals(values))
+    def misfit(self, values: np.ndarray) -> float:
+        """Return the RMS of the residuals."""
+        return float(np.sqrt(np.mean(self.residuals(values) ** 2)))
 
-    def rows_jacobian(self, values: np.ndarray) -> np.ndarray:
-        """Return the derivatives of ``rows``."""
-        found = self.jacobian(values)
-        return found if self.pull is None else np.vstack([found, self.pull.jacobian()])
+    def drawn(self, strength: float | np.ndarray) -> Problem:
+        """Return the same problem with another strength of the pull."""
+        return replace(self, pull=self.pull.times(strength))
+
+    def thinned(self, most: int) -> Problem:
+        """Return the problem at no more than so many of its points, spread over them."""
+        step = -(-self.measured.size // most)
+        if step <= 1:
+            return self
+        points = [np.ascontiguousarray(x[::step]) for x in self.points]
+        return replace(self, points=points, measured=self.measured[::step])
 
 
-def solve(
+def minimum(
     problem: Problem,
-    bounds: tuple[np.ndarray, np.ndarray],
-    starts: Sequence[np.ndarray],
-    loss: str,
-) -> StageFit:
-    """Fit from each start, keep the best, and say how well each coefficient is known.
+    bounds: Bounds,
+    start: np.ndarray,
+    *,
+    loss: str = "linear",
+    width: float = 1.0,
+    steps: int = 60,
+    tolerance: float = 1e-7,
+) -> np.ndarray:
+    """Return the values with the least sum over residuals and pull, from one start.
 
     Parameters
     ----------
     problem : Problem
     bounds : pair of ndarray
-    starts : sequence of ndarray
+    start : ndarray
     loss : str
-        A loss of :func:`scipy.optimize.least_squares`; "linear" is not robust.
+        A loss of :func:`scipy.optimize.least_squares` for the residuals; the pull is never robust.
+    width : float
+        Residual from which a robust loss counts less.
+    steps : int
+    tolerance : float
 
     Returns
     -------
-    StageFit
+    ndarray
     """
-    largest = float(np.abs(problem.measured).max())
-    tries = [_once(problem, bounds, start, loss, 0.02 * largest, 25, 1e-4) for start in starts]
-    best = min(tries, key=lambda each: each.cost)
-    width = 0.02 * largest
-    for _ in range(2):
-        residuals = problem.residuals(best.x)
-        spread = 1.4826 * float(np.median(np.abs(residuals - np.median(residuals))))
-        width = max(_ROBUST_WIDTH * spread, 1e-6 * largest)
-        best = _once(problem, bounds, best.x, loss, width, 80, 1e-7)
-    return _judged(problem, bounds, best.x, loss, width)
-
-
-def _once(
-    problem: Problem,
-    bounds: tuple[np.ndarray, np.ndarray],
-    start: np.ndarray,
-    loss: str,
-    width: float,
-    steps: int,
-    tolerance: float,
-) -> OptimizeResult:
     low, high = bounds
     margin = 1e-6 * (high - low)
-    return least_squares(
-        problem.rows,
+    rows = problem.measured.size
+
+    def both(values: np.ndarray) -> np.ndarray:
+        return np.append(problem.residuals(values), problem.pull.residuals(values))
+
+    def slopes(values: np.ndarray) -> np.ndarray:
+        return np.vstack([problem.jacobian(values), problem.pull.jacobian()])
+
+    found = scipy.optimize.least_squares(
+        both,
         np.clip(start, low + margin, high - margin),
-        problem.rows_jacobian,
+        slopes,
         bounds=bounds,
         x_scale=np.maximum(np.abs(start), 0.05 * (high - low)),
-        loss=loss,
+        loss=_loss(loss, rows),
         f_scale=width,
         max_nfev=steps,
         ftol=tolerance,
         xtol=tolerance,
         gtol=1e-12,
     )
+    return np.asarray(found.x)
 
 
-def _judged(
-    problem: Problem,
-    bounds: tuple[np.ndarray, np.ndarray],
-    values: np.ndarray,
-    loss: str,
-    width: float,
-) -> StageFit:
-    low, high = bounds
-    near = 1e-4 * (high - low)
-    bound = (values - low < near) | (high - values < near)
-    residuals = problem.rows(values)
-    weights = 1.0 if loss == "linear" else 1.0 / np.sqrt(1.0 + (residuals / width) ** 2)
-    columns = problem.rows_jacobian(values) * np.sqrt(np.broadcast_to(weights, residuals.shape))[:, None]
-    scale = 0.1 * (high - low)
-    free = ~bound
-    _, singular, turned = np.linalg.svd((columns * scale)[:, free], full_matrices=False)
-    good = singular > _SINGULAR * singular.max(initial=0.0)
-    inverse = np.where(good, 1.0 / np.where(good, singular, 1.0), 0.0)
-    freedom = max(int(np.sum(weights > 0.5)) if np.ndim(weights) else residuals.size, 1) - int(free.sum())
-    variance = float(np.sum(weights * residuals**2)) / max(freedom, 1)
-    errors = np.full(len(values), np.nan)
-    errors[free] = scale[free] * np.sqrt(variance * np.sum((turned.T * inverse) ** 2, axis=1))
-    lost = np.zeros(len(values), dtype=bool)
-    lost[free] = (np.abs(turned[~good]) > 0.1).any(axis=0)
-    unknown = lost | (errors > 0.5 * (high - low))
-    return StageFit(
-        values,
-        errors,
-        [n for n, is_open in zip(problem.names, unknown, strict=True) if is_open],
-        [n for n, is_bound in zip(problem.names, bound, strict=True) if is_bound],
-        problem.pull is not None,
+def _loss(name: str, rows: int) -> Any:
+    """Return SciPy's loss, for the first rows only."""
+    if name == "linear":
+        return name
+    rule = _ROBUST[name]
+
+    def loss(z: np.ndarray) -> np.ndarray:
+        rho = np.vstack([z, np.ones_like(z), np.zeros_like(z)])
+        rho[:, :rows] = rule(z[:rows])
+        return rho
+
+    return loss
+
+
+def _soft_l1(z: np.ndarray) -> np.ndarray:
+    t = 1.0 + z
+    return np.stack([2.0 * (np.sqrt(t) - 1.0), t**-0.5, -0.5 * t**-1.5])
+
+
+def _huber(z: np.ndarray) -> np.ndarray:
+    far = z > 1.0
+    safe = np.where(far, z, 1.0)
+    return np.stack(
+        [
+            np.where(far, 2.0 * safe**0.5 - 1.0, z),
+            np.where(far, safe**-0.5, 1.0),
+            np.where(far, -0.5 * safe**-1.5, 0.0),
+        ]
     )
+
+
+def _cauchy(z: np.ndarray) -> np.ndarray:
+    t = 1.0 + z
+    return np.stack([np.log1p(z), 1.0 / t, -1.0 / t**2])
+
+
+def _arctan(z: np.ndarray) -> np.ndarray:
+    t = 1.0 + z**2
+    return np.stack([np.arctan(z), 1.0 / t, -2.0 * z / t**2])
+
+
+_ROBUST = {"soft_l1": _soft_l1, "huber": _huber, "cauchy": _cauchy, "arctan": _arctan}

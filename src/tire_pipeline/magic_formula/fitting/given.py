@@ -1,0 +1,133 @@
+"""What a recording gives to a fit: points, forces, and the coefficients that are known before."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.magic_formula.coefficients import family_of
+from tire_pipeline.magic_formula.fitting import stages
+from tire_pipeline.magic_formula.fitting.stages import Stage
+from tire_pipeline.magic_formula.model import TireModel
+
+INPUTS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
+FEWEST_POINTS = 10
+
+
+def columns(recording: pd.DataFrame) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """Return the points and the forces at them, both by name, of the rows that are whole."""
+    if "normal_load" not in recording:
+        raise RecordingError("there is no normal_load", todo="name the load's column normal_load, in newtons")
+    wanted = [name for name in ("fx", "fy", "mx", "my", "mz") if name in recording]
+    if not wanted:
+        raise RecordingError("there is no force or moment to fit", todo="name them fx, fy, mx, my, mz")
+    load = recording["normal_load"].to_numpy(dtype=float)
+    good = np.isfinite(load) & (load > 0)
+    points = {}
+    for name in INPUTS:
+        missing = np.nan if name in ("speed", "pressure") else 0.0
+        column = recording[name].to_numpy(dtype=float) if name in recording else np.full(load.size, missing)
+        if name in recording:
+            good &= np.isfinite(column)
+        points[name] = column
+    if int(good.sum()) < FEWEST_POINTS:
+        raise RecordingError(
+            f"only {int(good.sum())} points have a positive load and finite slips",
+            todo=f"give at least {FEWEST_POINTS}",
+        )
+    forces = {name: recording[name].to_numpy(dtype=float)[good] for name in wanted}
+    kept = {
+        name: value
+        for name, value in forces.items()
+        if np.isfinite(value).any() and np.nanmax(np.abs(value)) > 0
+    }
+    return {name: x[good].copy() for name, x in points.items()}, kept
+
+
+def base(
+    recording: pd.DataFrame,
+    version: str,
+    start: TireModel | None,
+    points: Mapping[str, np.ndarray],
+    nominal_load: float | None,
+    unloaded_radius: float | None,
+) -> tuple[dict[str, float], list[str]]:
+    """Return the coefficients that are known before any fit, and what was assumed."""
+    notes: list[str] = []
+    known: dict[str, float] = {}
+    if start is not None:
+        begin = start.to_version(version)
+        begin = begin if nominal_load is None else begin.nominal_load_changed(nominal_load)
+        known.update(begin.coefficients)
+    median = float(np.median(points["normal_load"]))
+    if nominal_load is None:
+        nominal_load = known.get("FNOMIN", float(f"{median:.2g}"))
+        if start is None:
+            notes.append(f"FNOMIN = {nominal_load:g} N is the median load to two digits")
+    known["FNOMIN"] = float(nominal_load)
+    if unloaded_radius is None and "UNLOADED_RADIUS" not in known:
+        unloaded_radius = _radius_of(recording)
+        if unloaded_radius is None:
+            unloaded_radius = 0.3
+            notes.append("UNLOADED_RADIUS = 0.3 m is assumed; the moments' coefficients are relative to it")
+    if unloaded_radius is not None:
+        known["UNLOADED_RADIUS"] = float(unloaded_radius)
+    known.setdefault("LONGVL", _median(points["speed"], 16.7))
+    if family_of(version) == 6:
+        known.setdefault("NOMPRES", _median(points["pressure"], 220_000.0))
+        known.setdefault("INFLPRES", known["NOMPRES"])
+    return known, notes
+
+
+def _radius_of(recording: pd.DataFrame) -> float | None:
+    constants = recording.attrs.get("constants", {})
+    entry = constants.get("OVALLDIA") if isinstance(constants, Mapping) else None
+    if not isinstance(entry, Mapping) or not isinstance(entry.get("value"), int | float):
+        return None
+    factor = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "inch": 0.0254}.get(str(entry.get("unit")))
+    return None if factor is None else 0.5 * factor * float(entry["value"])
+
+
+def _median(x: np.ndarray, otherwise: float) -> float:
+    finite = x[np.isfinite(x)]
+    return float(np.median(finite)) if finite.size else otherwise
+
+
+def filled(x: np.ndarray, value: float) -> np.ndarray:
+    """Return the channel with a value where it has none."""
+    return np.where(np.isfinite(x), x, value)
+
+
+def choose(stage: Stage, points: Mapping[str, np.ndarray], measured: np.ndarray) -> np.ndarray:
+    """Return the rows of a stage."""
+    rolling, straight = pure(points)
+    which = np.isfinite(measured)
+    if stage.points == "lateral":
+        which &= rolling
+    elif stage.points == "longitudinal":
+        which &= straight
+        if not (which & ~rolling).any():
+            which &= False
+    elif stage.points == "combined":
+        which &= ~rolling & ~straight
+    return np.flatnonzero(which)
+
+
+def pure(points: Mapping[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Which points roll freely, and which have no slip angle."""
+    rolling = np.abs(points["slip_ratio"]) <= stages.PURE_SLIP_RATIO
+    return rolling, np.abs(points["slip_angle"]) <= stages.PURE_SLIP_ANGLE
+
+
+def braking_alone(points: Mapping[str, np.ndarray], fy: np.ndarray, most: int) -> np.ndarray:
+    """Return points at pure longitudinal slip, spread over the recording.
+
+    They show the side force that braking or driving makes (RVY1 to RVY6). Combined slip measured at a few
+    slip angles leaves it open between them.
+    """
+    rolling, straight = pure(points)
+    rows = np.flatnonzero(np.isfinite(fy) & straight & ~rolling)
+    return rows[:: max(1, -(-rows.size // most))]

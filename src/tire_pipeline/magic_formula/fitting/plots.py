@@ -1,0 +1,109 @@
+"""Figures of a fit: what was measured, what was fitted, and what is left."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.drawing import colour_of, new_figure
+from tire_pipeline.errors import DomainError
+from tire_pipeline.magic_formula.fitting.stages import PURE_SLIP_ANGLE, PURE_SLIP_RATIO
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from tire_pipeline.magic_formula.model import TireModel
+
+_PANELS = {
+    "fy": ("slip_angle", "slip angle (deg)", "Fy", "N"),
+    "fx": ("slip_ratio", "slip ratio", "Fx", "N"),
+    "mz": ("slip_angle", "slip angle (deg)", "Mz", "N m"),
+}
+_LOAD_STEP = 0.25
+_MOST_LOADS = 5
+_MOST_POINTS = 3000
+_FEWEST = 5
+
+
+def draw_fit(model: TireModel, measured: pd.DataFrame | None) -> tuple[Figure, str]:
+    """Draw measured points with the fitted curves, and the residuals, at pure slip.
+
+    Parameters
+    ----------
+    model : TireModel
+    measured : DataFrame
+        Points and forces by canonical name, SI.
+
+    Returns
+    -------
+    figure : matplotlib.figure.Figure
+    caption : str
+
+    Raises
+    ------
+    DomainError
+        The points are not there, or none of them is at pure slip.
+    """
+    parts = {} if measured is None else {o: _pure(measured, o) for o in _PANELS if o in measured}
+    parts = {o: part for o, part in parts.items() if len(part) >= _FEWEST and _spread(part, _PANELS[o][0])}
+    if not parts:
+        raise DomainError("there are no points at pure slip to draw", todo="draw result.model.plot() instead")
+    figure, axes = new_figure(len(parts), 2, width=9.5, height=2.9 * len(parts), squeeze=False)
+    for row, (output, part) in zip(np.asarray(axes), parts.items(), strict=True):
+        _draw(row, model, output, part)
+    caption = (
+        "Points: measured at pure slip, grouped by load. Lines: the fitted model at each group's median load "
+        "and pressure and its most frequent camber. Right: model minus measured at each point; what has a "
+        "shape there is misfit, what has none is noise."
+    )
+    return figure, caption
+
+
+def _pure(measured: pd.DataFrame, output: str) -> pd.DataFrame:
+    """Points at pure slip that have the output, thinned evenly."""
+    other, limit = ("slip_angle", PURE_SLIP_ANGLE) if output == "fx" else ("slip_ratio", PURE_SLIP_RATIO)
+    rows = measured[(measured[other].abs() <= limit) & np.isfinite(measured[output])]
+    return rows.iloc[:: max(1, len(rows) // _MOST_POINTS)]
+
+
+def _spread(part: pd.DataFrame, slip: str) -> bool:
+    return bool(np.ptp(part[slip]) > 0.0)
+
+
+def _draw(row: Any, model: TireModel, output: str, part: pd.DataFrame) -> None:
+    slip, below, name, unit = _PANELS[output]
+    step = _LOAD_STEP * model.value("FNOMIN")
+    group = np.round(part["normal_load"] / step)
+    largest = group.value_counts().index[:_MOST_LOADS]
+    factor = 180.0 / np.pi if slip == "slip_angle" else 1.0
+    for i, number in enumerate(sorted(largest)):
+        own = part[group == number]
+        alike = own[_most_frequent(np.round(np.degrees(own["camber"])))]
+        typical = {n: float(alike[n].median()) for n in ("normal_load", "camber", "speed", "pressure")}
+        x = np.linspace(own[slip].min(), own[slip].max(), 200)
+        label = f"{typical['normal_load']:,.0f} N, {round(np.degrees(typical['camber']), 1) + 0.0:.1f} deg"
+        fitted = _forces(model, output, **{slip: x}, **typical)
+        there = _forces(
+            model, output, **{n: own[n].to_numpy() for n in (*typical, "slip_angle", "slip_ratio")}
+        )
+        dots: Any = {"ls": "", "marker": ".", "ms": 3, "alpha": 0.4, "color": colour_of(i), "mew": 0}
+        row[0].plot(own[slip] * factor, own[output], **dots)
+        row[0].plot(x * factor, fitted, color=colour_of(i), lw=1.5, label=label)
+        row[1].plot(own[slip] * factor, there - own[output], **dots)
+    row[0].legend(title="load, camber", fontsize=7, title_fontsize=7)
+    row[1].axhline(0.0, color="black", lw=0.8)
+    for panel, text in zip(row, (f"{name} ({unit})", f"{name}, model - measured ({unit})"), strict=True):
+        panel.set_xlabel(below)
+        panel.set_ylabel(text)
+
+
+def _most_frequent(x: pd.Series) -> pd.Series:
+    return x == x.value_counts().index[0]
+
+
+def _forces(model: TireModel, output: str, **points: Any) -> np.ndarray:
+    if model.family != 6:
+        points.pop("pressure")
+    return np.asarray(getattr(model.forces(**points, limits="ignore", outputs=(output,)), output))

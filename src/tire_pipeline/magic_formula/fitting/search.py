@@ -1,0 +1,186 @@
+"""A stage's fit: the least misfit from several starts, and of the fits about as good the most typical one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tire_pipeline.magic_formula.fitting import typical
+from tire_pipeline.magic_formula.fitting.solve import Bounds, Problem, minimum
+
+SLACK = 0.045
+"""A fit may leave this much more than the least, where a minimum of its own is more like a tire."""
+_DRAWN = 0.02
+"""A pull may add this much to a minimum."""
+_ROBUST_WIDTH = 2.0
+"""Residuals beyond this many robust standard deviations count less and less."""
+_ROUNDS = ((240, 4, 15, 1e-4), (1500, 2, 60, 1e-5), (10**9, 1, 60, 1e-7))
+"""Of a search: points at most, fits that go on, steps, tolerance."""
+_PULLS = (
+    *((hold, 1.0) for hold in (1000.0, 100.0, 10.0, 3.0)),
+    *((share, share) for share in (1.0, 0.3, 0.1, 0.03, 0.01)),
+)
+"""Strengths of the pull, of what the ranges cannot tell and of the rest, from the strongest."""
+_FLOOR = 1e-6
+"""Strength of the pull that keeps a search well posed, over the largest force."""
+
+
+@dataclass(frozen=True)
+class StageFit:
+    """Values, standard errors, the names that typical values tell more of than the data, those at a bound."""
+
+    values: np.ndarray
+    errors: np.ndarray
+    open: list[str]
+    at_bound: list[str]
+    misfit: float
+
+
+def least(problem: Problem, bounds: Bounds, starts: Sequence[np.ndarray]) -> np.ndarray:
+    """Return the values that leave the least RMS.
+
+    All starts run on few points, the best of them on more, and the best of these on all.
+
+    Parameters
+    ----------
+    problem : Problem
+    bounds : pair of ndarray
+    starts : sequence of ndarray
+
+    Returns
+    -------
+    ndarray
+    """
+    floor = _FLOOR * float(np.abs(problem.measured).max())
+    found = list(starts)
+    for points, kept, steps, tolerance in _ROUNDS:
+        part = problem.thinned(max(points, 10 * len(problem.names))).drawn(floor)
+        found = [minimum(part, bounds, x, steps=steps, tolerance=tolerance) for x in found]
+        found = sorted(found, key=part.misfit)[:kept]
+    return min([*found, *starts], key=problem.misfit)
+
+
+def most_typical(
+    problem: Problem,
+    bounds: Bounds,
+    best: np.ndarray,
+    loss: str,
+    most: float,
+    held: np.ndarray,
+) -> np.ndarray:
+    """Return, of the fits that leave no more than ``most``, the one that is most like a tire.
+
+    Parameters
+    ----------
+    problem : Problem
+    bounds : pair of ndarray
+    best : ndarray
+        The values that leave the least.
+    loss : str
+    most : float
+        RMS.
+    held : ndarray of bool
+        Coefficients that the recording's ranges cannot tell; they leave their typical values last.
+
+    Returns
+    -------
+    ndarray
+    """
+    largest = float(np.abs(problem.measured).max())
+    if are_few(problem):
+        width = _ROBUST_WIDTH * typical.FORMULA_ERROR * largest
+        drawn = problem.drawn(typical.FORMULA_ERROR * largest)
+        return minimum(drawn, bounds, best, loss=loss, width=max(width, 1e-6 * largest))
+    spread = noise(problem, best, loss)
+    width = max(_ROBUST_WIDTH * spread, 1e-6 * largest)
+    pulls = [np.where(held, hold, share) for hold, share in (_PULLS if held.any() else _PULLS[-5:])]
+
+    def solved(part: Problem, pull: np.ndarray, begin: np.ndarray, tolerance: float) -> np.ndarray:
+        one = spread * np.sqrt(rows_of_one(part.residuals(best)))
+        return minimum(part.drawn(one * pull), bounds, begin, loss=loss, width=width, tolerance=tolerance)
+
+    thin = problem.thinned(_ROUNDS[1][0])
+    eased = [problem.pull.centre]
+    for pull in pulls:
+        eased.append(solved(thin, pull, eased[-1], 1e-5))
+    found = [best]
+    for own in (best, solved(problem, pulls[-1], eased[-1], 1e-7)):
+        limit = min(most, (1.0 + _DRAWN) * problem.misfit(own))
+        rough = limit * thin.misfit(own) / max(problem.misfit(own), 1e-300)
+        for pull in pulls:
+            values = solved(thin, pull, own, 1e-5)
+            if thin.misfit(values) <= rough:
+                values = solved(problem, pull, values, 1e-7)
+                if problem.misfit(values) <= limit:
+                    found.append(values)
+                    break
+    weight = np.where(held, _PULLS[0][0], 1.0) / problem.pull.spread
+    return min(found, key=lambda x: float(np.sum((weight * (x - problem.pull.centre)) ** 2)))
+
+
+def are_few(problem: Problem) -> bool:
+    """Return whether the points are too few for the least misfit to say anything."""
+    return problem.measured.size < typical.FEW_POINTS * len(problem.names)
+
+
+def noise(problem: Problem, values: np.ndarray, loss: str) -> float:
+    """Return the standard deviation of one point, robust unless the loss is linear."""
+    residuals = problem.residuals(values)
+    freedom = max(residuals.size - len(values), 1) / residuals.size
+    if loss == "linear":
+        return float(np.sqrt(np.mean(residuals**2) / freedom))
+    middle = float(np.median(np.abs(residuals - np.median(residuals))))
+    return 1.4826 * middle / np.sqrt(freedom)
+
+
+def rows_of_one(residuals: np.ndarray) -> float:
+    """Return how many rows tell as much as one would if they were independent.
+
+    The sum of the autocorrelation, as far as pairs of lags stay positive (Geyer's initial sequence).
+    """
+    centred = residuals - residuals.mean()
+    size = centred.size
+    spectrum = np.fft.rfft(centred, 2 * size)
+    correlation = np.fft.irfft(spectrum * spectrum.conj())[:size]
+    if correlation[0] <= 0.0:
+        return 1.0
+    correlation /= correlation[0]
+    pairs = correlation[1 : size - (size - 1) % 2].reshape(-1, 2).sum(axis=1)
+    stop = int(np.argmax(pairs <= 0.0)) if (pairs <= 0.0).any() else pairs.size
+    return float(np.clip(1.0 + 2.0 * pairs[:stop].sum(), 1.0, max(size / 10.0, 1.0)))
+
+
+def judged(problem: Problem, bounds: Bounds, values: np.ndarray, loss: str) -> StageFit:
+    """Return the fit with standard errors, and what typical values tell more of than the data.
+
+    The errors take typical values as one more measurement, and count rows as many as are independent.
+    """
+    low, high = bounds
+    near = 1e-4 * (high - low)
+    bound = (values - low < near) | (high - values < near)
+    residuals = problem.residuals(values)
+    spread = noise(problem, values, loss)
+    weights = np.ones(residuals.size)
+    if loss != "linear" and spread > 0.0:
+        weights = 1.0 / np.sqrt(1.0 + (residuals / (_ROBUST_WIDTH * spread)) ** 2)
+    freedom = max(float(np.sum(weights > 0.5)) - np.sum(~bound), 1.0)
+    variance = float(np.sum(weights * residuals**2)) / freedom * rows_of_one(residuals)
+    columns = problem.jacobian(values) * np.sqrt(weights)[:, None] * problem.pull.spread
+    known = columns.T @ columns / max(variance, 1e-300)
+    free = np.flatnonzero(~bound)
+    inverse = np.linalg.inv(known[np.ix_(free, free)] + np.eye(free.size))
+    shares = np.full(len(values), np.nan)
+    shares[free] = np.sqrt(np.diag(inverse))
+    return StageFit(
+        values,
+        shares * problem.pull.spread,
+        [n for n, share in zip(problem.names, shares, strict=True) if share > _OPEN],
+        [n for n, is_bound in zip(problem.names, bound, strict=True) if is_bound],
+        problem.misfit(values),
+    )
+
+
+_OPEN = float(np.sqrt(0.5))
+"""Standard error over the spread among tires, from which the spread tells more than the data."""

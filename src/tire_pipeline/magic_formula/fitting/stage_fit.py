@@ -1,0 +1,167 @@
+"""One stage of a fit: which coefficients it frees, from where it starts, and how good it has to be."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tire_pipeline.magic_formula.coefficients import INDEX
+from tire_pipeline.magic_formula.fitting.coverage import noise_alone, open_coefficients
+from tire_pipeline.magic_formula.fitting.given import INPUTS
+from tire_pipeline.magic_formula.fitting.search import SLACK, StageFit, are_few, judged, least, most_typical
+from tire_pipeline.magic_formula.fitting.solve import Bounds, Problem
+from tire_pipeline.magic_formula.fitting.stages import Stage
+from tire_pipeline.magic_formula.fitting.starts import (
+    bounds_of,
+    first_values,
+    starting_points,
+    typical_values,
+)
+from tire_pipeline.magic_formula.fitting.typical import pull
+from tire_pipeline.magic_formula.model import TireModel
+
+_EXACT = 1e-4
+"""A misfit below this share of the largest force is no misfit."""
+_LEAST = 1.5
+"""What has to be positive and the recording's ranges cannot tell is no less than its typical value over this:
+with PKY2 below 1 the cornering stiffness would fall with load."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """How to fit.
+
+    Parameters
+    ----------
+    starts : int
+    loss : str
+    from_start : bool
+        Whether the model holds the values of a tire that the fit starts from.
+    rng : Generator
+    """
+
+    starts: int
+    loss: str
+    from_start: bool
+    rng: np.random.Generator
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a stage found.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        Of the coefficients that were fitted.
+    fit : StageFit
+    kept : mapping of str to mapping of str to float
+        Reason -> coefficients that keep a value, and the value.
+    released : mapping of str to list of str
+        Reason -> coefficients that the recording's ranges cannot tell, but that the rows cannot do without.
+    """
+
+    values: Mapping[str, float]
+    fit: StageFit
+    kept: Mapping[str, Mapping[str, float]]
+    released: Mapping[str, Sequence[str]]
+
+
+def fit_stage(
+    stage: Stage,
+    names: Sequence[str],
+    model: TireModel,
+    here: Mapping[str, np.ndarray],
+    measured: np.ndarray,
+    ranges: Mapping[str, np.ndarray],
+    options: Options,
+    seeds: Sequence[TireModel] = (),
+    bar: float = np.inf,
+) -> Outcome:
+    """Fit a stage.
+
+    Levels are always free. What changes with load, camber, pressure or the slip's sign is free where the
+    recording's ranges can tell it, and keeps typical values elsewhere; it is let go there only if the rows
+    cannot be met without.
+
+    Parameters
+    ----------
+    stage : Stage
+    names : sequence of str
+        Its coefficients.
+    model : TireModel
+        Everything that is known before.
+    here, measured : mapping of ndarray, ndarray
+        The stage's points.
+    ranges : mapping of ndarray
+        Points that say what the recording can tell.
+    options : Options
+    seeds : sequence of TireModel
+        More models to start from.
+    bar : float
+        RMS that the fit should not leave, of a simpler formula.
+
+    Returns
+    -------
+    Outcome
+    """
+    closed = open_coefficients(tuple(names), ranges, model.value("FNOMIN"))
+    typical = typical_values(list(names), model, options.from_start)
+    first = dict(typical) if options.from_start else first_values(stage, typical, here, measured)
+    typical.update({n: first[n] for n in ("PKY1", "PKX1", "QDZ1") if n in first})
+    for name in ("PDY1", "PDX1"):
+        if name in typical:
+            typical[name] = max(typical[name], first[name])
+    silent = noise_alone(tuple(names), ranges, model.value("FNOMIN"))
+    known = {n for group in closed.values() for n in group}
+    rows = [np.ascontiguousarray(here[name]) for name in INPUTS]
+
+    def problem_of(free: Sequence[str]) -> tuple[Problem, Bounds]:
+        vector = model.packed.copy()
+        for name in names:
+            vector[INDEX[name]] = typical[name]
+        low, high = bounds_of(list(free), first)
+        drawn = pull(free, typical, (low, high))
+        unseen = np.isin(free, sorted(known)) & (low > 0.0)
+        bounds = np.where(unseen, np.maximum(low, np.minimum(drawn.centre / _LEAST, high)), low), high
+        return Problem(vector, model.family, stage.output, free, rows, measured, drawn), bounds
+
+    def points_of(problem: Problem, bounds: Bounds, number: int) -> list[np.ndarray]:
+        begin = np.array([first[n] for n in problem.names])
+        drawn = starting_points(begin, bounds, problem.pull.spread, number, options.rng)
+        more = [[seed.coefficients.get(n, typical[n]) for n in problem.names] for seed in seeds]
+        return [*drawn, *(np.clip(values, *bounds) for values in more)]
+
+    free = [name for name in names if name not in known]
+    problem, bounds = problem_of(free)
+    best = least(problem, bounds, points_of(problem, bounds, options.starts))
+    reached = lowest = problem.misfit(best)
+    exact = _EXACT * float(np.abs(measured).max())
+    released: dict[str, list[str]] = {}
+    if known - silent and reached > exact and not are_few(problem):
+        every = [name for name in names if name not in silent]
+        wider, wide = problem_of(every)
+        found = dict(zip(free, best, strict=True))
+        begin = [np.array([found.get(n, typical[n]) for n in every])]
+        widest = least(wider, wide, [*begin, *points_of(wider, wide, -(-options.starts // 4))])
+        lowest = min(reached, wider.misfit(widest))
+        if reached > (1.0 + 0.5 * SLACK) * lowest or reached > bar:
+            released = {reason: [n for n in group if n in every] for reason, group in closed.items()}
+            problem, bounds, best, free, reached = wider, wide, widest, every, lowest
+    most = max(min((1.0 + SLACK) * lowest, bar), reached, exact)
+    held = np.isin(free, sorted(known))
+    values = most_typical(problem, bounds, best, options.loss, most, held)
+    kept = {
+        reason: {n: typical[n] for n in group if n not in free}
+        for reason, group in closed.items()
+        if any(n not in free for n in group)
+    }
+    found_values = dict(zip(free, values.tolist(), strict=True))
+    return Outcome(
+        found_values,
+        judged(problem, bounds, values, options.loss),
+        kept,
+        {reason: group for reason, group in released.items() if group},
+    )

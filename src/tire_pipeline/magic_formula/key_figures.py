@@ -1,0 +1,141 @@
+"""The few numbers by which engineers know a tire, and the points at which it is looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from tire_pipeline.magic_formula.model import TireModel
+
+LARGEST_SLIP_ANGLE = np.deg2rad(15.0)
+LARGEST_SLIP_RATIO = 0.3
+SHARES_OF_LOAD = (0.5, 1.0, 1.5)
+_POINTS = 301
+_FEWEST_LOADS = 2
+
+
+@dataclass(frozen=True)
+class KeyFigure:
+    """One number of a tire.
+
+    Attributes
+    ----------
+    name : str
+    value : float
+        NaN where the model does not give it.
+    unit : str
+    """
+
+    name: str
+    value: float
+    unit: str
+
+
+def key_figures(model: TireModel, normal_load: float | None = None) -> list[KeyFigure]:
+    """Return the numbers by which engineers know a tire.
+
+    At pure slip, without camber, at the nominal pressure.
+
+    Parameters
+    ----------
+    model : TireModel
+    normal_load : float, optional
+        N; ``FNOMIN`` if left out.
+
+    Returns
+    -------
+    list of KeyFigure
+        Stiffness, peak friction and the slips of the peaks, largest aligning moment, relaxation lengths.
+
+    Examples
+    --------
+    >>> from tire_pipeline.magic_formula import TireModel
+    >>> tire = TireModel.from_coefficients(
+    ...     {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2}
+    ... )
+    >>> figure = key_figures(tire)[0]
+    >>> figure.name, round(figure.value), figure.unit
+    ('cornering stiffness', 1117, 'N/deg')
+    """
+    load = model.value("FNOMIN") if normal_load is None else float(normal_load)
+    side = forces_over(model, "slip_angle", load)
+    ahead = forces_over(model, "slip_ratio", load)
+    still = model.forces(normal_load=load, limits="ignore")
+    angle, force = np.degrees(side["slip"]), np.abs(side["fy"])
+    ratio, pull = ahead["slip"], np.abs(ahead["fx"])
+    torque = np.abs(side["mz"])
+    return [
+        KeyFigure("cornering stiffness", abs(float(still.cornering_stiffness)) * np.pi / 180.0, "N/deg"),
+        KeyFigure("largest lateral friction", _peak(force) / load, ""),
+        KeyFigure("slip angle of the peak", _at_peak(angle, force), "deg"),
+        KeyFigure("slip stiffness", abs(float(still.slip_stiffness)), "N"),
+        KeyFigure("largest longitudinal friction", _peak(pull) / load, ""),
+        KeyFigure("slip ratio of the peak", _at_peak(ratio, pull), ""),
+        KeyFigure("largest aligning moment", _peak(torque), "N m"),
+        KeyFigure("lateral relaxation length", _positive(still.relaxation_lateral), "m"),
+        KeyFigure("longitudinal relaxation length", _positive(still.relaxation_longitudinal), "m"),
+    ]
+
+
+def forces_over(model: TireModel, slip: str, normal_load: float, **more: Any) -> dict[str, np.ndarray]:
+    """Return forces over one slip, the other one zero, within the range of the file.
+
+    Parameters
+    ----------
+    model : TireModel
+    slip : {"slip_angle", "slip_ratio"}
+    normal_load : float
+        N.
+    **more
+        ``camber`` (rad), ``pressure`` (Pa), as for :meth:`TireModel.forces`.
+
+    Returns
+    -------
+    dict of ndarray, shape (301,)
+        ``slip`` (rad or 1), ``fx``, ``fy`` (N), ``mz`` (N m).
+    """
+    x = slip_range(model, slip)
+    points: dict[str, Any] = {slip: x, "normal_load": normal_load, **more}
+    found = model.forces(**points, limits="ignore", outputs=("fx", "fy", "mz"))
+    return {"slip": x, "fx": found.fx, "fy": found.fy, "mz": found.mz}
+
+
+def slip_range(model: TireModel, slip: str) -> np.ndarray:
+    """Return slips to look at: to 15 degrees or a ratio of 0.3, or to where the file's range ends."""
+    most = LARGEST_SLIP_ANGLE if slip == "slip_angle" else LARGEST_SLIP_RATIO
+    low, high = model.ranges[slip][2:] if slip in model.ranges else (-most, most)
+    return np.linspace(max(low, -most), min(high, most), _POINTS)
+
+
+def usual_loads(models: Sequence[TireModel]) -> list[float]:
+    """Return loads to look at, within all files' ranges (N).
+
+    Half, one and one and a half nominal loads; where the range holds only one, its ends and middle.
+    """
+    ranges = [model.ranges["normal_load"][2:] for model in models if "normal_load" in model.ranges]
+    low, high = max((r[0] for r in ranges), default=0.0), min((r[1] for r in ranges), default=np.inf)
+    nominal = float(np.mean([model.value("FNOMIN") for model in models]))
+    inside = [share * nominal for share in SHARES_OF_LOAD if low <= share * nominal <= high]
+    if len(inside) < _FEWEST_LOADS and 0.0 < low < high < np.inf:
+        return [low, 0.5 * (low + high), high]
+    return inside or [nominal]
+
+
+def _peak(size: np.ndarray) -> float:
+    most = float(np.max(size))
+    return most if most > 0.0 else float("nan")
+
+
+def _at_peak(slip: np.ndarray, size: np.ndarray) -> float:
+    """Slip of the largest force, NaN if the force still grows where the range ends or is zero everywhere."""
+    place = int(np.argmax(size))
+    inside = 0 < place < size.size - 1 and size[place] > 0.0
+    return abs(float(slip[place])) if inside else float("nan")
+
+
+def _positive(value: Any) -> float:
+    return float(value) if float(value) > 0.0 else float("nan")
