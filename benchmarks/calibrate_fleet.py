@@ -1,4 +1,4 @@
-"""The classifier's figures on the demonstration fleet, beside the thesis': the table of docs/fleet.md.
+"""The classifier's figures on the demonstration fleet, beside the thesis' (docs/explanation/fleet.md).
 
 python benchmarks/calibrate_fleet.py 1 2 3
 """

@@ -2,7 +2,7 @@
 and how it shrinks with more tires that all actors measured.
 
     python benchmarks/error_split.py           # prints
-    python benchmarks/error_split.py --write   # puts the table between the marks in docs/translation.md
+    python benchmarks/error_split.py --write   # puts the table into docs/explanation/translation_results.md
 
 Biases put right are fitted on the sealed truth of the tires that are not judged; parts put right are the
 tire's own truth: nothing of that is a translator. Rows with more pairs are: they have the first measurement
@@ -26,7 +26,7 @@ from tire_pipeline.evaluation import curves_of, evaluate_translations
 from tire_pipeline.translation.curve_mixed import Prediction
 from tire_pipeline.translation.curve_translator import MixedModel, PairedMixedModel
 
-PAGE = Path(__file__).parent.parent / "docs" / "translation.md"
+PAGE = Path(__file__).parent.parent / "docs" / "explanation" / "translation_results.md"
 BEGIN = "<!-- from error_split.py -->"
 METRICS = ["forces", "cornering_stiffness", "peak_friction"]
 PARTS = ("cornering stiffness", "lateral friction", "lateral shape")

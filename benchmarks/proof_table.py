@@ -1,4 +1,4 @@
-"""Write the published proof's scores into docs/concealed.md, none by hand.
+"""Write the published proofs' scores into docs/explanation/concealed.md, none by hand.
 
 python benchmarks/proof_table.py                          # prints benchmarks/results/proof_scores.csv
 python benchmarks/proof_table.py --data data --write      # takes the last run's scores and misses first
@@ -7,24 +7,38 @@ python benchmarks/proof_table.py --data data --write      # takes the last run's
 from __future__ import annotations
 
 import argparse
+import json
 import shutil
 from pathlib import Path
 
 import pandas as pd
 from doc_tables import markdown, write_between
 
+from tire_pipeline.concealed.real.published import published, published_text
+
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benchmarks" / "results"
-PAGE = ROOT / "docs" / "concealed.md"
+PAGE = ROOT / "docs" / "explanation" / "concealed.md"
+REAL = ROOT / "src" / "tire_pipeline" / "concealed" / "real" / "published.csv"
 BEGIN = "<!-- from proof_table.py -->"
+BEGIN_REAL = "<!-- real, from proof_table.py -->"
 OWN = "explain_mismatch"
 
 
 def take(data: Path) -> None:
     """Copy scores and misses of the last ``prove_concealed`` below a data folder."""
     for name in ("proof_scores.csv", "proof_misses.csv"):
-        last = max((data / "07_model_output" / name).glob(f"*/{name}"))
-        shutil.copyfile(last, RESULTS / name)
+        if (data / "07_model_output" / name).is_dir():
+            shutil.copyfile(_last(data, name), RESULTS / name)
+    made = json.loads(_last(data, "real_proof_details.json").read_text())
+    if not made["published"]:
+        shutil.copyfile(_last(data, "real_proof_misses.csv"), RESULTS / "real_proof_misses.csv")
+        scores = pd.read_csv(_last(data, "real_proof_scores.csv"))
+        REAL.write_text(published_text(scores, made["made"]))
+
+
+def _last(data: Path, name: str) -> Path:
+    return max((data / "07_model_output" / name).glob(f"*/{name}"))
 
 
 def table(scores: pd.DataFrame) -> str:
@@ -49,6 +63,42 @@ def table(scores: pd.DataFrame) -> str:
     return markdown(head, rows)
 
 
+def real_table(scores: pd.DataFrame, made: dict) -> str:
+    """Scores on real recordings by source, and those of the baselines on all."""
+    own = scores[scores["method"] == OWN]
+    others = scores[(scores["method"] != OWN) & (scores["source"] == "all")]
+    beside = others.pivot(index="name", columns="method", values="value")
+    sources = list(made["by_source"])
+    head = ["score", "all", "95% interval", "n", "goal", "met", *sources, *beside.columns]
+    rows = []
+    for row in own[own["source"] == "all"].itertuples():
+        parts = own[own["name"] == row.name].set_index("source")
+        aimed = isinstance(row.target, str)
+        rows.append(
+            [
+                row.name,
+                _cell(row.value, 3),
+                f"{_cell(row.low, 3)} to {_cell(row.high, 3)}" if row.n else "",
+                f"{row.n:.0f}",
+                row.target if aimed else "",
+                {"True": "yes", "False": "no"}.get(str(row.met), "") if aimed else "",
+                *(f"{_cell(parts.loc[s, 'value'], 3)} ({parts.loc[s, 'n']:.0f})" for s in sources),
+                *(_cell(value, 2) for value in beside.loc[row.name]),
+            ]
+        )
+    count = ", ".join(f"{n} from {source}" for source, n in made["by_source"].items())
+    first = (
+        f"{made['cases']} cases ({count}) of seed {made['seed']}, run on {made['date']}; hash of the code "
+        f"that was judged {made['code']}, of the answers `{made['sha256']}`; {made['sealed_sweeps']} sweeps "
+        f"sealed, {made['development_sweeps']} for development."
+    )
+    return f"{first}\n\n{markdown(head, rows)}"
+
+
+def _cell(value: float, digits: int) -> str:
+    return f"{value:.{digits}f}" if pd.notna(value) else ""
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--data", type=Path)
@@ -60,6 +110,12 @@ def main() -> None:
     print(text)
     if asked.write:
         write_between(PAGE, BEGIN, text)
+    scores, made = published()
+    if made:
+        text = real_table(scores, made)
+        print(f"\n{text}")
+        if asked.write:
+            write_between(PAGE, BEGIN_REAL, text)
 
 
 if __name__ == "__main__":

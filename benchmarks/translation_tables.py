@@ -1,7 +1,7 @@
-"""Write the figures of docs/translation.md from ``benchmarks/results/translation.csv``, none by hand.
+"""Write the figures of docs/explanation/translation_results.md from ``benchmarks/results/translation.csv``.
 
 python benchmarks/translation_tables.py          # prints
-python benchmarks/translation_tables.py --write  # puts them between the marks in docs/translation.md
+python benchmarks/translation_tables.py --write  # puts them into docs/explanation/translation_results.md
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from tire_pipeline.reporting.translation_page import MIXED, check_goals
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benchmarks" / "results" / "translation.csv"
 BANDS = RESULTS.with_name("translation_bands.csv")
-PAGE = ROOT / "docs" / "translation.md"
+PAGE = ROOT / "docs" / "explanation" / "translation_results.md"
 BEGIN = "<!-- from translation_tables.py -->"
 
 RATIOS = ["ratio_forces", "ratio_cornering_stiffness", "ratio_peak_friction"]
@@ -111,8 +111,9 @@ def tables(measured: pd.DataFrame) -> str:
     left, grown = refusals["left_alone"].sum(), refusals["harmful"].sum()
     right = (refusals["left_alone"] * refusals["refusal_precision"].fillna(0.0)).sum()
     parts = [
-        f"{fleets} fleets of seeds {seeds}. Ratios are forces / cornering stiffness / peak friction; worst: "
-        "of the seeds, each ratio by itself.",
+        f"{fleets} fleets of seeds {seeds}. Ratios are of mean squared errors, translated "
+        "over unchanged (their roots are ratios of RMS errors): forces / cornering stiffness / peak "
+        "friction; worst: of the seeds, each ratio by itself.",
         by_fleet(hidden),
         "Every translator, additive fleets at the calibrated bias:",
         all_translators(hidden),

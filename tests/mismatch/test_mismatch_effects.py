@@ -34,6 +34,13 @@ def test_every_effect_says_what_it_is(name):
 
 
 @pytest.mark.parametrize("name", sorted(PHYSICS + ARTEFACTS))
+def test_every_effect_says_what_it_covers_and_what_not(name):
+    said = " ".join(type(catalogue()[name]).__doc__.split())
+    assert "Covers" in said
+    assert "Not covered" in said
+
+
+@pytest.mark.parametrize("name", sorted(PHYSICS + ARTEFACTS))
 def test_an_effect_at_zero_changes_nothing(name, tire, record):
     data = prepare(tire, record()).data
     effect = catalogue()[name]
@@ -134,3 +141,82 @@ def test_one_of_the_parameters_that_make_an_effect_what_it_is_stays(tire, record
     assert [e.name for e in report.effects] == ["plysteer_conicity"]
     assert set(report.effects[0].parameters) == {"thrust"}
     assert report.effects[0].parameters["thrust"][0] == pytest.approx(0.03, rel=0.1)
+
+
+def test_a_file_fitted_at_one_load_has_another_stiffness_at_others(tire, record):
+    """The cornering stiffness saturates with load; in the file it is in proportion to it."""
+    peak = float(np.sin(2.0 * np.arctan(1.0 / tire.coefficients["PKY2"])))
+    straight = tire.replace(
+        PKY2=100.0, PKY1=tire.coefficients["PKY1"] * peak / np.sin(2.0 * np.arctan(0.01)), PDY2=0.0
+    )
+    report = explain_mismatch(straight, record(2))
+    assert [e.name for e in report.effects] == ["load_sensitivity"]
+    found = {name: value for name, (value, _, _) in report.effects[0].parameters.items()}
+    assert found["rate"] == pytest.approx(-0.1, abs=0.03)
+    assert found["stiffness"] < -0.2
+    assert report.fit["fy"].rms_after < 0.5 * report.fit["fy"].rms_before
+
+
+def test_a_leak_of_the_normal_load_into_both_forces_is_crosstalk(tire, record):
+    braked = tire.replace(PCX1=1.6, PDX1=1.1, PEX1=0.1, PKX1=22.0, RBX1=12.0, RCX1=1.0, RBY1=12.0, RCY1=1.0)
+    recording = record(8)
+    slip = 0.05 * np.sin(recording["time"].to_numpy())
+    at = {n: recording[n].to_numpy() for n in ("slip_angle", "normal_load")}
+    forces = braked.forces(slip_ratio=slip, **at)
+    noise = np.random.default_rng(8).normal(0.0, 25.0, (2, slip.size))
+    load = recording["normal_load"]
+    recording = recording.assign(
+        slip_ratio=slip, fx=forces.fx + noise[0] - 0.02 * load, fy=forces.fy + noise[1] + 0.015 * load
+    )
+    report = explain_mismatch(braked, recording)
+    assert [e.name for e in report.effects] == ["crosstalk"]
+    found = {name: value for name, (value, _, _) in report.effects[0].parameters.items()}
+    assert found == {
+        "load_into_fy": pytest.approx(0.015, abs=0.002),
+        "load_into_fx": pytest.approx(-0.02, abs=0.003),
+    }
+
+
+def test_a_leak_of_the_load_into_one_force_is_not_told_from_conicity(tire, record):
+    recording = record(9)
+    report = explain_mismatch(tire, recording.assign(fy=recording["fy"] + 0.02 * recording["normal_load"]))
+    effect = report.effects[0]
+    assert {effect.name, *effect.alternatives} >= {"crosstalk", "plysteer_conicity"}
+
+
+@pytest.mark.parametrize("radii", [0.05, 7.0])
+def test_no_tire_has_a_relaxation_length_beyond_what_its_size_allows(tire, record, radii):
+    data = prepare(tire, record()).data
+    effect = catalogue()["relaxation_length"]
+    assert effect.outside(data, {**effect.zeros(data), "length": radii * data.radius})
+    assert not effect.outside(data, {**effect.zeros(data), "length": 1.2 * data.radius})
+
+
+def test_a_drift_that_settles_is_all_there_at_the_end(tire, record):
+    data = prepare(tire, record()).data
+    added = simulate(data, [("sensor_drift", {"fy": 100.0, "lag": 20.0})])["fy"] - data.base["fy"]
+    at = np.searchsorted(data.time, [20.0, 40.0])
+    whole = 1.0 - np.exp(-(data.time[-1] - data.time[0]) / 20.0)
+    np.testing.assert_allclose(added[at], 100.0 * (1.0 - np.exp([-1.0, -2.0])) / whole, atol=0.3)
+    assert added[-1] == pytest.approx(100.0)
+
+
+def test_pressure_changes_the_stiffness_more_at_large_load(tire, record):
+    """MF 6.1's PPY2: a softer tire saturates at a smaller load."""
+    data = prepare(tire, record()).data
+    now = simulate(data, [("inflation_pressure", {"stiffness_load": 0.5, "reference": 2.2e5})])["fy"]
+    d = (data.smooth("pressure") - 2.2e5) / 2.2e5
+    small = (np.abs(data.get("slip_angle")) < 0.01) & (np.abs(data.get("slip_angle")) > 0.004) & (d < -0.1)
+    ratio = now[small] / data.base["fy"][small]
+    expected = 1.0 + 0.5 * d[small] * data.load_excess(data.get("normal_load"))[small]
+    np.testing.assert_allclose(ratio, expected, atol=0.01)
+
+
+def test_friction_by_sliding_speed_shows_at_large_slip_only(tire, record):
+    recording = record()
+    data = prepare(tire, recording.assign(speed=16.7 * (1.0 + 0.3 * np.sin(recording["time"] / 9.0)))).data
+    values = {**catalogue()["speed_dependence"].zeros(data), "sliding": 1.0}
+    ratio = simulate(data, [("speed_dependence", values)])["fy"] / data.base["fy"]
+    small, large = (np.abs(data.get("slip_angle")) < a for a in (0.03, 0.15))
+    assert np.abs(ratio[small & (np.abs(data.get("slip_angle")) > 0.005)] - 1.0).max() < 0.01
+    assert np.abs(ratio[~large] - 1.0).max() > 0.03

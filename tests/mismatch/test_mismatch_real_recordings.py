@@ -1,6 +1,7 @@
 """The two real recordings of ../shared/recordings: what the issue claims of them, and what was reached.
 
-The experiments are those of benchmarks/real_recordings.py, which prints all figures (docs/mismatch.md).
+The experiments are those of benchmarks/real_recordings.py, which prints all figures
+(docs/history/mismatch.md).
 """
 
 import importlib.util
@@ -28,22 +29,46 @@ def real():
     return module
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", [0, 1, 2, 4])
-def test_tydex_camber_is_found_and_put_in(real, seed):
-    report, before, after = real.tydex_camber(seed)
-    assert real.names(report) == ["camber"]
-    assert after < 0.5 * before
+DRAWS = range(20)
+"""All draws that benchmarks/real_recordings.py prints; none is left out."""
+
+
+@pytest.fixture(scope="module")
+def tydex_draws(real):
+    """Camber hidden, 40% of the cambered points held out: report, error before and after of every draw."""
+    return [real.tydex_camber(seed) for seed in DRAWS]
 
 
 @pytest.mark.slow
-def test_tydex_camber_is_the_same_whatever_is_held_out(real):
+def test_tydex_camber_is_found(real, tydex_draws):
+    found = [real.names(report) == ["camber"] for report, _, _ in tydex_draws]
+    assert np.mean(found) >= 0.9
+
+
+@pytest.mark.slow
+@pytest.mark.xfail(reason="16 of 20 draws", strict=True)
+def test_tydex_camber_put_in_halves_the_error_of_held_out_points(tydex_draws):
+    halved = [after < 0.5 * before for _, before, after in tydex_draws]
+    assert np.mean(halved) >= 0.9
+
+
+@pytest.mark.slow
+def test_tydex_camber_never_makes_held_out_points_worse(tydex_draws):
+    assert [after <= before for _, before, after in tydex_draws] == [True] * len(tydex_draws)
+
+
+_LOST = pytest.mark.xfail(reason="17 of 20 draws", strict=True)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["shift", "thrust", pytest.param("stiffness_loss", marks=_LOST)])
+def test_tydex_camber_is_the_same_whatever_is_held_out(real, tydex_draws, name):
     """Its thrust over load and its loss of friction were in or out by chance, and moved the others."""
-    found = [real.tydex_camber(seed)[0].effects[0].parameters for seed in (1, 3)]
-    for name in ("shift", "thrust", "stiffness_loss"):
-        (first, error, _), (second, other, _) = (parameters[name] for parameters in found)
-        assert abs(first - second) < 2.0 * np.hypot(error, other)
-    assert all("friction_loss" not in parameters for parameters in found)
+    found = [r.effects[0].parameters for r, _, _ in tydex_draws if real.names(r) == ["camber"]]
+    values = np.array([parameters[name][:2] for parameters in found])
+    # Draws share 60% of the points or more: they differ by less than independent ones.
+    near = np.abs(values[:, 0] - np.median(values[:, 0])) < 2.0 * values[:, 1]
+    assert near.sum() >= 0.9 * len(tydex_draws)
 
 
 @pytest.mark.slow
@@ -62,14 +87,17 @@ def test_dart_other_half_agrees_or_shows_a_small_effect(real, half):
 
 @pytest.mark.slow
 def test_what_too_few_points_show_is_no_agreement(real):
-    """With half of the cambered points camber explains most, but its Wilcoxon test cannot say so."""
+    """With half of the cambered points camber explains most; whether named or not, it is no agreement."""
     flat = real.flat_points()
-    kept = flat | (np.random.default_rng(8).random(flat.size) >= 0.5)
-    report = explain_mismatch(real.tydex_tire(), real.tydex()[kept])
-    assert report.verdict == "unexplained"
-    assert not report.effects
-    (camber,) = [c for c in report.candidates if c["name"] == "camber"]
-    assert "held-out sweeps do not show it surely" in camber["why"]
+    reports = []
+    for seed in range(10):
+        kept = flat | (np.random.default_rng(seed).random(flat.size) >= 0.5)
+        reports.append(explain_mismatch(real.tydex_tire(), real.tydex()[kept]))
+    assert "agrees" not in [r.verdict for r in reports]
+    # What is named is camber; what is not named says so.
+    said = [set(real.names(r)) <= {"camber"} for r in reports]
+    assert np.mean(said) >= 0.9
+    assert all(r.effects or r.verdict == "unexplained" for r in reports)
 
 
 def _short(fitted: int, why: str) -> object:
@@ -86,7 +114,7 @@ def _short(fitted: int, why: str) -> object:
     ],
 )
 def test_dart_second_session_is_located_explained_and_repaired(real, fitted, gone):
-    """The issue asks for 65%; docs/mismatch.md says what is reached."""
+    """The issue asks for 65%; docs/history/mismatch.md says what is reached."""
     report, before, after = real.dart_repair(fitted)
     assert report.located
     assert report.located[0].mean < 0.0

@@ -1,7 +1,7 @@
 """The rig simulator that makes sealed cases, the scorer, and the baselines.
 
 A brush tire that is no Magic Formula is run on a rig with an effect that its ``.tir`` leaves out.
-See ``docs/concealed.md``.
+See ``docs/explanation/concealed.md``.
 """
 
 from tire_pipeline.concealed.answers import Answer, EffectTruth, seal, unseal

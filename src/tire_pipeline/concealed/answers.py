@@ -6,6 +6,7 @@ import hashlib
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
+from typing import Self, TypeVar
 
 from tire_pipeline.errors import DomainError
 
@@ -91,8 +92,8 @@ class Answer:
         """Return the answer as plain JSON types."""
         return json.loads(json.dumps(asdict(self)))
 
-    @staticmethod
-    def from_dict(data: Mapping) -> Answer:
+    @classmethod
+    def from_dict(cls, data: Mapping) -> Self:
         """Return the answer that :meth:`to_dict` wrote."""
         effects = tuple(
             EffectTruth(
@@ -104,8 +105,11 @@ class Answer:
             )
             for e in data["effects"]
         )
-        tuples = ("acceptable", "missing_channels", "blocks", "focus")
-        return Answer(**{**data, "effects": effects, **{k: tuple(data[k]) for k in tuples}})
+        lists = {k: tuple(v) for k, v in data.items() if isinstance(v, list)}
+        return cls(**{**data, **lists, "effects": effects})
+
+
+A = TypeVar("A", bound=Answer)
 
 
 def seal(answers: Iterable[Answer]) -> tuple[bytes, str]:
@@ -127,8 +131,8 @@ def seal(answers: Iterable[Answer]) -> tuple[bytes, str]:
     return data, hashlib.sha256(data).hexdigest()
 
 
-def unseal(data: bytes, sha256: str) -> list[Answer]:
-    """Read sealed answers back.
+def unseal(data: bytes, sha256: str, form: type[A] = Answer) -> list[A]:  # type: ignore[assignment]
+    """Read sealed answers back, as ``form``.
 
     Raises
     ------
@@ -142,4 +146,4 @@ def unseal(data: bytes, sha256: str) -> list[Answer]:
             where="sealed answers",
             todo="take the answers that belong to these cases",
         )
-    return [Answer.from_dict(row) for row in json.loads(data)]
+    return [form.from_dict(row) for row in json.loads(data)]

@@ -74,9 +74,14 @@ def fit_clean(world: World, plan: Plan, *, noise: float, rng: np.random.Generato
 
 
 def model_forces(tire: TireModel, frame: pd.DataFrame) -> np.ndarray:
-    """Forces that the model gives at the frame's inputs, shape (n, 2): fx, fy in N."""
-    channels = ("normal_load", "slip_angle", "slip_ratio", "camber")
-    inputs = {channel: frame[channel].to_numpy() for channel in channels}
+    """Forces that the model gives at the frame's inputs, shape (n, 2): fx, fy in N.
+
+    Slip ratio and camber are 0 where they were not recorded; pressure matters to MF 6.x only.
+    """
+    channels = ["normal_load", "slip_angle", "slip_ratio", "camber"]
+    if tire.version.startswith("6"):
+        channels.append("pressure")
+    inputs = {channel: frame[channel].to_numpy() for channel in channels if channel in frame}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DegreesWarning)
         got = tire.forces(**inputs, limits="ignore", outputs=FORCES)

@@ -15,7 +15,7 @@ from tire_pipeline.concealed.rig import FORCES
 def held_out_errors(
     case: Case, predict: Callable[[pd.DataFrame], pd.DataFrame]
 ) -> dict[str, dict[str, float]]:
-    """RMS error on the held-out run before and after the correction.
+    """RMS error on the held-out run before and after the correction, of the forces that were recorded.
 
     Parameters
     ----------
@@ -29,11 +29,13 @@ def held_out_errors(
     dict
         Output -> ``rms_before``, ``rms_after``, N.
     """
-    inputs = case.held_out.drop(columns=list(FORCES))
+    recorded = [force for force in FORCES if force in case.held_out]
+    inputs = case.held_out.drop(columns=recorded)
     before = model_forces(case.tire, inputs)
     after = predict(inputs)
     out = {}
-    for i, force in enumerate(FORCES):
+    for force in recorded:
+        i = FORCES.index(force)
         measured = case.held_out[force].to_numpy()
         guess = after[force].to_numpy() if force in after else before[:, i]
         out[force] = {

@@ -1,7 +1,7 @@
 """Scores of explanations against the sealed answers, with confidence intervals and every miss.
 
 The reports come as the dictionaries of ``report.to_dict()``; the rules are in
-``docs/concealed.md`` and were fixed before any report was scored.
+``docs/explanation/concealed.md`` and were fixed before any report was scored.
 """
 
 from __future__ import annotations
@@ -153,27 +153,27 @@ def _name_scores(pairs: list[tuple[Report, Answer]]) -> list[dict[str, Any]]:
     vague, outside = of("ambiguous"), of("unknown")
     count = [len(covering(r)) for r, _ in vague]
     return [
-        _share("false physics, nothing missing", [false_physics(r, a) for r, a in of("nothing")]),
-        _share("false physics, artefact only", [false_physics(r, a) for r, a in of("artefact")]),
-        _share("false physics", [false_physics(r, a) for r, a in null], at_most=0.02),
-        _share("any name, nothing missing", [bool(named(r)) for r, _ in of("nothing")]),
-        _share("artefact found", [exact_set(r, a) for r, a in of("artefact")]),
-        _share("exact set, single", [exact_set(r, a) for r, a in single]),
-        _share(
+        share_row("false physics, nothing missing", [false_physics(r, a) for r, a in of("nothing")]),
+        share_row("false physics, artefact only", [false_physics(r, a) for r, a in of("artefact")]),
+        share_row("false physics", [false_physics(r, a) for r, a in null], at_most=0.02),
+        share_row("any name, nothing missing", [bool(named(r)) for r, _ in of("nothing")]),
+        share_row("artefact found", [exact_set(r, a) for r, a in of("artefact")]),
+        share_row("exact set, single", [exact_set(r, a) for r, a in single]),
+        share_row(
             "exact set, single above 0.6 noise",
             [exact_set(r, a) for r, a in strong(single)],
             at_least=0.95,
         ),
-        _share("exact set, pair", [exact_set(r, a) for r, a in double]),
-        _share(
+        share_row("exact set, pair", [exact_set(r, a) for r, a in double]),
+        share_row(
             "exact set, pair above 0.6 noise",
             [exact_set(r, a) for r, a in strong(double)],
             at_least=0.85,
         ),
-        _share("ambiguous covered", [covers(r, a) for r, a in vague], at_least=0.95),
-        _share("ambiguous covered, first key", [covers(r, _by_first_key(a)) for r, a in vague]),
-        _mean("ambiguous, names given", count, at_most=2.0),
-        _share(
+        share_row("ambiguous covered", [covers(r, a) for r, a in vague], at_least=0.95),
+        share_row("ambiguous covered, first key", [covers(r, _by_first_key(a)) for r, a in vague]),
+        mean_row("ambiguous, names given", count, at_most=2.0),
+        share_row(
             "false names, outside the catalogue",
             [bool(named(r)) for r, _ in outside],
             at_most=0.05,
@@ -226,7 +226,7 @@ def _value_scores(
         if a.effects and a.kind != "unknown" and a.case_id in held_out
         if (share := recovered(held_out[a.case_id], a)) is not None
     ]
-    ece = _mean("calibration error", [], at_most=0.05)
+    ece = mean_row("calibration error", [], at_most=0.05)
     if confidence:
         value = calibration_error(confidence, correct)
         draws = []
@@ -237,9 +237,9 @@ def _value_scores(
         ece |= {"value": value, "low": float(low), "high": float(high), "n": len(correct)}
         ece["met"] = bool(value <= 0.05)
     return [
-        _mean("window IoU", windows, at_least=0.8, rng=rng),
-        _mean("regime IoU", regimes, at_least=0.8, rng=rng),
-        _mean("held-out share of the oracle's", shares, at_least=0.9, rng=rng),
+        mean_row("window IoU", windows, at_least=0.8, rng=rng),
+        mean_row("regime IoU", regimes, at_least=0.8, rng=rng),
+        mean_row("held-out share of the oracle's", shares, at_least=0.9, rng=rng),
         ece,
     ]
 
@@ -263,7 +263,7 @@ def _by_strength(pairs: list[tuple[Report, Answer]]) -> list[dict[str, Any]]:
                 if a.kind == kind and low < weakest(a) <= high
             ]
             if hits:
-                row = _share("right", hits)
+                row = share_row("right", hits)
                 upper = None if np.isinf(high) else high
                 out.append({"kind": kind, "above": low, "up_to": upper, **row})
     return out
@@ -275,7 +275,7 @@ def _by_effect(pairs: list[tuple[Report, Answer]]) -> list[dict[str, Any]]:
     for report, answer in pairs:
         for effect in answer.effects:
             hits.setdefault(effect.name, []).append(effect.name in named(report))
-    return [{"effect": name, **_share("found", hits[name])} for name in sorted(hits)]
+    return [{"effect": name, **share_row("found", hits[name])} for name in sorted(hits)]
 
 
 def _miss(report: Report, answer: Answer) -> dict[str, Any] | None:
@@ -303,7 +303,7 @@ def _miss(report: Report, answer: Answer) -> dict[str, Any] | None:
     }
 
 
-def _share(
+def share_row(
     name: str,
     hits: Sequence[bool],
     *,
@@ -317,7 +317,7 @@ def _share(
     return _row(name, k / n if n else float("nan"), low, high, n, at_most, at_least)
 
 
-def _mean(
+def mean_row(
     name: str,
     values: Sequence[float],
     *,

@@ -1,7 +1,39 @@
 """Where a simulation and a recording differ, what the model left out, and the proof of it."""
 
-from tire_pipeline.mismatch.corrected import CorrectedModel
-from tire_pipeline.mismatch.explain import explain_mismatch
-from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFit
+from __future__ import annotations
 
-__all__ = ["CorrectedModel", "EffectReport", "MismatchReport", "OutputFit", "explain_mismatch"]
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tire_pipeline.mismatch.corrected import CorrectedModel
+    from tire_pipeline.mismatch.explain import explain_mismatch
+    from tire_pipeline.mismatch.report import EffectReport, HeldOutFit, MismatchReport, OutputFit
+    from tire_pipeline.mismatch.several import explain_recordings
+
+_MODULES = {
+    "CorrectedModel": "corrected",
+    "EffectReport": "report",
+    "HeldOutFit": "report",
+    "MismatchReport": "report",
+    "OutputFit": "report",
+    "explain_mismatch": "explain",
+    "explain_recordings": "several",
+}
+
+__all__ = [
+    "CorrectedModel",
+    "EffectReport",
+    "HeldOutFit",
+    "MismatchReport",
+    "OutputFit",
+    "explain_mismatch",
+    "explain_recordings",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import what is asked for, and with it pandas, numba and SciPy, only when it is asked for."""
+    if name in _MODULES:
+        return getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

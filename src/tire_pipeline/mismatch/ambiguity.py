@@ -8,6 +8,7 @@ import numpy as np
 
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.candidates import Variant, screening_columns
+from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.gates import unsure
 from tire_pipeline.mismatch.gram import System
@@ -16,6 +17,9 @@ from tire_pipeline.mismatch.search import Search, gain_of, objective, prune, wit
 from tire_pipeline.mismatch.simulate import simulate
 
 Array = np.ndarray
+_NEAREST, _FAR = 4, 0.35
+"""So many effects are fitted in the place of an accepted one, and none that is further apart."""
+_MOST = 2
 
 
 @dataclass(frozen=True)
@@ -37,6 +41,9 @@ class Rival:
     dearer : float
         How much of ``lost`` is the price of its further parameters: a reason to name it second, none to
         exclude it.
+    untold : float
+        Log evidence that counts for nothing, because the channel that would tell the two apart does not vary:
+        what the forms of both get wrong.
     """
 
     name: str
@@ -45,11 +52,12 @@ class Rival:
     lost: float
     unsure: float = 0.0
     dearer: float = 0.0
+    untold: float = 0.0
 
     @property
     def possible(self) -> bool:
         """Whether the recording cannot exclude it: by the angle and its size, or being nearly as likely."""
-        if self.lost < settings.ODDS:
+        if self.lost < max(settings.ODDS, self.untold):
             return True
         by_design = self.nats < settings.AMBIGUITY_NATS or self.apart < settings.AMBIGUITY_SHARE
         near = settings.AMBIGUITY_NATS if self.unsure > 0.0 else settings.TIE
@@ -85,8 +93,9 @@ def rivals(search: Search, index: int) -> list[Rival]:
     empty = objective(system, rest)
     own = gain_of(search, fit.judged_by(system), empty)
     out = []
-    for name, (_, v) in sorted(best.items(), key=lambda t: t[1][0])[:4]:
-        if best[name][0] > 0.35:
+    untold = {name: settings.SHAPE_SHARE * own for name in best if _untold(data, fit.names[index], name)}
+    for rank, (name, (_, v)) in enumerate(sorted(best.items(), key=lambda t: t[1][0])):
+        if name not in untold and (rank >= _NEAREST or best[name][0] > _FAR):
             continue
         trial = prune(search, refit(search.system, [*others, v]))
         trial = trial.judged_by(system)
@@ -94,8 +103,20 @@ def rivals(search: Search, index: int) -> list[Rival]:
         nats = 0.5 * apart * size / search.inflation
         lost = own - gain_of(search, trial, empty)
         dearer = search.price * max(trial.parameters - fit.parameters, 0)
-        out.append(Rival(name, apart, nats, lost, unsure(search, index, name), dearer))
+        doubt = unsure(search, index, name)
+        out.append(Rival(name, apart, nats, lost, doubt, dearer, untold.get(name, 0.0)))
     return sorted(out, key=lambda r: r.apart)
+
+
+def alternatives(near: list[Rival]) -> tuple[str, ...]:
+    """Return the names of the possible rivals, the likeliest first, at most two: more would be no answer."""
+    return tuple(r.name for r in sorted(near, key=lambda r: r.lost) if r.possible)[:_MOST]
+
+
+def _untold(data: Data, name: str, other: str) -> bool:
+    """Whether the channel that tells two effects apart stands still or is not recorded."""
+    channel = catalogue()[name].told_by.get(other) or catalogue()[other].told_by.get(name)
+    return channel is not None and not data.varies(channel)
 
 
 def _apart(

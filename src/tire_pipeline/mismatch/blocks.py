@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.cluster.vq import kmeans2
+import scipy
 
 from tire_pipeline.mismatch.data import Data
 
@@ -79,6 +79,6 @@ def _cells(data: Data) -> Array:
         return np.arange(data.size) * 8 // data.size
     x = np.column_stack([data.get(n) / np.std(data.get(n)) for n in names])
     count = int(np.clip(data.size // 6, 4, 24))
-    _, label = kmeans2(x, count, minit="++", seed=0)
+    _, label = scipy.cluster.vq.kmeans2(x, count, minit="++", seed=0)
     _, label = np.unique(label, return_inverse=True)
     return label

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch.cleaning import Cleaning, clean
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects.base import Finding
-from tire_pipeline.mismatch.exact import repair
-from tire_pipeline.mismatch.smoothing import denoise
+from tire_pipeline.mismatch.exact import open_axes, repair
+from tire_pipeline.mismatch.identity import another_tire
+from tire_pipeline.mismatch.open_questions import Question
 from tire_pipeline.mismatch.surrogate import stand_in
+from tire_pipeline.mismatch.usable import judge, leave_out_still_slip
 
 Array = np.ndarray
 INPUTS = (
@@ -28,6 +31,7 @@ INPUTS = (
     "turn_slip",
 )
 FORCES = ("fx", "fy")
+AS_GIVEN = "columns in ISO W axes and SI units, as they were given"
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
 _RATE = 50.0
@@ -51,6 +55,12 @@ class Prepared:
         For each sample of ``data`` the row of the recording where it begins.
     factors : dict of str to float
         Channel -> what repaired its sign and unit: true = factor times recorded.
+    cleaned : list of Cleaning
+        What was done to each input channel that fluctuates.
+    assumed : list of str
+        What nobody has stated: axes, units, repairs, channels taken as zero.
+    question : Question, optional
+        What has to be settled before anything is explained, or before anything corrected is written.
     """
 
     data: Data
@@ -58,6 +68,14 @@ class Prepared:
     notes: list[str]
     rows: Array
     factors: dict[str, float]
+    cleaned: list[Cleaning] = field(default_factory=list)
+    assumed: list[str] = field(default_factory=list)
+    question: Question | None = None
+
+    @property
+    def stopped(self) -> str:
+        """The verdict if nothing may be explained from it, else ""."""
+        return "" if self.question is None else self.question.verdict
 
 
 def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
@@ -85,6 +103,10 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
                 f"there are {float(np.nanmedian(np.diff(time))):.3g} s from sample to sample; if that is "
                 "wrong, the unit of time is"
             )
+    else:
+        notes.append(
+            "time is not recorded: the rows are taken as steady points, a channel that stuck would not show"
+        )
     rows = _usable(arrays, time, notes)
     arrays = {n: a[rows] for n, a in arrays.items()}
     time = None if time is None else time[rows]
@@ -92,6 +114,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     if tire is None:
         tire, beside = stand_in(arrays)
         arrays |= {f"_beside_{n}": b for n, b in beside.items()}
+    leave_out_still_slip(tire, arrays, time, notes)
     findings, bad, factors = (
         repair(tire, arrays, time) if beside is None else ([], np.zeros(rows.size, bool), {})
     )
@@ -104,19 +127,30 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
                 f"{rows.size} are left",
                 todo="record again",
             )
+    _overlap(tire, arrays)
+    _dead_forces(arrays, notes)
+    question, driven = judge(tire, arrays, time, notes)
+    if question is None and beside is None:
+        question = another_tire(tire, arrays, driven) or open_axes(
+            tire, arrays, findings, str(recording.attrs.get("axes_doubt", ""))
+        )
+    assumed = list(recording.attrs.get("assumed", [AS_GIVEN]))
+    assumed += [f"{n} is taken as {f:.6g} times what was recorded" for n, f in factors.items() if f != 1.0]
+    present = {n for n in INPUTS if n in recording.columns and n in arrays}
     for name in ("camber", "slip_ratio", "slip_angle"):
         if name not in arrays:
             arrays[name] = np.zeros(rows.size)
-            notes.append(f"{name} is not recorded and taken as zero")
-    _overlap(tire, arrays)
-    _dead_forces(arrays, notes)
+            assumed.append(f"{name} is not recorded and taken as zero")
     start = _pieces(time, rows, notes)
     arrays, time, start, rows = _binned(arrays, time, start, rows)
+    cleaned: list[Cleaning] = []
     if time is not None:
-        for name in ("slip_angle", "slip_ratio", "camber", "normal_load"):
-            arrays[name] = denoise(arrays[name], start)
-    present = {n for n in INPUTS if n in recording.columns and n in arrays}
+        forces = {n: arrays[n] - arrays.get(f"_beside_{n}", 0.0) for n in FORCES if n in arrays}
+        arrays, cleaned = clean(tire, arrays, forces, start)
+        notes += [c.text() for c in cleaned]
     own = own_relaxation(tire)
+    if own and time is not None and "speed" not in present:
+        notes.append("speed is not recorded, so the relaxation lengths that the file states are left out")
     beside = None if beside is None else {n: arrays.pop(f"_beside_{n}") for n in beside}
     data = Data(
         tire=tire,
@@ -128,7 +162,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
         beside=beside,
         fixed={"own_relaxation": own},
     )
-    return Prepared(data, findings, notes, rows, factors)
+    return Prepared(data, findings, notes, rows, factors, cleaned, assumed, question)
 
 
 def _arrays(recording: pd.DataFrame) -> dict[str, Array]:
@@ -136,9 +170,9 @@ def _arrays(recording: pd.DataFrame) -> dict[str, Array]:
     if not isinstance(recording, pd.DataFrame):
         raise RecordingError("the recording is not a DataFrame", todo="read it with read_recording")
     arrays: dict[str, Array] = {}
-    for name in recording.columns:
+    for name, series in pd.DataFrame(recording, copy=False).items():  # without attrs: pandas copies them
         try:
-            arrays[str(name)] = recording[name].to_numpy(dtype=float, na_value=np.nan)
+            arrays[str(name)] = series.to_numpy(dtype=float, na_value=np.nan)
         except (TypeError, ValueError):
             if name in (*INPUTS, *FORCES, "time"):
                 raise RecordingError(

@@ -9,7 +9,6 @@ from importlib import resources
 from typing import Any
 
 import numpy as np
-from sklearn.linear_model import LogisticRegression
 
 
 @cache
@@ -54,6 +53,8 @@ def calibrate(rows: Sequence[Mapping[str, float]], correct: Sequence[bool], how:
     how : str
         Which cases.
     """
+    from sklearn.linear_model import LogisticRegression  # slow to import
+
     names = list(rows[0])
     x = np.array([[row[n] for n in names] for row in rows])
     model = LogisticRegression(C=0.2, max_iter=2000).fit(x, np.asarray(correct, bool))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from tire_pipeline.mismatch.checks import INPUTS, own_relaxation
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
+from tire_pipeline.mismatch.open_questions import Question
 from tire_pipeline.mismatch.simulate import Change, plain_forces, simulate, simulate_moments
 from tire_pipeline.mismatch.smoothing import denoise
 
@@ -42,6 +43,10 @@ class CorrectedModel:
         Channel -> what repairs its sign and unit: true = factor times recorded.
     limits : dict of str to (low, high)
         Force -> the range in which it is recorded, as recorded.
+    question : Question, optional
+        What has to be settled before a file may be written from it.
+    cleaned : tuple of str
+        Input channels that are cleaned of sensor noise before the effects are put in.
     """
 
     tire: Any
@@ -52,6 +57,13 @@ class CorrectedModel:
     moments: tuple[str, ...] = ()
     factors: Mapping[str, float] = field(default_factory=dict)
     limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    question: Question | None = None
+    cleaned: tuple[str, ...] = ()
+
+    @property
+    def as_it_came(self) -> CorrectedModel:
+        """The model with nothing put in and nothing repaired: ``predict`` gives ``tire.forces``."""
+        return replace(self, changes=(), factors={}, limits={}, cleaned=())
 
     def predict(self, recording: pd.DataFrame) -> pd.DataFrame:
         """Return the corrected forces at the samples of a recording.
@@ -66,7 +78,8 @@ class CorrectedModel:
         pandas.DataFrame
             ``fx``, ``fy`` in N and ``mx``, ``my``, ``mz`` in N m (those that were recorded when the
             model was corrected), index as the recording's. Artefacts are put in, too, wrong signs and
-            units and clipping as well: this is what would be recorded.
+            units and clipping as well: this is what would be recorded. Without effects and repairs it is
+            what ``tire.forces`` gives at the rows as they are.
 
         Raises
         ------
@@ -74,6 +87,11 @@ class CorrectedModel:
             If a channel is missing that the model or an effect needs.
         """
         data = self._data(recording)
+        for name, _ in self.changes:
+            for channel in catalogue()[name].lacking(data):
+                raise RecordingError(
+                    f"{name} needs the channel {channel}", where=channel, todo="add the column"
+                )
         forces = simulate(data, self.changes)
         if self.moments:
             forces |= simulate_moments(data, self.changes, self.moments)
@@ -99,8 +117,8 @@ class CorrectedModel:
             start[1:] = (steps > 3.5 * np.median(steps)) | (steps <= 0.0)
         for name in ("slip_angle", "slip_ratio", "camber"):
             channels.setdefault(name, np.zeros(n))
-        for name in ("slip_angle", "slip_ratio", "camber", "normal_load"):
-            if time is not None:
+        if time is not None and self.changes:
+            for name in self.cleaned:
                 channels[name] = denoise(channels[name], start)
         beside = None
         if self.stands_in:
@@ -113,10 +131,6 @@ class CorrectedModel:
                 )
             own = plain_forces(self.tire, **{n: channels[n] for n in _POINTS})
             beside = {o: recording[f"simulated_{o}"].to_numpy(dtype=float) - own[o] for o in self.outputs}
-        for name, _ in self.changes:
-            for channel in catalogue()[name].channels:
-                if channel not in channels:
-                    raise RecordingError(f"{name} needs the channel {channel}", todo="add the column")
         return Data(
             tire=self.tire,
             channels=channels,
@@ -125,7 +139,7 @@ class CorrectedModel:
             start=start,
             present={c for c in channels if c in recording.columns},
             beside=beside,
-            fixed={**self.reference, "own_relaxation": own_relaxation(self.tire)},
+            fixed={**self.reference, "own_relaxation": own_relaxation(self.tire) if self.changes else None},
         )
 
     def tire_model(self) -> tuple[Any, dict[str, dict[str, object]]]:
@@ -170,9 +184,18 @@ class CorrectedModel:
         -------
         Path
             Of the ``.tir`` file.
+
+        Raises
+        ------
+        RecordingError
+            If a question is open on which all of it rests: ``question`` says which.
         """
         from tire_pipeline.tir import write_sidecar, write_tir
 
+        if self.question is not None:
+            raise RecordingError(
+                f"nothing corrected is written: {self.question.why}", where=str(path), todo=self.question.todo
+            )
         tire, sidecar = self.tire_model()
         names = ", ".join(n for n, _ in self.changes) or "nothing"
         written = write_tir(

@@ -47,10 +47,14 @@ def doubts(search: Search) -> list[Doubt]:
     """Compare each accepted effect with all forms without a name.
 
     A form that holds a constant has to beat the constant clearly: what is no likelier with a memory has none.
+    What the misfit may do anyway (rates, memories) speaks against a name only in its place, not on top of it.
     """
     fit = search.fit
     on_top = _gains(search, with_shapes(search, search.system, fit.changes), fit)
-    top, top_label = max(on_top, default=(-np.inf, ""))
+    beside = [
+        gain for gain, form in zip(on_top, forms(search.data, fit.changes), strict=True) if not form.in_misfit
+    ]
+    top, top_label = max(beside, default=(-np.inf, ""))
     most = max(g.gain for g in search.gates)
     out = []
     for i, name in enumerate(fit.names):
@@ -58,10 +62,15 @@ def doubts(search: Search) -> list[Doubt]:
         gain = search.gates[i].gain
         alone = with_shapes(search, search.system, fit.changes, i)
         in_place = _gains(search, alone, reduced)
+        other = [not form.in_misfit for form in forms(search.data, reduced.changes)]
         place, label = max(in_place, default=(-np.inf, ""))
         constant = constant_form(search.data, reduced.changes)
         plain = _gain(search, alone, reduced, residual(search.data, reduced.changes), constant)
         instead = _instead(gain, max(gain, plain + settings.TIE), in_place, on_top)
+        if any(other):
+            joints = [[g for g, o in zip(gains, other, strict=True) if o] for gains in (in_place, on_top)]
+            as_likely, label = _instead(gain, gain - settings.ODDS, *joints)
+            instead = max(instead, (as_likely, label))
         search.log.append(
             f"unnamed for {name} gain {gain:.1f}: {place:.1f} {label} (constant {plain:.1f}, instead "
             f"{instead[0]:.1f}); on top {top:.1f} {top_label}"

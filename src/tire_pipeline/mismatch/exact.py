@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.ndimage import uniform_filter1d
+import scipy
 
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
-from tire_pipeline.mismatch.effects.sign_convention import turned
+from tire_pipeline.mismatch.effects.sign_convention import excludes_sae, turned
+from tire_pipeline.mismatch.open_questions import Question
 from tire_pipeline.mismatch.recorded import ABSOLUTE_SPREAD, SLOW, moves
 from tire_pipeline.mismatch.simulate import plain_forces
 
@@ -56,17 +58,7 @@ def repair(
             findings.append(replace(finding, bad=hit, span=span))
     pick = np.flatnonzero(~bad)
     pick = pick[:: max(1, pick.size // 4000)]
-
-    def run(channels: Mapping[str, Array]) -> dict[str, Array]:
-        zero = np.zeros(channels["normal_load"].size)
-        return plain_forces(
-            tire,
-            slip_angle=channels.get("slip_angle", zero),
-            slip_ratio=channels.get("slip_ratio", zero),
-            camber=channels.get("camber", zero),
-            normal_load=channels["normal_load"],
-        )
-
+    run = partial(_run, tire)
     nominal = {"_nominal_pressure": np.array([float(tire.coefficients.get("NOMPRES", 0.0) or 2.3e5)])}
     if tire.coefficients.get("FNOMIN", 0.0) > 0.0:
         nominal["_nominal_load"] = np.array([float(tire.coefficients["FNOMIN"])])
@@ -90,6 +82,44 @@ def repair(
     return [*findings, *turned(signs)], bad, factors
 
 
+def open_axes(
+    tire: Any, arrays: Mapping[str, Array], findings: Iterable[Finding], doubt: str
+) -> Question | None:
+    """Return what is open about the axes of a recording.
+
+    Parameters
+    ----------
+    tire : TireModel
+    arrays : mapping of ndarray, shape (n,)
+        Channels as they are used.
+    findings : iterable of Finding
+    doubt : str
+        What the reader saw in the file that speaks against the axes it was read in.
+    """
+    signs = [f for f in findings if f.name == "sign_convention" and f.channel != "normal_load"]
+    if signs:
+        said = "; ".join(f.text for f in signs)
+        return Question(f"the recording agrees with the model only in other axes: {said}", _READ_ANEW)
+    some = {n: a[:: max(1, a.size // 4000)] for n, a in arrays.items()}
+    if doubt and not excludes_sae(some, partial(_run, tire)):
+        both = "the forces do not tell whether slip_angle and fy have the other sign too"
+        return Question(f"{doubt}, and {both}", _READ_ANEW)
+    return None
+
+
+_READ_ANEW = (
+    'read the file with axes="SAE" or axes="ISO", whichever holds, or turn the channel at its source, and '
+    "explain again"
+)
+
+
+def _run(tire: Any, channels: Mapping[str, Array]) -> dict[str, Array]:
+    """Return the model's forces; what is not recorded is zero."""
+    zero = np.zeros(channels["normal_load"].size)
+    points = {n: channels.get(n, zero) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
+    return plain_forces(tire, **points)
+
+
 def _still(arrays: Mapping[str, Array], time: Array | None) -> dict[str, Array]:
     """Return slips that do not move, on their mean: noise has no unit and no sign."""
     if time is None:
@@ -97,7 +127,9 @@ def _still(arrays: Mapping[str, Array], time: Array | None) -> dict[str, Array]:
     width = max(int(SLOW / max(float(np.median(np.diff(time))), 1e-9)), 1)
     out = {}
     for name in ("slip_angle", "slip_ratio", "camber"):
-        if name in arrays and not moves(uniform_filter1d(arrays[name], width), ABSOLUTE_SPREAD[name]):
+        if name in arrays and not moves(
+            scipy.ndimage.uniform_filter1d(arrays[name], width), ABSOLUTE_SPREAD[name]
+        ):
             out[name] = np.full_like(arrays[name], np.mean(arrays[name]))
     return out
 

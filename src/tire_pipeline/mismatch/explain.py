@@ -11,14 +11,15 @@ import pandas as pd
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import search as searching
 from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.ambiguity import experiment, rivals
+from tire_pipeline.mismatch.ambiguity import alternatives, experiment, rivals
+from tire_pipeline.mismatch.as_recorded import as_recorded
 from tire_pipeline.mismatch.checks import Prepared, prepare
 from tire_pipeline.mismatch.confidence import confidence
 from tire_pipeline.mismatch.corrected import CorrectedModel, force_limits
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
-from tire_pipeline.mismatch.locate import AXES, locate, when, where
+from tire_pipeline.mismatch.locate import AXES, everywhere, locate, when, where
 from tire_pipeline.mismatch.proof import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.remainder import remainder
@@ -27,7 +28,8 @@ from tire_pipeline.mismatch.restart import search_all, unlike
 from tire_pipeline.mismatch.search import Search
 from tire_pipeline.mismatch.simulate import simulate
 from tire_pipeline.mismatch.thinning import refit_on_all, thinned
-from tire_pipeline.mismatch.words import summary
+from tire_pipeline.mismatch.visible import visible
+from tire_pipeline.mismatch.words import not_looked_for, summary
 from tire_pipeline.progress import track
 
 Array = np.ndarray
@@ -57,15 +59,15 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame) -> MismatchReport:
 
     Notes
     -----
-    Method and limits: ``docs/mismatch.md``.
+    Method and limits: ``docs/explanation/mismatch.md``.
     """
     state: dict[str, Any] = {}
     steps = (
         ("check", lambda: state.update(prepared=prepare(tire, recording))),
         ("noise", lambda: state.update(search=searching.begin(thinned(state["prepared"].data)))),
-        ("search", lambda: search_all(state["search"])),
+        ("search", lambda: _search(state["search"], state["prepared"])),
         ("refit", lambda: _refit(state["search"], state["prepared"])),
-        ("report", lambda: state.update(report=_report(state["prepared"], state["search"]))),
+        ("report", lambda: state.update(report=_report(state["prepared"], state["search"], recording))),
     )
     for name, step in track(steps, "explaining the mismatch"):
         try:
@@ -77,6 +79,14 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame) -> MismatchReport:
                 todo="leave out channels that hold nothing but noise, and please report the recording",
             ) from error
     return state["report"]
+
+
+def _search(search: Search, prepared: Prepared) -> None:
+    """Look for effects, if the recording carries an answer."""
+    if prepared.stopped:
+        search.refused.update({n: f"not looked for: {prepared.stopped}" for n in catalogue()})
+    else:
+        search_all(search)
 
 
 def _refit(search: Search, prepared: Prepared) -> None:
@@ -91,7 +101,7 @@ def _refit(search: Search, prepared: Prepared) -> None:
     )
 
 
-def _report(prepared: Prepared, search: Search) -> MismatchReport:
+def _report(prepared: Prepared, search: Search, recording: pd.DataFrame) -> MismatchReport:
     data = search.data
     left = remainder(search)
     if unlike(search, left.nats):
@@ -111,16 +121,22 @@ def _report(prepared: Prepared, search: Search) -> MismatchReport:
         effects.append(effect)
         if text:
             experiments.append(text)
-    verdict = _verdict(effects, left)
-    located = locate(data, before, search.noise, search.block) if verdict != "agrees" else []
+    if prepared.stopped:
+        left = replace(left, significant=False, located=[])
+    verdict = prepared.stopped or _verdict(effects, left)
+    silent = prepared.stopped or verdict == "agrees"
+    located = [] if silent else locate(data, before, search.noise, search.block)
     if verdict == "unexplained" and not experiments:
         experiments.append(
             "Record the same sweeps again, and once more with one channel changed at a time: what repeats is "
             "the tire or the rig, and what follows a channel has found its cause."
         )
+    question = prepared.question
+    if prepared.stopped and question is not None:
+        experiments = [f"{question.todo}."]
     following = " ".join(experiments)
     outputs = tuple(prepared.data.outputs)
-    reference: dict[str, Any] = {"scales": data.scales}
+    reference: dict[str, Any] = {"scales": data.scales, "measured": tuple(sorted(data.present))}
     if "pressure" in data.present:
         reference["pressure_nominal"] = data.pressure_nominal
     if "speed" in data.present:
@@ -134,19 +150,30 @@ def _report(prepared: Prepared, search: Search) -> MismatchReport:
         recorded_moments(data),
         factors=prepared.factors,
         limits=force_limits(prepared.findings, outputs),
+        question=question,
+        cleaned=tuple(c.channel for c in prepared.cleaned if c.smoothed),
+    )
+    fit = as_recorded({**fit, **prove_moments(search)}, search, corrected, recording)
+    even = everywhere(data, before, located)
+    told = (
+        ""
+        if prepared.stopped
+        else summary(verdict, effects, fit, located, left, following, _ranges(data), even)
     )
     return MismatchReport(
         verdict=verdict,
         effects=effects,
-        fit={**fit, **prove_moments(search)},
+        fit=fit,
         next_experiment=following,
         corrected=corrected,
-        summary=summary(verdict, effects, fit, located, left, following, _ranges(data)),
+        summary=" ".join(filter(None, ["" if question is None else question.in_words, told])),
         located=located,
         remainder=left,
-        notes=prepared.notes,
+        notes=[*prepared.notes, *filter(None, [not_looked_for(search.absent)])],
         candidates=_candidates(search),
         series=_series(search),
+        assumed=prepared.assumed,
+        visible=[] if prepared.stopped else visible(search, unexplained=left.significant),
     )
 
 
@@ -178,7 +205,7 @@ def _found(search: Search, index: int, left: Remainder, data: Data) -> tuple[Eff
     name, values = search.fit.changes[index]
     effect, gate = catalogue()[name], search.gates[index]
     near = rivals(search, index)
-    possible = [r.name for r in near if r.possible]
+    possible = alternatives(near)
     whole = simulate(data, search.fit.changes)
     without = simulate(data, [c for j, c in enumerate(search.fit.changes) if j != index])
     part = {o: whole[o] - without[o] for o in data.outputs}
@@ -207,7 +234,7 @@ def _found(search: Search, index: int, left: Remainder, data: Data) -> tuple[Eff
         name=name,
         kind=effect.kind,
         title=effect.title,
-        alternatives=tuple(possible),
+        alternatives=possible,
         confidence=confidence(search, index, near, left),
         output=output,
         where=where(part[output], data),
@@ -218,7 +245,7 @@ def _found(search: Search, index: int, left: Remainder, data: Data) -> tuple[Eff
         parameters=parameters,
         evidence=evidence,
     )
-    return report, experiment(name, possible) if possible else ""
+    return report, experiment(name, list(possible)) if possible else ""
 
 
 def _verdict(effects: list[EffectReport], left: Remainder) -> str:

@@ -9,8 +9,9 @@ from typing import Any
 import matplotlib
 import numpy as np
 from markupsafe import Markup
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, FigureBase
 
+from tire_pipeline.drawing import captioned
 from tire_pipeline.mismatch.report import MismatchReport
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
@@ -28,7 +29,7 @@ _STYLE: Any = {
 }
 
 
-def svg(figure: Figure) -> Markup:
+def svg(figure: Any) -> Markup:
     """Return a figure as inline SVG without an XML header."""
     buffer = io.StringIO()
     with matplotlib.rc_context(_STYLE):
@@ -39,11 +40,11 @@ def svg(figure: Figure) -> Markup:
     return Markup(text)
 
 
-def time_line(report: MismatchReport, output: str) -> Figure:
+def time_line(report: MismatchReport, output: str, figure: FigureBase | None = None) -> FigureBase:
     """Draw recorded minus simulated force over time, before and after, effects' windows shaded."""
     s = report.series
     with matplotlib.rc_context(_STYLE):
-        figure = Figure(figsize=(9.0, 2.9), layout="constrained")
+        figure = Figure(figsize=(9.0, 2.9), layout="constrained") if figure is None else figure
         axes = figure.subplots()
         x = s["time"] if s["time"] is not None else np.arange(s[f"before_{output}"].size)
         for number, effect in enumerate(e for e in report.effects if e.output == output):
@@ -70,7 +71,7 @@ def time_line(report: MismatchReport, output: str) -> Figure:
     return figure
 
 
-def operating_map(report: MismatchReport, output: str) -> Figure:
+def operating_map(report: MismatchReport, output: str, figure: FigureBase | None = None) -> FigureBase:
     """Draw the mean difference over slip and load, before and after, on one colour scale."""
     s = report.series
     slip = _slip(report, output)
@@ -90,7 +91,7 @@ def operating_map(report: MismatchReport, output: str) -> Figure:
     limit = max(float(np.nanmax(np.abs(maps[0]), initial=0.0)), s[f"floor_{output}"])
     colours: Any = {"cmap": "RdBu_r", "vmin": -limit, "vmax": limit, "rasterized": True}
     with matplotlib.rc_context(_STYLE):
-        figure = Figure(figsize=(9.2, 2.9), layout="constrained")
+        figure = Figure(figsize=(9.2, 2.9), layout="constrained") if figure is None else figure
         axes = np.atleast_1d(figure.subplots(1, len(kinds), sharey=True))
         for ax, kind, values in zip(axes, kinds, maps, strict=True):
             if points:
@@ -118,12 +119,37 @@ def _means(x: Any, y: Any, values: Any, edges: tuple[Any, Any]) -> Any:
     return np.where(count >= 3, total / np.maximum(count, 1), np.nan)
 
 
-def drawings(report: MismatchReport) -> list[dict[str, Any]]:
-    """Return the figures of a report as inline SVG with captions, the outputs that differ most first."""
-    order = sorted(
+def overview(report: MismatchReport) -> Figure:
+    """Draw the output that differs most: over slip and load, and over time."""
+    output = _order(report)[0]
+    mapped = np.ptp(_slip(report, output)) > _LEAST_SLIP
+    captions = [_MAP_CAPTION.format(output.capitalize())] if mapped else []
+    captions.append(_time_caption(report, output))
+    with matplotlib.rc_context(_STYLE):
+        figure = Figure(figsize=(9.2, 3.2 * len(captions)), layout="constrained")
+        parts = figure.subfigures(len(captions), 1, hspace=0.05, squeeze=False).ravel()
+    time_line(report, output, parts[-1])
+    if mapped:
+        operating_map(report, output, parts[0])
+    for part, caption in zip(parts, captions, strict=True):
+        captioned(part, caption)
+    return figure
+
+
+_MAP_CAPTION = "{} over slip and load: recorded minus simulated force (cells: means)."
+
+
+def _order(report: MismatchReport) -> list[str]:
+    """Outputs with series, those that differ most first."""
+    return sorted(
         (o for o in report.fit if f"before_{o}" in report.series),
         key=lambda o: -report.fit[o].rms_before / max(report.fit[o].noise_floor, 1e-9),
     )
+
+
+def drawings(report: MismatchReport) -> list[dict[str, Any]]:
+    """Return the figures of a report as inline SVG with captions, the outputs that differ most first."""
+    order = _order(report)
     out = []
     for o in order:
         name = o.capitalize()
@@ -131,7 +157,7 @@ def drawings(report: MismatchReport) -> list[dict[str, Any]]:
             out.append(
                 {
                     "svg": svg(operating_map(report, o)),
-                    "caption": f"{name} over slip and load: recorded minus simulated force (cells: means).",
+                    "caption": _MAP_CAPTION.format(name),
                 }
             )
         out.append({"svg": svg(time_line(report, o)), "caption": _time_caption(report, o)})

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import wilcoxon
+import scipy
 
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.effects import catalogue
@@ -18,8 +18,9 @@ from tire_pipeline.mismatch.state import Search, noise_beside, of_noise
 Array = np.ndarray
 _PARTS = (1.0, 0.3, 0.1)
 """Parts of a step that are tried."""
-_EITHER, _WHOLE = 0.45, 0.1
-"""Weights of the tests over held-out sweeps: each of the first two, and the one with all that may be off."""
+_EITHER, _WHOLE, _RATIO = 0.4, 0.1, 0.1
+"""Weights of the tests over held-out sweeps: each of the first two, the one with all that may be off, and the
+likelihood ratio."""
 
 
 @dataclass(frozen=True)
@@ -126,8 +127,9 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
                 in_bounds=not fit.at_bound,
                 blocks=search.system.count,
                 least_gain=_least_gain(fit.names, i, share),
-                least_share=least_share(fit.names, i, gains[0], there / total),
-                least_loose=_least_loose(fit.names, i, gains[0]),
+                least_share=least_share(fit.names, i, gains[0], there / total)
+                * float(np.mean(np.isin(search.block, own_part[1]))),
+                least_loose=settings.LEAST_LOOSE,
             )
         )
     return [_of_one_kind(search, gate, out) for gate in out]
@@ -139,13 +141,6 @@ def _least_gain(names: list[str], index: int, share: float) -> float:
         large = share > settings.LARGE_SHARE and not catalogue()[names[index]].shifts
         return settings.LEAST_GAIN_LARGE if large else settings.LEAST_GAIN_ALONE
     return settings.LEAST_GAIN_MORE if len(names) == 2 else settings.LEAST_GAIN_MANY
-
-
-def _least_loose(names: list[str], index: int, gain: float) -> float:
-    """Nats that an effect of a set has to gain with coefficients nearly free."""
-    alone = all(catalogue()[name].as_noise for j, name in enumerate(names) if j != index)
-    sure = alone and gain > settings.LEAST_GAIN_ALONE
-    return settings.LEAST_LOOSE if sure else settings.LEAST_GAIN
 
 
 def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
@@ -170,6 +165,38 @@ def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
     return replace(gate, least_gain=least)
 
 
+def asked_for(search: Search, name: str, share: float) -> tuple[float, float, float]:
+    """Return the nats, nats with loose coefficients, and share that one more effect has to gain.
+
+    Beside the named effects, all stronger than it.
+
+    Parameters
+    ----------
+    search : Search
+    name : str
+    share : float
+        Of the mismatch that it removes.
+    """
+    names = [*search.fit.names, name]
+    last = len(names) - 1
+    gate = Gates(
+        name=name,
+        gain=0.0,
+        p_value=0.0,
+        share=share,
+        loose=0.0,
+        frozen=0.0,
+        free=of_coefficients(name),
+        in_bounds=True,
+        blocks=search.system.count,
+        least_gain=_least_gain(names, last, share),
+        least_share=settings.LEAST_SHARE,
+        least_loose=max(settings.LEAST_LOOSE, settings.LEAST_GAIN),
+    )
+    gate = _of_one_kind(search, gate, [*search.gates, gate])
+    return gate.least_gain, gate.least_loose, gate.least_share
+
+
 def floors_of(search: Search, fit: Fit) -> dict[str, float]:
     """Return the size of the noise of each output, N.
 
@@ -191,7 +218,8 @@ def least_share(names: list[str], index: int, gain: float, there: float) -> floa
 
     Of all of it, or of what is there beside the other effects, if it gains ``SURE`` nats: an effect six
     times as strong does not hide another. Not so a lag beside a lag or an offset beside an offset: what one's
-    form gets wrong is another.
+    form gets wrong is another. None of an effect that is alone and worth so many nats that it would be called
+    unexplained without a name: noise and the formula's misfit may be many times as large.
 
     Parameters
     ----------
@@ -202,6 +230,8 @@ def least_share(names: list[str], index: int, gain: float, there: float) -> floa
     there : float
         What is there beside the others, as a share of all.
     """
+    if len(names) == 1 and gain > settings.REMAINDER_NATS:
+        return 0.0
     this = catalogue()[names[index]]
     others = [catalogue()[name] for j, name in enumerate(names) if j != index]
     alike = any((this.dynamic and that.dynamic) or (this.shifts and that.shifts) for that in others)
@@ -255,6 +285,12 @@ def _removed(
     return float(sum(np.mean(rows * (before[o] ** 2 - after[o] ** 2)) / floors[o] ** 2 for o in before))
 
 
+def share_of_sweeps(search: Search, fit: Fit, index: int) -> float:
+    """Return the part of the samples that lie in sweeps in which an effect of a set shows."""
+    rest, held = residual(search.data, fit.changes), residual(search.data, fit.others(index))
+    return float(np.mean(np.isin(search.block, _shown(search, held, rest)[1])))
+
+
 def _shown(search: Search, held: dict[str, Array], rest: dict[str, Array]) -> tuple[Array, Array]:
     """Return the energy of an effect at each sample, and the sweeps in which it shows.
 
@@ -277,12 +313,40 @@ def _p_value(
 ) -> float:
     """Wilcoxon over pieces of held-out sweeps in which the effect shows."""
     energy, shown = part
-    errors = []
-    for rest, fit in (without, with_it):
-        errors.append(system.held_out(rest, fit.columns if fit.labels else None, shown, plain=plain))
+    errors = _held_out(system, shown, without, with_it, plain)
     strong = system.cut(energy, shown)
     strong_ones = strong > 0.05 * (strong.mean() if strong.size else 0.0)
     return _wilcoxon(errors[0][strong_ones], errors[1][strong_ones])
+
+
+def _held_out(
+    system: System,
+    shown: Array,
+    without: tuple[dict[str, Array], Fit],
+    with_it: tuple[dict[str, Array], Fit],
+    plain: bool,
+) -> list[Array]:
+    """Whitened squared errors of pieces of held-out sweeps, without the effect and with it."""
+    return [
+        system.held_out(rest, fit.columns if fit.labels else None, shown, plain=plain)
+        for rest, fit in (without, with_it)
+    ]
+
+
+def _ratio_test(
+    search: Search,
+    part: tuple[Array, Array],
+    without: tuple[dict[str, Array], Fit],
+    with_it: tuple[dict[str, Array], Fit],
+) -> float:
+    """P-value from the likelihood ratio on held-out sweeps, above 1 / p by chance in a share p at most.
+
+    Ranks count sweeps. An effect that shows in few of them, as camber does near zero slip, has few ranks and
+    may have a large ratio. (Wasserman, Ramdas, Balakrishnan 2020, Universal inference, PNAS 117.)
+    """
+    before, after = _held_out(search.system, part[1], without, with_it, False)
+    score = 0.5 * float(np.sum(before - after)) / search.inflation
+    return float(np.exp(-max(score, 0.0)))
 
 
 def _joint(
@@ -291,14 +355,16 @@ def _joint(
     without: tuple[dict[str, Array], Fit],
     with_it: tuple[dict[str, Array], Fit],
 ) -> float:
-    """Return the p-value of three tests: effects alone, with frozen coefficients, with all that may be off.
+    """Return the p-value of four tests, by weighted Bonferroni.
 
-    By weighted Bonferroni. The last test counts only where one of the others leans that way: two effects that
-    undo each other leave more than nothing does, and look good beside a misfit that takes it up.
+    Effects alone, with frozen coefficients, with all that may be off, and the likelihood ratio. The third
+    test counts only where one of the others leans that way: two effects that undo each other leave more than
+    nothing does, and look good beside a misfit that takes it up.
     """
     plain = _p_value(search.system, part, without, with_it, True)
     either = min(plain, _p_value(search.frozen, part, without, with_it, False))
     joint = either / _EITHER
+    joint = min(joint, _ratio_test(search, part, without, with_it) / _RATIO)
     if either < settings.LEVEL:
         joint = min(joint, _p_value(search.system, part, without, with_it, False) / _WHOLE)
     return min(1.0, joint)
@@ -325,7 +391,7 @@ def _wilcoxon(before: Array, after: Array) -> float:
     d = before - after
     if d.size < 5 or np.all(d == 0.0):
         return 1.0
-    return float(wilcoxon(d, alternative="greater").pvalue)
+    return float(scipy.stats.wilcoxon(d, alternative="greater").pvalue)
 
 
 def accepted(search: Search, fit: Fit) -> tuple[bool, list[Gates]]:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import warnings
+from typing import TYPE_CHECKING
 
 import numpy as np
-from sklearn.exceptions import ConvergenceWarning
-from sklearn.gaussian_process import GaussianProcessRegressor
-from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
 from threadpoolctl import threadpool_limits
 
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.report import GaussianForm
+
+if TYPE_CHECKING:
+    from sklearn.gaussian_process import GaussianProcessRegressor
 
 Array = np.ndarray
 _CHANNELS = (
@@ -109,6 +110,11 @@ def _some(rows: Array, most: int, rng: np.random.Generator) -> Array:
 
 
 def _fit(x: Array, y: Array, noise: float) -> GaussianProcessRegressor:
+    # Slow to import, and most reports need none.
+    from sklearn.exceptions import ConvergenceWarning
+    from sklearn.gaussian_process import GaussianProcessRegressor
+    from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
+
     lengths = np.full(x.shape[1], 0.3)
     kernel = ConstantKernel(1.0, (1e-3, 1e2)) * RBF(lengths, (0.02, _NOT_THERE)) + WhiteKernel(
         max(noise**2, 1e-3), (1e-5, 2.0)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
+import scipy
 
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects.shared import njit
@@ -152,7 +152,7 @@ class System:
         for o, g in self._gram.items():
             s = self.scale[o]
             total = g.sum(axis=0) * s[:, None] * s[None, :]
-            self._chol[o] = cho_factor(total + np.eye(s.size))
+            self._chol[o] = scipy.linalg.cho_factor(total + np.eye(s.size))
 
     def _leave_out(self, o: str) -> Array:
         """Inverse matrices with each sweep left out, shape (blocks, q, q)."""
@@ -187,6 +187,20 @@ class System:
             rr += own[:, k, k]
         return Sums(ne, nr, ee, er, rr)
 
+    def by_sweep(self, residual: dict[str, Array], columns: dict[str, Array]) -> Sums:
+        """Return the sums of :meth:`sums` with those of the nuisance over each sweep as well."""
+        return self._sums(self.whiten(residual), self.whiten(columns), by_sweep=True)
+
+    def reduced_over(self, sums: Sums, kept: Array) -> tuple[Array, Array]:
+        """Return information and score of the effects given the nuisance, over some sweeps (bool)."""
+        ee, er = sums.ee[kept].sum(axis=0), sums.er[kept].sum(axis=0)
+        for o, s in self.scale.items():
+            ne, nr = sums.ne[o][kept].sum(axis=0) * s[:, None], sums.nr[o][kept].sum(axis=0) * s
+            own = self._gram[o][kept].sum(axis=0) * s[:, None] * s[None, :] + np.eye(s.size)
+            solved = np.linalg.solve(own, np.column_stack([ne, nr]))
+            ee, er = ee - ne.T @ solved[:, :-1], er - ne.T @ solved[:, -1]
+        return ee, er
+
     def reduce(self, sums: Sums) -> tuple[Array, Array, float]:
         """Return S, s, J: information and score of the effects given the nuisance, and the misfit left.
 
@@ -197,7 +211,7 @@ class System:
             s = self.scale[o]
             ne = sums.ne[o].sum(axis=0) * s[:, None]
             nr = sums.nr[o].sum(axis=0) * s
-            solved = cho_solve(self._chol[o], np.column_stack([ne, nr]))
+            solved = scipy.linalg.cho_solve(self._chol[o], np.column_stack([ne, nr]))
             ee = ee - ne.T @ solved[:, :-1]
             er = er - ne.T @ solved[:, -1]
             rr -= float(nr @ solved[:, -1])
@@ -285,7 +299,7 @@ class System:
         for o in residual:
             s = self.scale[o]
             rest = sums.nr[o].sum(axis=0) - sums.ne[o].sum(axis=0) @ x
-            out[o] = cho_solve(self._chol[o], rest * s) * s
+            out[o] = scipy.linalg.cho_solve(self._chol[o], rest * s) * s
         return out
 
     def left(self, residual: dict[str, Array], columns: dict[str, Array] | None = None) -> dict[str, Array]:
@@ -299,7 +313,7 @@ class System:
         for o, w in r.items():
             s = self.scale[o]
             rest = sums.nr[o].sum(axis=0) - sums.ne[o].sum(axis=0) @ x
-            c = cho_solve(self._chol[o], rest * s) * s
+            c = scipy.linalg.cho_solve(self._chol[o], rest * s) * s
             left = w - self.white[o] @ c
             if columns is not None:
                 left = left - e[o] @ x

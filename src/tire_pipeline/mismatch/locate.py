@@ -5,12 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import uniform_filter1d
+import scipy
 
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.noise import Noise
 
 Array = np.ndarray
+_LEVEL = 0.05
+_LEAST_FORCE = 0.1
+"""A share of the force is given where the force is above this part of the largest one."""
+_EVEN = 0.7
+"""What is off throughout by this part of the largest stretch is not in one stretch."""
 AXES = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure", "tread_temperature")
 
 
@@ -28,7 +33,7 @@ class Located:
         Mean of recorded minus simulated force in the direction of the simulated one, N (of the
         plain difference if ``signed`` is False).
     share : float
-        The same over the mean size of the simulated force.
+        The same over the mean size of the simulated force; NaN where that is below a tenth of the largest.
     p_value : float
         Largest statistic over all axes, stretches and scales under flips of whole sweeps.
     """
@@ -68,7 +73,8 @@ def locate(
     Returns
     -------
     list of Located
-        The most telling stretch of each axis and output with p at most 0.05, smallest p first.
+        For each axis and output the stretch with the largest difference of those with p at most 0.05,
+        the largest difference first.
     """
     rng = np.random.default_rng(seed)
     count = int(block.max()) + 1
@@ -80,7 +86,7 @@ def locate(
         direction = np.sign(force) * np.minimum(np.abs(force) / (0.05 * largest + 1e-12), 1.0)
         for along, x in ((True, r * direction), (False, r)):
             out += _axes(data, o, x / noise[o].sigma, x, block, signs, along)
-    out.sort(key=lambda f: (f.p_value, -abs(f.mean)))
+    out.sort(key=lambda f: -abs(f.mean))
     return out
 
 
@@ -114,15 +120,51 @@ def _axes(
     found = []
     for axis in dict.fromkeys(t[0] for t in tests):
         own = [i for i, t in enumerate(tests) if t[0] == axis]
-        best = max(own, key=lambda i: statistics[0, i])
-        p = float((1 + (top[1:] >= statistics[0, best]).sum()) / signs.shape[0])
-        if p > 0.05:
+        chance = {i: float((1 + (top[1:] >= statistics[0, i]).sum()) / signs.shape[0]) for i in own}
+        sure = [i for i in own if chance[i] <= _LEVEL]
+        if not sure:
             continue
+        best = max(sure, key=lambda i: abs(float(plain[tests[i][3]].mean())))
         _, low, high, mask = tests[best]
         mean = float(plain[mask].mean())
-        force = float(np.abs(data.base[output][mask]).mean())
-        found.append(Located(output, axis, low, high, mean, mean / max(force, 1e-9), p, along))
+        share = mean / _force(data, output, mask)
+        found.append(Located(output, axis, low, high, mean, share, chance[best], along))
     return found
+
+
+def _force(data: Data, output: str, rows: Array) -> float:
+    """Mean size of the simulated force, N; NaN where it is too small for a share of it to mean something."""
+    size = np.abs(data.base[output])
+    here = float(size[rows].mean())
+    return here if here > _LEAST_FORCE * float(np.quantile(size, 0.99)) else float("nan")
+
+
+def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -> dict[str, float]:
+    """Return the share of the force by which an output is off throughout, if no stretch is off by much more.
+
+    Parameters
+    ----------
+    data : Data
+    residual : dict of ndarray
+        Recorded minus simulated, N.
+    located : list of Located
+
+    Returns
+    -------
+    dict
+        Output -> mean of the difference along the force over the mean size of the force.
+    """
+    out = {}
+    for o, r in residual.items():
+        rows = np.abs(data.base[o]) > _LEAST_FORCE * float(np.quantile(np.abs(data.base[o]), 0.99))
+        shares = [f.share for f in located if f.output == o and f.along_force and np.isfinite(f.share)]
+        if not rows.any() or not shares:
+            continue
+        direction = np.sign(data.base[o][rows])
+        whole = float((r[rows] * direction).mean() / np.abs(data.base[o][rows]).mean())
+        if abs(whole) > _EVEN * max(map(abs, shares)):
+            out[o] = whole
+    return out
 
 
 def when(part: Array, data: Data, floor: float) -> list[tuple[float, float]]:
@@ -133,7 +175,7 @@ def when(part: Array, data: Data, floor: float) -> list[tuple[float, float]]:
     if data.time is None:
         return []
     width = max(round(1.0 / max(float(np.median(data.step)), 1e-9)), 1)
-    local = np.sqrt(np.maximum(uniform_filter1d(part**2, width), 0.0))
+    local = np.sqrt(np.maximum(scipy.ndimage.uniform_filter1d(part**2, width), 0.0))
     above = np.flatnonzero(local > floor)
     if above.size == 0:
         return []

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import solve_toeplitz
-from scipy.optimize import nnls
+import scipy
 
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects.shared import njit
@@ -46,7 +45,7 @@ class Noise:
             return np.ones(1), 1.0
         c = self.share * self.rho ** np.arange(_ORDER + 1)
         c[0] = 1.0
-        a = solve_toeplitz(c[:_ORDER], c[1:])
+        a = scipy.linalg.solve_toeplitz(c[:_ORDER], c[1:])
         return np.r_[1.0, -a], float(np.sqrt(max(1.0 - a @ c[1:], 1e-6)))
 
     def whiten(self, x: Array, start: Array) -> Array:
@@ -132,7 +131,7 @@ def _series(data: Data, r: Array, parts: list[Array]) -> tuple[Array, float, flo
     scale[scale <= 0.0] = 1.0
     a, b = means[good] / scale, d1[good] / per_variance
     for _ in range(8):
-        x, _ = nnls(a * weight[:, None], b * weight)
+        x, _ = scipy.optimize.nnls(a * weight[:, None], b * weight)
         fit = np.maximum(a @ x, 1e-12 * b.max() + 1e-30)
         weight = 1.0 / fit / (1.0 + np.maximum(b / fit - 1.0, 0.0) ** 2)
     variance = np.column_stack(parts) / scale @ x
@@ -214,8 +213,8 @@ def refined(data: Data, noise: Noise, calm: Array) -> Noise:
     noise : Noise
         The first estimate, whose dependence on the slopes is kept.
     calm : ndarray, shape (n,)
-        A residual without what any model explains, N. If it is still correlated over 40 samples, it
-        holds more than noise and the first estimate stays.
+        A residual without what any model explains, N. What stays correlated over 40 samples is no noise, and
+        is taken off the size.
     """
     if data.time is None or calm.size < 500:
         return noise
@@ -229,14 +228,14 @@ def refined(data: Data, noise: Noise, calm: Array) -> Noise:
         same = piece[lag:] == piece[:-lag]
         return float(np.mean((x[lag:] * x[:-lag])[same])) / variance if same.any() else 0.0
 
-    if abs(correlation(40)) > 0.1:
-        return noise
-    lags = np.array([1, 2, 3, 4, 6, 8, 12])
+    lags = np.array([1, 2, 3, 4, 6, 8, 12, 20, 40])
     seen = np.array([correlation(int(k)) for k in lags])
-    best = (float(np.sum(seen**2)), 0.0, 0.0)
-    for rho in np.linspace(0.2, 0.95, 26):
-        shape = rho**lags
-        share = float(np.clip(seen @ shape / (shape @ shape), 0.0, 1.0))
-        best = min(best, (float(np.sum((seen - share * shape) ** 2)), share, float(rho)))
+    best = (np.inf, 0.0, 0.0, 0.0)
+    for rho in (0.0, *np.linspace(0.2, 0.95, 26)):
+        (share, slow), error = scipy.optimize.nnls(np.column_stack([rho**lags, np.ones(lags.size)]), seen)
+        if share + slow <= 1.0:
+            best = min(best, (float(error), float(share), float(rho), float(slow)))
+    _, share, rho, slow = best
+    share, variance = share / max(1.0 - slow, 1e-6), variance * (1.0 - slow)
     scale = float(np.clip(np.sqrt(variance), 0.6, 1.7))
-    return Noise(noise.sigma * scale, best[1], best[2])
+    return Noise(noise.sigma * scale, min(share, 1.0), rho)

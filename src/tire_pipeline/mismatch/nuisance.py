@@ -10,11 +10,13 @@ the coefficients themselves may move by a small share of the largest force.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.effects.shared import first_order
 from tire_pipeline.mismatch.simulate import plain_forces
 
 Array = np.ndarray
@@ -39,8 +41,23 @@ does not vary but for noise has no range to spread a grid over."""
 _LEAST_OF_ALL = 1e-4
 """Columns smaller than so much of the largest one do nothing here, and are not made larger: the coefficients
 of camber in a recording without camber would become a constant force."""
+_SLIP_STEP = 2e-3
+_BANDS = (0.0, 0.1, 0.2)
+"""Seconds over which the load is averaged before its rate is taken: the answer differs from band to band."""
+_MEMORIES = (1.0, 4.0)
+"""Seconds over which a tread remembers."""
 _SHIFT_OF_FX = 2.5
 """Braking and driving are no mirror images: a fit makes up for their difference by a shift at zero slip."""
+
+
+class Sizes(NamedTuple):
+    """Numbers of columns of one output: coefficients, flexible form, and its dependence on the way."""
+
+    coefficients: int
+    flexible: int
+    path: int
+    memory: int
+    fast: int
 
 
 @dataclass(frozen=True)
@@ -56,20 +73,34 @@ class Nuisance:
     flexible : dict of ndarray, shape (n, m)
         The flexible form, times the largest force: with coefficient standard deviation 0.005 its size is
         about 0.5% of the largest force before what the Jacobian spans is taken off.
+    path : dict of ndarray, shape (n, h)
+        What depends on the way to a point: another flexible form for a rising slip than for a falling one.
+    memory : dict of ndarray, shape (n, l)
+        Friction and stiffness that follow the friction power of the last seconds.
+    fast : dict of ndarray, shape (n, f)
+        The answer to load that changes faster than ``SLOW``, and a quarter of a period late. With coefficient
+        standard deviation 0.3 it is known to 30%.
     """
 
     coefficients: dict[str, Array]
     flexible: dict[str, Array]
+    path: dict[str, Array]
+    memory: dict[str, Array]
+    fast: dict[str, Array]
 
     @property
     def columns(self) -> dict[str, Array]:
-        """Both side by side, shape (n, k + m)."""
-        return {o: np.hstack([self.coefficients[o], self.flexible[o]]) for o in self.coefficients}
+        """All side by side, shape (n, k + m + h + l + f)."""
+        return {o: np.hstack([part[o] for part in self._parts]) for o in self.coefficients}
 
     @property
-    def sizes(self) -> dict[str, tuple[int, int]]:
-        """Numbers of columns, k and m."""
-        return {o: (self.coefficients[o].shape[1], self.flexible[o].shape[1]) for o in self.coefficients}
+    def _parts(self) -> tuple[dict[str, Array], ...]:
+        return self.coefficients, self.flexible, self.path, self.memory, self.fast
+
+    @property
+    def sizes(self) -> dict[str, Sizes]:
+        """Numbers of columns, k, m, h, l and f."""
+        return {o: Sizes(*(part[o].shape[1] for part in self._parts)) for o in self.coefficients}
 
 
 def make_nuisance(data: Data) -> Nuisance:
@@ -84,13 +115,14 @@ def make_nuisance(data: Data) -> Nuisance:
     data : Data
     """
     grid = _grid(data)
-    coefficients, flexible = {}, {}
+    parts: tuple[dict[str, Array], ...] = ({}, {}, {}, {}, {})
+    coefficients, flexible, path, memory, fast = parts
     for name in data.outputs:
         largest = largest_force(data, name)
         here = {n: data.get(n) for n in _POINTS}
         jacobian = _jacobian(data, name, here)
         basis = _halves(data, name, here, jacobian)
-        b, b_grid = _gaussian_process(data, name, here, grid)
+        b, b_grid, ways = _gaussian_process(data, name, here, grid)
         c = np.hstack([jacobian, _shifts(data, name, here)])
         c_grid = np.hstack([_jacobian(data, name, grid), _shifts(data, name, grid)])
         known = _size(c_grid) > _LEAST_ON_GRID * _size(c)
@@ -99,7 +131,58 @@ def make_nuisance(data: Data) -> Nuisance:
             basis = np.hstack([basis, _SHIFT_OF_FX * _orthonormal(_shifts(data, name, here))])
         coefficients[name] = basis * largest
         flexible[name] = b * largest
-    return Nuisance(coefficients, flexible)
+        path[name] = ways * largest
+        memory[name] = _memory(data, name)
+        fast[name] = _fast_load(data, name)
+    return Nuisance(*parts)
+
+
+def _fast_load(data: Data, name: str) -> Array:
+    """Force of what the load changes faster than ``SLOW``, as it is and by its rate, of equal size.
+
+    A formula is of steady states. To load that changes within a wheel turn a tire answers with another size
+    and late (Pacejka, 3rd ed., 7.3.2), and what a rig measures then holds inertia.
+    """
+    if data.time is None:
+        return np.zeros((data.size, 0))
+    load = data.get("normal_load")
+    change = (load - data.smooth("normal_load")) / np.maximum(load, 0.02 * data.load_nominal)
+    if not np.any(change):
+        return np.zeros((data.size, 0))
+    rates = [_rate(data, data.running_mean(change, seconds)) for seconds in _BANDS]
+    drivers = [change, *(rate * (_rms(change) / max(_rms(rate), 1e-12)) for rate in rates)]
+    slip = "slip_angle" if name == "fy" else "slip_ratio"
+    steeper = data.slope(slip, _SLIP_STEP)[name] * data.get(slip)
+    return np.column_stack([way * driver for way in (data.base[name], steeper) for driver in drivers])
+
+
+def _rate(data: Data, x: Array) -> Array:
+    """Change over two samples, nothing at the ends of pieces."""
+    out = np.zeros(data.size)
+    out[1:-1] = x[2:] - x[:-2]
+    out[data.start] = 0.0
+    out[np.flatnonzero(data.start)[1:] - 1] = 0.0
+    return out
+
+
+def _memory(data: Data, name: str) -> Array:
+    """Friction and stiffness that follow the friction power of the last seconds.
+
+    Tread and belt warm and cool within a sweep. Where the power has been the same for long, this is nothing.
+    """
+    slip = "slip_angle" if name == "fy" else "slip_ratio"
+    if data.time is None or not data.varies(slip):
+        return np.zeros((data.size, 0))
+    speed = np.abs(data.get("speed")) if data.has("speed") else np.ones(data.size)
+    power = np.abs(data.base[name] * data.get(slip)) * speed
+    power = power / max(float(np.quantile(power, 0.9)), 1e-12)
+    lags = [first_order(power, 1.0 - np.exp(-data.step / lag), data.start) - power for lag in _MEMORIES]
+    ways = (data.base[name], data.slope(slip, _SLIP_STEP)[name] * data.get(slip))
+    return np.column_stack([way * lag for way in ways for lag in lags])
+
+
+def _rms(x: Array) -> float:
+    return float(np.sqrt(np.mean(x**2)))
 
 
 def _size(columns: Array) -> Array:
@@ -235,13 +318,17 @@ def _slip_at_half(data: Data, force: str) -> float:
 
 def _gaussian_process(
     data: Data, name: str, here: dict[str, Array], grid: dict[str, Array]
-) -> tuple[Array, Array]:
+) -> tuple[Array, Array, Array]:
     """Nystrom features of a squared-exponential kernel at inducing points spread over data and grid.
 
     The misfit is small where the force itself is nil: at zero slip (and zero camber), at small load.
     A tire is its own mirror image but for ply steer and conicity, which the fit of a file takes up:
     the misfit of Fy changes its sign in the mirror, that of Fx does not, and what breaks this is
     ``ASYMMETRY_SHARE`` of it.
+
+    A steady formula says the same on the way up and on the way down of a sweep. A tire does not: tread and
+    carcass warm within a sweep, and the force follows late. The third array holds another flexible form,
+    times the direction of the sweep. Its mirror image has the opposite direction.
     """
     (x, mirror), (y, _) = _coordinates(data, here), _coordinates(data, grid)
     pick = np.random.default_rng(0).permutation(data.size)[:3000]
@@ -254,15 +341,32 @@ def _gaussian_process(
     slip, half = ("slip_angle" if name == "fy" else "slip_ratio"), _slip_at_half(data, name)
     lean = max(float(np.quantile(np.abs(data.get("camber")), 0.99)), 0.01)
 
-    def features(at: Array, point: dict[str, Array]) -> Array:
+    def amplitude(point: dict[str, Array]) -> Array:
         size = 0.25 + 0.75 * np.clip(point["normal_load"] / top, 0.0, 1.2)
         used = np.abs(point[slip]) / (np.abs(point[slip]) + 0.5 * half)
         if name == "fy":
             used = np.minimum(used + 0.3 * np.abs(point["camber"]) / lean * data.varies("camber"), 1.0)
-        waves = np.hstack([k.features(at) for k in kernels])
-        return waves * (size * np.maximum(used, 0.1))[:, None]
+        return size * np.maximum(used, 0.1)
 
-    return features(x, here), features(y, grid)
+    def features(at: Array, point: dict[str, Array]) -> Array:
+        waves = np.hstack([k.features(at) for k in kernels])
+        return waves * amplitude(point)[:, None]
+
+    ways = np.zeros((data.size, 0))
+    towards = _direction(data, slip)
+    if towards is not None:
+        turned = _Mirrored(points, mirror, -sign if name == "fy" else sign, _NEAR, 1.0)
+        ways = turned.features(x) * (amplitude(here) * towards)[:, None]
+    return features(x, here), features(y, grid), ways
+
+
+def _direction(data: Data, slip: str) -> Array | None:
+    """Direction of the sweep, -1 to 1: rate of the slip over its typical size; None without a time line."""
+    if data.time is None or not data.varies(slip):
+        return None
+    rate = _rate(data, data.smooth(slip)) / np.maximum(data.step, 1e-12)
+    typical = max(float(np.quantile(np.abs(rate), 0.75)), 1e-12)
+    return np.tanh(2.0 * rate / typical)
 
 
 class _Mirrored:

@@ -9,8 +9,8 @@ import jinja2
 
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.figures import drawings
-from tire_pipeline.mismatch.report import MismatchReport
-from tire_pipeline.mismatch.words import condition, gaussian, interval
+from tire_pipeline.mismatch.report import MismatchReport, Visible
+from tire_pipeline.mismatch.words import amount, condition, gaussian, interval
 
 
 def render(report: MismatchReport) -> str:
@@ -36,6 +36,7 @@ def render(report: MismatchReport) -> str:
         located=_located(report),
         gaussian=[gaussian(f) for f in report.remainder.gaussian],
         candidates=[_candidate(c) for c in report.candidates],
+        visible=[_seen(v) for v in report.visible],
     )
 
 
@@ -72,3 +73,16 @@ def _effect(effect: Any) -> dict[str, Any]:
 
 def _candidate(row: dict[str, Any]) -> dict[str, Any]:
     return {**row, "title": catalogue()[row["name"]].title}
+
+
+def _seen(row: Visible) -> dict[str, Any]:
+    """Return a row of what could have been seen: sizes in words where there are any."""
+    sizes = [amount(x, row.unit) if math.isfinite(x) else "–" for x in (row.ruled_out, row.seen)]
+    title = catalogue()[row.name].title
+    return {
+        "it": row,
+        "title": title,
+        "ruled_out": sizes[0],
+        "seen": sizes[1],
+        "why": row.text.removeprefix(f"{title}: "),
+    }

@@ -228,9 +228,7 @@ def _at_bound(data: Data, changes: list[Change], free: list[tuple[str, ...]]) ->
         if catalogue()[name].outside(data, values):
             return True
         for p in catalogue()[name].parameters:
-            if p.name not in names or (p.name in {"fy", "fx"} and name == "clipping"):
-                continue
-            if name == "combined_slip":
+            if p.name not in names or name == "combined_slip":
                 continue
             if p.low == p.zero:
                 reached = values[p.name] >= p.high

@@ -9,6 +9,7 @@ import numpy as np
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.gaussian_form import gaussian_form
 from tire_pipeline.mismatch.locate import locate
+from tire_pipeline.mismatch.noise import estimate_noise
 from tire_pipeline.mismatch.refit import residual
 from tire_pipeline.mismatch.report import GaussianForm, Remainder
 from tire_pipeline.mismatch.search import Search, with_shapes
@@ -22,10 +23,12 @@ def remainder(search: Search) -> Remainder:
     data, fit = search.data, search.fit
     left = white_left(search)
     statistic, nats = excess(search, left)
+    rest = residual(data, fit.changes)
+    sensor = estimate_noise(data, rest)  # what changes slowly is noise to the search, but not a sensor's
     size = {}
-    for o in data.outputs:
-        rms = float(np.sqrt(np.mean(residual(data, fit.changes)[o] ** 2)))
-        size[o] = float(np.sqrt(max(rms**2 - search.noise[o].floor ** 2, 0.0)))
+    for o, r in rest.items():
+        floor = min(sensor[o].floor, search.noise[o].floor)
+        size[o] = float(np.sqrt(max(float(np.mean(r**2)) - floor**2, 0.0)))
     share = max(size[o] / search.largest[o] for o in data.outputs)
     stated = any(f"{o}_std" in data.channels for o in data.outputs)
     above = not stated or any(size[o] > 0.5 * search.noise[o].floor for o in data.outputs)
@@ -58,7 +61,8 @@ def excess(search: Search, left: dict[str, Array]) -> tuple[float, float]:
     """Return how much power whitened residuals have beyond white noise, and what that is worth in nats.
 
     At each scale the samples are summed over windows; the mean square of the sums over that of
-    white noise of the same (robust) size is 1 for noise. The worst output and scale count.
+    noise as the search takes it (white, of the same robust size, times ``inflation``) is 1 for noise. The
+    worst output and scale count.
 
     Where the recording states its uncertainty (``fy_std``, as :func:`axle_recording` does) neighbours share
     a filter and unknowns that are constant over a drive: slow changes are no evidence there, and only
@@ -80,7 +84,7 @@ def excess(search: Search, left: dict[str, Array]) -> tuple[float, float]:
             if n < 30:
                 continue
             sums = x[: n * width].reshape(n, width).sum(axis=1) / np.sqrt(width)
-            ratio = float(np.mean(np.minimum(sums**2, 25.0)))
+            ratio = float(np.mean(np.minimum(sums**2, 25.0))) / search.inflation
             worst = max(worst, ratio)
             if ratio > 1.0:
                 nats = max(nats, 0.5 * n * (ratio - 1.0 - np.log(ratio)))

@@ -6,14 +6,17 @@ import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tire_pipeline.mismatch.corrected import CorrectedModel
 from tire_pipeline.mismatch.locate import Located
 
-VERDICTS = ("agrees", "explained", "ambiguous", "partly explained", "unexplained")
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+VERDICTS = ("agrees", "explained", "ambiguous", "partly explained", "unexplained", "unusable", "another tire")
 
 
 @dataclass(frozen=True)
@@ -114,6 +117,34 @@ class GaussianForm:
 
 
 @dataclass(frozen=True)
+class Visible:
+    """What this recording can say about one parameter of one effect, named or not.
+
+    Parameters
+    ----------
+    name, parameter, unit : str
+        The parameter is empty where nothing can be said, or where an effect shows without a size.
+    seen : float
+        Smallest size that would have been named, alone or with alternatives, in 95% of repetitions; NaN where
+        no size that is possible would have been.
+    ruled_out : float
+        Sizes above this one are ruled out (95%); NaN if it is named, or if nothing is ruled out.
+    text : str
+        The same in words.
+    form : dict
+        What else was assumed: the reference of a temperature, the moment of a change.
+    """
+
+    name: str
+    parameter: str
+    unit: str
+    seen: float
+    ruled_out: float
+    text: str
+    form: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class Remainder:
     """What is left above the noise, without a name.
 
@@ -141,9 +172,45 @@ class Remainder:
     gaussian: list[GaussianForm] = field(default_factory=list)
 
 
-@dataclass
+@dataclass(frozen=True)
+class PredictionError:
+    """Errors of one output in a recording that no fit has seen, N or N m.
+
+    Parameters
+    ----------
+    rms_before, rms_after : float
+        Of the model as it was, and with what was found.
+    ratio_low, ratio_high : float
+        95% interval of ``rms_after / rms_before`` by resampling stretches of the recording.
+    """
+
+    rms_before: float
+    rms_after: float
+    ratio_low: float
+    ratio_high: float
+
+
+@dataclass(frozen=True)
+class HeldOutFit:
+    """How the explained model predicts a recording that was held out.
+
+    Parameters
+    ----------
+    recording : str
+    samples : int
+        How many had numbers in all channels.
+    errors : dict of str to PredictionError
+        By output.
+    """
+
+    recording: str
+    samples: int
+    errors: dict[str, PredictionError]
+
+
+@dataclass(repr=False)
 class MismatchReport:
-    """What :func:`tire_pipeline.mismatch.explain_mismatch` returns; see ``docs/mismatch.md``."""
+    """What :func:`tire_pipeline.mismatch.explain_mismatch` returns; see ``docs/explanation/mismatch.md``."""
 
     verdict: str
     effects: list[EffectReport]
@@ -156,6 +223,46 @@ class MismatchReport:
     notes: list[str]
     candidates: list[dict[str, Any]]
     series: dict[str, Any] = field(default_factory=dict, repr=False)
+    recordings: tuple[str, ...] = ()
+    held_out: HeldOutFit | None = None
+    assumed: list[str] = field(default_factory=list)
+    visible: list[Visible] = field(default_factory=list)
+
+    @property
+    def sets(self) -> list[tuple[tuple[str, ...], float]]:
+        """What was found: names of which one is the cause, likeliest first, and the confidence of the set."""
+        return [((e.name, *e.alternatives), e.confidence) for e in self.effects]
+
+    def __repr__(self) -> str:
+        names = ", ".join(effect.name for effect in self.effects) or "no effect"
+        return f"MismatchReport({self.verdict!r}: {names}. {self.summary})"
+
+    def _repr_html_(self) -> str:
+        from tire_pipeline.notebook import card
+
+        rows = [
+            (
+                name,
+                f"{fit.rms_before:.3g}",
+                f"{fit.rms_after:.3g}",
+                f"{fit.noise_floor:.3g}",
+            )
+            for name, fit in self.fit.items()
+        ]
+        header = ("output", "RMS before", "RMS after, held-out sweeps", "noise")
+        return card(f"Simulation and recording: {self.verdict}", self.summary, header, rows)
+
+    def plot(self) -> Figure:
+        """Draw what differs over slip and load and over time, before and after, with captions.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            Of the output that differs most, beside its noise.
+        """
+        from tire_pipeline.mismatch.figures import overview
+
+        return overview(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the report as plain JSON types (no arrays, no NaN)."""
@@ -163,12 +270,18 @@ class MismatchReport:
             "verdict": self.verdict,
             "summary": self.summary,
             "effects": [asdict(e) for e in self.effects],
+            "sets": [{"names": list(names), "confidence": p} for names, p in self.sets],
             "fit": {o: asdict(f) for o, f in self.fit.items()},
             "next_experiment": self.next_experiment,
             "located": [asdict(f) for f in self.located],
             "remainder": asdict(self.remainder),
             "notes": list(self.notes),
+            "assumed": list(self.assumed),
+            "question": None if self.corrected.question is None else asdict(self.corrected.question),
             "candidates": self.candidates,
+            "visible": [asdict(v) for v in self.visible],
+            "recordings": list(self.recordings),
+            "held_out": None if self.held_out is None else asdict(self.held_out),
             "corrected": [{"name": n, "parameters": dict(p)} for n, p in self.corrected.changes],
         }
         return json.loads(json.dumps(_plain(raw)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Set
+from dataclasses import replace
 from itertools import combinations
 from typing import Any
 
@@ -22,8 +23,10 @@ from tire_pipeline.mismatch.gates import (
     of_coefficients,
     open_but_loose,
     reasons,
+    share_of_sweeps,
 )
 from tire_pipeline.mismatch.gram import System
+from tire_pipeline.mismatch.left_out import groups, left_out_error
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.screening import (
     frozen_cost,
@@ -36,7 +39,7 @@ from tire_pipeline.mismatch.screening import (
     without,
 )
 from tire_pipeline.mismatch.shapes import with_shapes
-from tire_pipeline.mismatch.state import Search, begin, renoise
+from tire_pipeline.mismatch.state import Search, begin, beside, log_likelihood, renoise
 
 __all__ = ["Search", "begin", "gain_of", "objective", "prune", "run", "with_shapes"]
 
@@ -87,21 +90,45 @@ def _one_more(search: Search, ranked: list[tuple[float, Variant]], shaped: Syste
     """
     empty = objective(search.system, [])
     while ranked:
-        fits = likeliest(search, [f.judged_by(shaped) for f in _refined(search, ranked)])
+        fits = likeliest(search, [_judged(search, f, shaped) for f in _refined(search, ranked)])
         search.log.append(
             "refit: " + ", ".join(f"{'+'.join(f.names)} {gain_of(search, f, empty):.0f}" for f in fits[:6])
         )
-        if _take(search, fits) or _take(search, _pairs(search, fits, shaped)):
-            return True
         likely = [f for f in fits if gain_of(search, f, empty) > settings.LEAST_GAIN]
         hidden = [f for f in likely if not _visible(search, f)]
+        plainer = [_judged(search, f, shaped) for f in _plainer(search, hidden)]
+        if _take(search, likeliest(search, [*fits, *plainer])):
+            return True
+        if _take(search, _pairs(search, fits, shaped)):
+            return True
         if not hidden:
             return False
-        if _take(search, likeliest(search, [f.judged_by(shaped) for f in _plainer(search, hidden)])):
-            return True
         names = {f.names[-1] for f in hidden}
         ranked = [(gain, v) for gain, v in ranked if v.name not in names]
     return False
+
+
+def _judged(search: Search, fit: Fit, shaped: System) -> Fit:
+    """Return a set with the objective by which it is compared with nothing.
+
+    The first effects are compared with the sizes of the misfit that each set leaves, against the sizes that
+    nothing leaves. Two beginnings: with the sizes that nothing leaves, and with coefficients that do not
+    move, because a misfit of that size takes up what the effect does. Beside accepted effects the sizes are
+    known, and what their forms get wrong counts.
+    """
+    if search.fit.names:
+        return fit.judged_by(shaped)
+    nothing, empty = search.system, objective(search.system, [])
+    best, most = fit, -np.inf
+    for begun in (fit, refit(search.frozen, fit.variants, steps=3)):
+        at = beside(search, begun)
+        found = refit(at.system, begun.variants, steps=3)
+        at = beside(search, found)
+        gain = log_likelihood(at, found.changes, at.inflation)
+        if gain > most:
+            nil = -0.5 * empty / at.inflation - 0.5 * nothing.log_determinant()
+            best, most = replace(found, objective=empty - 2.0 * search.inflation * (gain - nil)), gain
+    return best
 
 
 def _plainer(search: Search, fits: list[Fit]) -> list[Fit]:
@@ -127,14 +154,13 @@ def _again(search: Search, fit: Fit) -> Fit:
 def _refined(search: Search, ranked: list[tuple[float, Variant]]) -> list[Fit]:
     """Refit the best forms jointly with the accepted effects; the best pairs too."""
     now = search.fit.variants
-    best = ranked[0][0]
     seen: dict[str, int] = {}
     chosen: list[Any] = []
-    for gain, v in ranked:
-        if gain < 0.25 * best - 5.0 or seen.get(v.name, 0) >= 2 or len(chosen) >= 9:
-            continue
-        seen[v.name] = seen.get(v.name, 0) + 1
-        chosen.append(v)
+    for most in (1, 2):  # the best form of each effect first, then second forms
+        for _, v in ranked:
+            if seen.get(v.name, 0) < most and v not in chosen and len(chosen) < settings.KEPT:
+                seen[v.name] = seen.get(v.name, 0) + 1
+                chosen.append(v)
     fits = []
     for v in chosen:
         fit = refit(search.system, [*now, v], start=[*search.fit.changes, (v.name, v.start)])
@@ -154,7 +180,8 @@ def _pairs(search: Search, fits: list[Fit], shaped: System) -> list[Fit]:
     for first, second in combinations(list(best)[:4], 2):
         forms = [Variant(name, best[name].changes[-1][1], best[name].free[-1]) for name in (first, second)]
         start = [*search.fit.changes, *(best[name].changes[-1] for name in (first, second))]
-        out.append(prune(search, refit(search.system, [*now, *forms], start=start)).judged_by(shaped))
+        pair = prune(search, refit(search.system, [*now, *forms], start=start))
+        out.append(_judged(search, pair, shaped))
     out, empty = likeliest(search, out), objective(search.system, [])
     search.log.append(
         "pairs: " + ", ".join(f"{'+'.join(f.names)} {gain_of(search, f, empty):.0f}" for f in out[:4])
@@ -173,8 +200,8 @@ def _take(search: Search, fits: list[Fit]) -> bool:
         return False
     gains = [gain_of(search, f, empty) for f in fits]
     doubted = None
-    for fit in _in_order(search, fits, gains)[:4]:
-        ok, gates = accepted(search, fit)
+    for fit in _one_each(_in_order(search, fits, gains))[:4]:
+        ok, gates = accepted(search if search.fit.names else beside(search, fit), fit)
         search.log.append(
             "gates: "
             + "; ".join(
@@ -197,6 +224,17 @@ def _take(search: Search, fits: list[Fit]) -> bool:
     if doubted is not None:
         search.doubted[len(doubted.names)] = doubted
     return False
+
+
+def _one_each(fits: list[Fit]) -> list[Fit]:
+    """Return the first set of each names: a second form of one effect takes no turn of another."""
+    seen: set[tuple[str, ...]] = set()
+    out = []
+    for fit in fits:
+        if tuple(fit.names) not in seen:
+            seen.add(tuple(fit.names))
+            out.append(fit)
+    return out
 
 
 def _prefer(search: Search) -> bool:
@@ -281,7 +319,7 @@ def _visible(search: Search, fit: Fit) -> bool:
         return False
     each = [left_without(i) for i in range(len(fit.names))]
     for i, there in enumerate(each):
-        if there - left >= settings.LEAST_SHARE * total:
+        if there - left >= settings.LEAST_SHARE * total * share_of_sweeps(search, fit, i):
             continue
         gain = gain_of(search, fit.judged_by(search.system), objective(search.system, fit.others(i)))
         if there - left < total * least_share(fit.names, i, gain, there / total):
@@ -309,8 +347,17 @@ def _drop(search: Search, index: int) -> None:
 
 
 def _withdraw(search: Search) -> None:
-    """Take back names that a form without a name explains as well, or much of what they leave."""
+    """Take back names that a form without a name explains as well, or that other loads do not bear out."""
     while search.fit.names:
+        worst_one = _of_some_loads(search)
+        if worst_one is not None:
+            name = search.fit.names[worst_one]
+            search.withdrawn.append(name)
+            search.refused[name] = "loads that its fit has not seen are predicted no better with it"
+            search.log.append(f"withdrawn {name}: left-out loads")
+            _drop(search, worst_one)
+            _eliminate(search)
+            continue
         found = search.doubts = doubts(search)
         worst = max(found, key=lambda d: d.size)
         if worst.size <= 0.0:
@@ -324,3 +371,17 @@ def _withdraw(search: Search) -> None:
         search.log.append(f"withdrawn {name}: {worst.label}")
         _drop(search, worst.index)
         _eliminate(search)
+
+
+def _of_some_loads(search: Search) -> int | None:
+    """Return an effect in the model's own inputs that makes left-out loads no better, or None."""
+    group = groups(search)
+    if group is None:
+        return None
+    left = left_out_error(search, search.fit, group)
+    for i, name in enumerate(search.fit.names):
+        if catalogue()[name].own_inputs and left >= left_out_error(
+            search, without(search, search.fit, i), group
+        ):
+            return i
+    return None

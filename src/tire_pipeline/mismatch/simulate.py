@@ -59,7 +59,7 @@ def simulate(data: Any, changes: Sequence[Change] = ()) -> dict[str, Array]:
     data : Data
         The prepared recording; it holds the tire.
     changes : sequence of (name, parameters)
-        Effects and their parameters.
+        Effects and their parameters; one that is not given does nothing.
 
     Returns
     -------
@@ -115,7 +115,9 @@ def simulate_moments(data: Any, changes: Sequence[Change], names: Sequence[str])
 
 def _at_the_tire(data: Any, changes: Sequence[Change]) -> tuple[State, list[tuple[Any, Mapping[str, float]]]]:
     """What the tire sees and what it is like, and the effects in their order."""
-    effects = [(catalogue()[name], p) for name, p in changes]
+    effects: list[tuple[Any, Mapping[str, float]]] = [
+        (catalogue()[name], {**catalogue()[name].zeros(data), **p}) for name, p in changes
+    ]
     effects.sort(key=lambda e: e[0].order)
     zero = np.zeros(data.size)
     state = State(

@@ -9,9 +9,7 @@ confidence intervals: Katkovnik 1999, IEEE Trans. Signal Processing 47).
 from __future__ import annotations
 
 import numpy as np
-from scipy.ndimage import percentile_filter
-from scipy.optimize import brentq
-from scipy.signal import savgol_coeffs
+import scipy
 
 Array = np.ndarray
 _WINDOWS = ((9, 4), (15, 4), (25, 4), (35, 4), (61, 2), (121, 2), (241, 2))
@@ -84,7 +82,7 @@ def _piece(x: Array, sigma: float, rho: float) -> Array:
         high = np.where(alive, np.minimum(high, value + half), high)
         alive &= low <= high
         level = np.where(alive, len(values) - 1, level)
-    level = percentile_filter(level, 30, 21, mode="nearest")
+    level = scipy.ndimage.percentile_filter(level, 30, 21, mode="nearest")
     return np.choose(level, values)
 
 
@@ -92,7 +90,7 @@ def _polynomial(x: Array, window: int, order: int, rho: float) -> tuple[Array, f
     """Return local polynomial values and their standard deviation for noise of unit variance."""
     if window == 1:
         return x, 1.0
-    c = savgol_coeffs(window, order)
+    c = scipy.signal.savgol_coeffs(window, order)
     half = window // 2
     padded = np.concatenate([2.0 * x[0] - x[half:0:-1], x, 2.0 * x[-1] - x[-2 : -half - 2 : -1]])
     value = np.convolve(padded, c[::-1], mode="valid")
@@ -120,4 +118,4 @@ def correlation_from_ratio(ratio: float) -> float:
 
     if ratio <= 1.0:
         return 0.0
-    return 0.95 if excess(0.95) < 0.0 else float(brentq(excess, 0.0, 0.95))
+    return 0.95 if excess(0.95) < 0.0 else float(scipy.optimize.brentq(excess, 0.0, 0.95))

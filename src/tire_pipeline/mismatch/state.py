@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,8 +15,9 @@ from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.noise import Noise, estimate_noise, refined
-from tire_pipeline.mismatch.nuisance import largest_force, make_nuisance
+from tire_pipeline.mismatch.nuisance import Sizes, largest_force, make_nuisance
 from tire_pipeline.mismatch.refit import Fit, residual
+from tire_pipeline.mismatch.simulate import Change
 
 if TYPE_CHECKING:
     from tire_pipeline.mismatch.doubts import Doubt
@@ -42,7 +43,8 @@ class Search:
     fit: Fit
     frozen: System = None  # type: ignore[assignment]
     columns: dict[str, Array] = field(default_factory=dict)
-    sizes: dict[str, tuple[int, int]] = field(default_factory=dict)
+    sizes: dict[str, Sizes] = field(default_factory=dict)
+    path: float = 0.0
     first_noise: dict[str, Noise] = field(default_factory=dict)
     gates: list[Gates] = field(default_factory=list)
     screened: dict[str, float] = field(default_factory=dict)
@@ -95,26 +97,33 @@ def _assemble(search: Search) -> None:
     _weigh(search)
 
 
-def nuisance_scale(sizes: dict[str, tuple[int, int]], share: float, factor: float = 1.0) -> dict[str, Array]:
+def nuisance_scale(
+    sizes: dict[str, Sizes], share: float, path: float, factor: float = 1.0, memory: float | None = None
+) -> dict[str, Array]:
     """Prior standard deviations of the nuisance columns for a size of the flexible form.
 
     Parameters
     ----------
     sizes : dict
-        For each output the numbers of columns of the coefficients and of the flexible form.
+        For each output the numbers of columns.
     share : float
         Size of the flexible form, over the largest force.
+    path : float
+        Size of its dependence on the way to a point, over the largest force.
     factor : float
         On what the coefficients may move.
+    memory : float, optional
+        How far friction may follow the power of the last seconds; as far as ``path`` if left out.
     """
     part = min(settings.COEFFICIENT_PART * share, settings.COEFFICIENT_MOST)
     move = factor * max(settings.COEFFICIENT_SHARE, part)
-    return {o: np.r_[np.full(c, move), np.full(m, share)] for o, (c, m) in sizes.items()}
+    scales = [move, share, path, path if memory is None else memory, settings.FAST_SHARE]
+    return {o: np.repeat(scales, size) for o, size in sizes.items()}
 
 
 def _weigh(search: Search) -> None:
     """Whiten by the noise as it is known now."""
-    start = nuisance_scale(search.sizes, settings.MISFIT_SHARES[0])
+    start = nuisance_scale(search.sizes, settings.MISFIT_SHARES[0], settings.PATH_SHARES[0])
     search.system = System(search.data, search.noise, search.block, search.columns, start)
     rescale(search)
 
@@ -150,25 +159,45 @@ def noise_beside(search: Search) -> dict[str, Noise]:
     return {o: refined(search.data, n, calm[o]) for o, n in first.items()}
 
 
+def beside(search: Search, fit: Fit) -> Search:
+    """Return the search as it would be with a set in: the misfit's sizes learnt from what the set leaves.
+
+    What an effect does must not pass for misfit while the effect itself is judged.
+    """
+    out = replace(search, fit=fit)
+    rescale(out)
+    return out
+
+
+def log_likelihood(search: Search, changes: Sequence[Change], inflation: float) -> float:
+    """Log marginal likelihood of a set of effects as it stands, with the sizes that a search has learnt."""
+    left = search.system.reduce(search.system.sums(residual(search.data, changes)))[2]
+    return -0.5 * left / inflation - 0.5 * search.system.log_determinant()
+
+
 def rescale(search: Search) -> None:
     """Take the likeliest size of the flexible form for what the accepted effects leave."""
     base = search.system
     sums = base.sums(residual(search.data, search.fit.changes))
     for _ in range(2):  # the size depends on the inflation, and the other way round
-        best = (-np.inf, settings.MISFIT_SHARES[0])
+        best = (-np.inf, settings.MISFIT_SHARES[0], settings.PATH_SHARES[0])
         for share in settings.MISFIT_SHARES:
-            trial = base.rescaled(nuisance_scale(search.sizes, share))
-            _, _, left = trial.reduce(sums)
-            value = -0.5 * left / search.inflation - 0.5 * trial.log_determinant()
-            best = max(best, (value, share))
-        before = (search.misfit, search.inflation)
-        search.misfit = best[1]
-        search.system = base.rescaled(nuisance_scale(search.sizes, best[1]))
-        at_least = max(best[1], settings.LOOSE_SHARE)
-        search.loose = base.rescaled(nuisance_scale(search.sizes, at_least, settings.LOOSE))
-        search.frozen = base.rescaled(nuisance_scale(search.sizes, best[1], 1e-3))
+            for path in (
+                settings.PATH_SHARES if any(size.path for size in search.sizes.values()) else best[2:]
+            ):
+                trial = base.rescaled(nuisance_scale(search.sizes, share, path))
+                _, _, left = trial.reduce(sums)
+                value = -0.5 * left / search.inflation - 0.5 * trial.log_determinant()
+                best = max(best, (value, share, path))
+        before = (search.misfit, search.path, search.inflation)
+        _, search.misfit, search.path = best
+        search.system = base.rescaled(nuisance_scale(search.sizes, *best[1:]))
+        at_least = max(search.misfit, settings.LOOSE_SHARE)
+        free = (settings.PATH_SHARES[-1], settings.LOOSE, settings.LOOSE_MEMORY)
+        search.loose = base.rescaled(nuisance_scale(search.sizes, at_least, *free))
+        search.frozen = base.rescaled(nuisance_scale(search.sizes, *best[1:], 1e-3))
         search.inflation = _inflation(search)
-        if before[0] == search.misfit and abs(before[1] / search.inflation - 1.0) < 0.2:
+        if before[:2] == best[1:] and abs(before[2] / search.inflation - 1.0) < 0.2:
             break
 
 

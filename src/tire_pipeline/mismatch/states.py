@@ -119,7 +119,7 @@ class States(Simulated):
     def relax(self, state: State, names: set[str]) -> None:
         """Lag the slips by the relaxation that the file itself states (PTY1, PTX1), if it does."""
         own = self.fixed.get("own_relaxation")
-        if own is None or "relaxation_length" in names or self.time is None:
+        if own is None or "relaxation_length" in names or self.time is None or "speed" not in self.present:
             return
         speed = np.maximum(np.abs(self.get("speed")), 0.1)
         for slip, length in own.items():

@@ -10,7 +10,6 @@ import pandas as pd
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.magic_formula.fitting import fit_magic_formula
 from tire_pipeline.mismatch.simulate import plain_forces
 
 Array = np.ndarray
@@ -36,6 +35,8 @@ def stand_in(arrays: Mapping[str, Array]) -> tuple[Any, dict[str, Array]]:
     RecordingError
         If there is neither a tire model nor a simulated force.
     """
+    from tire_pipeline.magic_formula import fit_magic_formula  # slow to import, and few recordings need it
+
     forces = [f for f in ("fx", "fy") if f"simulated_{f}" in arrays]
     if not forces:
         raise RecordingError(

@@ -116,7 +116,7 @@ def _normal_equations(search: Search, data: Data) -> tuple[Array, Array]:
             for o in data.outputs:
                 columns[o].append(found[name][o] if name in found else np.zeros(data.size))
     nuisance = make_nuisance(data)
-    scale = nuisance_scale(nuisance.sizes, search.misfit)
+    scale = nuisance_scale(nuisance.sizes, search.misfit, search.path)
     noise = estimate_noise(data, rest)
     system = System(data, noise, np.zeros(data.size, int), nuisance.columns, scale)
     sums = system.sums(rest, {o: np.column_stack(c) for o, c in columns.items()})

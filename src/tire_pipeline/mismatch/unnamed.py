@@ -72,7 +72,7 @@ def forms(data: Data, changes: list[Change]) -> Iterator[Form]:
         return
     ways = constant_form(data, changes).columns
     for label, driver, less in _drivers(data):
-        yield Form(label, {o: ways[o] * driver[:, None] for o in data.outputs}, less)
+        yield Form(label, {o: ways[o] * driver[:, None] for o in data.outputs}, less, in_misfit=True)
     yield from repeating_forms(data, changes)
     for name, output in _SLIPS.items():
         if not data.varies(name) or output not in data.outputs:

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects import Effect, catalogue
 from tire_pipeline.mismatch.locate import Located
-from tire_pipeline.mismatch.report import EffectReport, GaussianForm, OutputFit, Remainder
+from tire_pipeline.mismatch.report import EffectReport, GaussianForm, HeldOutFit, OutputFit, Remainder
 
 _UNITS = {
     "slip_angle": (57.29578, "deg", "slip angle"),
@@ -52,6 +52,21 @@ def figure(axis: str, value: float, size: float | None = None) -> str:
     """Return a value of an axis without its unit, which is that for values of some size."""
     factor = unit_of(axis, value if size is None else size)[0]
     return "0" if abs(value) < _FINEST.get(axis, 0.0) else f"{value * factor:.3g}"
+
+
+_AMOUNTS = {
+    "1": (100.0, "%"),
+    "rad": (57.29578, "deg"),
+    "s": (1e3, "ms"),
+    "rad/N": (57.29578e3, "deg/kN"),
+    "rad/rad": (1.0, "deg/deg"),
+}
+
+
+def amount(value: float, unit: str) -> str:
+    """Return the size of a parameter in the unit that engineers use."""
+    factor, name = _AMOUNTS.get(unit, (1.0, unit))
+    return f"{value * factor:.2g} {name}"
 
 
 def label(axis: str) -> str:
@@ -100,6 +115,7 @@ def summary(
     remainder: Remainder,
     next_experiment: str,
     ranges: Mapping[str, tuple[float, float]] | None = None,
+    even: Mapping[str, float] | None = None,
 ) -> str:
     """Return the report in a few sentences.
 
@@ -109,6 +125,8 @@ def summary(
         Of the report.
     ranges : mapping, optional
         Axis -> (lowest, highest) recorded, SI, to say "above" and "below" where a stretch ends there.
+    even : mapping, optional
+        Output -> share of the force by which it is off throughout.
     """
     fit = {o: f for o, f in fit.items() if o in ("fx", "fy")}
     if verdict == "agrees":
@@ -117,7 +135,7 @@ def summary(
     exact = bool(effects) and not any(np.isfinite(e.share) for e in effects)
     parts = []
     if located and not (exact and not remainder.significant):
-        parts = [_to_both_sides(effects, fit, located, ranges) or _where(located, ranges)]
+        parts = [_to_both_sides(effects, fit, located, ranges) or _where(located, ranges, even or {})]
     if effects:
         parts += _cause(effects, fit, ranges)
     parts += [_doubt(e) for e in effects if e.alternatives]
@@ -126,6 +144,21 @@ def summary(
     if next_experiment:
         parts.append(in_words(next_experiment))
     return " ".join(parts)
+
+
+def on_held_out(fit: HeldOutFit) -> str:
+    """Return how the explained model predicts a recording that was held out, in a sentence."""
+    parts = []
+    for output, error in fit.errors.items():
+        unit = "N m" if output.startswith("m") else "N"
+        sizes = f"from {newtons(error.rms_before)} {unit} to {newtons(error.rms_after)} {unit}"
+        if error.ratio_high < 1.0:
+            parts.append(f"{output.capitalize()} falls {sizes}")
+        elif error.ratio_low > 1.0:
+            parts.append(f"{output.capitalize()} rises {sizes}: what was found does not hold there")
+        else:
+            parts.append(f"{output.capitalize()} is about the same as before ({sizes})")
+    return f"In {fit.recording}, which was held out, the RMS error of {', that of '.join(parts)}."
 
 
 def in_words(text: str) -> str:
@@ -141,6 +174,22 @@ def condition(text: str) -> str:
         return text
     value = float(found[2])
     return f"|{label(found[1])}| above {shown(found[1], value)}"
+
+
+def not_looked_for(absent: Mapping[str, str]) -> str:
+    """Return in one sentence what could not be looked for, by reason; nothing if that is nothing.
+
+    Parameters
+    ----------
+    absent : mapping
+        Name of an effect -> why the fit leaves it out. What is looked for without a fit is not among these.
+    """
+    by_reason: dict[str, list[str]] = {}
+    for name, why in absent.items():
+        if type(catalogue()[name]).detect is Effect.detect:
+            by_reason.setdefault(why, []).append(catalogue()[name].title)
+    reasons = [f"{', '.join(titles)} ({why})" for why, titles in by_reason.items()]
+    return f"could not be looked for: {'; '.join(reasons)}" if reasons else ""
 
 
 def _agreement(fit: dict[str, OutputFit]) -> str:
@@ -176,7 +225,7 @@ def _cause(
         )
     elif fit:
         sizes = ", ".join(
-            f"{o.capitalize()} {newtons(f.rms_before)} N (noise {newtons(f.noise_floor)} N)"
+            f"{o.capitalize()} {newtons(f.rms_after)} N (noise {newtons(f.noise_floor)} N)"
             for o, f in fit.items()
         )
         parts.append(f"With that set right the difference is {sizes} RMS.")
@@ -249,14 +298,16 @@ def place(axis: str, low: float, high: float, ranges: Mapping[str, tuple[float, 
     return f"at {name} between {a} and {b} {unit}".rstrip()
 
 
-def _where(located: Sequence[Located], ranges: Mapping[str, tuple[float, float]]) -> str:
+def _where(
+    located: Sequence[Located], ranges: Mapping[str, tuple[float, float]], even: Mapping[str, float]
+) -> str:
     """First sentence: where recorded and simulated force differ most."""
     along = [f for f in located if f.along_force] or list(located)
     output = max(along, key=lambda f: abs(f.mean)).output
     own = [f for f in along if f.output == output]
     top = max(own, key=lambda f: abs(f.mean))
     own = [f for f in own if f.mean * top.mean > 0.0 and abs(f.mean) > 0.4 * abs(top.mean)]
-    own = sorted(own[:4], key=lambda f: (f.axis != "time", f.p_value, -abs(f.mean)))[:3]
+    own = sorted(own, key=lambda f: -abs(f.mean))[:2]
     spots = [place(f.axis, f.low, f.high, ranges) for f in own]
     spots = [
         s.removeprefix("at ") if i and spots[i - 1].startswith("at ") else s for i, s in enumerate(spots)
@@ -267,6 +318,10 @@ def _where(located: Sequence[Located], ranges: Mapping[str, tuple[float, float]]
     best = max(own, key=lambda f: abs(f.mean))
     name = output.capitalize()
     lead = f"{where[:1].upper()}{where[1:]}, {name}"
+    if output in even:
+        word = "lower" if even[output] < 0.0 else "higher"
+        most = f"most in newtons {where}: {newtons(abs(best.mean))} N"
+        return f"{name} is {abs(even[output]) * 100:.2g}% {word} than the model throughout ({most})."
     if best.along_force and abs(best.share) > 0.002:
         word = "lower" if best.mean < 0.0 else "higher"
         size = abs(best.share) * 100

@@ -49,6 +49,19 @@ class BaselineReport:
         }
 
 
+def with_all_inputs(tire: TireModel, frame: pd.DataFrame) -> pd.DataFrame:
+    """Return a run with the channels that the regressions go by, where real recordings lack them.
+
+    Slip ratio and camber are 0 then, speed the tire's own, and Fx is what the model gives.
+    """
+    speed = tire.value("LONGVL") or 1.0
+    plain = {"slip_ratio": 0.0, "camber": 0.0, "speed": speed}
+    out = frame.assign(**{name: value for name, value in plain.items() if name not in frame})
+    if "fy" in out and "fx" not in out:
+        out["fx"] = model_forces(tire, out)[:, 0]
+    return out
+
+
 def effect_entry(
     name: str, contribution: np.ndarray, recording: pd.DataFrame, noise: float, confidence: float
 ) -> dict[str, Any]:

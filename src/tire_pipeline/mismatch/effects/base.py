@@ -83,6 +83,8 @@ class Finding:
         Between 0 and 1.
     span : (start, end), optional
         s, if it does not last the whole recording.
+    alike : tuple of tuple of str
+        Other sets of channels of which the same would look the same.
     """
 
     name: str
@@ -93,6 +95,7 @@ class Finding:
     bad: Array | None = None
     evidence: float = 0.98
     span: tuple[float, float] | None = None
+    alike: tuple[tuple[str, ...], ...] = ()
 
 
 class Effect:
@@ -107,6 +110,8 @@ class Effect:
     equation, source : str
     channels : tuple of str
         Channels that have to be there and vary.
+    used : tuple of str
+        Channels that have to be there, but need not vary.
     needs_time : bool
     own_inputs : bool
         True if it is a function of the model's own inputs, so that a flexible form of these could
@@ -143,6 +148,8 @@ class Effect:
     parameters : tuple of Parameter
     looks_like : dict
         Name of another effect -> what tells them apart.
+    told_by : dict
+        Name of another effect -> the channel that has to vary before a recording tells the two apart.
     experiment : str
         What to record to be sure of it.
     """
@@ -153,6 +160,7 @@ class Effect:
     equation = ""
     source = ""
     channels: tuple[str, ...] = ()
+    used: tuple[str, ...] = ()
     needs_time = False
     own_inputs = False
     dynamic = False
@@ -170,6 +178,7 @@ class Effect:
     unusual = False
     parameters: tuple[Parameter, ...] = ()
     looks_like: Mapping[str, str] = {}
+    told_by: Mapping[str, str] = {}
     experiment = ""
     order = 50
 
@@ -180,7 +189,15 @@ class Effect:
         for name in self.channels:
             if not data.varies(name):  # type: ignore[attr-defined]
                 return f"{name} is not recorded or does not vary"
+        for name in self.used:
+            if not data.has(name):  # type: ignore[attr-defined]
+                return f"{name} is not recorded"
         return None
+
+    def lacking(self, data: object) -> list[str]:
+        """Return the channels (and ``time``) without which the effect cannot be put into a recording."""
+        lost = [n for n in (*self.channels, *self.used) if n not in data.channels]  # type: ignore[attr-defined]
+        return [*lost, "time"] if self.needs_time and data.time is None else lost  # type: ignore[attr-defined]
 
     def parameter(self, name: str) -> Parameter:
         """Return the parameter of a name."""

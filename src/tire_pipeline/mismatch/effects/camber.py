@@ -8,21 +8,28 @@ from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, S
 
 
 class Camber(Effect):
-    """The lateral force answers to camber in a way that the model does not know."""
+    """The forces answer to camber in a way that the model does not know.
+
+    Covers thrust and its change with load, a shift along the slip axis, loss of lateral stiffness and of
+    friction, and loss of longitudinal friction (PDX3). Not covered: the shape of the curve (PEY4), the
+    weighting of combined slip (RBX3, RBY4), and spin from camber on a curved path.
+    """
 
     name = "camber"
     title = "camber"
     equation = (
         "slip_angle += shift camber; Fy += Fz camber (thrust + thrust_load dfz) cos(arctan(10 slip_ratio)); "
-        "friction *= 1 - friction_loss camber^2; stiffness *= 1 - stiffness_loss |camber|"
+        "lateral friction *= 1 - friction_loss camber^2, longitudinal friction *= 1 - friction_loss_x "
+        "camber^2; lateral stiffness *= 1 - stiffness_loss |camber|"
     )
-    source = "MF 5.2: PHY3, PVY3, PVY4, PDY3, PKY3 (thesis, Appendix A, lateral force, pure slip)"
+    source = "MF 5.2: PHY3, PVY3, PVY4, PDY3, PKY3, PDX3 (thesis, Appendix A, pure slip)"
     channels = ("camber",)
     parameters = (
         Parameter("shift", "rad/rad", -2.0, 2.0, 0.01),
         Parameter("thrust", "1/rad", -4.0, 4.0, 0.02),
         Parameter("thrust_load", "1/rad", -4.0, 4.0, 0.02, further=True),
         Parameter("friction_loss", "1/rad^2", -40.0, 60.0, 0.5, further=True),
+        Parameter("friction_loss_x", "1/rad^2", -40.0, 60.0, 0.5, output="fx", further=True),
         Parameter("stiffness_loss", "1/rad", -6.0, 10.0, 0.05),
     )
     looks_like = {
@@ -33,12 +40,19 @@ class Camber(Effect):
     experiment = "the same slip sweep at camber of both signs and at zero"
     order = 40
 
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """All but the longitudinal friction where nothing brakes or drives."""
+        names = tuple(p.name for p in self.parameters if p.name != "friction_loss_x")
+        return (*names, "friction_loss_x") if data.driven("fx") else names  # type: ignore[attr-defined]
+
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Change friction and stiffness with camber."""
         g = state.camber
         loss = np.maximum(1.0 - p["friction_loss"] * g**2, 0.05)
         soft = np.maximum(1.0 - p["stiffness_loss"] * np.abs(g), 0.05)
-        state.log_friction_y = state.log_friction_y + np.log(loss)
+        loss_x = np.maximum(1.0 - p["friction_loss_x"] * g**2, 0.05)
+        state.log_friction = state.log_friction + np.log(loss_x)
+        state.log_friction_y = state.log_friction_y + np.log(loss) - np.log(loss_x)
         state.log_stiffness_y = state.log_stiffness_y + np.log(soft)
         state.slip_angle = state.slip_angle + p["shift"] * g
         excess = data.load_excess(state.normal_load)  # type: ignore[attr-defined]
@@ -47,12 +61,13 @@ class Camber(Effect):
         state.added_y = state.added_y + state.normal_load * g * thrust * fade
 
     def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
-        """Add to PHY3, PVY3, PVY4, PDY3, PKY3 (MF 5.x; 6.x keeps the shift in PVY3 and PKY6)."""
+        """Add to PHY3, PVY3, PVY4, PDY3, PKY3, PDX3 (MF 5.x; 6.x keeps the shift in PVY3 and PKY6)."""
         c = tire.coefficients  # type: ignore[attr-defined]
         names = {
             "PVY3": p["thrust"],
             "PVY4": p["thrust_load"],
             "PDY3": p["friction_loss"],
+            "PDX3": p["friction_loss_x"],
             "PKY3": p["stiffness_loss"],
         }
         if not str(getattr(tire, "version", "5.2")).startswith("6"):

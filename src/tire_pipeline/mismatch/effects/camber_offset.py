@@ -6,7 +6,11 @@ from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, S
 
 
 class CamberOffset(Effect):
-    """The camber thrust is there at recorded camber zero."""
+    """The camber thrust is there at recorded camber zero.
+
+    Covers a constant of the channel. Not covered: a gain of it, which is a camber that the model answers to
+    otherwise (camber), and an offset where the model does not answer to camber.
+    """
 
     name = "camber_offset"
     kind = "artefact"

@@ -5,49 +5,32 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from scipy.special import bdtrc
 
-from tire_pipeline.mismatch.effects.base import Array, Effect, Finding, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.shared import CLIPPED
 
 
 class Clipping(Effect):
-    """The recorded force stops at a limit, whatever the tire does."""
+    """The recorded force stops at a limit, whatever the tire does.
+
+    Covers channels of which many samples stand exactly at one end of their range, either or both. Not
+    covered: a limit that noise or a filter after it has blurred: without samples at it there is no limit to
+    see.
+    """
 
     name = "clipping"
     kind = "artefact"
     title = "a clipped channel"
     equation = "F recorded = min(max(F, -limit), limit)"
     source = "range of amplifier or converter"
-    own_inputs = True
-    least_gain = 100.0  # a limit leaves equal samples, which `detect` finds; else it is the misfit's peak
-    parameters = (
-        Parameter("fy", "N", 1.0, 1e7, 1.0, zero=1e7, output="fy"),
-        Parameter("fx", "N", 1.0, 1e7, 1.0, zero=1e7, output="fx"),
-    )
     looks_like = {"friction_scale": "friction limits the force in proportion to load; clipping at one value"}
     experiment = "repeat with a larger range of the amplifier"
     order = 99
 
-    def starts(self, data: object) -> list[dict[str, float]]:
-        """Limits somewhat below the largest recorded force, of either output."""
-        out = []
-        for name in data.outputs:  # type: ignore[attr-defined]
-            if not data.driven(name):  # type: ignore[attr-defined]
-                continue
-            largest = float(np.quantile(np.abs(data.recorded[name]), 0.995))  # type: ignore[attr-defined]
-            other = {n.name: n.zero for n in self.parameters}
-            out += [{**other, name: share * largest} for share in (0.99, 0.95)]
-        return out
-
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
-        """Return the one limit that the start sets."""
-        return tuple(p.name for p in self.parameters if start[p.name] != p.zero)
-
-    def outputs(self, state: State, data: object, p: Parameters) -> None:
-        """Clip the forces."""
-        for name in ("fx", "fy"):
-            if name in state.forces:
-                state.forces[name] = np.clip(state.forces[name], -p[name], p[name])
+    def absent(self, data: object) -> str | None:
+        """Never a candidate of the fit: at a limit samples stand, or there is none."""
+        return "found in the channel itself, not by a fit"
 
     def detect(self, channels: Mapping[str, Array], simulate: object) -> list[Finding]:
         """Find many samples exactly at one end of a channel's range."""
@@ -71,22 +54,47 @@ class Clipping(Effect):
 def _at_the_ends(x: Array, in_time: bool) -> tuple[Array | None, list[float]]:
     """Samples exactly at the largest or smallest value, if these are many and the rest is not.
 
-    In time they must stay there three samples on end; of steady points four at one end are enough, if all
-    others differ.
+    In time they must stay there three samples on end, and be more than the crest of a smooth signal leaves
+    in a last step of the channel's resolution; of steady points four at one end are enough, if all others
+    differ.
     """
     finite = x[np.isfinite(x)]
     if finite.size < (50 if in_time else 20) or np.ptp(finite) == 0.0:
         return None, []
-    _, counts = np.unique(finite, return_counts=True)
+    values, counts = np.unique(finite, return_counts=True)
     usual = np.quantile(counts, 0.99 if in_time else 0.9)
     least = max(12.0, 4.0 * usual) if in_time else 4.0 * usual
     bad = np.zeros(x.size, bool)
     limits = []
-    for value in (finite.max(), finite.min()):
+    for value in (values[-1], values[0]):
         at = x == value
         runs = np.diff(np.flatnonzero(np.diff(np.r_[0, at.astype(np.int8), 0])))[::2]
-        stays = not in_time or (runs.size and runs.max() >= 3)
+        stays = not in_time or (runs.size and runs.max() >= 3 and not _crest(values, counts, value))
         if at.sum() >= least and stays and at.mean() < 0.6:
             bad |= at
             limits.append(float(value))
     return (bad, limits) if limits else (None, [])
+
+
+_STEPS = 10
+_LEVEL = 1e-3
+
+
+def _crest(values: Array, counts: Array, end: float) -> bool:
+    """Whether as many samples at the end of a range are what a smooth crest and the resolution make.
+
+    A parabola spends at most ``steps ** -0.5`` of the time within so many steps of its top in the last of
+    them. The resolution is the smallest step between values near the end.
+    """
+    distance = np.abs(values - end)
+    near = np.sort(distance)[: 5 * _STEPS]
+    steps = np.diff(near)
+    resolution = float(np.min(steps[steps > 1e-9 * max(abs(end), near[-1])], initial=np.inf))
+    if not np.isfinite(resolution):
+        return False
+    last = int(counts[distance < 0.5 * resolution].sum())
+    around = int(counts[distance < (_STEPS - 0.5) * resolution].sum())
+    by_chance = (
+        1.0 if last == 0 else float(bdtrc(last - 1, around, _STEPS**-0.5))
+    )  # binomial: so many or more
+    return by_chance > _LEVEL

@@ -12,7 +12,13 @@ _MORE = ("more_x", "more_y")
 
 
 class CombinedSlip(Effect):
-    """Weighting functions of the model missing or wrong."""
+    """Weighting functions of the model missing or wrong.
+
+    Covers the cosine weighting of both forces by the other slip (RBX1, RBX2, RBY1, RBY2), and more of it on
+    top of the file's own. Not covered: its shifts (RHX1, RBY3, RHY1), its change with camber and load
+    (RBX3, RBY4, RHY2), and the side force that braking makes at zero slip angle (RVY1 to RVY6), which looks
+    like crosstalk.
+    """
 
     name = "combined_slip"
     title = "combined slip"

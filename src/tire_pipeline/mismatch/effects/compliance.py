@@ -6,7 +6,12 @@ from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, S
 
 
 class Compliance(Effect):
-    """The side force turns the wheel, and so does a drive or brake force beside it."""
+    """The side force turns the wheel, and so does a drive or brake force beside it.
+
+    Covers lateral and longitudinal force steer. Not covered: steer by the aligning moment, which is in
+    proportion to the side force until the tire slides, and camber by the side force, whose thrust is about
+    a tenth of what the same angle of steer makes.
+    """
 
     name = "compliance"
     title = "compliance of suspension or rig"

@@ -6,7 +6,11 @@ from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, S
 
 
 class ForceGain(Effect):
-    """Peak and slope move by the same factor, in one channel or both."""
+    """Peak and slope move by the same factor, in one channel or both.
+
+    Covers a constant factor for each force. Not covered: a load cell that is not linear, and a wrong gain
+    of the normal load, which moves friction and stiffness by load and is no factor of the force.
+    """
 
     name = "force_gain"
     kind = "artefact"

@@ -6,7 +6,11 @@ from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, S
 
 
 class ForceOffset(Effect):
-    """The same offset at every slip and load."""
+    """The same offset at every slip and load.
+
+    Covers a constant for each force. Not covered: an offset of the normal load; what changes over time is
+    sensor_drift, what changes with load crosstalk or conicity.
+    """
 
     name = "force_offset"
     kind = "artefact"

@@ -7,7 +7,12 @@ from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 
 class FrictionScale(Effect):
-    """The peak of both forces moves; the slope at zero slip does not."""
+    """The peak of both forces moves; the slope at zero slip does not.
+
+    Covers one factor for both forces (LMUX = LMUY: another surface or compound). Not covered: friction that
+    differs along and across, which a surface does not make; what changes with load is load_sensitivity,
+    with time surface_change, temperature or wear.
+    """
 
     name = "friction_scale"
     title = "another friction level"

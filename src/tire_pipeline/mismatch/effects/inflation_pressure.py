@@ -9,22 +9,30 @@ from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 
 class InflationPressure(Effect):
-    """The model is right at one pressure and wrong at others."""
+    """The model is right at one pressure and wrong at others.
+
+    Covers friction (PPX3, PPX4, PPY3, PPY4), slip stiffness (PPX1, PPX2, PPY1) and stiffness whose change
+    depends on load (PPY2: a softer tire saturates at a smaller load). Not covered: what pressure does to
+    the camber stiffness (PPY5) and to the pneumatic trail, and a pressure that rises with temperature but
+    was recorded cold.
+    """
 
     name = "inflation_pressure"
     title = "inflation pressure"
     equation = (
-        "d = (p - p0) / p0; friction *= 1 + friction d; "
-        "stiffness *= 1 + stiffness d + stiffness_curvature d^2; "
+        "d = (p - p0) / p0; friction *= 1 + friction d + friction_curvature d^2; "
+        "stiffness *= 1 + stiffness d + stiffness_curvature d^2 + stiffness_load d (Fz - Fz0) / Fz0; "
         "lateral stiffness besides *= 1 + lateral_stiffness d"
     )
-    source = "MF 6.1: PPX1..4, PPY1..4; Besselink, Schmeitz, Pacejka 2010, VSD 48 (suppl. 1)"
+    source = "MF 6.1: PPX1..4, PPY1..5; Besselink, Schmeitz, Pacejka 2010, VSD 48 (suppl. 1)"
     channels = ("pressure",)
     parameters = (
         Parameter("friction", "1", -1.5, 1.5, 0.02),
         Parameter("stiffness", "1", -5.0, 5.0, 0.02),
         Parameter("lateral_stiffness", "1", -2.0, 2.0, 0.02, output="fy"),
         Parameter("stiffness_curvature", "1", -12.0, 12.0, 0.02),
+        Parameter("friction_curvature", "1", -6.0, 6.0, 0.02, further=True),
+        Parameter("stiffness_load", "1", -5.0, 5.0, 0.02, further=True),
         Parameter("reference", "Pa", 0.0, 5e6, 100.0),
     )
     looks_like = {"temperature": "temperature lags; pressure steps show at once"}
@@ -39,31 +47,42 @@ class InflationPressure(Effect):
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """All but the reference; one stiffness where one force alone is driven."""
         both = data.driven("fx") and data.driven("fy")  # type: ignore[attr-defined]
-        names = ("friction", "stiffness", "stiffness_curvature")
+        names: tuple[str, ...] = ("friction", "stiffness", "stiffness_curvature", "friction_curvature")
+        if data.varies("normal_load"):  # type: ignore[attr-defined]
+            names = (*names, "stiffness_load")
         return (*names, "lateral_stiffness") if both else names
 
     def outside(self, data: object, p: Parameters) -> bool:
         """Whether the stiffness changes by more than a factor of three at a pressure of the recording."""
-        factor = 1.0 + _bent(p, _excess(data, p))
+        factor = 1.0 + _bent(p, _excess(data, p), data.load_excess(data.get("normal_load")))  # type: ignore[attr-defined]
         return bool(np.min(factor) < 1.0 / 3.0 or np.max(factor) > 3.0)
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale friction and stiffness with pressure."""
         d = _excess(data, p)
-        state.log_friction = state.log_friction + safe_log1p(p["friction"] * d)
-        state.log_stiffness = state.log_stiffness + safe_log1p(_bent(p, d))
+        friction = p["friction"] * d + p["friction_curvature"] * d**2
+        state.log_friction = state.log_friction + safe_log1p(friction)
+        load = data.load_excess(state.normal_load)  # type: ignore[attr-defined]
+        state.log_stiffness = state.log_stiffness + safe_log1p(_bent(p, d, load))
         state.log_stiffness_y = state.log_stiffness_y + safe_log1p(p["lateral_stiffness"] * d)
 
     def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
-        """PPX1, PPX3, PPY1, PPY3 of MF 6.x, which has no place for a lateral stiffness that bends."""
-        if not str(getattr(tire, "version", "")).startswith("6") or p["stiffness_curvature"] != 0.0:
+        """PPX1, PPX3, PPX4, PPY1, PPY3, PPY4 of MF 6.x.
+
+        It has no place for a lateral stiffness that bends, and PPY2 for one that changes with load is another
+        form.
+        """
+        bent = p["stiffness_curvature"] != 0.0 or p["stiffness_load"] != 0.0
+        if not str(getattr(tire, "version", "")).startswith("6") or bent:
             return {}
         c = tire.coefficients  # type: ignore[attr-defined]
         return {
             "PPX1": c.get("PPX1", 0.0) + p["stiffness"],
             "PPX3": c.get("PPX3", 0.0) + p["friction"],
+            "PPX4": c.get("PPX4", 0.0) + p["friction_curvature"],
             "PPY1": c.get("PPY1", 0.0) + p["stiffness"] + p["lateral_stiffness"],
             "PPY3": c.get("PPY3", 0.0) + p["friction"],
+            "PPY4": c.get("PPY4", 0.0) + p["friction_curvature"],
         }
 
 
@@ -72,5 +91,5 @@ def _excess(data: object, p: Parameters) -> np.ndarray:
     return (data.smooth("pressure") - reference) / reference  # type: ignore[attr-defined]
 
 
-def _bent(p: Parameters, d: np.ndarray) -> np.ndarray:
-    return p["stiffness"] * d + p["stiffness_curvature"] * d**2
+def _bent(p: Parameters, d: np.ndarray, load: np.ndarray) -> np.ndarray:
+    return (p["stiffness"] + p["stiffness_load"] * load) * d + p["stiffness_curvature"] * d**2

@@ -1,4 +1,4 @@
-"""Friction falls with load at another rate than the model says."""
+"""Friction and slip stiffness change with load in another way than the model says."""
 
 from __future__ import annotations
 
@@ -7,30 +7,58 @@ from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 
 class LoadSensitivity(Effect):
-    """Friction right at one load, wrong above and below it."""
+    """The model is right at one load and wrong above and below it: a file fitted at one load.
+
+    Covers friction that falls with load (PDX2, PDY2), one rate for both forces, and slip stiffness over
+    load that falls with load (the cornering stiffness saturates: PKY1, PKY2; PKX2, PKX3), apart for the
+    lateral force where both forces move. Not covered: shape and curvature that change with load (PEY2,
+    PEX2, PEX3), and what the file already has: the change is on top of its own.
+    """
 
     name = "load_sensitivity"
-    title = "another fall of friction with load"
-    equation = "m = 1 + rate (Fz - Fz0) / Fz0"
-    source = "MF 5.2: mu = PDY1 + PDY2 dfz (thesis, Appendix A); Grosch 1996 on load dependence"
+    title = "another change of friction and stiffness with load"
+    equation = (
+        "d = (Fz - Fz0) / Fz0; friction *= 1 + rate d; stiffness *= 1 + stiffness d; "
+        "lateral stiffness besides *= 1 + lateral_stiffness d"
+    )
+    source = (
+        "MF 5.2: mu = PDY1 + PDY2 dfz, K = PKY1 Fz0 sin(2 arctan(Fz / (PKY2 Fz0))), PKX2, PKX3 (thesis, "
+        "Appendix A); Grosch 1996 on load dependence"
+    )
     channels = ("normal_load",)
     own_inputs = True
     scales = True
-    parameters = (Parameter("rate", "1", -0.6, 0.6, 0.01),)
-    looks_like = {"friction_scale": "a friction factor is the same at every load"}
+    parameters = (
+        Parameter("rate", "1", -0.6, 0.6, 0.01),
+        Parameter("stiffness", "1", -0.9, 0.9, 0.01),
+        Parameter("lateral_stiffness", "1", -0.9, 0.9, 0.01, output="fy"),
+    )
+    looks_like = {
+        "friction_scale": "a friction factor is the same at every load",
+        "stiffness_scale": "a stiffness factor is the same at every load",
+        "compliance": "compliance costs stiffness at small loads, too, and none where the tire slides",
+    }
     experiment = "sweeps to full sliding at four loads or more"
     order = 40
     least_gain = 15.0
     least_beside = 25.0  # false ones have 13 nats alone and 17 beside camber: few loads
 
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """One stiffness where one force alone is driven."""
+        both = data.driven("fx") and data.driven("fy")  # type: ignore[attr-defined]
+        return ("rate", "stiffness", "lateral_stiffness") if both else ("rate", "stiffness")
+
     def tire(self, state: State, data: object, p: Parameters) -> None:
-        """Scale the friction with load."""
+        """Scale friction and stiffness with load."""
         excess = data.load_excess(state.normal_load)  # type: ignore[attr-defined]
-        change = p["rate"] * excess
-        state.log_friction = state.log_friction + safe_log1p(change)
+        state.log_friction = state.log_friction + safe_log1p(p["rate"] * excess)
+        state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * excess)
+        state.log_stiffness_y = state.log_stiffness_y + safe_log1p(p["lateral_stiffness"] * excess)
 
     def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
-        """PDX2 and PDY2."""
+        """PDX2 and PDY2; a stiffness that is linear in load has no place beside PKY2."""
+        if p["stiffness"] or p["lateral_stiffness"]:
+            return {}
         c = tire.coefficients  # type: ignore[attr-defined]
         out = {}
         for axis in "XY":

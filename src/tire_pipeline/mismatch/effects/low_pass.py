@@ -9,7 +9,12 @@ from tire_pipeline.mismatch.effects.shared import first_order
 
 
 class LowPass(Effect):
-    """First-order low pass: amplitude falls and phase lags with frequency."""
+    """First-order low pass: amplitude falls and phase lags with frequency.
+
+    Covers one filter for both forces; one of higher order is the same below its corner, where its lag
+    counts. Not covered: filters that differ between the forces, resonance of the rig, and filters of the
+    slip channels.
+    """
 
     name = "low_pass"
     kind = "artefact"

@@ -11,7 +11,11 @@ _WOBBLE = ("angle_cosine", "angle_sine", "load_cosine", "load_sine")
 
 
 class Nonuniformity(Effect):
-    """A harmonic of the wheel's rotation: a force of its own, or a wobble of slip angle and load."""
+    """A harmonic of the wheel's rotation: a force of its own, or a wobble of slip angle and load.
+
+    Covers the first harmonic of lateral and tangential force, of the angle (lateral run-out) and of the
+    load (radial run-out). Not covered: higher harmonics, and resonance that makes it grow with speed.
+    """
 
     name = "nonuniformity"
     title = "non-uniformity (once a wheel turn)"
@@ -21,6 +25,7 @@ class Nonuniformity(Effect):
     )
     source = "SAE J332: lateral and radial force variation, first harmonic"
     needs_time = True
+    used = ("speed",)
     as_noise = True
     parameters = (
         Parameter("cosine_y", "N", -3000.0, 3000.0, 1.0, output="fy"),
@@ -38,10 +43,8 @@ class Nonuniformity(Effect):
     order = 15
 
     def absent(self, data: object) -> str | None:
-        """Ask for speed and for enough samples a turn."""
+        """Ask for enough samples a turn besides."""
         missing = super().absent(data)
-        if missing is None and not data.has("speed"):  # type: ignore[attr-defined]
-            missing = "speed is not recorded"
         if missing is None and not data.turns_resolved:  # type: ignore[attr-defined]
             missing = "fewer than three samples a wheel turn"
         return missing

@@ -9,6 +9,8 @@ class PlysteerConicity(Effect):
     """A side force without slip that comes from how the tire is built.
 
     Conicity is a force that stays where the tire slides, or fades there (thrust), or both; or a camber.
+    Covers both in proportion to load, and ply steer as a slip angle. Not covered: conicity that changes
+    with camber or pressure.
     """
 
     name = "plysteer_conicity"
@@ -34,6 +36,7 @@ class PlysteerConicity(Effect):
         "force_offset": "an offset of the sensor does not change with load",
         "slip_angle_offset": "an offset of slip angle is ply steer to the eye: turn the tire round",
         "camber_offset": "an offset of camber is conicity to the eye: turn the tire on its rim",
+        "crosstalk": "a leak of the load is conicity to the eye: turn the tire on its rim",
     }
     experiment = "straight rolling at three loads, then with the tire turned on its rim"
     order = 12

@@ -7,60 +7,86 @@ import numpy as np
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.shared import first_order
 
+_IN_RADII = (0.1, 6.0)
+"""Length over the unloaded radius that a tire can have: about 0.5 to 3 for the lateral force, less along."""
+
 
 class RelaxationLength(Effect):
-    """Slip acts on the tire only after a distance rolled: a lag that is shorter at speed."""
+    """Slip acts on the tire only after a distance rolled: a lag that is shorter at speed.
+
+    Covers a length that is constant or falls with slip, and that changes with load (PTY2) in proportion;
+    one for both slips, or another one along the wheel (PTX1) where both forces move. A tire's length is 0.1
+    to 6 of its radii. Not covered: a lag of camber and of the aligning moment (gyroscopic couple), of
+    second order.
+    """
 
     name = "relaxation_length"
     title = "relaxation length"
     equation = (
         "length / v d(slip')/dt + slip' = slip, forces from slip'; length *= slope(slip) "
-        "/ slope(0) where `fades`"
+        "/ slope(0) where `fades`; length *= 1 + load (Fz - Fz0) / Fz0; that of the slip ratio *= along"
     )
     source = "von Schlippe and Dietrich 1941; Pacejka, 3rd ed., 7.2 (PTX, PTY of MF 5.2)"
     needs_time = True
+    used = ("speed",)
     dynamic = True
     parameters = (
-        Parameter("length", "m", 0.0, 3.0, 0.02),
+        Parameter("length", "m", 0.0, 10.0, 0.002),
         Parameter("fades", "1", 0.0, 1.0, 0.1),
+        Parameter("load", "1", -1.0, 2.0, 0.02, further=True),
+        Parameter("along", "1", 0.05, 3.0, 0.02, zero=1.0, further=True),
     )
     looks_like = {
         "time_delay": "a delay is the same at every speed",
         "low_pass": "a filter is the same at every speed",
     }
+    told_by = {"time_delay": "speed", "low_pass": "speed"}
     experiment = "the same slip-angle sine at two speeds that differ by a factor of two or more"
     order = 30
 
-    def absent(self, data: object) -> str | None:
-        """Ask for speed besides (it need not vary)."""
-        missing = super().absent(data)
-        if missing is None and not data.has("speed"):  # type: ignore[attr-defined]
-            missing = "speed is not recorded"
-        return missing
-
     def starts(self, data: object) -> list[dict[str, float]]:
-        """Two sizes, with the length constant or falling with slip."""
-        return [{"length": s, "fades": f} for s in (0.1, 0.4) for f in (0.0, 1.0)]
+        """Two sizes, in radii of the wheel, with the length constant or falling with slip."""
+        radius, zero = data.radius, self.zeros(data)  # type: ignore[attr-defined]
+        return [{**zero, "length": s * radius, "fades": f} for s in (0.3, 1.2) for f in (0.0, 1.0)]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
-        """Return the length; the form is one of the two."""
-        return ("length",)
+        """Return the length, its change with load, and along the wheel; it fades or not."""
+        names = ["length"]
+        if data.varies("normal_load"):  # type: ignore[attr-defined]
+            names.append("load")
+        if data.driven("fx") and data.driven("fy"):  # type: ignore[attr-defined]
+            names.append("along")
+        return tuple(names)
+
+    def outside(self, data: object, p: Parameters) -> bool:
+        """Whether no tire has such a length: it is a matter of the contact patch and the carcass."""
+        low, high = _IN_RADII
+        return not low <= p["length"] / data.radius <= high  # type: ignore[attr-defined]
 
     def inputs(self, state: State, data: object, p: Parameters) -> None:
         """Lag the slips."""
         if p["length"] <= 0.0:
             return
         step = data.step * np.maximum(np.abs(data.get("speed")), 0.1)  # type: ignore[attr-defined]
-        for slip, share in (("slip_angle", data.slope_share), ("slip_ratio", data.slope_share_x)):  # type: ignore[attr-defined]
-            length = p["length"] * (1.0 - p["fades"] + p["fades"] * share)
+        by_load = np.maximum(1.0 + p["load"] * data.load_excess(state.normal_load), 0.05)  # type: ignore[attr-defined]
+        slips = (("slip_angle", data.slope_share, 1.0), ("slip_ratio", data.slope_share_x, p["along"]))  # type: ignore[attr-defined]
+        for slip, share, along in slips:
+            length = p["length"] * (1.0 - p["fades"] + p["fades"] * share) * by_load * along
             gain = 1.0 - np.exp(-step / np.maximum(length, 1e-3))
             setattr(state, slip, first_order(getattr(state, slip), gain, data.start))  # type: ignore[attr-defined]
 
     def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
-        """PTY1, PTY2 and PTX1, so that the length at nominal load is the one found (MF 5.x)."""
+        """PTY1, PTY2 and PTX1, so that the length at nominal load is the one found (MF 5.x).
+
+        Nothing where the length was found to change with load.
+        """
         c = tire.coefficients  # type: ignore[attr-defined]
-        if str(getattr(tire, "version", "5.2")).startswith("6"):
+        if str(getattr(tire, "version", "5.2")).startswith("6") or p["load"]:
             return {}
         radius = c.get("UNLOADED_RADIUS", 0.3)
         at_nominal = float(np.sin(2.0 * np.arctan(0.5)))
-        return {"PTY1": p["length"] / (radius * at_nominal), "PTY2": 2.0, "PTX1": p["length"] / radius}
+        return {
+            "PTY1": p["length"] / (radius * at_nominal),
+            "PTY2": 2.0,
+            "PTX1": p["along"] * p["length"] / radius,
+        }

@@ -2,21 +2,36 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+
+_LEAST_LAG, _MOST_LAG = 1.0, 300.0
+"""s, of a load cell or an amplifier that warms up."""
 
 
 class SensorDrift(Effect):
-    """An offset that grows with time, at every slip and load."""
+    """An offset that grows with time, at every slip and load.
+
+    Covers a drift in proportion to time, and one that settles as a device does that warms up, within 1 to
+    300 s. Not covered: a gain that drifts (it looks like a slow change of friction), steps, and a drift
+    that follows a temperature of its own.
+    """
 
     name = "sensor_drift"
     kind = "artefact"
     title = "a drifting force channel"
-    equation = "F recorded = F + drift (t - t0) / (t1 - t0)"
+    equation = (
+        "F recorded = F + drift (t - t0) / (t1 - t0), or with a lag "
+        "F + drift (1 - exp(-(t - t0) / lag)) / (1 - exp(-(t1 - t0) / lag))"
+    )
     source = "load cell or amplifier warming up"
     needs_time = True
+    scanned = ("lag",)
     parameters = (
         Parameter("fy", "N", -5000.0, 5000.0, 1.0, output="fy"),
         Parameter("fx", "N", -5000.0, 5000.0, 1.0, output="fx"),
+        Parameter("lag", "s", 0.0, 300.0, 0.5),
     )
     looks_like = {
         "wear": "wear scales the force and is nothing at zero slip",
@@ -26,8 +41,26 @@ class SensorDrift(Effect):
     experiment = "straight rolling at the start and at the end"
     order = 85
 
+    def starts(self, data: object) -> list[dict[str, float]]:
+        """In proportion to time, and settling within a twelfth or a third of the recording."""
+        zero, span = self.zeros(data), data.scales["time_span"]  # type: ignore[attr-defined]
+        lags = [lag for lag in (span / 12.0, span / 3.0) if _LEAST_LAG < lag < _MOST_LAG]
+        return [zero, *({**zero, "lag": lag} for lag in lags)]
+
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """Return the drifts, and the lag of a drift that settles."""
+        return ("fy", "fx", "lag") if start["lag"] else ("fy", "fx")
+
+    def outside(self, data: object, p: Parameters) -> bool:
+        """Whether no device warms up so fast or so slowly."""
+        return bool(p["lag"]) and not _LEAST_LAG <= p["lag"] <= _MOST_LAG
+
     def outputs(self, state: State, data: object, p: Parameters) -> None:
         """Add the drift."""
+        so_far = data.elapsed  # type: ignore[attr-defined]
+        if p["lag"] > 0.0:
+            lags = data.scales["time_span"] / p["lag"]  # type: ignore[attr-defined]
+            so_far = np.expm1(-lags * so_far) / np.expm1(-lags)
         for name in ("fx", "fy"):
             if name in state.forces:
-                state.forces[name] = state.forces[name] + p[name] * data.elapsed  # type: ignore[attr-defined]
+                state.forces[name] = state.forces[name] + p[name] * so_far

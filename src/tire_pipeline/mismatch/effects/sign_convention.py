@@ -3,86 +3,208 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
+from itertools import combinations
 
 import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
-from tire_pipeline.mismatch.effects.unit_error import best_repair
+from tire_pipeline.mismatch.effects.repairs import Simulate
+
+_CONVENTIONS = {"fy": ("slip_angle", "camber", "fy"), "fx": ("slip_ratio", "fx")}
+"""Channels whose signs an axis system may turn, by the force that shows it."""
+
+_GAINS = (1.0 / 3.0, 3.0)
+"""Whatever the signs, the force may be so much smaller or larger than the model's."""
+
+_EXPLAINED = 0.85
+_LEFT = 0.2
+"""Turned signs must explain so much of a force, and leave at most this part of what is left without."""
+
+_FORM = 0.15
+"""How wrong the form of the model's answer to a channel may be, as a part of it."""
+
+_AWAY = 0.1
+"""Part of the mismatch that turned signs must take away: what is there by chance is small."""
+
+_SURE = 8.0
+"""Nats by which turned signs must be likelier than those that were given."""
+
+_ALIKE = 3.0
+"""Nats within which two conventions cannot be told apart."""
+
+_STRETCHES = 20
+"""What the model gets wrong is taken as independent from one of so many stretches of rows to the next."""
 
 
 class SignConvention(Effect):
-    """A channel agrees with the model when its sign is turned."""
+    """A channel agrees with the model when its sign is turned.
+
+    Covers signs that are wrong throughout. Not covered: axes exchanged, or turned by other angles than 180
+    deg.
+    """
 
     name = "sign_convention"
     kind = "artefact"
     title = "a channel with the other sign"
     equation = "x recorded = -x"
     source = "SAE J670 and ISO 8855 axis systems"
-    looks_like = {"crosstalk": "crosstalk needs the other force"}
+    looks_like = {
+        "crosstalk": "crosstalk needs the other force",
+        "camber": "a camber that the model does not know has any size; one of the other sign the model's own",
+    }
     experiment = "look at the axis system of the acquisition"
 
     def absent(self, data: object) -> str | None:
         """Never a candidate of the fit: signs are tried before."""
         return "signs are tried before the fit"
 
-    def detect(
-        self,
-        channels: Mapping[str, Array],
-        simulate: Callable[[Mapping[str, Array]], dict[str, Array]],  # type: ignore[override]
-    ) -> list[Finding]:
-        """Turn one sign after the other; load must be positive."""
+    def detect(self, channels: Mapping[str, Array], simulate: Simulate) -> list[Finding]:  # type: ignore[override]
+        """Try all axis conventions of each force; load must be positive."""
         found = []
         load = channels["normal_load"]
         if np.nanmedian(load) < 0.0:
             repaired = {"normal_load": -load}
             channels = {**channels, **repaired}
             found.append(_finding("normal_load", repaired))
-        sets = [("fy",), ("slip_angle",), ("fx",), ("slip_ratio",), ("fy", "fx"), ("slip_angle", "camber")]
-        trials = [
-            ({n: -1.0 for n in names}, (", ".join(names),))
-            for names in sets
-            if all(n in channels for n in names)
-        ]
-        best = best_repair(channels, simulate, trials)
-        if best is not None:
-            found.append(_finding(best[2][0], {n: -channels[n] for n in best[1]}))
-        elif "camber" in channels:
-            found += _camber(channels, simulate)
+        for force, names in _CONVENTIONS.items():
+            if force not in channels:
+                continue
+            best, alike = convention(channels, simulate, force, [n for n in names if n in channels])
+            if best:
+                channels = {**channels, **{n: -channels[n] for n in best}}
+                found.append(_finding(", ".join(best), {n: channels[n] for n in best}, alike))
         return found
 
 
+def convention(
+    channels: Mapping[str, Array], simulate: Simulate, force: str, names: list[str]
+) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Return the channels that an axis convention has turned, and other sets that look the same.
+
+    All sets of signs are tried. What the model says with each is compared with the recorded force, whatever
+    its gain and offset. Signs under which the model has the other sign everywhere differ grossly. Others
+    differ by a part of the force (a camber thrust to the other side): that part must be there with its own
+    size, the model's, not with any size, which would be physics.
+
+    Parameters
+    ----------
+    channels : mapping of ndarray, shape (n,)
+    simulate : callable
+        The model on given channels.
+    force : str
+        ``"fy"`` or ``"fx"``.
+    names : list of str
+        Channels that may be turned.
+
+    Returns
+    -------
+    turned : tuple of str
+        Empty if the signs are as they should be, or if nothing tells.
+    alike : list of tuple of str
+        Other sets that cannot be told from it.
+    """
+    sets = [s for k in range(len(names) + 1) for s in combinations(names, k)]
+    turned = {s: _turned(channels, simulate, force, s) for s in sets}
+    ok = np.isfinite(channels[force]) & np.all([np.isfinite(p) for p in turned.values()], axis=0)
+    recorded = channels[force][ok]
+    turned = {s: p[ok] for s, p in turned.items()}
+    if ok.sum() < _STRETCHES or float(np.var(recorded)) == 0.0:
+        return (), []
+    share = {s: _explained(recorded, p) for s, p in turned.items()}
+    best = max(sets, key=lambda s: round(share[s], 6))  # the fewest turns of those that are the same
+    gross = share[best] > _EXPLAINED and 1.0 - share[best] < _LEFT * (1.0 - share[()])
+    base = best if gross else ()
+    if not gross and share[()] < _EXPLAINED:
+        return (), []
+    chosen = base
+    away = {s for s in sets if 1.0 - share[s] < (1.0 - _AWAY) * (1.0 - share[base])}
+    nats = {s: _likelier(recorded, turned[base], turned[s]) for s in sets if s in away and share[s] > 0.5}
+    if nats and max(nats.values()) > _SURE:
+        chosen = max(nats, key=lambda s: round(nats[s], 3))
+    if not chosen:
+        return (), []
+    same = [s for s in sets if s and share[s] > 0.5 and _alike(recorded, turned[chosen], turned[s])]
+    return same[0], same[1:]
+
+
 def turned(findings: Iterable[Finding]) -> list[Finding]:
-    """Return one finding for all channels that were turned; what was turned twice is as it was."""
+    """Return what was turned; one finding for channels turned in several steps, where twice is as it was."""
+    findings = list(findings)
     count = Counter(name for f in findings for name in f.channel.split(", "))
+    if max(count.values(), default=0) <= 1:
+        return findings
     names = [name for name, times in count.items() if times % 2]
     return [_finding(", ".join(names), {})] if names else []
 
 
-def _finding(name: str, repaired: dict[str, Array]) -> Finding:
+def excludes_sae(channels: Mapping[str, Array], simulate: Simulate) -> bool:
+    """Whether the side force speaks against SAE J670e (slip angle and Fy turned), for the given signs."""
+    if "fy" not in channels or "slip_angle" not in channels:
+        return False
+    given, sae = (_turned(channels, simulate, "fy", s) for s in ((), tuple(sorted(_SAE))))
+    ok = np.isfinite(channels["fy"]) & np.isfinite(given) & np.isfinite(sae)
+    if ok.sum() < _STRETCHES:
+        return False
+    return _likelier(channels["fy"][ok], given[ok], sae[ok], sized=False) <= -_ALIKE
+
+
+def _turned(channels: Mapping[str, Array], simulate: Simulate, force: str, names: tuple[str, ...]) -> Array:
+    """The model's force with some channels turned, as it would be recorded."""
+    out = simulate({**channels, **{n: -channels[n] for n in names if n != force}})[force]
+    return -out if force in names else out
+
+
+def _explained(recorded: Array, model: Array) -> float:
+    """Share of the force's variance that the model explains with a gain within ``_GAINS`` and an offset."""
+    r, m = recorded - recorded.mean(), model - model.mean()
+    size = float(m @ m)
+    gain = float(np.clip(m @ r / size, *_GAINS)) if size > 0.0 else 0.0
+    return 1.0 - float(np.sum((r - gain * m) ** 2)) / float(r @ r)
+
+
+def _alike(recorded: Array, base: Array, other: Array) -> bool:
+    """Whether two conventions explain a force as well as each other."""
+    return other is base or abs(_likelier(recorded, base, other, sized=False)) < _ALIKE
+
+
+def _likelier(recorded: Array, base: Array, other: Array, *, sized: bool = True) -> float:
+    """Nats by which ``other`` is likelier than ``base``: how much of their difference is in the record.
+
+    ``recorded - base`` is fitted by a gain, an offset and b times the difference: b is 0 if ``base`` is right
+    and 1 if ``other`` is. Its error is the scatter of what is left over stretches of rows, and the form
+    error. With ``sized`` nothing is returned (-inf) where a b of any size is likelier than one of exactly 1.
+    """
+    part = other - base
+    x = np.column_stack([base, np.ones(base.size), part])
+    size = np.sqrt(np.mean(x**2, axis=0))
+    if size[2] < 1e-4 * size[0]:
+        return 0.0 if not sized else -np.inf
+    x = x / size
+    inverse = np.linalg.pinv(x.T @ x, rcond=1e-10)
+    fit = inverse @ (x.T @ (recorded - base))
+    left = recorded - base - x @ fit
+    stretch = np.arange(base.size) * _STRETCHES // base.size
+    score = np.array([np.bincount(stretch, x[:, k] * left, _STRETCHES) for k in range(3)])
+    error = np.sqrt(max((inverse @ (score @ score.T) @ inverse)[2, 2], 0.0)) / size[2]
+    b = fit[2] / size[2]
+    variance = error**2 + _FORM**2
+    if sized and (b - 1.0) ** 2 / (2.0 * variance) > max(-0.5 * np.log(variance), 0.0):
+        return -np.inf
+    return float((2.0 * b - 1.0) / (2.0 * variance))
+
+
+def _finding(name: str, repaired: dict[str, Array], alike: Iterable[tuple[str, ...]] = ()) -> Finding:
     parameters = {"ratio": (-1.0, 0.0, "1")}
     have = "have" if ", " in name else "has"
-    return Finding("sign_convention", name, f"{name} {have} the other sign", parameters, repaired)
+    text = f"{name} {have} the other sign"
+    alike = tuple(alike)
+    if alike:
+        sets = (" and ".join(s) + (" (SAE axes)" if set(s) == _SAE else "") for s in alike)
+        same = " or if ".join(sets)
+        text += f"; it would look the same if {same} had"
+    return Finding("sign_convention", name, text, parameters, repaired, alike=alike)
 
 
-def _camber(
-    channels: Mapping[str, Array], simulate: Callable[[Mapping[str, Array]], dict[str, Array]]
-) -> list[Finding]:
-    """Camber's part of the force with factor -1, well determined, says that camber is turned."""
-    camber = channels["camber"]
-    if "fy" not in channels or np.nanstd(camber) < 0.005:
-        return []
-    turned = simulate({**channels, "camber": -camber})["fy"]
-    as_is = simulate(channels)["fy"]
-    part = turned - as_is
-    at = np.abs(camber) > 0.5 * np.nanmax(np.abs(camber))
-    residual = channels["fy"] - as_is
-    size = np.nansum(part[at] ** 2)
-    spread = np.nanstd(residual)
-    if size <= 0.0 or np.sqrt(np.nanmean(part[at] ** 2)) < 0.5 * spread:
-        return []
-    share = float(np.nansum(part[at] * residual[at]) / size)
-    left = float(np.nanmean((residual - part)[at] ** 2) / np.nanmean(residual[at] ** 2))
-    if 0.85 < share < 1.15 and left < 0.3:
-        return [_finding("camber", {"camber": -camber})]
-    return []
+_SAE = {"slip_angle", "fy"}
+"""SAE J670e turns these, against ISO W (and the load, my and mz)."""

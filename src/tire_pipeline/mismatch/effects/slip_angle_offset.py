@@ -6,7 +6,11 @@ from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, S
 
 
 class SlipAngleOffset(Effect):
-    """The force curve is moved along the slip axis."""
+    """The force curve is moved along the slip axis.
+
+    Covers a constant of the channel. Not covered: a gain of it (stiffness_scale is the same to the data),
+    and an offset of the slip ratio, which a wrong rolling radius makes.
+    """
 
     name = "slip_angle_offset"
     kind = "artefact"

@@ -9,19 +9,25 @@ from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 
 class SpeedDependence(Effect):
-    """The model is right at one speed and wrong at others."""
+    """The model is right at one speed and wrong at others.
+
+    Covers friction and stiffness that change with the wheel's speed, and friction that falls with the speed
+    at which the tread slides (LMUV), so that it shows at large slip only. Not covered: one peak of friction
+    over sliding speed at a single wheel speed, which is the shape of the curve, and centrifugal growth.
+    """
 
     name = "speed_dependence"
     title = "speed"
     equation = (
         "d = ln(v / v0), or (v - v0) / v0 where `linear` is 1; friction *= 1 + friction "
-        "d; stiffness *= 1 + stiffness d"
+        "d - sliding s (v - v0) / v0; stiffness *= 1 + stiffness d; s^2 = tan^2(slip angle) + slip_ratio^2"
     )
     source = "MF 6.1: LMUV (mu / (1 + LMUV Vs / V0)); Savkoor 1966 on friction and sliding speed"
     channels = ("speed",)
     parameters = (
         Parameter("friction", "1", -0.5, 0.5, 0.01),
         Parameter("stiffness", "1", -0.5, 0.5, 0.01),
+        Parameter("sliding", "1", -2.0, 5.0, 0.05, further=True),
         Parameter("linear", "0 or 1", 0.0, 1.0, 0.1),
     )
     looks_like = {
@@ -37,13 +43,15 @@ class SpeedDependence(Effect):
         return [zero, {**zero, "linear": 1.0}]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
-        """Return friction and stiffness; the form is one of the two."""
-        return ("friction", "stiffness")
+        """Return friction and stiffness, and friction by sliding speed; the form is one of the two."""
+        return ("friction", "stiffness", "sliding")
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale friction and stiffness with speed."""
         d = data.speed_excess  # type: ignore[attr-defined]
         if p["linear"] < 0.5:
             d = np.log(np.maximum(1.0 + d, 0.02))
-        state.log_friction = state.log_friction + safe_log1p(p["friction"] * d)
+        slides = np.hypot(np.tan(np.clip(state.slip_angle, -1.4, 1.4)), state.slip_ratio)
+        faster = slides * data.speed_excess  # type: ignore[attr-defined]
+        state.log_friction = state.log_friction + safe_log1p(p["friction"] * d - p["sliding"] * faster)
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * d)

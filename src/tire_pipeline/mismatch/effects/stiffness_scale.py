@@ -7,17 +7,25 @@ from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 
 class StiffnessScale(Effect):
-    """The slope at zero slip moves; the peak stays where it is high and moves along the slip axis."""
+    """The slope at zero slip moves; the peak stays where it is high and moves along the slip axis.
+
+    Covers both slip stiffnesses by one factor, and a further one of the lateral stiffness (LKX and LKY are
+    two) where both forces move. Not covered: a change with load (load_sensitivity); a slip sensor with a
+    wrong gain, which is the same for all that a recording of slip and force can tell.
+    """
 
     name = "stiffness_scale"
     title = "another slip stiffness"
-    equation = "F = F0(k slip), k = 1 + stiffness; the peak stays"
+    equation = "F = F0(k slip), k = 1 + stiffness, for Fy times 1 + lateral_stiffness; the peak stays"
     source = "Pacejka, Tire and Vehicle Dynamics, 3rd ed., similarity method (4.2.1); LKX, LKY"
     own_inputs = True
     scales = True
     steepens = True
     errs_like = ("friction_scale", "force_gain")
-    parameters = (Parameter("stiffness", "1", -0.7, 1.5, 0.01),)
+    parameters = (
+        Parameter("stiffness", "1", -0.7, 1.5, 0.01),
+        Parameter("lateral_stiffness", "1", -0.7, 1.5, 0.01, output="fy", further=True),
+    )
     looks_like = {
         "compliance": "compliance costs more stiffness where the tire is stiff (large load)",
         "force_gain": "a gain also moves the peak",
@@ -26,11 +34,18 @@ class StiffnessScale(Effect):
     experiment = "small-slip sweeps at three loads, and one sweep to full sliding"
     order = 40
 
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """One stiffness where one force alone is driven."""
+        both = data.driven("fx") and data.driven("fy")  # type: ignore[attr-defined]
+        return ("stiffness", "lateral_stiffness") if both else ("stiffness",)
+
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale both slip stiffnesses."""
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"])
+        state.log_stiffness_y = state.log_stiffness_y + safe_log1p(p["lateral_stiffness"])
 
     def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
         """LKX and LKY."""
         c = tire.coefficients  # type: ignore[attr-defined]
-        return {n: c.get(n, 1.0) * (1.0 + p["stiffness"]) for n in ("LKX", "LKY")}
+        both = {n: c.get(n, 1.0) * (1.0 + p["stiffness"]) for n in ("LKX", "LKY")}
+        return {**both, "LKY": both["LKY"] * (1.0 + p["lateral_stiffness"])}

@@ -24,7 +24,10 @@ _CHANNELS = (
 
 
 class StuckChannel(Effect):
-    """A live channel repeats one value exactly for a long time."""
+    """A live channel repeats one value exactly for a long time.
+
+    Covers exact repeats of 25 samples and more. Not covered: a channel that is stuck but for its noise.
+    """
 
     name = "stuck_channel"
     kind = "artefact"

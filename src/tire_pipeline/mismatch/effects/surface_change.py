@@ -9,7 +9,11 @@ from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 
 class SurfaceChange(Effect):
-    """Friction changes at one moment and stays."""
+    """Friction changes at one moment and stays.
+
+    Covers one step for both forces. Not covered: a way back, several patches, and a surface that changes
+    gradually (as rubber is laid down), which looks like wear or temperature.
+    """
 
     name = "surface_change"
     title = "another surface from a moment on"

@@ -12,7 +12,12 @@ _WARMER = 25.0
 
 
 class Temperature(Effect):
-    """Friction and stiffness follow the tread temperature, measured or integrated."""
+    """Friction and stiffness follow the tread temperature, measured or integrated.
+
+    Covers friction with an optimum, and stiffness, for both forces alike; without a channel one mass that
+    warms by friction power with a lag of 1 to 300 s, as treads do. Not covered: temperatures across the
+    tread, a carcass with a lag of its own, and heat that comes from the road or the brakes.
+    """
 
     name = "temperature"
     title = "tread temperature"
@@ -28,10 +33,10 @@ class Temperature(Effect):
     )
     parameters = (
         Parameter("friction", "1", -0.8, 0.8, 0.01),
-        Parameter("curvature", "1", -0.8, 0.8, 0.01),
+        Parameter("curvature", "1", 0.0, 0.8, 0.01),
         Parameter("stiffness", "1", -1.0, 1.0, 0.01),
         Parameter("reference", "degC or 1", -1.0, 200.0, 0.5),
-        Parameter("lag", "s", 2.0, 3000.0, 0.2),
+        Parameter("lag", "s", 1.0, 300.0, 0.2),
     )
     looks_like = {
         "wear": "wear never goes back; temperature does, when the tire rests",
@@ -39,6 +44,7 @@ class Temperature(Effect):
         "surface_change": "a surface change is sudden",
         "friction_scale": "a friction factor does not change over time",
     }
+    told_by = dict.fromkeys(("wear", "surface_change", "friction_scale", "force_gain"), "tread_temperature")
     experiment = "repeat the first sweep after cooling: temperature comes back, wear does not"
     order = 40
 
@@ -54,6 +60,14 @@ class Temperature(Effect):
             return "no speed, so that friction power is not known"
         return None
 
+    def lacking(self, data: object) -> list[str]:
+        """Return the temperature, or what friction power is made of where the effect was found without it."""
+        needed = "speed" if self.blind(data) else "tread_temperature"
+        lost = [] if data.has(needed) else [needed]  # type: ignore[attr-defined]
+        if needed == "tread_temperature":
+            return lost
+        return [*lost, "time"] if data.time is None else lost  # type: ignore[attr-defined]
+
     def starts(self, data: object) -> list[dict[str, float]]:
         """Several references (where the model is right), and several lags if there is no channel.
 
@@ -65,7 +79,7 @@ class Temperature(Effect):
             t = data.smooth("tread_temperature")  # type: ignore[attr-defined]
             points = [*np.quantile(t, [0.02, 0.5, 0.95]), np.max(t) + _WARMER]
             return [{**zero, "reference": float(v), "lag": 10.0} for v in points]
-        lags = [8.0, 20.0, 50.0, min(3.0 * data.scales["time_span"], 1000.0)]  # type: ignore[attr-defined]
+        lags = [8.0, 20.0, 50.0, min(3.0 * data.scales["time_span"], 250.0)]  # type: ignore[attr-defined]
         return [{**zero, "reference": r, "lag": lag} for lag in lags for r in (0.0, 0.5, 1.2)]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
@@ -76,8 +90,9 @@ class Temperature(Effect):
         return tuple(names)
 
     def blind(self, data: object) -> bool:
-        """Without a temperature channel."""
-        return not data.has("tread_temperature")  # type: ignore[attr-defined]
+        """Without a temperature channel, now or where the effect was found."""
+        measured = data.fixed.get("measured")  # type: ignore[attr-defined]
+        return "tread_temperature" not in (data.present if measured is None else measured)  # type: ignore[attr-defined]
 
     def other_forms(self, data: object, p: Parameters) -> list[dict[str, float]]:
         """Without a channel: a tire has more masses than one, which warm faster and slower."""

@@ -7,7 +7,11 @@ from tire_pipeline.mismatch.effects.shared import delayed
 
 
 class TimeDelay(Effect):
-    """One time shift, the same at every speed and frequency."""
+    """One time shift, the same at every speed and frequency.
+
+    Covers one shift of all forces against all slips, late or early. Not covered: shifts between the slips,
+    or between the forces, and clocks that drift apart.
+    """
 
     name = "time_delay"
     kind = "artefact"

@@ -7,7 +7,12 @@ from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 
 class TurnSlip(Effect):
-    """Side force from path curvature, as in parking or in tight low-speed turns."""
+    """Side force from path curvature, as in parking or in tight low-speed turns.
+
+    Covers the shift of the slip angle and one loss of friction for both forces. Not covered: loss of
+    cornering stiffness (PKYP1, in the square of curvature times radius: below 1% but in parking), and the
+    moment.
+    """
 
     name = "turn_slip"
     title = "turn slip (path curvature)"

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
+from tire_pipeline.mismatch.effects.repairs import Simulate, best_repair
 
 _DEG = 180.0 / np.pi
 _LBF = 4.4482216152605
@@ -27,11 +28,14 @@ _PRESSURE = {
     1e-5: "bar for Pa",
     _PSI: "kPa for psi",
 }
-Simulate = Callable[[Mapping[str, Array]], dict[str, Array]]
 
 
 class UnitError(Effect):
-    """A channel is wrong by exactly 57.3, 4.448, 6.895, 9.81, 3.6, 100 or 1000."""
+    """A channel is wrong by exactly 57.3, 4.448, 6.895, 9.81, 3.6, 100 or 1000.
+
+    Covers one such factor for angles, slip, load, forces and pressure. Not covered: time, speed and
+    temperature, of which the forces say too little, and units with an offset.
+    """
 
     name = "unit_error"
     kind = "artefact"
@@ -127,48 +131,3 @@ def _impossible(channels: Mapping[str, Array]) -> list[Finding]:
                 )
             )
     return found
-
-
-def best_repair(
-    channels: Mapping[str, Array],
-    simulate: Simulate,
-    trials: list[tuple[dict[str, float], tuple]],
-) -> tuple[float, dict[str, float], tuple] | None:
-    """Return the trial that makes model and recording agree, if the recording as it is does not.
-
-    Parameters
-    ----------
-    channels : mapping of ndarray
-    simulate : callable
-        The model on given channels.
-    trials : list of (factors, label)
-        Factors by channel.
-
-    Returns
-    -------
-    tuple or None
-        Unexplained share of the forces' squares, factors, label. The share must be below 0.15 and a
-        fifth of what it is without the repair.
-    """
-    before = misfit(channels, simulate, {})
-    scored = [(misfit(channels, simulate, factors), factors, label) for factors, label in trials]
-    if not scored:
-        return None
-    best = min(scored, key=lambda s: s[0])
-    better = best[0] < 0.15 and best[0] < 0.2 * before
-    sure = before > 0.3 or (before > 0.1 and best[0] < 0.1 * before)
-    return best if better and sure else None
-
-
-def misfit(channels: Mapping[str, Array], simulate: Simulate, factors: Mapping[str, float]) -> float:
-    """Return the unexplained share of the forces' squares, the worse of the moving outputs."""
-    changed = {**channels, **{n: channels[n] * f for n, f in factors.items()}}
-    predicted = simulate(changed)
-    shares = []
-    sizes = {n: np.nanmean(changed[n] ** 2) for n in ("fx", "fy") if n in changed}
-    largest = max([*(np.nanmean(p**2) for p in predicted.values()), *sizes.values()])
-    for name, size in sizes.items():
-        error = np.nanmean((changed[name] - predicted[name]) ** 2)
-        reference = max(min(size, np.nanmean(predicted[name] ** 2)), 1e-2 * largest)
-        shares.append(error / reference)
-    return float(max(shares)) if shares else np.inf

@@ -7,7 +7,11 @@ from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 
 class Wear(Effect):
-    """A change that grows with friction work and does not go back."""
+    """A change that grows with friction work and does not go back.
+
+    Covers friction and stiffness in proportion to the work so far. Not covered: a rate that changes
+    (running in), wear by the load or temperature at the time, and flat spots.
+    """
 
     name = "wear"
     title = "wear"
@@ -16,6 +20,7 @@ class Wear(Effect):
     )
     source = "Archard's law with friction power; Grosch 2008, Rubber Chem. Technol. 81"
     needs_time = True
+    used = ("speed",)
     slow = True
     parameters = (
         Parameter("friction", "1", -0.5, 0.3, 0.01),
@@ -26,15 +31,9 @@ class Wear(Effect):
         "sensor_drift": "drift is there at zero slip too",
         "surface_change": "a surface change is sudden",
     }
+    told_by = {"surface_change": "tread_temperature"}
     experiment = "repeat the first sweep at the end, after cooling"
     order = 40
-
-    def absent(self, data: object) -> str | None:
-        """Ask for speed besides."""
-        missing = super().absent(data)
-        if missing is None and data.power is None:  # type: ignore[attr-defined]
-            missing = "no speed, so that friction work is not known"
-        return missing
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale friction and stiffness with the work done."""

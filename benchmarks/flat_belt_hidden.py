@@ -1,0 +1,131 @@
+"""Physics hidden from a model of the flat-belt rig's tire: is it named, and does the correction hold?
+
+The model is fitted to 82 kPa and no camber. It then meets recordings of the other pressure, the other camber,
+or both, at three of five loads. The other two loads judge the correction, beside a formula that is refitted
+to the rows that were explained. It needs the shared recordings:
+``python benchmarks/flat_belt_hidden.py [rates]``.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.magic_formula.fitting import fit_magic_formula
+from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.recordings import read_recording
+
+FILE = Path(__file__).parents[2] / "shared/recordings/calspan/cornering_part.mat"
+CHANNELS = ["time", "slip_angle", "camber", "normal_load", "speed", "pressure", "fy"]
+HIDDEN = ("nothing", "pressure", "camber", "camber and pressure")
+LOADS = (800.0, 1350.0, 1900.0, 2450.0)
+"""Between the five levels, N."""
+LEFT_OUT = (2, 4)
+
+
+@dataclass(frozen=True)
+class Row:
+    """One recording: what was named, and the RMS error at the loads left out, N."""
+
+    hidden: str
+    rate: int
+    temperature: bool
+    verdict: str
+    names: tuple[str, ...]
+    before: float
+    after: float
+    refitted: float
+    seconds: float
+
+
+@cache
+def sweeps(rate: int) -> pd.DataFrame:
+    """Return all sweeps at a rate (Hz), neighbours averaged, with ``load``, ``low``, ``leaning``."""
+    whole = read_recording(FILE, axes="ISO")[[*CHANNELS, "tread_temperature"]]
+    run = np.r_[0, np.cumsum(np.diff(whole["time"]) > 0.5)]
+    count = 100 // rate
+    parts = []
+    for _, part in whole.groupby(run):
+        rows = len(part) // count * count
+        mean = part.iloc[:rows].to_numpy().reshape(-1, count, part.shape[1]).mean(axis=1)
+        table = pd.DataFrame(mean, columns=part.columns)
+        load = float(np.searchsorted(LOADS, table["normal_load"].median()))
+        parts.append(
+            table.assign(
+                load=load,
+                low=table["pressure"].median() < 76_000.0,
+                leaning=np.degrees(table["camber"].median()) > 0.8,
+            )
+        )
+    return pd.concat(parts, ignore_index=True)
+
+
+@cache
+def model(rate: int) -> TireModel:
+    """Fit the model to 82 kPa and no camber, all loads."""
+    table = sweeps(rate)
+    return fit_magic_formula(
+        table[~table["low"] & ~table["leaning"]][["slip_angle", "normal_load", "fy"]]
+    ).model
+
+
+def judge(hidden: str, rate: int, temperature: bool) -> Row:
+    """Explain one recording and judge it at the loads left out."""
+    table, tire = sweeps(rate), model(rate)
+    rows = (table["low"].eq(False) | ("pressure" in hidden)) & (
+        table["leaning"].eq(False) | ("camber" in hidden)
+    )
+    channels = CHANNELS + ["tread_temperature"] * temperature
+    judged = table["load"].isin(LEFT_OUT)
+    given, left = (table[rows & part][channels].reset_index(drop=True) for part in (~judged, judged))
+    begin = time.perf_counter()
+    report = explain_mismatch(tire, given)
+    seconds = time.perf_counter() - begin
+    inputs = ["slip_angle", "camber", "normal_load", "fy"]
+    refitted = fit_magic_formula(given[inputs]).model
+    return Row(
+        hidden,
+        rate,
+        temperature,
+        report.verdict,
+        tuple(e.name for e in report.effects),
+        rms(left["fy"] - report.corrected.as_it_came.predict(left)["fy"]),
+        rms(left["fy"] - report.corrected.predict(left)["fy"]),
+        rms(left["fy"] - forces(refitted, left)),
+        seconds,
+    )
+
+
+def forces(tire: TireModel, table: pd.DataFrame) -> np.ndarray:
+    """Return the model's side force, N."""
+    inputs = {n: table[n].to_numpy() for n in ("slip_angle", "camber", "normal_load")}
+    return np.asarray(tire.forces(**inputs, limits="ignore", outputs=("fy",)).fy)
+
+
+def rms(x: pd.Series) -> float:
+    """Root mean square."""
+    return float(np.sqrt(np.mean(np.square(x))))
+
+
+def rows(rates: list[int]) -> Iterator[Row]:
+    """Yield all recordings at some rates (Hz)."""
+    for rate in rates:
+        for hidden in HIDDEN:
+            for temperature in (True, False):
+                yield judge(hidden, rate, temperature)
+
+
+if __name__ == "__main__":
+    print(f"{'hidden':20} Hz  T  {'verdict':18} before after refitted    s  names")
+    for row in rows([int(x) for x in sys.argv[1:]] or [100, 50, 20, 10]):
+        start = f"{row.hidden:20} {row.rate:3} {'x' if row.temperature else '-'}  {row.verdict:18}"
+        errors = f"{row.before:6.0f} {row.after:5.0f} {row.refitted:8.0f}"
+        print(f"{start} {errors} {row.seconds:4.1f}  {', '.join(row.names) or '-'}", flush=True)

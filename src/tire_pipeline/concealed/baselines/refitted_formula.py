@@ -1,0 +1,42 @@
+"""Baseline: the whole formula fitted anew to the recording. It names nothing."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.concealed.baselines.report import BaselineReport, fit_entry
+from tire_pipeline.concealed.clean_run import model_forces, residual
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.magic_formula.fitting import fit_magic_formula
+
+MOST_ROWS = 2000
+_LEAST_SPREAD = {"camber": 0.01, "slip_ratio": 0.02, "pressure": 5e3}
+
+
+def explain_by_refit(tire: TireModel, recording: pd.DataFrame) -> BaselineReport:
+    """Fit all coefficients to what was recorded, artefacts and all.
+
+    Parameters
+    ----------
+    tire : TireModel
+    recording : pandas.DataFrame
+
+    Returns
+    -------
+    BaselineReport
+        Without effects; verdict "unexplained" where the fit leaves less than the model.
+    """
+    rows = recording.iloc[:: max(len(recording) // MOST_ROWS, 1)]
+    moving = [c for c, least in _LEAST_SPREAD.items() if c in rows and np.ptp(rows[c]) > least]
+    forces = ["fy", "fx"] if "slip_ratio" in moving else ["fy"]
+    version = "6.1" if "pressure" in moving else "5.2"
+    fitted = fit_magic_formula(rows[["slip_angle", "normal_load", *moving, *forces]], version).model
+
+    def correction(frame: pd.DataFrame) -> np.ndarray:
+        return model_forces(fitted, frame) - model_forces(tire, frame)
+
+    left = residual(tire, recording)
+    after = left - correction(recording)
+    better = np.mean(after**2) < 0.9 * np.mean(left**2)
+    return BaselineReport(tire, "unexplained" if better else "agrees", [], fit_entry(left, after), correction)

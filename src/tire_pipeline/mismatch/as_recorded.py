@@ -1,0 +1,108 @@
+"""Errors on the rows as they were recorded: what ``tire.forces`` and ``corrected.predict`` leave there.
+
+The search works on rows that are repaired, averaged to 50 to 100 Hz and cleaned. Its errors are smaller by
+the noise that this takes off, and must not stand beside those of the user's own rows.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.mismatch.corrected import CorrectedModel
+from tire_pipeline.mismatch.refit import residual
+from tire_pipeline.mismatch.report import OutputFit
+from tire_pipeline.mismatch.search import Search
+from tire_pipeline.mismatch.simulate import simulate_moments
+
+Array = np.ndarray
+
+
+def as_recorded(
+    fit: dict[str, OutputFit], search: Search, corrected: CorrectedModel, recording: pd.DataFrame
+) -> dict[str, OutputFit]:
+    """Return the errors on the recorded rows.
+
+    Parameters
+    ----------
+    fit : dict of OutputFit
+        Errors on the rows that the search has seen.
+    search : Search
+    corrected : CorrectedModel
+    recording : pandas.DataFrame
+        As it came.
+
+    Returns
+    -------
+    dict of OutputFit
+        ``rms_before`` is what ``tire.forces`` leaves. ``rms_after`` is what ``corrected.predict`` leaves, and
+        what it leaves more on sweeps that the fit of its parameters has not seen. Without effects and repairs
+        both are the same.
+    """
+    before = _errors(corrected.as_it_came, recording, fit)
+    same = not (corrected.changes or corrected.factors or corrected.limits)
+    after = before if same else _errors(corrected, recording, fit)
+    here = residual(search.data, search.fit.changes)
+    moments = [o for o in fit if o not in here]
+    if moments:
+        there = simulate_moments(search.data, search.fit.changes, moments)
+        here |= {o: search.data.channels[o] - there[o] for o in moments}
+    inside = {o: _size(r) for o, r in here.items()}
+    return {o: _moved(f, o, before[o], after[o], inside[o], recording, same) for o, f in fit.items()}
+
+
+def _errors(
+    corrected: CorrectedModel, recording: pd.DataFrame, outputs: dict[str, OutputFit]
+) -> dict[str, Array]:
+    """Recorded minus predicted at the recorded rows, N or N m; NaN where something is missing."""
+    predicted = corrected.predict(recording)
+    return {o: (recording[o] - predicted[o]).to_numpy(float) for o in outputs}
+
+
+def _size(x: Array) -> float:
+    """Root mean square of what is finite."""
+    x = x[np.isfinite(x)]
+    return float(np.sqrt(np.mean(x**2))) if x.size else float("nan")
+
+
+def _moved(
+    f: OutputFit, output: str, before: Array, after: Array, inside: float, recording: pd.DataFrame, same: bool
+) -> OutputFit:
+    first, last = _size(before), _size(after)
+    further = last**2 - inside**2
+
+    def at_rows(value: float) -> float:
+        return float(np.sqrt(max(value**2 + further, 0.0)))
+
+    floor = max(at_rows(f.noise_floor), f.noise_floor if further < 0.0 else 0.0)
+    rms_after = first if same else at_rows(f.rms_after)
+    above = first**2 - floor**2
+    rows = _inside(f.held_out_condition, recording)
+    changed: dict[str, Any] = {
+        "noise_floor": floor,
+        "rms_before": first,
+        "rms_after": rms_after,
+        "rms_after_low": at_rows(f.rms_after_low),
+        "rms_after_high": at_rows(f.rms_after_high),
+        "recovered": float(np.clip((first**2 - rms_after**2) / above, -1.0, 1.0))
+        if above > 0.05 * floor**2
+        else float("nan"),
+    }
+    if rows is not None and np.isfinite(f.rms_condition_before):
+        there = _size(before[rows])
+        changed["rms_condition_before"] = there
+        if same:
+            changed["rms_condition_after"] = there
+    return replace(f, **changed)
+
+
+def _inside(condition: str, recording: pd.DataFrame) -> Array | None:
+    """Rows of the held-out condition, ``|normal_load| above 2400 N``."""
+    found = re.fullmatch(r"\|(\w+)\| above (\S+) \S+", condition)
+    if found is None or found[1] not in recording:
+        return None
+    return np.abs(recording[found[1]].to_numpy(float)) > float(found[2])

@@ -1,0 +1,76 @@
+"""Which exact repair of a channel (a unit, a sign) the forces ask for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+import numpy as np
+
+Array = np.ndarray
+Simulate = Callable[[Mapping[str, Array]], dict[str, Array]]
+
+FAR = 0.15
+"""The model's force is far from zero beyond this part of its largest one (of either force)."""
+
+FEW = 12
+"""With fewer samples far from zero a force says nothing about a unit."""
+
+_ASKED = {"fx": ("fx",), "fy": ("fy",), "slip_angle": ("fy",), "camber": ("fy",), "slip_ratio": ("fx",)}
+"""The force that a channel belongs to: this one has to ask for the repair. A load belongs to both."""
+
+
+def best_repair(
+    channels: Mapping[str, Array], simulate: Simulate, trials: Iterable[tuple[dict[str, float], tuple]]
+) -> tuple[float, dict[str, float], tuple] | None:
+    """Return the trial that makes model and recording agree, if the recording as it is does not.
+
+    Parameters
+    ----------
+    channels : mapping of ndarray, shape (n,)
+    simulate : callable
+        The model on given channels.
+    trials : iterable of (factors, label)
+        Factors by channel: true = factor times recorded.
+
+    Returns
+    -------
+    tuple or None
+        Unexplained share of the forces' squares, factors, label. The share must be below 0.15 and a
+        fifth of what it is without the repair.
+    """
+    plain = simulate(channels)
+    best: tuple[float, dict[str, float], tuple] | None = None
+    for factors, label in trials:
+        before, after = unexplained(channels, simulate, factors, plain)
+        sure = before > 0.3 or (before > 0.1 and after < 0.1 * before)
+        if after < 0.15 and after < 0.2 * before and sure and (best is None or after < best[0]):
+            best = (after, factors, label)
+    return best
+
+
+def unexplained(
+    channels: Mapping[str, Array], simulate: Simulate, factors: Mapping[str, float], plain: dict[str, Array]
+) -> tuple[float, float]:
+    """Return the unexplained share of the recorded forces' squares without and with a repair.
+
+    Forces are compared as they were recorded: a force that is made a thousand times smaller leaves a
+    thousand times less, and has explained nothing. Only samples count where the model that the repair
+    believes in has a force far from zero, and only forces that the repaired channels belong to; of these
+    the worse one. Where no force says anything, or one that is to be repaired does not, both shares are 1.
+    """
+    repaired = {**channels, **{n: channels[n] * f for n, f in factors.items()}}
+    predicted = simulate(repaired)
+    largest = max(float(np.nanmax(np.abs(p))) for p in predicted.values())
+    asked = {o for n in factors for o in _ASKED.get(n, ("fx", "fy"))}
+    before, after = [], []
+    for name in sorted(asked & set(channels)):
+        far = np.abs(predicted[name]) > FAR * largest
+        size = float(np.nanmean(channels[name][far] ** 2)) if far.sum() >= FEW else 0.0
+        if size > 0.0:
+            recorded = channels[name][far]
+            before.append(float(np.nanmean((recorded - plain[name][far]) ** 2)) / size)
+            believed = predicted[name][far] / factors.get(name, 1.0)
+            after.append(float(np.nanmean((recorded - believed) ** 2)) / size)
+        elif name in factors:
+            return 1.0, 1.0
+    return (max(before), max(after)) if after else (1.0, 1.0)

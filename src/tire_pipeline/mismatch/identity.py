@@ -1,0 +1,205 @@
+"""Whether the file is of the tire that was recorded: several of its basic figures off at once say no."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from tire_pipeline.mismatch.open_questions import Question
+from tire_pipeline.mismatch.recorded import moves
+from tire_pipeline.mismatch.simulate import plain_forces
+from tire_pipeline.mismatch.usable import SLIPS, Drive
+
+Array = np.ndarray
+
+FIGURES = (
+    "peak friction",
+    "fall of friction with load",
+    "slip stiffness",
+    "change of stiffness with load",
+    "curvature",
+)
+LOADED = (1, 3)
+"""Figures that say how the others change with load. What a tire's state does (surface, temperature, wear,
+less so pressure) scales friction and stiffness and bends the curve; it leaves these nearly alone."""
+
+TOLERANCE = (0.05, 0.05, 0.10, 0.10, 0.25)
+"""How far a figure may be off in a recording of the file's own tire, in logarithms (load slopes: per change
+of load by its median). What fits and rigs leave: in simulated cases where nothing is missing at most two of a
+force's five are off by more, and setting them right removes 0.3 of the mismatch at most."""
+
+SURE = 3.0
+"""Standard errors by which it must be off."""
+
+SEVERAL = 3
+MOST = 0.5
+"""So many figures, one of them a load slope, and with them right at least half of the mismatch is gone."""
+
+_ROWS = 4000
+_STRETCHES = 20
+_STEPS = 12
+_FARTHEST = 2.0
+
+
+@dataclass(frozen=True)
+class Figures:
+    """How far the basic figures of one force are off.
+
+    Parameters
+    ----------
+    output : str
+    values, errors : ndarray, shape (5,)
+        Logarithms of true over file's, in the order of ``FIGURES`` (curvature: of the effective slip in the
+        bend); NaN where the recording does not tell.
+    removed : float
+        Share of the squared mismatch that is gone with them.
+    """
+
+    output: str
+    values: Array
+    errors: Array
+    removed: float
+
+    @property
+    def off(self) -> Array:
+        """Which figures are off, bool."""
+        size = np.abs(np.nan_to_num(self.values))
+        return (size > np.array(TOLERANCE)) & (size > SURE * np.nan_to_num(self.errors, nan=np.inf))
+
+    @property
+    def another(self) -> bool:
+        """Whether this force says that it is another tire."""
+        return bool(self.off.sum() >= SEVERAL and self.off[list(LOADED)].any() and self.removed > MOST)
+
+    @property
+    def in_words(self) -> str:
+        """The figures that are off, in words."""
+        parts = []
+        for i in np.flatnonzero(self.off):
+            per = " where the load doubles from its median" if i in LOADED else ""
+            parts.append(f"{FIGURES[i]} by {100.0 * np.expm1(self.values[i]):+.0f}%{per}")
+        return f"in {self.output.capitalize()} {', '.join(parts)}"
+
+
+def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -> Question | None:
+    """Return the question whether this is the file of this tire, if its basic figures are off in every force.
+
+    Parameters
+    ----------
+    tire : TireModel
+    arrays : mapping of ndarray, shape (n,)
+        Channels, SI, without holes, signs and units repaired.
+    counted : list of Drive
+        Forces that their slip drives.
+    """
+    found = [figures(tire, arrays, d.output) for d in counted if d.varies and d.works]
+    if not found or not all(f.another for f in found):
+        return None
+    said = "; ".join(f.in_words for f in found)
+    gone = min(f.removed for f in found)
+    return Question(
+        f"this seems not to be the file of this tire (or not of its state: pressure, rim): {said} are off "
+        f"at once, and with these set right {100.0 * gone:.0f}% of the squared mismatch is gone",
+        "compare the name of the file, the size and the inflation pressure with what was on the rig, or fit "
+        "a model to this recording (fit_magic_formula)",
+        "another tire",
+    )
+
+
+def figures(tire: Any, arrays: Mapping[str, Array], output: str) -> Figures:
+    """Fit the basic figures of one force by similarity, and an offset of the force.
+
+    ``F = m F_file(slip k / m exp(c w))`` with ``log m`` and ``log k`` linear in load and w between 0 (small
+    slip) and 1 (full sliding): Pacejka, Tire and Vehicle Dynamics, 3rd ed., section 4.2, with a bend.
+    Standard errors are by the scatter over stretches of rows.
+    """
+    step = max(1, arrays["normal_load"].size // _ROWS)
+    a = {
+        n: arrays[n][::step]
+        for n in ("slip_angle", "slip_ratio", "camber", "normal_load", output)
+        if n in arrays
+    }
+    model = _Similar(tire, a, output)
+    free = np.flatnonzero([True, model.loaded, True, model.loaded, True])
+    recorded = a[output]
+    p, left, columns = _fit(model, recorded, free)
+    before = float(np.sum((recorded - model(np.zeros(5))) ** 2))
+    inverse = np.linalg.pinv(columns.T @ columns, rcond=1e-12)
+    stretch = np.arange(recorded.size) * _STRETCHES // recorded.size
+    score = np.array([np.bincount(stretch, c * left, _STRETCHES) for c in columns.T])
+    errors, values = np.full(5, np.nan), np.full(5, np.nan)
+    errors[free] = np.sqrt(np.maximum(np.diag(inverse @ (score @ score.T) @ inverse), 0.0))[: free.size]
+    values[free] = p[free]
+    return Figures(output, values, errors, 1.0 - float(left @ left) / max(before, 1e-300))
+
+
+class _Similar:
+    """The file's force with other basic figures, at the recorded points."""
+
+    def __init__(self, tire: Any, a: Mapping[str, Array], output: str) -> None:
+        self.tire, self.output, self.slip = tire, output, SLIPS[output]
+        zero = np.zeros(a["normal_load"].size)
+        self.points = {n: a.get(n, zero) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
+        load = self.points["normal_load"]
+        middle = float(np.median(load))
+        self.excess = (load - middle) / middle
+        self.loaded = moves(load, 0.1 * middle)
+        used = np.abs(self.points[self.slip]) * self._at(load, "stiffness") / self._at(load, "peak")
+        self.bend = used / (1.0 + used)
+
+    def _at(self, load: Array, what: str) -> Array:
+        """Slip stiffness or largest force of the file at some loads, by interpolation over them."""
+        levels = np.linspace(float(load.min()), float(load.max()), 12)
+        slip = np.array([2e-3]) if what == "stiffness" else np.linspace(0.01, 0.35, 60)
+        grid_load, grid_slip = (g.ravel() for g in np.meshgrid(levels, slip, indexing="ij"))
+        size = np.zeros(grid_load.size)
+        for sign in (1.0, -1.0):
+            points = {n: np.zeros(grid_load.size) for n in self.points} | {"normal_load": grid_load}
+            points[self.slip] = sign * grid_slip
+            size = size + 0.5 * sign * plain_forces(self.tire, **points)[self.output]
+        size = np.abs(size).reshape(levels.size, slip.size).max(axis=1)
+        return np.maximum(np.interp(load, levels, size / (slip[0] if what == "stiffness" else 1.0)), 1e-9)
+
+    def __call__(self, p: Array) -> Array:
+        """Return the force with figures off by ``p``."""
+        m, k = p[0] + p[1] * self.excess, p[2] + p[3] * self.excess
+        slip = self.points[self.slip] * np.exp(np.clip(k - m + p[4] * self.bend, -5.0, 5.0))
+        return np.exp(m) * plain_forces(self.tire, **{**self.points, self.slip: slip})[self.output]
+
+
+def _fit(model: _Similar, recorded: Array, free: Array) -> tuple[Array, Array, Array]:
+    """Gauss-Newton with halved steps; return parameters, what is left, and the columns of the last step."""
+    p = np.zeros(5)
+    force = model(p)
+    left = _centred(recorded - force)
+    for _ in range(_STEPS):
+        columns = np.empty((recorded.size, free.size + 1))
+        columns[:, -1] = 1.0
+        for j, i in enumerate(free):
+            moved = p.copy()
+            moved[i] += 1e-3
+            columns[:, j] = (model(moved) - force) / 1e-3
+        delta = np.linalg.lstsq(columns, left, rcond=1e-6)[0][: free.size]
+        share = 1.0
+        while share > 1e-3:
+            trial = p.copy()
+            trial[free] = np.clip(trial[free] + share * delta, -_FARTHEST, _FARTHEST)
+            trial_force = model(trial)
+            rest = _centred(recorded - trial_force)
+            if rest @ rest < left @ left:
+                break
+            share /= 2.0
+        else:
+            break
+        gain = 1.0 - float(rest @ rest) / float(left @ left)
+        p, force, left = trial, trial_force, rest
+        if gain < 1e-5:
+            break
+    return p, left, columns
+
+
+def _centred(x: Array) -> Array:
+    return np.asarray(x - x.mean())

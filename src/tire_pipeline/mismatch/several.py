@@ -1,0 +1,133 @@
+"""Several recordings of one tire explained together, and one held out to try the explanation on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch.checks import INPUTS
+from tire_pipeline.mismatch.corrected import CorrectedModel
+from tire_pipeline.mismatch.explain import explain_mismatch
+from tire_pipeline.mismatch.report import HeldOutFit, MismatchReport, PredictionError
+from tire_pipeline.mismatch.words import on_held_out
+from tire_pipeline.recordings.join import join_recordings
+
+Array = np.ndarray
+_STRETCHES = 24
+"""Stretches of a held-out recording that are resampled as wholes for the interval."""
+
+
+def explain_recordings(
+    tire: Any, recordings: Mapping[str, pd.DataFrame], *, held_out: str | None = None
+) -> MismatchReport:
+    """Explain recordings of one tire together.
+
+    What is found has to hold for all of them: a friction that differs between two of them is not a friction
+    of the tire. See :func:`tire_pipeline.recordings.join_recordings` for what may be joined.
+
+    Parameters
+    ----------
+    tire : TireModel or None
+        As for :func:`explain_mismatch`.
+    recordings : mapping of str to DataFrame
+        Name -> canonical columns in SI, in the order they were recorded in.
+    held_out : str, optional
+        The name of the recording that is left out of the explanation. The explained model predicts it, and
+        ``report.held_out`` has the errors before and after.
+
+    Returns
+    -------
+    MismatchReport
+        ``recordings`` names those that were explained. ``notes`` says which channels were left out.
+
+    Raises
+    ------
+    RecordingError
+        They cannot be joined or explained, or the one to hold out is unknown or the only one.
+    """
+    if held_out is not None and held_out not in recordings:
+        raise RecordingError(
+            f"there is no recording {held_out!r} to hold out",
+            todo=f"name one of {', '.join(recordings)}",
+        )
+    explained = {name: frame for name, frame in recordings.items() if name != held_out}
+    if not explained:
+        raise RecordingError("the only recording is held out", todo="give another one to explain")
+    if len(explained) == 1:
+        (only,) = explained.values()
+        joined, notes = only, []
+    else:
+        joined = join_recordings(explained)
+        notes = list(joined.attrs["notes"])
+    report = explain_mismatch(tire, joined)
+    report = replace(report, recordings=tuple(explained), notes=[*notes, *report.notes])
+    if held_out is None:
+        return report
+    tried = predict_held_out(report.corrected, recordings[held_out], held_out)
+    return replace(report, held_out=tried, summary=f"{report.summary} {on_held_out(tried)}")
+
+
+def predict_held_out(corrected: CorrectedModel, recording: pd.DataFrame, name: str) -> HeldOutFit:
+    """Predict a recording that no fit has seen, with the model as it was and with what was found.
+
+    Parameters
+    ----------
+    corrected : CorrectedModel
+    recording : DataFrame
+        Canonical columns in SI, with the forces.
+    name : str
+
+    Returns
+    -------
+    HeldOutFit
+
+    Raises
+    ------
+    RecordingError
+        It lacks a channel that the model needs, or holds none of the forces that were explained.
+
+    Notes
+    -----
+    Both predictions put in signs and units that were found to be wrong in the explained recordings, so that
+    the difference is due to the effects. Wear, drift and a change of surface begin anew in this recording.
+    The interval resamples 24 stretches of the recording.
+    """
+    usable = _finite(recording)
+    after = corrected.predict(usable)
+    before = replace(corrected, changes=()).predict(usable)
+    names = [n for n in after.columns if n in usable and np.isfinite(usable[n]).any()]
+    if not names:
+        raise RecordingError(
+            f"{name} has none of the forces that were explained ({', '.join(after.columns)})",
+            where=name,
+            todo="hold out another recording",
+        )
+    errors = {}
+    for n in names:
+        recorded = usable[n].to_numpy(dtype=float)
+        good = np.isfinite(recorded)
+        errors[n] = _error(*((recorded - frame[n].to_numpy(dtype=float))[good] for frame in (before, after)))
+    return HeldOutFit(name, len(usable), errors)
+
+
+def _finite(recording: pd.DataFrame) -> pd.DataFrame:
+    needed = [c for c in ("time", *INPUTS) if c in recording]
+    rows = np.isfinite(recording[needed].to_numpy(dtype=float)).all(axis=1)
+    if not rows.any():
+        raise RecordingError("no sample has numbers in all channels", todo="drop the columns without numbers")
+    return recording[rows]
+
+
+def _error(before: Array, after: Array) -> PredictionError:
+    stretch = np.arange(before.size) * _STRETCHES // before.size
+    sums = [np.bincount(stretch, x**2, _STRETCHES) for x in (before, after)]
+    picks = np.random.default_rng(0).integers(_STRETCHES, size=(1000, _STRETCHES))
+    ratio = np.sqrt(sums[1][picks].sum(axis=1) / np.maximum(sums[0][picks].sum(axis=1), 1e-300))
+    low, high = np.quantile(ratio, [0.025, 0.975])
+    rms_before, rms_after = (float(np.sqrt(np.mean(x**2))) for x in (before, after))
+    return PredictionError(rms_before, rms_after, float(low), float(high))

@@ -1,0 +1,237 @@
+"""Whether a recording carries an answer: does slip drive the force, with the right sign, how much of it?"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.open_questions import Question
+from tire_pipeline.mismatch.recorded import ABSOLUTE_SPREAD, moves
+from tire_pipeline.mismatch.simulate import plain_forces
+
+Array = np.ndarray
+SLIPS = {"fy": "slip_angle", "fx": "slip_ratio"}
+
+LEAST = 0.5
+"""Less than half: most of the force comes from something else than the slip that was recorded. In the real
+recordings at hand it is 0.79 at least (a drive of a few seconds whose friction changed), in simulated ones
+0.94."""
+
+SMALL = 0.15
+"""A force that moves by less than this part of the other one is a side effect of what that one does."""
+
+
+@dataclass(frozen=True)
+class Drive:
+    """How much of one recorded force the recorded slip drives.
+
+    Parameters
+    ----------
+    output, slip : str
+        The force and its slip channel.
+    size : float
+        Standard deviation of the force, N.
+    plain : float
+        Share of the force's variance that the model explains as it is; negative where its own mean explains
+        more.
+    share : float
+        The same with the best positive gain, an offset, the best delay that a rig may have, and a part in
+        proportion to camber times load, which a model may not know.
+    gain : float
+        That gain.
+    still : float
+        ``share`` with the slip held at its mean.
+    varies : bool
+        Whether the slip is recorded and moves.
+    """
+
+    output: str
+    slip: str
+    size: float
+    plain: float
+    share: float
+    gain: float
+    still: float
+    varies: bool
+
+    @property
+    def works(self) -> bool:
+        """Whether the slip drives most of the force, and its changes are worth something."""
+        return self.share >= LEAST and self.sized and (not self.varies or self.share > self.still)
+
+    @property
+    def sized(self) -> bool:
+        """Whether the force has the size that a model, a friction and a gain may be wrong by."""
+        bounds = catalogue()["force_gain"].parameter("fy")
+        return 1.0 + bounds.low <= self.gain <= 1.0 + bounds.high
+
+
+def drives(tire: Any, arrays: Mapping[str, Array], time: Array | None) -> list[Drive]:
+    """Return how much of each recorded force slip drives, by rows as they were recorded.
+
+    Parameters
+    ----------
+    tire : TireModel
+    arrays : mapping of ndarray, shape (n,)
+        Channels, SI, without holes, signs and units repaired; ``_beside_fy`` is what another simulator has
+        beyond the tire model.
+    time : ndarray, shape (n,), optional
+        s.
+    """
+    model = _model(tire, arrays)
+    out = []
+    for output, slip in SLIPS.items():
+        simulated = f"_beside_{output}" in arrays or not any(n.startswith("_beside_") for n in arrays)
+        if output not in arrays or not simulated or np.ptp(arrays[output]) == 0.0:
+            continue
+        recorded = arrays[output]
+        varies = slip in arrays and moves(arrays[slip], ABSOLUTE_SPREAD[slip])
+        still = model
+        if varies:
+            still = _model(tire, {**arrays, slip: np.full(recorded.size, np.mean(arrays[slip]))})
+        variance = float(np.var(recorded))
+        out.append(
+            Drive(
+                output,
+                slip,
+                float(np.sqrt(variance)),
+                1.0 - float(np.mean((recorded - model[output]) ** 2)) / variance,
+                *_share(recorded, model[output], arrays, time),
+                _share(recorded, still[output], arrays, time)[0],
+                varies,
+            )
+        )
+    return out
+
+
+def judged(found: list[Drive]) -> list[Drive]:
+    """Return the forces that count: those that are no side effect, and whose slip is recorded."""
+    largest = max((d.size for d in found), default=0.0)
+    own = [d for d in found if d.size > SMALL * largest and d.varies]
+    return own or [d for d in found if d.size == largest]
+
+
+def _model(tire: Any, arrays: Mapping[str, Array]) -> dict[str, Array]:
+    zero = np.zeros(arrays["normal_load"].size)
+    points = {n: arrays.get(n, zero) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
+    forces = plain_forces(tire, **points, speed=arrays.get("speed"), pressure=arrays.get("pressure"))
+    return {n: f + arrays.get(f"_beside_{n}", 0.0) for n, f in forces.items()}
+
+
+def _share(
+    recorded: Array, model: Array, arrays: Mapping[str, Array], time: Array | None
+) -> tuple[float, float]:
+    """Share of the variance explained with a gain, an offset, a delay and a part by camber; and the gain."""
+    beside = [np.ones(recorded.size)]
+    if "camber" in arrays and np.ptp(arrays["camber"]) > ABSOLUTE_SPREAD["camber"]:
+        beside.append(arrays["camber"] * arrays["normal_load"])
+    q, _ = np.linalg.qr(np.column_stack(beside))
+    r, m = (x - q @ (q.T @ x) for x in (recorded, model))
+    size, most = float(m @ m), float(r @ r)
+    variance = recorded.size * float(np.var(recorded))
+    if min(size, most) <= 1e-20 * float(recorded @ recorded):
+        return 1.0 - most / variance, 0.0
+    gain = max(_product(r, m, time) / size, 0.0)
+    return 1.0 - (most - gain**2 * size) / variance, gain
+
+
+def _product(r: Array, m: Array, time: Array | None) -> float:
+    """Largest sum of products over the delays that a rig may have."""
+    from scipy.signal import correlate  # slow to import
+
+    if time is None:
+        return float(r @ m)
+    delay = catalogue()["time_delay"].parameter("delay")
+    step = max(float(np.median(np.diff(time))), 1e-9)
+    most = min(int(delay.high / step), r.size // 4)
+    products = correlate(r, m, mode="full", method="auto")
+    middle = m.size - 1
+    return float(products[middle - most : middle + most + 1].max())
+
+
+def judge(
+    tire: Any, arrays: dict[str, Array], time: Array | None, notes: list[str]
+) -> tuple[Question | None, list[Drive]]:
+    """Return why nothing can be explained from a recording (None if something can), and the driven forces.
+
+    A force that its slip does not drive, beside one that is driven, is taken out of ``arrays``, and ``notes``
+    say so. So do they where the model explains less of a force than the force's own mean does, though slip
+    drives it: friction or a gain is far off then, which is something to explain.
+    """
+    leave_out_still_slip(tire, arrays, time, notes)
+    found = drives(tire, arrays, time)
+    counted = judged(found)
+    if not any(d.works for d in counted):
+        worst = max(counted, key=lambda d: d.size)
+        why = f"the recording carries no answer: {described(worst)}"
+        return Question(why, look_at(worst, arrays), "unusable"), []
+    for d in counted:
+        if not d.works:
+            del arrays[d.output]
+            notes.append(f"{d.output} is left out: {described(d)}. {look_at(d, arrays)}")
+        elif d.plain < 0.0:
+            notes.append(f"{described(d)}; slip drives it all the same")
+    return None, [d for d in counted if d.works]
+
+
+def leave_out_still_slip(tire: Any, arrays: dict[str, Array], time: Array | None, notes: list[str]) -> None:
+    """Take out a slip ratio that stands still far from zero, if the model has the force only without it.
+
+    Rigs write -1 where they do not measure it: a locked wheel.
+    """
+    if not _stands(arrays, "slip_ratio") or any(d.works for d in judged(drives(tire, arrays, time))):
+        return
+    without = {n: a for n, a in arrays.items() if n != "slip_ratio"}
+    able = [d for d in judged(drives(tire, without, time)) if d.works]
+    if able:
+        best = max(able, key=lambda d: d.share)
+        at = float(np.mean(arrays.pop("slip_ratio")))
+        notes.append(
+            f"slip_ratio is {at:.3g} throughout and left out: without it the model explains "
+            f"{100.0 * best.plain:.0f}% of the variance of {best.output.capitalize()}"
+        )
+
+
+def _stands(arrays: Mapping[str, Array], name: str) -> bool:
+    """Whether a slip is recorded, does not move, and is not zero."""
+    least = ABSOLUTE_SPREAD[name]
+    return name in arrays and not moves(arrays[name], least) and abs(float(np.mean(arrays[name]))) > least
+
+
+def described(d: Drive) -> str:
+    """Return in words how much of a force its slip drives."""
+    name, by = d.output.capitalize(), d.slip.replace("_", " ")
+    plain = f"the model explains {100.0 * d.plain:.0f}% of the variance of {name}"
+    if d.plain < 0.0:
+        plain = f"the model explains less of {name} than the mean of {name} does (share {d.plain:.2g})"
+    if d.works:
+        return f"{plain}; with another gain and offset it is {100.0 * d.share:.0f}%"
+    if d.share < LEAST:
+        return (
+            f"{plain}; with the best gain, offset and delay it is {100.0 * max(d.share, 0.0):.0f}%, less "
+            f"than half: most of {name} comes from something else than the recorded {by}"
+        )
+    if not d.sized:
+        return f"{plain}; {name} follows the recorded {by} only with a gain of {d.gain:.3g}"
+    return (
+        f"{plain}, and as much ({100.0 * d.still:.0f}% against {100.0 * d.share:.0f}%) with the {by} held at "
+        f"its mean: the changes of the recorded {by} are worth nothing"
+    )
+
+
+def look_at(d: Drive, arrays: Mapping[str, Array]) -> str:
+    """Return what to look at where slip does not drive a force."""
+    by = d.slip.replace("_", " ")
+    if d.slip not in arrays:
+        return f"Record the {by}, which is missing"
+    x = arrays[d.slip]
+    if not d.varies:
+        return f"Look at {by}, which hardly moves ({np.min(x):.3g} to {np.max(x):.3g}) while the force does"
+    return (
+        f"Look at how {by} was measured (lateral and longitudinal speed of the wheel, steering angle, "
+        "filters, synchronization with the forces), at the axes of both, and whether the file is of this tire"
+    )

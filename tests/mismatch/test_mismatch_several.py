@@ -1,0 +1,85 @@
+"""Several recordings explained together, and one held out."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch import explain_recordings
+from tire_pipeline.mismatch.several import predict_held_out
+
+
+@pytest.fixture(scope="module")
+def together(tire, record):
+    runs = {name: record(seed, friction=0.88).iloc[:5000] for name, seed in (("a", 5), ("b", 6), ("c", 7))}
+    return explain_recordings(tire, runs, held_out="b"), runs
+
+
+def test_what_two_recordings_share_is_found_and_predicts_the_third(together):
+    report, runs = together
+    assert [e.name for e in report.effects] == ["friction_scale"]
+    assert report.recordings == ("a", "c")
+    error = report.held_out.errors["fy"]
+    assert report.held_out.recording == "b"
+    assert report.held_out.samples == len(runs["b"])
+    predicted = report.corrected.predict(runs["b"])["fy"]
+    assert error.rms_after == pytest.approx(np.sqrt(np.mean((runs["b"]["fy"] - predicted) ** 2)))
+    assert error.rms_after < 0.3 * error.rms_before
+    assert error.ratio_low < error.rms_after / error.rms_before < error.ratio_high < 0.5
+    assert "In b, which was held out, the RMS error of Fy falls from" in report.summary
+
+
+def test_the_held_out_recording_takes_no_part(tire, together, record):
+    report, runs = together
+    other = {**runs, "b": record(8, friction=1.3).iloc[:5000]}
+    again = explain_recordings(tire, other, held_out="b")
+    assert again.corrected.changes == report.corrected.changes
+    assert again.held_out.errors["fy"].ratio_low > 1.0
+    assert "rises" in again.summary
+    assert "does not hold there" in again.summary
+
+
+def test_page_and_data_have_the_held_out_recording(together, tmp_path):
+    report, _ = together
+    data = report.to_dict()
+    assert data["recordings"] == ["a", "c"]
+    assert data["held_out"]["errors"]["fy"]["rms_after"] == report.held_out.errors["fy"].rms_after
+    page = report.to_html(tmp_path / "page.html").read_text()
+    assert "Tried on a recording that was held out" in page
+    assert "Explained together: a, c." in page
+
+
+def test_moments_and_samples_without_numbers(together, record):
+    report, _ = together
+    other = record(9, friction=0.88).iloc[:1000].copy()
+    other.loc[other.index[:10], "slip_angle"] = np.nan
+    other.loc[other.index[10:20], "fy"] = np.nan
+    fit = predict_held_out(report.corrected, other, "d")
+    assert fit.samples == 990
+    assert np.isfinite(fit.errors["fy"].rms_after)
+    with pytest.raises(RecordingError, match="none of the forces"):
+        predict_held_out(report.corrected, other.drop(columns="fy"), "d")
+
+
+def test_a_name_that_is_not_there_and_nothing_left_are_errors(tire, record):
+    one = record(1).iloc[:3000]
+    with pytest.raises(RecordingError, match="no recording 'x' to hold out"):
+        explain_recordings(tire, {"a": one, "b": one}, held_out="x")
+    with pytest.raises(RecordingError, match="only recording is held out"):
+        explain_recordings(tire, {"a": one}, held_out="a")
+
+
+def test_a_report_is_drawn_and_fits_in_a_notebook(together):
+    report, _ = together
+    figure = report.plot()
+    texts = [
+        text
+        for part in figure.subfigs
+        for axis in part.axes
+        for text in (axis.get_xlabel(), axis.get_ylabel())
+    ]
+    assert {"time (s)", "Fy recorded - simulated (N)", "slip angle (deg)", "normal load (kN)"} <= set(texts)
+    assert "recorded minus simulated" in figure.subfigs[0].get_supxlabel()
+    assert repr(report).startswith("MismatchReport('explained': friction_scale.")
+    assert "<th>RMS before</th>" in report._repr_html_()

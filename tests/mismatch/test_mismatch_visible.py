@@ -1,0 +1,94 @@
+"""What could have been seen in a recording, and what is ruled out."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch import search as searching
+from tire_pipeline.mismatch.checks import prepare
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.restart import search_all
+from tire_pipeline.mismatch.trial import put_in
+from tire_pipeline.mismatch.visible import one_sided, sights
+
+
+@pytest.fixture(scope="module")
+def clean(tire, record):
+    return explain_mismatch(tire, record(21))
+
+
+def _sizes(tire, recording):
+    """(effect, parameter) -> what the recording shows of it."""
+    search = searching.begin(prepare(tire, recording).data)
+    search_all(search)
+    return search, {(s.variant.name, s.parameter.name): s for s in sights(search)}
+
+
+def test_every_effect_of_the_catalogue_has_a_row(clean):
+    assert {row.name for row in clean.visible} == set(catalogue())
+
+
+def test_what_was_not_varied_is_said_so(clean):
+    rows = {row.name: row for row in clean.visible if not row.parameter}
+    assert rows["camber"].text == "camber: camber is not recorded or does not vary, nothing can be said"
+    assert math.isnan(rows["camber"].seen)
+
+
+def test_sizes_stand_in_the_json_and_on_the_page(clean, tmp_path):
+    written = json.loads(clean.to_json(tmp_path / "r.json").read_text())["visible"]
+    row = next(r for r in written if r["name"] == "friction_scale")
+    assert 0.0 < row["ruled_out"] < row["seen"] < 0.2
+    page = clean.to_html(tmp_path / "r.html").read_text()
+    assert "What could have been seen" in page
+    assert f"{100.0 * row['seen']:.2g} %" in page
+
+
+def test_what_is_named_has_a_row_with_its_interval(tire, record):
+    report = explain_mismatch(tire, record(22, friction=0.9))
+    (row,) = (r for r in report.visible if r.name == "friction_scale")
+    value, error, _ = report.effects[0].parameters["friction"]
+    assert row.text.endswith(f"named, friction {100.0 * value:.2g} % ± {196.0 * error:.2g} %")
+    assert math.isnan(row.seen)
+
+
+def test_more_noise_hides_more(tire, record):
+    calm, noisy = (_sizes(tire, record(23, noise=noise))[1] for noise in (20.0, 80.0))
+    for key in (("force_offset", "fy"), ("sensor_drift", "fy"), ("time_delay", "delay")):
+        assert 2.0 * calm[key].seen < noisy[key].seen
+
+
+def test_nothing_is_ruled_out_while_something_has_no_name(tire, record):
+    recording = record(24)
+    wave = 400.0 * np.sin(2.0 * np.pi * recording["time"] / 3.1) * (recording["time"] > 60.0)
+    report = explain_mismatch(tire, recording.assign(fy=recording["fy"] + wave))
+    assert report.remainder.significant
+    assert all(math.isnan(row.ruled_out) for row in report.visible)
+
+
+@pytest.mark.long
+def test_what_is_said_to_be_seen_is_named(tire, record):
+    """Each effect of the size that is said to be named in 95% of repetitions, put in by its mechanism."""
+    recording = record(25)
+    search, found = _sizes(tire, recording)
+    rng = np.random.default_rng(25)
+    named = {}
+    for (name, parameter), sight in found.items():
+        if not np.isfinite(sight.seen):
+            continue
+        sign = 1.0 if one_sided(sight.parameter) else rng.choice([-1.0, 1.0])
+        report = explain_mismatch(
+            tire, put_in(tire, recording, name, sight.values(search.data, sign * sight.seen))
+        )
+        named[name, parameter] = any(name in (e.name, *e.alternatives) for e in report.effects)
+    assert len(named) >= 15
+    assert np.mean(list(named.values())) >= 0.9, [k for k, ok in named.items() if not ok]
+
+
+def test_no_size_is_below_what_a_tire_can_have(tire, record):
+    _, found = _sizes(tire, record(26, noise=2.0))
+    sight = found["relaxation_length", "length"]
+    assert sight.seen >= 0.1 * tire.coefficients["UNLOADED_RADIUS"]
+    assert sight.told <= sight.seen
