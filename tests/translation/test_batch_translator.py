@@ -7,7 +7,8 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.fleet import FleetSettings, make_fleet
-from tire_pipeline.pipelines.translate.nodes import TranslateParameters, translate_page
+from tire_pipeline.pipelines.translate.page import translate_page
+from tire_pipeline.pipelines.translate.parameters import TranslateParameters
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
@@ -193,8 +194,9 @@ def test_leaving_one_tire_out_tells_whether_to_let_a_batch_teach(training, made,
 
 def test_the_page_says_that_the_files_taught():
     parameters = TranslateParameters(translator="paired_batch_mixed_model")
-    bands = pd.DataFrame(columns=["file", "output", "normal_load", "slip", "middle", "low", "high"])
+    curves = {"files": [], "normal_load": np.array([4000.0]), "slip": np.array([0.0])}
+    tires = pd.DataFrame(columns=["file", "tire_id"])
     for taught, said in ((40, True), (0, False)):  # a file alone learns from no other
         report = pd.DataFrame({"file": ["E/a.tir"], "verdict": ["refused"], "taught": taught})
-        page = translate_page(report, bands, pd.DataFrame(), parameters, "D")
+        page, _ = translate_page(report, curves, pd.DataFrame(), pd.DataFrame(), tires, [], parameters, "D")
         assert ("With other files beside it, it would come out a little differently" in page) is said

@@ -9,12 +9,14 @@ import pytest
 from tire_pipeline.errors import DomainError
 from tire_pipeline.evaluation import evaluate_translations
 from tire_pipeline.fleet import FleetSettings, make_fleet
+from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
 from tire_pipeline.translation.base import make_translator, translator_from_state
+from tire_pipeline.translation.bias_band import bias_band
 from tire_pipeline.translation.bias_report import at_each_load, bias_report
-from tire_pipeline.translation.caution import DOUBTFUL, pooled_doubt
+from tire_pipeline.translation.caution import DOUBTFUL, expected_gain, pooled_doubt
 from tire_pipeline.translation.curve_features import LOADS
 from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel, PairedMixedModel
 from tire_pipeline.translation.cycle_consistent import CycleConsistent
@@ -22,7 +24,15 @@ from tire_pipeline.translation.greedy_forest import GreedyForest
 from tire_pipeline.translation.leave_one_out import leave_one_tire_out
 from tire_pipeline.translation.likelihood_agent import CuriousAgent, LikelihoodAgent
 from tire_pipeline.translation.physics import SYMMETRY, violations
-from tire_pipeline.translation.result import REFUSED, TRANSLATED, UNBIASED, comment_lines, write_translated
+from tire_pipeline.translation.result import (
+    LEFT_ALONE,
+    REFUSED,
+    TRANSLATED,
+    UNBIASED,
+    UNKNOWN,
+    comment_lines,
+    write_translated,
+)
 
 
 def _table(files):
@@ -138,7 +148,7 @@ def test_verdicts(paired, hidden):
     rows.iloc[3, rows.columns.get_loc("PKY1")] *= 3.0
     rows.iloc[4, rows.columns.get_loc("PDY1")] = np.nan
     result = paired.translation(rows)
-    assert list(result.report["verdict"]) == [TRANSLATED, REFUSED, UNBIASED, REFUSED, REFUSED]
+    assert list(result.report["verdict"]) == [TRANSLATED, UNKNOWN, UNBIASED, REFUSED, REFUSED]
     assert "outside of what D has measured" in result.report["reason"].iloc[3]
     assert result.bands["fy"].middle.shape[0] == 5
     unchanged = [1, 2, 3, 4]
@@ -152,11 +162,74 @@ def test_a_category_whose_bias_may_be_chance_is_left_alone(paired, hidden):
     doubtful.doubt = np.where(np.array(doubtful.model.categories) == first, 0.3, 0.0)
     result = doubtful.translation(rows, bands=False)
     own = (rows["category"].astype(str) == first).to_numpy()
-    assert (result.report.loc[own, "verdict"] == UNBIASED).all()
-    assert "told from chance" in result.report["reason"].iloc[0]
+    assert result.report.loc[own, "verdict"].isin([LEFT_ALONE, UNBIASED]).all()
+    assert result.report.loc[own, "reason"].str.contains("told from chance|holds zero").all()
     pd.testing.assert_frame_equal(result.table[own], rows[own])
     usual = paired.translation(rows, bands=False).report["verdict"]
     assert (usual[own] == TRANSLATED).any()
+
+
+def test_nothing_beyond_the_asked_distance_is_translated(paired, hidden):
+    rows = hidden.head(4).copy()
+    rows.iloc[0, rows.columns.get_loc("PKY1")] *= 1.25
+    usual = paired.translation(rows)
+    distance = usual.report["distance"].to_numpy()
+    assert 1.0 < distance[0] < 3.0
+    assert (distance[1:] < 1.0).all()
+    assert usual.report["verdict"].iloc[0] == TRANSLATED
+    with pytest.raises(DomainError, match="beyond the edge of the training data"):
+        write_translated(TireModel("5.2", {"FNOMIN": 6000.0}), usual, 0, COEFFICIENTS)
+    _, comments = write_translated(TireModel("5.2", {"FNOMIN": 6000.0}), usual, 0, COEFFICIENTS, beyond=True)
+    assert any("beyond its edge, 1; written because asked for" in line for line in comments)
+    careful = translator_from_state(paired.to_state())
+    careful.farthest = 1.0
+    careful = translator_from_state(careful.to_state())
+    held = careful.translation(rows)
+    assert list(held.report["verdict"]) == [REFUSED, *usual.report["verdict"].iloc[1:]]
+    assert f"distance {distance[0]:.2f}, the edge is 1" in held.report["reason"].iloc[0]
+    pd.testing.assert_frame_equal(held.table.iloc[[0]], rows.iloc[[0]])
+
+
+def test_unbiased_is_only_whose_bands_hold_zero(paired, hidden):
+    """The same verdict on the same files, with the bias taken out of the model, and with it in."""
+    rows = hidden[hidden["category"].astype(str) != "D"]
+    doubtful = translator_from_state(paired.to_state())
+    doubtful.doubt = np.full(len(doubtful.model.categories), 0.3)
+    biased = doubtful.translation(rows, bands=False).report
+    band = bias_band(doubtful.model, doubtful.predict(rows))
+    assert ((biased["verdict"] == UNBIASED) == band.holds_zero).all()
+    assert (biased["verdict"] == LEFT_ALONE).any()
+    found = doubtful.predict(rows)
+    doubtful.predict = lambda _: replace(found, shift=np.zeros_like(found.shift))
+    without = doubtful.translation(rows, bands=False).report
+    assert (without["verdict"] == UNBIASED).all()
+    assert (
+        without["reason"]
+        .str.contains("holds zero for such a tire in stiffness and friction (90% each)", regex=False)
+        .all()
+    )
+    assert without["bias_band"].str.count("%").eq(8).all()
+
+
+def test_the_expected_error_in_words_is_rms(paired, hidden):
+    found = paired.predict(hidden)
+    squared, _ = expected_gain(paired.model, found)
+    report = paired.translation(hidden, bands=False).report
+    np.testing.assert_allclose(report["expected_rms_ratio"].astype(float), np.sqrt(squared))
+    moved = report[report["verdict"] == TRANSLATED]
+    assert len(moved)
+    for ratio, reason in zip(moved["expected_rms_ratio"], moved["reason"], strict=True):
+        assert reason == f"expected RMS error {ratio:.0%} of the unchanged file's"
+
+
+def test_a_file_that_lacks_something_is_told_what(paired, hidden):
+    rows = hidden.head(2).copy()
+    rows.iloc[0, rows.columns.get_loc("UNLOADED_RADIUS")] = np.nan
+    rows["version"] = ["5.2", "6.1"]
+    report = paired.translation(rows, bands=False).report
+    assert (report["verdict"] == REFUSED).all()
+    assert report["reason"].iloc[0] == "it does not state UNLOADED_RADIUS: add what is missing"
+    assert "fit_magic_formula" in report["reason"].iloc[1]
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from tire_pipeline.pipelines.translate.nodes import TranslateParameters, translate_page
+from tire_pipeline.pipelines.translate.page import translate_page
+from tire_pipeline.pipelines.translate.parameters import TranslateParameters
 from tire_pipeline.translation import protocol_search
 from tire_pipeline.translation.protocol_search import Dated, find_changes
 from tire_pipeline.translation.protocols import Change, Protocols, days_of
@@ -121,9 +122,14 @@ def test_state(protocols):
 
 def test_the_page_tells_of_a_change_and_only_then():
     report = pd.DataFrame({"file": ["E/a.tir"], "verdict": ["refused"], "protocol": ["before 2015-06-01"]})
-    bands = pd.DataFrame(columns=["file", "output", "normal_load", "slip", "middle", "low", "high"])
+    curves = {"files": [], "normal_load": np.array([4000.0]), "slip": np.array([0.0])}
+    tires = pd.DataFrame(columns=["file", "tire_id"])
     changed = pd.DataFrame({"category": ["E"], "day": ["2015-06-01"], "probability": [0.999]})
-    page = translate_page(report, bands, changed, TranslateParameters(), "D")
+    given = (tires, [], TranslateParameters(), "D")
+    page, _ = translate_page(report, curves, pd.DataFrame(), changed, *given)
     assert "Changes of protocol" in page
-    assert "before 2015-06-01" in page
-    assert "protocol" not in translate_page(report, bands, changed.head(0), TranslateParameters(), "D")
+    assert "2015-06-01" in page
+    assert (
+        "Changes of protocol"
+        not in translate_page(report, curves, pd.DataFrame(), changed.head(0), *given)[0]
+    )

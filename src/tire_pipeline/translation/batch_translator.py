@@ -13,7 +13,7 @@ from tire_pipeline.translation.batch_learning import TaughtCells, learn_from
 from tire_pipeline.translation.caution import cautious, without_failed_fits
 from tire_pipeline.translation.curve_mixed import Prediction
 from tire_pipeline.translation.curve_mixed_fit import Prepared, prepare
-from tire_pipeline.translation.curve_translator import FARTHEST, MixedModel
+from tire_pipeline.translation.curve_translator import MixedModel
 
 FOLDS = 5
 """Parts into which the tires of a batch are laid; a part is translated by what the others taught."""
@@ -31,7 +31,7 @@ class BatchMixedModel(MixedModel):
 
     Parameters
     ----------
-    pairs, trust, gate
+    pairs, trust, gate, farthest
         As in :class:`.curve_translator.MixedModel`. With pairs, tires of the batch that several categories
         measured (same ``tire_id``) link these, too.
 
@@ -77,7 +77,7 @@ class BatchMixedModel(MixedModel):
 
     def _teaches(self, source: pd.DataFrame, found: Prediction) -> np.ndarray:
         """Tell who is not refused, whose category is sure, and whose tire is no training tire's, (n,)."""
-        near = self.reach.distance(self.model, source, found) <= FARTHEST
+        near = self.reach.distance(self.model, source, found) <= self.farthest
         sure = np.ones(len(source), dtype=bool)
         if "category_probability" in source:
             sure = source["category_probability"].to_numpy(dtype=float) >= TEACHING_PROBABILITY

@@ -80,6 +80,31 @@ def curve_bands(
     return bands
 
 
+def stiffness_band(
+    space: CurveSpace, translated: pd.DataFrame, variance: np.ndarray, changed: np.ndarray
+) -> Band:
+    """Give the band of the cornering stiffness over load at zero camber.
+
+    Parameters
+    ----------
+    space, translated, variance, changed
+        As for :func:`curve_bands`.
+
+    Returns
+    -------
+    Band
+        With one slip, 0; N/rad, positive.
+    """
+    features = encode(translated)
+    (stiffness, *_) = _part_names("lateral")
+    weights = {stiffness: np.broadcast_to(np.eye(LOADS.size), (len(translated), LOADS.size, LOADS.size))}
+    deviation = QUANTILE * _linear_deviation(space, variance, weights)
+    middle = np.exp(features["lateral"][:, : LOADS.size]) * LOADS
+    ratio = np.where(changed[:, None], np.exp(deviation), np.nan)
+    parts = [each[:, :, None] for each in (middle, middle / ratio, middle * ratio)]
+    return Band(np.zeros(1), LOADS, *parts)
+
+
 def _part_names(group: str) -> list[str]:
     return [name for name, part in PARTS.items() if part.group == group]
 

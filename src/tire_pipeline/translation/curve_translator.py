@@ -12,6 +12,7 @@ from threadpoolctl import threadpool_limits
 from tire_pipeline.errors import DomainError
 from tire_pipeline.representations.coefficients import DATASETS
 from tire_pipeline.translation.base import check_target
+from tire_pipeline.translation.bias_band import CERTAINTY, bias_band
 from tire_pipeline.translation.caution import (
     DOUBTFUL,
     cautious,
@@ -20,7 +21,7 @@ from tire_pipeline.translation.caution import (
     pooled_doubt,
     without_failed_fits,
 )
-from tire_pipeline.translation.curve_bands import curve_bands
+from tire_pipeline.translation.curve_bands import curve_bands, stiffness_band
 from tire_pipeline.translation.curve_features import LOADS, encode
 from tire_pipeline.translation.curve_mixed import CurveMixedModel, Prediction
 from tire_pipeline.translation.curve_mixed_fit import Prepared, fit_curve_mixed_model
@@ -30,9 +31,11 @@ from tire_pipeline.translation.distance import TrainingReach
 from tire_pipeline.translation.effects import protocol_changes
 from tire_pipeline.translation.physics import SYMMETRY, symmetric, violations
 from tire_pipeline.translation.result import (
+    LEFT_ALONE,
     REFUSED,
     TRANSLATED,
     UNBIASED,
+    UNKNOWN,
     Band,
     TranslationResult,
     moved_coefficients,
@@ -47,9 +50,15 @@ FARTHEST = 3.0
 tires every refusal between 1.5 and 2.2 was wrong."""
 
 LEAST_GAIN = 0.05
-"""A file whose expected squared error would shrink by less than this share is already unbiased."""
+"""A file whose expected squared error would shrink by less than this share (2.5% in RMS) is left alone."""
 
 VERSIONS = ("5.0", "5.1", "5.2", "PAC2002")
+NEEDED = ("FNOMIN", "UNLOADED_RADIUS", "PCY1", "PDY1", "PKY1", "PKY2", "PKX1")
+"""What a file must state to be translated."""
+
+_OWN = "it is the target's own"
+_UNKNOWN = "no training file is of its supplier: give training files of it"
+_VERDICTS = {_OWN: UNBIASED, _UNKNOWN: UNKNOWN}
 
 
 class MixedModel:
@@ -67,14 +76,23 @@ class MixedModel:
         noise; 0: not at all.
     gate : bool
         Leave files alone for which little gain is expected, and refuse those far from the training data.
+    farthest : float
+        Distance to the training data beyond which a file is refused, at most ``FARTHEST``.
     """
 
     name: ClassVar[str] = "mixed_model"
     uses_pairs: ClassVar[bool] = False
 
-    def __init__(self, *, pairs: bool | None = None, trust: float = 1.0, gate: bool = True) -> None:
+    def __init__(
+        self,
+        *,
+        pairs: bool | None = None,
+        trust: float = 1.0,
+        gate: bool = True,
+        farthest: float = FARTHEST,
+    ) -> None:
         self.pairs = self.uses_pairs if pairs is None else bool(pairs)
-        self.trust, self.gate = float(trust), bool(gate)
+        self.trust, self.gate, self.farthest = float(trust), bool(gate), min(float(farthest), FARTHEST)
 
     def fit(
         self, training: pd.DataFrame, *, target: str, seed: int = 0, made: Prepared | None = None
@@ -166,37 +184,36 @@ class MixedModel:
             moved_coefficients(source, table, COEFFICIENTS),
             self.name,
             protocols,
+            self._stiffness(table, usable, found, act) if bands else None,
         )
 
     def _bands(
         self, table: pd.DataFrame, usable: np.ndarray, found: Prediction, act: np.ndarray
     ) -> dict[str, Band]:
         """Bands of all files; NaN for those that cannot be evaluated."""
-
-        def spread(values: np.ndarray) -> np.ndarray:
-            out = np.full((len(table), *values.shape[1:]), np.nan)
-            out[usable] = values
-            return out
-
         own = curve_bands(self.model.space, table.iloc[usable], found.variance, act, pairs=self.model.pairs)
-        return {
-            name: Band(b.slip, b.normal_load, spread(b.middle), spread(b.low), spread(b.high))
-            for name, b in own.items()
-        }
+        return {name: _spread(band, usable, len(table)) for name, band in own.items()}
+
+    def _stiffness(self, table: pd.DataFrame, usable: np.ndarray, found: Prediction, act: np.ndarray) -> Band:
+        band = stiffness_band(self.model.space, table.iloc[usable], found.variance, act)
+        return _spread(band, usable, len(table))
 
     def _cannot(self, source: pd.DataFrame) -> np.ndarray:
         """Say why a file cannot be translated at all, "" if it can."""
         reason = np.full(len(source), "", dtype=object)
         category = source["category"].astype(str).to_numpy()
-        reason[~np.isin(category, self.model.categories)] = "no training file is of its category"
-        lacking = source.reindex(
-            columns=["FNOMIN", "UNLOADED_RADIUS", "PCY1", "PDY1", "PKY1", "PKY2", "PKX1"]
-        )
-        reason[lacking.isna().any(axis=1).to_numpy()] = "coefficients are missing"
+        lacking = source.reindex(columns=list(NEEDED)).isna()
+        for i in np.flatnonzero(lacking.any(axis=1).to_numpy()):
+            reason[i] = (
+                f"it does not state {', '.join(lacking.columns[lacking.iloc[i]])}: add what is missing"
+            )
         if "version" in source:
             other = ~source["version"].astype(str).isin(VERSIONS).to_numpy()
-            reason[other] = "its Magic Formula version is not 5.x: write it as 5.2 first"
-        reason[category == self.target] = "it is the target's own"
+            reason[other] = (
+                "its Magic Formula version is not 5.x: fit 5.2 to its forces first (fit_magic_formula)"
+            )
+        reason[category == self.target] = _OWN
+        reason[~np.isin(category, self.model.categories)] = _UNKNOWN
         usable = np.flatnonzero(reason == "")
         if usable.size:
             features = encode(source.iloc[usable])
@@ -205,7 +222,6 @@ class MixedModel:
         return reason
 
     def _empty_report(self, source: pd.DataFrame, refused: np.ndarray) -> pd.DataFrame:
-        own = refused == "it is the target's own"
         probability = source.get("category_probability", 1.0)
         return pd.DataFrame(
             {
@@ -213,11 +229,12 @@ class MixedModel:
                 "source": source["category"].astype(str),
                 "source_probability": probability,
                 "target": self.target,
-                "verdict": np.where(own, UNBIASED, REFUSED).astype(object),
+                "verdict": np.array([_VERDICTS.get(why, REFUSED) for why in refused], dtype=object),
                 "reason": refused,
                 "distance": np.nan,
-                "expected_ratio": np.nan,
+                "expected_rms_ratio": np.nan,
                 "harm_probability": np.nan,
+                "bias_band": pd.Series("", index=source.index, dtype=object),
                 "taught": 0,
                 "protocol": self.model.protocols.in_words(source),
                 "changes": pd.Series("", index=source.index, dtype=object),
@@ -254,27 +271,23 @@ class MixedModel:
         """Verdict, reason, distance, expected ratio, probability of harm and words, one row a file."""
         ratio, harm = expected_gain(self.model, found)
         distance = self.reach.distance(self.model, rows, found)
+        band = bias_band(self.model, found)
         broken = violations(moved)
-        before = violations(rows)
-        new = broken & ~before
-        verdict = np.full(len(rows), TRANSLATED, dtype=object)
-        reason = np.full(len(rows), "", dtype=object)
+        impossible = (broken & ~violations(rows)).any(axis=1) | broken.drop(columns="curvature").any(axis=1)
         actors = rows["category"].astype(str).to_numpy()
         doubtful = np.isin(actors, np.array(self.model.categories)[self.doubt > DOUBTFUL])
+        verdict = np.full(len(rows), TRANSLATED, dtype=object)
+        reason = np.full(len(rows), "", dtype=object)
         for i in range(len(rows)):
-            reason[i] = f"expected error {ratio[i]:.0%} of the unchanged file's"
-            if self.gate and distance[i] > FARTHEST:
-                verdict[i] = REFUSED
-                reason[i] = f"this tire is outside of what {self.target} has measured: do not trust"
-            elif new.iloc[i].any() or broken.iloc[i].drop("curvature").any():
+            reason[i] = f"expected RMS error {np.sqrt(ratio[i]):.0%} of the unchanged file's"
+            if self.gate and distance[i] > self.farthest:
+                verdict[i], reason[i] = REFUSED, self._too_far(distance[i])
+            elif impossible.iloc[i]:
                 verdict[i] = REFUSED
                 reason[i] = f"no physical tire found: {', '.join(broken.columns[broken.iloc[i]])}"
-            elif self.gate and doubtful[i]:
-                verdict[i] = UNBIASED
-                reason[i] = f"{actors[i]}'s bias against {self.target} is too small to be told from chance"
-            elif self.gate and ratio[i] > 1.0 - LEAST_GAIN:
-                verdict[i] = UNBIASED
-                reason[i] = "no bias worth correcting was found for such a tire"
+            elif self.gate and (doubtful[i] or ratio[i] > 1.0 - LEAST_GAIN):
+                verdict[i] = UNBIASED if band.holds_zero[i] else LEFT_ALONE
+                reason[i] = self._why_alone(actors[i], bool(doubtful[i]), bool(band.holds_zero[i]), ratio[i])
         said = np.array(describe_changes(encode(rows), encode(moved), actors, self.target), dtype=object)
         said[verdict != TRANSLATED] = ""
         return pd.DataFrame(
@@ -282,12 +295,33 @@ class MixedModel:
                 "verdict": verdict,
                 "reason": reason,
                 "distance": distance,
-                "expected_ratio": ratio,
+                "expected_rms_ratio": np.sqrt(ratio),
                 "harm_probability": harm,
+                "bias_band": [band.in_words(i) for i in range(len(rows))],
                 "taught": found.taught.astype(int),
                 "changes": said,
             },
             index=rows.index,
+        )
+
+    def _too_far(self, distance: float) -> str:
+        said = f"this tire is outside of what {self.target} has measured: distance {distance:.2f}"
+        if distance > FARTHEST:
+            return f"{said}, do not trust a translation"
+        return f"{said}, the edge is 1; give training files of such tires, or ask with farthest={FARTHEST:g}"
+
+    def _why_alone(self, actor: str, doubtful: bool, holds_zero: bool, ratio: float) -> str:
+        """Say why a file is not translated that could be."""
+        if holds_zero:
+            return (
+                f"the band of {actor}'s bias against {self.target} holds zero for such a tire in stiffness "
+                f"and friction ({CERTAINTY:.0%} each)"
+            )
+        if doubtful:
+            return f"{actor}'s bias against {self.target} cannot be told from chance"
+        return (
+            "too little to gain for such a tire: "
+            f"expected RMS error {np.sqrt(ratio):.0%} of the unchanged file's"
         )
 
     def to_state(self) -> dict[str, Any]:
@@ -298,6 +332,7 @@ class MixedModel:
             "option_pairs": self.pairs,
             "option_trust": self.trust,
             "option_gate": self.gate,
+            "option_farthest": self.farthest,
             "coefficient_limits": self.limits,
             "doubt": self.doubt,
             **self.reach.to_state(),
@@ -309,6 +344,7 @@ class MixedModel:
         """Bring back what :meth:`to_state` gave; it translates the same."""
         translator = cls._with_options(state)
         translator.target = str(state["target"])
+        translator.farthest = float(state.get("option_farthest", FARTHEST))
         translator.limits = np.asarray(state["coefficient_limits"])
         translator.doubt = np.asarray(state["doubt"])
         translator.reach = TrainingReach.from_state(state)
@@ -322,6 +358,18 @@ class MixedModel:
             trust=float(state["option_trust"]),
             gate=bool(state["option_gate"]),
         )
+
+
+def _spread(band: Band, usable: np.ndarray, count: int) -> Band:
+    """The band of the usable files among all; NaN for the others."""
+
+    def among_all(values: np.ndarray) -> np.ndarray:
+        out = np.full((count, *values.shape[1:]), np.nan)
+        out[usable] = values
+        return out
+
+    parts = [among_all(values) for values in (band.middle, band.low, band.high)]
+    return Band(band.slip, band.normal_load, *parts)
 
 
 class PairedMixedModel(MixedModel):

@@ -16,7 +16,7 @@ from tire_pipeline.translation.caution import failed_fits
 from tire_pipeline.translation.curiosity import Curiosity
 from tire_pipeline.translation.curve_mixed import Prediction
 from tire_pipeline.translation.curve_mixed_fit import Prepared
-from tire_pipeline.translation.curve_translator import MixedModel
+from tire_pipeline.translation.curve_translator import FARTHEST, MixedModel
 from tire_pipeline.translation.likelihood_environment import (
     REACH,
     STEPS,
@@ -37,15 +37,22 @@ class LikelihoodAgent(MixedModel):
     ----------
     updates : int
         Roll-outs of 64 tires and 48 steps that it learns from.
-    gate : bool
+    gate, farthest
         As in :class:`.curve_translator.MixedModel`; the agent by itself never refuses.
     """
 
     name: ClassVar[str] = "likelihood_agent"
     curious: ClassVar[bool] = False
 
-    def __init__(self, *, updates: int = UPDATES, gate: bool = False, pairs: bool = False) -> None:
-        super().__init__(pairs=pairs, trust=0.0, gate=gate)
+    def __init__(
+        self,
+        *,
+        updates: int = UPDATES,
+        gate: bool = False,
+        pairs: bool = False,
+        farthest: float = FARTHEST,
+    ) -> None:
+        super().__init__(pairs=pairs, trust=0.0, gate=gate, farthest=farthest)
         self.updates = int(updates)
 
     def fit(

@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.errors import DomainError
+
 VERSION = "4"
 """Version of the translators, written into every translated file: another one where the same training files
 give another translation. 2: stiffness and shape are drawn together (:mod:`.fit_links`); 3: categories
@@ -17,7 +19,14 @@ learn from the batch."""
 
 TRANSLATED = "translated"
 UNBIASED = "already unbiased"
+"""The target's own file, or one for whose tire the 90% band of the supplier's bias holds zero."""
+LEFT_ALONE = "left alone"
+"""There may be a bias, but too little would be gained, or it cannot be told from chance."""
 REFUSED = "refused"
+UNKNOWN = "unknown supplier"
+
+EDGE = 1.0
+"""Distance at the edge of the training data: nothing beyond is written unless it is asked for."""
 
 
 @dataclass(frozen=True)
@@ -52,10 +61,10 @@ class TranslationResult:
         coefficients. A file that was refused or is already unbiased stands there unchanged.
     report : DataFrame
         One row a file, same index: ``file``, ``source``, ``source_probability`` (1 if the category was
-        given),
-        ``target``, ``verdict``, ``reason``, ``distance`` (1: at the edge of the training data),
-        ``expected_ratio`` (expected squared error of the curves over that of the unchanged file),
-        ``harm_probability``, ``taught`` (by how many files of other tires that were translated with it, see
+        given), ``target``, ``verdict``, ``reason``, ``distance`` (1: at the edge of the training data),
+        ``expected_rms_ratio`` (expected RMS error of the curves over that of the unchanged file),
+        ``harm_probability``, ``bias_band`` (of the supplier's bias for this tire, 90%, in words),
+        ``taught`` (by how many files of other tires that were translated with it, see
         :mod:`.batch_translator`), ``protocol`` (under which of its category's protocols the file was
         measured, if that changed) and ``changes`` (what moved and why, in words).
     bands : dict of str to Band
@@ -67,6 +76,8 @@ class TranslationResult:
     protocols : DataFrame
         Categories that changed how they measure, see :func:`.effects.protocol_changes`; empty if none did. A
         target that did is given by its newest protocol.
+    stiffness : Band, optional
+        Of the cornering stiffness (N/rad, positive), with the one slip 0.
     """
 
     table: pd.DataFrame
@@ -75,6 +86,7 @@ class TranslationResult:
     coefficients: pd.DataFrame = field(default_factory=pd.DataFrame)
     method: str = ""
     protocols: pd.DataFrame = field(default_factory=pd.DataFrame)
+    stiffness: Band | None = None
 
 
 def moved_coefficients(
@@ -140,10 +152,19 @@ def comment_lines(result: TranslationResult, row: int, names: tuple[str, ...]) -
     lines = [
         f"translated by tire_pipeline: {said['source']} -> {said['target']}",
         f"source file: {said['file']}",
-        f"source category: {said['source']} (probability {said['source_probability']:.2f})",
+        f"source category: {said['source']} ({_how_known(said)})",
         f"method: {result.method}, version {VERSION}",
         f"verdict: {said['verdict']}: {said['reason']}",
-        f"distance to the training data: {said['distance']:.2f} (1 is its edge)",
+        *(
+            f"bias, {said['target']} less {said['source']} (90% band): {band}"
+            for band in str(said["bias_band"]).split(", ")
+        ),
+        f"distance to the training data: {said['distance']:.2f} "
+        + (
+            "(1 is its edge)"
+            if said["distance"] <= EDGE
+            else "(beyond its edge, 1; written because asked for)"
+        ),
         f"hash: {translation_hash(result.table.iloc[row].to_dict(), names)}",
     ]
     if said.get("taught", 0):
@@ -153,7 +174,16 @@ def comment_lines(result: TranslationResult, row: int, names: tuple[str, ...]) -
     return [*lines, *(str(said["changes"]).split("; ") if said["changes"] else [])]
 
 
-def write_translated(model, result: TranslationResult, row: int, names: tuple[str, ...]):  # type: ignore[no-untyped-def]
+def _how_known(said: pd.Series) -> str:
+    if said.get("supplier"):
+        return str(said["supplier"])
+    probability = said["source_probability"]
+    return "as given" if probability == 1.0 else f"probability {probability:.2f}"
+
+
+def write_translated(  # type: ignore[no-untyped-def]
+    model, result: TranslationResult, row: int, names: tuple[str, ...], *, beyond: bool = False
+):
     """Give the source's model the translated coefficients, and the comment lines that belong to it.
 
     Parameters
@@ -165,13 +195,27 @@ def write_translated(model, result: TranslationResult, row: int, names: tuple[st
         Position of the file in the result.
     names : tuple of str
         The p and q coefficients.
+    beyond : bool
+        Also give a file that lies beyond the edge of the training data.
 
     Returns
     -------
     model : TireModel
     comments : list of str
         Write both with ``tir.write_tir(model, path, comments=comments)``.
+
+    Raises
+    ------
+    DomainError
+        If the file lies beyond the edge of the training data and ``beyond`` is not set.
     """
+    distance = float(result.report["distance"].iloc[row])
+    if distance > EDGE and not beyond:
+        raise DomainError(
+            f"the tire is beyond the edge of the training data (distance {distance:.2f}, the edge is 1)",
+            where=str(result.report["file"].iloc[row]),
+            todo="give training files of such tires, or ask for it with beyond=True",
+        )
     values = result.table.iloc[row]
     known = {name: float(values[name]) for name in names if name in values and np.isfinite(values[name])}
     if "FNOMIN" in values:

@@ -1,0 +1,62 @@
+"""The bias of a file's supplier against the target, for this file's tire, with its band."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tire_pipeline.translation.curve_mixed import CurveMixedModel, Prediction
+from tire_pipeline.translation.curve_space import PARTS, UNIT
+from tire_pipeline.translation.effects import KEY_PARTS, QUANTILE
+
+CERTAINTY = 0.90
+"""With which a band holds the bias: that of ``QUANTILE``."""
+
+
+@dataclass(frozen=True)
+class BiasBand:
+    """What the target measures more than the supplier, of ``KEY_PARTS``; means over the loads.
+
+    Attributes
+    ----------
+    low, high : ndarray, shape (n, parts)
+        Ends of the 90% band, as shares: 0.05 is 5% more.
+    """
+
+    low: np.ndarray
+    high: np.ndarray
+
+    @property
+    def holds_zero(self) -> np.ndarray:
+        """Whether the bands of all parts hold zero, (n,)."""
+        return np.all((self.low <= 0.0) & (self.high >= 0.0), axis=1)
+
+    def in_words(self, row: int) -> str:
+        """Give the bands of one file, such as ``"cornering stiffness +1.0% to +3.2%, ..."``."""
+        return ", ".join(
+            f"{part} {low:+.1%} to {high:+.1%}"
+            for part, low, high in zip(KEY_PARTS, self.low[row], self.high[row], strict=True)
+        )
+
+
+def bias_band(model: CurveMixedModel, found: Prediction) -> BiasBand:
+    """Give the bands from the difference of the two effects and its variance.
+
+    Parameters
+    ----------
+    model : CurveMixedModel
+    found : Prediction
+        Of n files.
+
+    Returns
+    -------
+    BiasBand
+    """
+    middle, half = (np.zeros((len(found.shift), len(KEY_PARTS))) for _ in range(2))
+    for k, part in enumerate(KEY_PARTS):
+        place = model.space.slices[part]
+        along = model.space.back[part].mean(axis=1) * UNIT[PARTS[part].group]
+        middle[:, k] = found.shift[:, place] @ along
+        half[:, k] = QUANTILE * np.sqrt(found.shift_variance[:, place] @ along**2)
+    return BiasBand(np.expm1(middle - half), np.expm1(middle + half))

@@ -1,0 +1,80 @@
+"""Curves of every file: as it is, as translated, and the band of the target's own measurement."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tire_pipeline.errors import TirePipelineError
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.progress import track
+from tire_pipeline.translation.curve_bands import SLIPS
+from tire_pipeline.translation.curve_features import LOADS
+from tire_pipeline.translation.result import Band, TranslationResult
+
+OUTPUTS = ("fy", "fx", "mz")
+
+
+def file_curves(
+    files: Sequence[str], models: Mapping[str, TireModel], result: TranslationResult
+) -> dict[str, Any]:
+    """Evaluate the files' own curves, and lay the bands of the translated ones beside them.
+
+    Parameters
+    ----------
+    files : sequence of str
+        The n files, row by row those of ``result``.
+    models : mapping of str to TireModel
+        As they were read.
+    result : TranslationResult
+
+    Returns
+    -------
+    dict
+        ``files``; ``normal_load`` (l, N); ``slip`` (s, rad or 1); ``<output>_source``, ``_middle``, ``_low``,
+        ``_high`` for fy, fx (N), mz (N m), each (n, l, s), and for stiffness (N/rad), each (n, l). NaN where
+        a file was not translated, or its curve cannot be evaluated.
+    """
+    bands: dict[str, Band | None] = {name: result.bands.get(name) for name in OUTPUTS}
+    shape = (len(files), LOADS.size, SLIPS.size)
+    found: dict[str, Any] = {"files": list(files), "normal_load": LOADS, "slip": SLIPS}
+    sources = {name: np.full(shape, np.nan, dtype=np.float32) for name in OUTPUTS}
+    sources["stiffness"] = np.full(shape[:2], np.nan, dtype=np.float32)
+    for i, file in track(list(enumerate(files)), "drawing the files' own curves"):
+        for name, values in _own_curves(models[file]).items():
+            sources[name][i] = values
+    for name, source in sources.items():
+        band = result.stiffness if name == "stiffness" else bands[name]
+        found[f"{name}_source"] = source
+        for part in ("middle", "low", "high"):
+            found[f"{name}_{part}"] = _part(band, part, source.shape)
+    return found
+
+
+def _part(band: Band | None, part: str, shape: tuple[int, ...]) -> np.ndarray:
+    if band is None:
+        return np.full(shape, np.nan, dtype=np.float32)
+    known = np.isfinite(band.low)
+    return np.where(known, getattr(band, part), np.nan).reshape(shape).astype(np.float32)
+
+
+def _own_curves(model: TireModel) -> dict[str, np.ndarray]:
+    """Curves of one model; those that cannot be evaluated are left out."""
+    load = LOADS[:, None]
+    found = {}
+    asked: dict[str, dict[str, Any]] = {
+        "fy": {"slip_angle": SLIPS, "normal_load": load},
+        "fx": {"slip_ratio": SLIPS, "normal_load": load},
+        "mz": {"slip_angle": SLIPS, "normal_load": load},
+        "stiffness": {"normal_load": LOADS},
+    }
+    for name, points in asked.items():
+        output = "cornering_stiffness" if name == "stiffness" else name
+        try:
+            values = getattr(model.forces(**points, limits="ignore", outputs=(output,)), output)
+        except TirePipelineError:
+            continue
+        found[name] = np.abs(values) if name == "stiffness" else values
+    return found

@@ -1,0 +1,113 @@
+"""Tire models translated by a translator that has learned already."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from copy import copy
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.errors import DomainError
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.representations.coefficients import DATASETS
+from tire_pipeline.tire_table import from_models, normalize_table
+from tire_pipeline.translation.curve_translator import FARTHEST
+from tire_pipeline.translation.result import EDGE, TRANSLATED, TranslationResult, comment_lines
+
+COEFFICIENTS = DATASETS["full"]
+
+
+def translate_models(
+    translator: Any,
+    models: Mapping[str, tuple[str, TireModel]],
+    *,
+    nominal_load: float,
+    farthest: float = EDGE,
+) -> tuple[TranslationResult, dict[str, TireModel], dict[str, list[str]]]:
+    """Translate models, and give each back at its own nominal load.
+
+    Parameters
+    ----------
+    translator : Translator
+        Fitted; one that gives verdicts.
+    models : mapping of str to (str, TireModel)
+        File -> the category that measured it, and the model.
+    nominal_load : float
+        The nominal load of the table that the translator has learned from (N).
+    farthest : float
+        Tires farther from the training data are refused; 1 is the edge of the training data, 3 the most.
+
+    Returns
+    -------
+    result : TranslationResult
+        One row a model, in the order of the file names.
+    translated : dict of str to TireModel
+        Those with the verdict "translated".
+    comments : dict of str to list of str
+        What was done, as comment lines of each of their files.
+
+    Raises
+    ------
+    DomainError
+        A category is unknown to the translator, or the translator gives no verdicts.
+    """
+    if not hasattr(translator, "translation"):
+        raise DomainError(f"the translator {translator.name} gives no verdicts", todo="use a mixed model")
+    if not hasattr(translator, "farthest"):
+        raise DomainError(f"the translator {translator.name} knows no edge of its data", todo="fit it again")
+    known = categories_of(translator)
+    for file, (category, _) in models.items():
+        if known and category not in known:
+            raise DomainError(
+                f"the translator has seen no files of {category!r}",
+                where=file,
+                todo=f"say who measured the tire: one of {', '.join(known)}",
+            )
+    translator = copy(translator)
+    translator.farthest = min(farthest, FARTHEST)
+    translator.gate = True  # agents never refuse by themselves
+    own = from_models((file, category, model) for file, (category, model) in models.items())
+    source = normalize_table(own, nominal_load).assign(category_probability=1.0)
+    result = translator.translation(source)
+    translated, comments = at_own_load(result, {file: model for file, (_, model) in models.items()}, own)
+    return result, translated, comments
+
+
+def at_own_load(
+    result: TranslationResult, models: Mapping[str, TireModel], own: pd.DataFrame
+) -> tuple[dict[str, TireModel], dict[str, list[str]]]:
+    """Give translated tires back at the nominal load of their files.
+
+    Parameters
+    ----------
+    result : TranslationResult
+    models : mapping of str to TireModel
+        The source files.
+    own : DataFrame
+        Their tire table as it was read, row by row that of ``result``.
+
+    Returns
+    -------
+    translated : dict of str to TireModel
+        Those with the verdict "translated".
+    comments : dict of str to list of str
+        What was done, as comment lines of each of their files.
+    """
+    back = normalize_table(result.table, own["FNOMIN"].to_numpy())
+    translated, comments = {}, {}
+    for row, file in enumerate(own["file"]):
+        if result.report["verdict"].iloc[row] != TRANSLATED:
+            continue
+        model = models[file]
+        values = {n: float(back[n].iloc[row]) for n in COEFFICIENTS if n in back}
+        changed = {n: v for n, v in values.items() if np.isfinite(v) and v != model.coefficients.get(n)}
+        translated[file] = model.replace(**changed)
+        comments[file] = comment_lines(result, row, COEFFICIENTS)
+    return translated, comments
+
+
+def categories_of(translator: Any) -> tuple[str, ...]:
+    """Return the categories that a fitted translator knows; empty if it does not tell."""
+    return tuple(str(name) for name in getattr(getattr(translator, "model", None), "categories", ()))
