@@ -14,6 +14,7 @@ from retraining_files import put, put_fleet, tir_text
 
 from tire_pipeline.classifiers.random_forest import RandomForest
 from tire_pipeline.datasets import FolderDataset, IngestStoreDataset, ReleaseDataset
+from tire_pipeline.errors import DomainError
 from tire_pipeline.representations import make_representation
 from tire_pipeline.retraining import Judged, Manifest, Shelf, Store, difference, ingest, judge, roll_back
 from tire_pipeline.retraining import train_model as train
@@ -182,3 +183,73 @@ def test_a_tampered_model_or_record_is_not_loaded(shelf, model, tmp_path):
     record.write_text(record.read_text().replace('"m1"', '"../../m1"'))
     with pytest.raises(DatasetError, match="damaged"):
         shelf.load()
+
+
+# the model in use is gone
+
+
+def _going_back(shelf):
+    return ReleaseDataset(path=shelf._path, for_going_back=True)
+
+
+def _file(shelf, name):
+    return shelf._model(name)
+
+
+def _rolled_back(shelf):
+    loaded = _going_back(shelf).load()
+    shelf.save(Shelf(roll_back(loaded.release, time="t", unusable=loaded.unusable)))
+    return shelf.load()
+
+
+@pytest.fixture
+def three(shelf, model):
+    for name in ("m1", "m2", "m3"):
+        shelf.save(_next(shelf.load(), name, model))
+    return shelf
+
+
+def test_a_model_in_use_that_is_gone_is_rolled_back(three):
+    _file(three, "m3").unlink()
+    with pytest.raises(DatasetError, match=r"the model in use is gone.*rollback"):
+        three.load()
+    back = _rolled_back(three)
+    assert back.release.current == "m2"
+    assert back.model is not None
+    assert "m3" in back.release.last_event["reason"]
+
+
+def test_a_damaged_model_is_rolled_back_and_models_that_are_gone_are_skipped(three):
+    path = _file(three, "m3")
+    path.write_bytes(path.read_bytes()[:-40])
+    _file(three, "m2").unlink()
+    back = _rolled_back(three)
+    assert back.release.models == ("m1",)
+    assert "unusable: m2, m3" in back.release.last_event["reason"]
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_where_no_model_is_left_it_says_what_is_left_to_do(shelf, model, count):
+    names = [f"m{number}" for number in range(count)]
+    for name in names:
+        shelf.save(_next(shelf.load(), name, model))
+    for name in names:
+        _file(shelf, name).unlink()
+    loaded = _going_back(shelf).load()
+    with pytest.raises(DomainError) as caught:
+        roll_back(loaded.release, time="t", unusable=loaded.unusable)
+    text = str(caught.value)
+    assert "no model left to go back to" in text
+    assert all(f"{name} is gone" in text for name in names)
+    assert "from a copy" in text
+    assert "move the folder of released models away" in text
+    assert "roll back" not in text
+
+
+def test_where_only_the_earlier_models_are_gone_the_one_in_use_is_kept(three):
+    for name in ("m1", "m2"):
+        _file(three, name).unlink()
+    loaded = _going_back(three).load()
+    with pytest.raises(DomainError, match=r"m2 is gone.*m1 is gone.*keep m3, which is in use and whole"):
+        roll_back(loaded.release, time="t", unusable=loaded.unusable)
+    assert three.load().release.current == "m3"

@@ -9,6 +9,7 @@ from pathlib import Path
 import pandas as pd
 
 from tire_pipeline.errors import TirePipelineError
+from tire_pipeline.file_names import path_of, printable
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.retraining.manifest import Entry, Manifest
@@ -18,6 +19,7 @@ from tire_pipeline.tire_table import from_models, physical_tire_ids
 
 COLUMNS = ["file", "category", "status", "reason"]
 READ, PENDING, GROWING, REMOVED = "read", "pending", "growing", "removed"
+ASIDE, AGAIN = "set aside", "taken already"
 
 
 @dataclass(frozen=True)
@@ -61,7 +63,7 @@ def ingest(
         With the next sequence number if the table changed.
     report : DataFrame
         ``file, category, status, reason``: one row a file that is new, changed, removed, growing or still
-        pending.
+        pending, and one an entry of the folder that is set aside or leads to what is taken already.
     """
     number = store.manifest.sequence + 1
     removed = set(found.removed)
@@ -70,6 +72,8 @@ def ingest(
         files[name] = replace(files[name], size=look.size, mtime_ns=look.mtime_ns, ctime_ns=look.ctime_ns)
     rows = [_row(name, REMOVED, "") for name in found.removed]
     rows += [_row(name, GROWING, "changed too lately; left for the next run") for name in found.growing]
+    rows += [_row(name, ASIDE, reason) for name, reason in found.aside.items()]
+    rows += [_row(name, AGAIN, f"a link to {other}") for name, other in found.again.items()]
     new = from_models(_models(Path(folder), {**found.added, **found.changed}, files, rows, number, read))
     reported = {row["file"] for row in rows}
     rows += [_row(n, PENDING, e.reason) for n, e in files.items() if e.pending and n not in reported]
@@ -125,13 +129,14 @@ def _models(
             before.sequence if before else number,
         )
         try:
-            tire = read(folder / name)
+            tire = read(path_of(folder, name))
         except (TirePipelineError, OSError) as error:
-            files[name] = replace(entry, reason=str(error))
+            reason = printable(str(error))
+            files[name] = replace(entry, reason=reason)
             stays = "; an earlier reading stays" if entry.row_sha256 else ""
-            rows.append(_row(name, PENDING, f"{error}{stays}"))
+            rows.append(_row(name, PENDING, f"{reason}{stays}"))
             continue
-        if fingerprint(folder / name) != digest:
+        if fingerprint(path_of(folder, name)) != digest:
             rows.append(_row(name, GROWING, "changed while it was read; left for the next run"))
             continue
         files[name] = replace(entry, row_sha256=digest, sequence=number)

@@ -101,10 +101,14 @@ class Shelf:
     release : Release
     model : CategoryModel or None
         None if there is none, or if it is stored already.
+    unusable : mapping
+        Models of the record whose files are gone or damaged -> what is wrong with them. Only told for going
+        back.
     """
 
     release: Release = field(default_factory=Release)
     model: CategoryModel | None = None
+    unusable: Mapping[str, str] = field(default_factory=dict)
 
 
 def judge(
@@ -152,23 +156,52 @@ def judge(
     return release._with(event, judged=judged, models=models, splits=splits)
 
 
-def roll_back(release: Release, *, time: str) -> Release:
-    """Put the model before the present one back.
+def roll_back(release: Release, *, time: str, unusable: Mapping[str, str] | None = None) -> Release:
+    """Put the last model before the present one back whose file is there.
+
+    Parameters
+    ----------
+    release : Release
+    time : str
+    unusable : mapping, optional
+        Models whose files are gone or damaged -> what is wrong with them. They are skipped.
 
     Raises
     ------
     DomainError
-        There is none.
+        There is none. It says what is left to do.
     """
-    if len(release.models) < 2:
-        have = f"only {release.models[0]} was released" if release.models else "no model was released yet"
-        raise DomainError(
-            f"there is no earlier model to go back to: {have}", todo="run `kedro run --pipeline retrain`"
-        )
-    models = release.models[:-1]
+    broken = unusable or {}
+    earlier = release.models[:-1]
+    while earlier and earlier[-1] in broken:
+        earlier = earlier[:-1]
+    if not earlier:
+        raise _nothing_left(release, broken)
+    left = [name for name in release.models[len(earlier) :] if name in broken]
     reason = f"{release.models[-1]} was taken back by hand"
-    event = {"time": time, "event": ROLLED_BACK, "model": models[-1], "reason": reason}
-    return release._with(event, models=models, splits={name: release.splits[name] for name in models})
+    if left:
+        reason += f" (unusable: {', '.join(left)})"
+    event = {"time": time, "event": ROLLED_BACK, "model": earlier[-1], "reason": reason}
+    return release._with(event, models=earlier, splits={name: release.splits[name] for name in earlier})
+
+
+def _nothing_left(release: Release, broken: Mapping[str, str]) -> DomainError:
+    if release.current in broken:
+        wrong = "; ".join(f"{name} is {broken[name]}" for name in reversed(release.models) if name in broken)
+        return DomainError(
+            f"there is no model left to go back to: {wrong}",
+            todo="bring one of these files back from a copy; or move the folder of released models away and "
+            "run `kedro run --pipeline retrain`, which trains the first model anew from the files",
+        )
+    have = "no model was released yet"
+    if len(release.models) == 1:
+        have = f"only {release.current} was released"
+    elif release.models:
+        have = "; ".join(f"{name} is {broken[name]}" for name in reversed(release.models[:-1]))
+    todo = "run `kedro run --pipeline retrain`"
+    if release.current is not None:
+        todo = f"keep {release.current}, which is in use and whole, or run `kedro run --pipeline retrain`"
+    return DomainError(f"there is no earlier model to go back to: {have}", todo=todo)
 
 
 def check_split(release: Release, split: str) -> None:

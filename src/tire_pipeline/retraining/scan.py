@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import os
 import time
@@ -10,10 +11,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.file_names import path_of
+from tire_pipeline.folder_walk import Found, walk
+from tire_pipeline.regular_file import open_regular
 from tire_pipeline.retraining.manifest import Manifest
+from tire_pipeline.tir import MAX_BYTES
 
 SIDECAR = ".sidecar.json"
-_CHUNK = 1 << 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +42,11 @@ class Difference:
         Changed too lately to be trusted; they are in neither of the others.
     touched : dict
         File -> look: other dates, same content.
+    aside : dict
+        Entry -> why it was not taken: no regular file, a folder without permission, a link to itself...
+        What is known of a file there stays, as it may still be there.
+    again : dict
+        Link -> what it leads to, which is taken already.
     """
 
     added: dict[str, tuple[Look, str]] = field(default_factory=dict)
@@ -45,6 +54,8 @@ class Difference:
     removed: list[str] = field(default_factory=list)
     growing: list[str] = field(default_factory=list)
     touched: dict[str, Look] = field(default_factory=dict)
+    aside: dict[str, str] = field(default_factory=dict)
+    again: dict[str, str] = field(default_factory=dict)
 
     def __bool__(self) -> bool:
         return bool(self.added or self.changed or self.removed)
@@ -62,7 +73,7 @@ class Difference:
 
 
 def look_at(folder: str | Path) -> dict[str, Look]:
-    """Size and dates of all ``.tir`` files below a folder, hidden ones left out.
+    """Size and dates of all ``.tir`` files below a folder, each once, hidden ones left out.
 
     Parameters
     ----------
@@ -71,53 +82,65 @@ def look_at(folder: str | Path) -> dict[str, Look]:
     Returns
     -------
     dict
-        Path relative to the folder, with ``/`` -> :class:`Look`.
+        Name relative to the folder, with ``/``, escaped (:mod:`tire_pipeline.file_names`) -> :class:`Look`.
 
     Raises
     ------
     DomainError
-        A folder may not be read.
+        The folder itself may not be read.
     """
-    found: dict[str, Look] = {}
-    root = os.path.abspath(folder)
-    for here, folders, names in os.walk(root, onerror=_stop, followlinks=True):
-        folders[:] = sorted(name for name in folders if not name.startswith("."))
-        prefix = "" if here == root else os.path.relpath(here, root).replace(os.sep, "/") + "/"
-        present = set(names)
-        for name in names:
-            if name.startswith(".") or not name.lower().endswith(".tir"):
-                continue
-            look = _look(os.path.join(here, name), name + SIDECAR in present)
-            if look is not None:
-                found[prefix + name] = look
-    return found
+    return _looks(walk(folder, _wanted))
 
 
-def _look(path: str, sidecar: bool) -> Look | None:
-    try:
-        stats = [os.stat(path)]
-        if sidecar:
-            stats.append(os.stat(path + SIDECAR))
-    except FileNotFoundError:  # gone since the folder was listed
-        return None
-    return Look(
-        sum(s.st_size for s in stats), max(s.st_mtime_ns for s in stats), max(s.st_ctime_ns for s in stats)
-    )
+def _wanted(name: str) -> bool:
+    return name.lower().endswith((".tir", ".tir" + SIDECAR))
+
+
+def _looks(found: Found) -> dict[str, Look]:
+    """Looks of the files that were found; what cannot be looked at is added to what was not seen."""
+    looks: dict[str, Look] = {}
+    for name, path in found.files.items():
+        if name.endswith(SIDECAR):
+            continue
+        try:
+            stats = [os.stat(path)]
+            if name + SIDECAR in found.files:
+                stats.append(os.stat(path + SIDECAR))
+        except FileNotFoundError:  # gone since the folder was listed
+            continue
+        except OSError as error:
+            found.aside[name] = f"cannot be looked at ({error.strerror})"
+            found.unseen.append(name)
+            continue
+        looks[name] = Look(
+            sum(s.st_size for s in stats),
+            max(s.st_mtime_ns for s in stats),
+            max(s.st_ctime_ns for s in stats),
+        )
+    return looks
 
 
 def fingerprint(path: str | Path) -> str:
-    """SHA-256 of a file's content, and of its sidecar's where there is one; empty if it is gone."""
+    """SHA-256 of a file's content, and of its sidecar's where there is one; empty if it is gone.
+
+    A file that grows is read to the size that it had when it was opened. Of a file that is too large to be a
+    ``.tir`` file only the beginning and the size count.
+    """
     total = hashlib.sha256()
     for each in (str(path), f"{path}{SIDECAR}"):
         try:
-            with open(each, "rb") as file:
-                while chunk := file.read(_CHUNK):
-                    total.update(chunk)
+            with open_regular(each) as file:
+                size = os.fstat(file.fileno()).st_size
+                total.update(file.read(min(size, MAX_BYTES + 1)))
+                if size > MAX_BYTES:
+                    total.update(f"{size} bytes".encode())
         except FileNotFoundError:
             if not each.endswith(SIDECAR):
                 return ""
             continue
         except OSError as error:
+            if each.endswith(SIDECAR) and error.errno == errno.ENAMETOOLONG:
+                continue  # no sidecar can have that name
             total.update(f"cannot be read: {error.errno}".encode())
         total.update(b"\0")
     return total.hexdigest()
@@ -130,12 +153,13 @@ def difference(
     settle_seconds: float = 5.0,
     now: float | None = None,
     rehash_all: bool = False,
+    still: Still | None = None,
 ) -> Difference:
     """Compare a folder with the manifest by content.
 
     Only files whose size or dates differ from the manifest's are read. A file whose date lies less than
-    ``settle_seconds`` back counts as growing. A date in the future says nothing about growing (clocks
-    differ); if such a file was caught half-written, its content differs next time, and it is read again.
+    ``settle_seconds`` back counts as growing. A date in the future says nothing (clocks differ, and go
+    back): with a single look such a file is taken; :func:`settled_difference` looks twice.
 
     Parameters
     ----------
@@ -147,19 +171,23 @@ def difference(
         s since 1970; the clock if left out.
     rehash_all : bool
         Read every file, whatever its size and dates.
+    still : Still, optional
+        What earlier looks saw. With it a file that is dated in the future waits, too.
     """
     clock = time.time() if now is None else now
-    looks = look_at(folder)
-    result = Difference(removed=sorted(set(manifest.files) - set(looks)))
+    found = walk(folder, _wanted)
+    looks = _looks(found)
+    gone = (name for name in manifest.files if name not in looks and not found.may_be_there(name))
+    result = Difference(removed=sorted(gone), aside=found.aside, again=found.again)
     for name, look in looks.items():
         known = manifest.files.get(name)
         seen = known is not None and look == Look(known.size, known.mtime_ns, known.ctime_ns)
         if seen and not rehash_all:
             continue
-        if 0.0 <= clock - look.mtime_ns / 1e9 < settle_seconds and not seen:
+        if not seen and _grows(name, look, clock, settle_seconds, still):
             result.growing.append(name)
             continue
-        digest = fingerprint(Path(folder) / name)
+        digest = fingerprint(path_of(folder, name))
         if not digest:
             continue  # gone meanwhile; the next run sees it as removed
         if known is None:
@@ -170,6 +198,41 @@ def difference(
             result.touched[name] = look
     result.growing.sort()
     return result
+
+
+@dataclass
+class Still:
+    """How long each file has kept its size and dates, by the watcher's own count of seconds.
+
+    Attributes
+    ----------
+    waited : float
+        s since the first look.
+    most : float
+        s that will be waited at most.
+    """
+
+    most: float
+    waited: float = 0.0
+    _first: dict[str, tuple[Look, float]] = field(default_factory=dict)
+
+    def seconds(self, name: str, look: Look) -> float:
+        """For how long this file has looked so."""
+        before, since = self._first.get(name, (look, self.waited))
+        if before != look:
+            since = self.waited
+        self._first[name] = (look, since)
+        return self.waited - since
+
+
+def _grows(name: str, look: Look, clock: float, settle_seconds: float, still: Still | None) -> bool:
+    age = clock - look.mtime_ns / 1e9
+    if still is None:
+        return 0.0 <= age < settle_seconds
+    seconds = still.seconds(name, look)
+    if age < 0.0:  # its date tells nothing
+        return seconds < min(settle_seconds, still.most)
+    return age < settle_seconds and seconds < settle_seconds
 
 
 def settled_difference(
@@ -183,6 +246,10 @@ def settled_difference(
 ) -> Difference:
     """Compare as :func:`difference` does, after waiting a while for files that still grow.
 
+    A file counts as settled, too, when it was looked at twice ``settle_seconds`` apart (or as long as the
+    run waits at most) and had the same size and dates: so neither a clock that goes back nor a server whose
+    clock is ahead keeps a file out, or lets a half-written one in.
+
     Parameters
     ----------
     folder, manifest, settle_seconds, rehash_all
@@ -192,14 +259,16 @@ def settled_difference(
     sleep : callable
         For tests.
     """
-    waited = 0.0
+    still = Still(most_wait_seconds)
     while True:
-        found = difference(folder, manifest, settle_seconds=settle_seconds, rehash_all=rehash_all)
-        if not found.growing or waited >= most_wait_seconds:
+        found = difference(
+            folder, manifest, settle_seconds=settle_seconds, rehash_all=rehash_all, still=still
+        )
+        if not found.growing or still.waited >= most_wait_seconds:
             return found
-        step = min(max(settle_seconds, 0.1), most_wait_seconds - waited)
+        step = min(max(settle_seconds, 0.1), most_wait_seconds - still.waited)
         sleep(step)
-        waited += step
+        still.waited += step
 
 
 def check_removed(found: Difference, manifest: Manifest, most_share: float, where: str) -> None:
@@ -217,12 +286,3 @@ def check_removed(found: Difference, manifest: Manifest, most_share: float, wher
             where=where,
             todo="if that is meant, raise retrain.most_removed_share; else bring the folder back",
         )
-
-
-def _stop(error: OSError) -> None:
-    if not isinstance(error, FileNotFoundError):
-        raise DomainError(
-            f"this folder may not be read ({error.strerror})",
-            where=str(error.filename),
-            todo="allow reading it, or take it out of the folder of .tir files",
-        ) from error

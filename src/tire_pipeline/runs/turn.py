@@ -1,0 +1,163 @@
+"""A run's turn on a data folder: what is dead is cleared away, what is alive is named or waited for."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import os
+import shutil
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from tire_pipeline.errors import DomainError
+from tire_pipeline.runs.system_lock import is_held
+from tire_pipeline.runs.ticket import Note, Ticket, open_notes, prune, retire
+
+LOG = logging.getLogger(__name__)
+EXPIRY_SECONDS = 30.0
+_POLL_SECONDS = 0.5
+_BEATS = 4.0  # a run is not declared dead before it has missed so many of its own beats
+ALIVE, DEAD, UNKNOWN = "alive", "dead", "unknown"
+
+
+@dataclass
+class Watch:
+    """Tells dead runs from living ones.
+
+    A run whose lock is held is alive. One whose lock is free is dead if it took the lock on the same boot and
+    device, because there the system would still hold it. Of all others (another machine, a file system
+    without locks) the note's date tells: alive if it moves, dead if it stands still for ``expiry_seconds`` of
+    this process's own monotonic clock. No clock of another machine and no process number counts.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the notes.
+    own : Note
+    expiry_seconds : float
+    monotonic : callable
+        For tests.
+    """
+
+    folder: Path
+    own: Note
+    expiry_seconds: float = EXPIRY_SECONDS
+    monotonic: Callable[[], float] = time.monotonic
+    _seen: dict[int, tuple[int, float, bool]] = field(default_factory=dict)
+
+    def look(self) -> list[tuple[Note, str]]:
+        """Every note with a lower number and whether its run is ALIVE, DEAD or still UNKNOWN."""
+        return [(note, self._state(note)) for note in open_notes(self.folder, self.own.number)]
+
+    def _state(self, note: Note) -> str:
+        held = is_held(self.folder / f"{note.number:06d}.lock")
+        if held:
+            return ALIVE
+        here = (self.own.boot, self.own.device)
+        if held is False and note.locked and note.boot and (note.boot, note.device) == here:
+            return DEAD
+        return self._by_beats(note)
+
+    def _by_beats(self, note: Note) -> str:
+        try:
+            with (self.folder / f"{note.number:06d}.json").open("rb") as file:
+                stamp = os.fstat(file.fileno()).st_mtime_ns
+        except FileNotFoundError:
+            return DEAD  # it has ended since the notes were listed
+        now = self.monotonic()
+        before, since, moved = self._seen.get(note.number, (stamp, now, False))
+        if stamp != before:
+            before, since, moved = stamp, now, True
+        self._seen[note.number] = (before, since, moved)
+        if now - since >= max(self.expiry_seconds, _BEATS * note.beat_seconds):
+            return DEAD
+        return ALIVE if moved else UNKNOWN
+
+
+def take_turn(
+    ticket: Ticket,
+    *,
+    wait_seconds: float = 0.0,
+    expiry_seconds: float = EXPIRY_SECONDS,
+    monotonic: Callable[[], float] = time.monotonic,
+    sleep: Callable[[float], None] = time.sleep,
+) -> None:
+    """Return when this run may begin; what dead runs left is taken back by then.
+
+    Runs that are ``alongside`` others neither wait nor are waited for.
+
+    Parameters
+    ----------
+    ticket : Ticket
+        This run's own.
+    wait_seconds : float
+        How long to wait for a living run.
+    expiry_seconds : float
+        As in :class:`Watch`.
+    monotonic, sleep : callable
+        For tests.
+
+    Raises
+    ------
+    DomainError
+        A living run holds the data folder.
+    LostTicketError
+        This process stood still for so long that another run has taken over.
+    """
+    watch = Watch(ticket.folder, ticket.note, expiry_seconds, monotonic)
+    last = monotonic() + wait_seconds
+    said: set[str] = set()
+    while True:
+        states = watch.look()
+        for note in (note for note, state in states if state == DEAD):
+            _bury(ticket.folder, note)
+        living = [n for n, state in states if state == ALIVE and not (n.alongside or ticket.note.alongside)]
+        unknown = [note for note, state in states if state == UNKNOWN]
+        if not living and not unknown:
+            ticket.check()
+            _take_back_again(ticket.folder)
+            return
+        if living and monotonic() >= last:
+            raise _refusal(living[0], ticket.folder.parent)
+        line = f"Waiting for {living[0]} to end." if living else f"Is {unknown[0]} still alive? Watching."
+        if line not in said:
+            said.add(line)
+            LOG.warning(line)
+        sleep(_POLL_SECONDS)
+
+
+def take_back(data: Path, note: Note) -> None:
+    """Delete the versions that a run wrote."""
+    for place in note.places:
+        folder = data / place  # an absolute place stays what it is
+        if not note.run or folder.name != note.run:  # a damaged note must not delete anything else
+            continue
+        shutil.rmtree(folder, ignore_errors=True)
+        with contextlib.suppress(OSError):
+            folder.parent.rmdir()  # only if no version is left
+
+
+def _bury(folder: Path, note: Note) -> None:
+    """Take a dead run's note away first, so that it finds out if it is not dead; then its results."""
+    LOG.warning("An earlier run (%s) was killed; its results are taken back.", note.run or note.number)
+    retire(folder, note.number, "taken")
+    take_back(folder.parent, note)
+
+
+def _take_back_again(folder: Path) -> None:
+    """A run that stood still in the middle of a write ends that write when it wakes: take that back, too."""
+    for path in sorted(folder.glob("*.taken")):
+        with contextlib.suppress(FileNotFoundError):
+            take_back(folder.parent, Note.from_json(0, path.read_bytes()))
+    prune(folder)
+
+
+def _refusal(note: Note, data: Path) -> DomainError:
+    since = f" since {note.started}" if note.started else ""
+    return DomainError(
+        f"{note} has held this data folder{since} and is alive",
+        where=str(data),
+        todo="wait for it to end, or let this run wait: --params one_run_at_a_time.wait_seconds=600",
+    )

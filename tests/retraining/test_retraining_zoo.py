@@ -1,0 +1,287 @@
+"""Add, change, remove, rename, link, corrupt, kill, retrain and roll back in any order.
+
+Nothing is lost, nothing is counted twice, no run ends in a traceback.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from hypothesis import HealthCheck, settings
+from hypothesis import strategies as st
+from hypothesis.stateful import (
+    RuleBasedStateMachine,
+    initialize,
+    invariant,
+    precondition,
+    rule,
+    run_state_machine_as_test,
+)
+from zoo import ACTORS, Zoo
+
+from tire_pipeline.errors import DomainError
+from tire_pipeline.run_errors import one_line
+
+ROOT = Path(__file__).resolve().parents[2]
+FEW = ",dedupe_filter.minimum_per_category=2"
+NAMES = st.sampled_from(["plain", "latin", "control", "escape", "long"])
+ACTOR = st.sampled_from(ACTORS)
+DATE = st.sampled_from([None, 0.0, -86400.0, 1.0, 2.0**33])
+NUMBER = st.integers(0, 10**6)
+BAD = st.sampled_from([b"", b"no tire", bytes(range(256)), b"[MODEL]\nFITTYP = 6\n"])
+LINKS = st.sampled_from(["itself", "nowhere", "above", "the folder", "its own folder", "a file"])
+
+
+class Machine(RuleBasedStateMachine):
+    steps = 0
+
+    @initialize()
+    def begin(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="zoo-"))
+        self.zoo = Zoo(self.folder / "data")
+        self.book = self.zoo.book
+        self.runs = 0
+        self.killed: list[str] = []
+        self.good_models = True
+
+    def _pick(self, files, number):
+        return sorted(files)[number % len(files)]
+
+    def _version(self) -> str:
+        self.runs += 1
+        return f"v{self.runs:04d}"
+
+    @rule(kind=NAMES, actor=ACTOR, date=DATE, elsewhere=st.booleans())
+    def add(self, kind, actor, date, elsewhere):
+        name = self.zoo.name(kind)
+        name = name if elsewhere else f"{actor}/{name}"
+        self.zoo.write(name, self.zoo.text(actor), good=True, date=date, elsewhere=elsewhere)
+
+    @rule(kind=NAMES, actor=ACTOR, number=NUMBER)
+    def copy(self, kind, actor, number):
+        content, good = self.book.files[self._pick(self.book.files, number)]
+        self.zoo.write(f"{actor}/{self.zoo.name(kind)}", content, good=good, date=None, elsewhere=False)
+
+    @rule(number=NUMBER, actor=ACTOR, date=DATE)
+    def change(self, number, actor, date):
+        name = self._pick(self.book.files, number)
+        self.zoo.write(name, self.zoo.text(actor), good=True, date=date, elsewhere=False)
+
+    @rule(number=NUMBER, content=BAD, date=DATE)
+    def corrupt(self, number, content, date):
+        name = self._pick(self.book.files, number)
+        self.zoo.write(name, content, good=False, date=date, elsewhere=False)
+
+    @precondition(lambda self: len(self.book.files) > 8)
+    @rule(number=NUMBER)
+    def remove(self, number):
+        self.zoo.remove(self._pick(self.book.files, number), elsewhere=False)
+
+    @precondition(lambda self: self.book.outside)
+    @rule(number=NUMBER)
+    def remove_elsewhere(self, number):
+        self.zoo.remove(self._pick(self.book.outside, number), elsewhere=True)
+
+    @precondition(lambda self: len(self.book.files) > 8)
+    @rule(number=NUMBER)
+    def replace_by_a_fifo(self, number):
+        name = self._pick(self.book.files, number)
+        self.zoo.remove(name, elsewhere=False)
+        os.mkfifo(self.zoo.tir / name)
+
+    @rule(number=NUMBER, kind=NAMES, actor=ACTOR)
+    def rename(self, number, kind, actor):
+        old = self._pick(self.book.files, number)
+        self.zoo.rename(old, f"{actor}/{self.zoo.name(kind)}")
+
+    @rule(circle=LINKS, kind=NAMES, actor=ACTOR, number=NUMBER)
+    def link_in_circles(self, circle, kind, actor, number):
+        name = f"{actor}/{self.zoo.name(kind)}"
+        to = {
+            "itself": Path(name).name,
+            "nowhere": "absent.tir",
+            "above": "../../..",
+            "the folder": self.zoo.tir,
+            "its own folder": ".",
+            "a file": self.zoo.tir / self._pick(self.book.files, number),
+        }
+        self.zoo.link(name, to[circle])
+
+    @rule(kind=NAMES, actor=ACTOR)
+    def link_elsewhere(self, kind, actor):
+        name = f"{actor}/{self.zoo.name(kind)}"
+        self.zoo.link(name, self.zoo.elsewhere)
+        self.book.folder_links.add(name)
+
+    @precondition(lambda self: self.book.outside)
+    @rule(kind=NAMES, actor=ACTOR, number=NUMBER)
+    def link_a_file_elsewhere(self, kind, actor, number):
+        name, target = f"{actor}/{self.zoo.name(kind)}", self._pick(self.book.outside, number)
+        self.zoo.link(name, self.zoo.elsewhere / target)
+        self.book.file_links[name] = target
+
+    @precondition(lambda self: self.book.folder_links)
+    @rule(number=NUMBER)
+    def unlink_elsewhere(self, number):
+        name = self._pick(self.book.folder_links, number)
+        (self.zoo.tir / name).unlink()
+        self.book.folder_links.remove(name)
+
+    @rule()
+    def retrain(self):
+        before = self.zoo.shelf().release
+        try:
+            self.zoo.retrain(self._version())
+        except Exception as error:
+            if not one_line(error):  # a traceback; others say that there is no model, nothing to train on...
+                raise
+            assert self.zoo.shelf().release == before
+        self.book.rows = self.book.rows_after_a_run()
+        assert self.zoo.agrees(self.book.rows)
+
+    @rule(step=st.integers(0, 14))
+    def retrain_and_be_killed(self, step):
+        version = self._version()
+        if self.zoo.retrain_and_be_killed(version, step):
+            self.killed.append(version)
+        after = self.book.rows_after_a_run()
+        if self.zoo.agrees(after):  # as before the run, or as after it: nothing in between
+            self.book.rows = after
+        else:
+            assert self.zoo.agrees(self.book.rows)
+
+    @rule()
+    def roll_back(self):
+        shelf = self.zoo.shelf()
+        whole = [name for name in shelf.release.models[:-1] if name not in shelf.unusable]
+        if whole:
+            self.zoo.roll_back()
+            assert self.zoo.shelf().release.current == whole[-1]
+            assert self.zoo.released.load().model is not None
+        else:
+            with pytest.raises(DomainError, match=r"no earlier model|no model left"):
+                self.zoo.roll_back()
+
+    @precondition(lambda self: self.zoo.shelf().release.current)
+    @rule(gone=st.booleans())
+    def lose_the_model_in_use(self, gone):
+        path = self.zoo.released._model(self.zoo.shelf().release.current)
+        if gone or not path.exists():
+            path.unlink(missing_ok=True)
+        else:
+            path.write_bytes(path.read_bytes()[:-25])
+
+    @precondition(lambda self: self.zoo.shelf().unusable)
+    @rule()
+    def begin_anew(self):
+        shutil.rmtree(self.zoo.base / "06_models/released")
+
+    @invariant()
+    def files_of_the_user_are_as_they_were(self):
+        Machine.steps += 1
+        for folder, files in ((self.zoo.tir, self.book.files), (self.zoo.elsewhere, self.book.outside)):
+            assert all((folder / name).read_bytes() == content for name, (content, _) in files.items())
+
+    def teardown(self):
+        if not hasattr(self, "folder"):
+            return
+        self.retrain()
+        assert not [v for v in self.killed if list(self.zoo.base.rglob(f"*/{v}"))]
+        assert not list((self.zoo.base / ".runs").glob("*.json"))
+        shutil.rmtree(self.folder)
+
+
+COMMON = {"deadline": None, "suppress_health_check": list(HealthCheck), "derandomize": True, "database": None}
+
+
+def test_a_fixed_slice_of_the_zoo():
+    run_state_machine_as_test(Machine, settings=settings(max_examples=4, stateful_step_count=30, **COMMON))
+
+
+@pytest.mark.long
+def test_two_thousand_steps_in_the_zoo():
+    Machine.steps = 0
+    begun = time.monotonic()
+    run_state_machine_as_test(Machine, settings=settings(max_examples=45, stateful_step_count=50, **COMMON))
+    print(f"{Machine.steps} steps in {time.monotonic() - begun:.0f} s")
+    assert Machine.steps >= 2000
+
+
+@pytest.fixture
+def pipeline(tmp_path):
+    """A zoo, and ``kedro run`` in it as cron starts it."""
+    shutil.copytree(ROOT / "conf", tmp_path / "conf")
+    data = tmp_path / "data"
+    (tmp_path / "conf/small/globals.yml").write_text(f"data: {data}\ntir_folder: {data}/01_raw/tir\n")
+
+    def kedro(name: str) -> str:
+        command = [sys.executable, "-m", "kedro", "run", "--env", "small", "--pipeline", name]
+        parameters = (
+            "retrain.settle_seconds=0,retrain.most_removed_share=1.0,ingest_tir.most_failed_share=1.0"
+        )
+        done = subprocess.run(
+            [*command, "--conf-source", str(tmp_path / "conf"), "--params", parameters + FEW],
+            cwd=ROOT,
+            env={**os.environ, "OMP_NUM_THREADS": "1"},
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=600,
+        )
+        said = done.stdout + done.stderr
+        assert "Traceback" not in said, said
+        assert done.returncode == 0, said
+        return said
+
+    zoo = Zoo(data)
+    for name in ("1.tir", "2.tir"):
+        zoo.write(name, zoo.text("D"), good=True, date=None, elsewhere=True)
+    return zoo, kedro
+
+
+@pytest.mark.slow
+def test_the_whole_pipeline_in_the_zoo(pipeline):
+    zoo, kedro = pipeline
+    book = zoo.book
+    for kind in ("plain", "latin", "control", "escape", "long"):
+        zoo.write(f"A/{zoo.name(kind)}", zoo.text("A"), good=True, date=0.0, elsewhere=False)
+        zoo.write(f"B/{zoo.name(kind)}", b"no tire", good=False, date=None, elsewhere=False)
+        zoo.link(f"D/{zoo.name(kind)}", zoo.elsewhere)
+        zoo.link(f"D/{zoo.name(kind)}", "absent.tir")
+        zoo.link(f"D/{zoo.name(kind)}", ".")
+        os.mkfifo(zoo.tir / "D" / zoo.name(kind))
+    zoo.link("D/self.tir", "self.tir")
+    book.folder_links.add("all of them")
+    kedro("retrain")
+    book.rows = book.rows_after_a_run()
+    assert zoo.agrees(book.rows)
+    first = zoo.shelf().release.current
+
+    for name in [name for name, (_, good) in book.files.items() if good][::3]:
+        zoo.write(name, zoo.text("A"), good=True, date=None, elsewhere=False)
+    for name in list(book.files)[::4]:
+        zoo.rename(name, f"B/{zoo.name('latin')}")
+    for name in list(book.files)[1::4]:
+        zoo.write(name, b"spoiled", good=False, date=None, elsewhere=False)
+    zoo.remove("1.tir", elsewhere=True)
+    kedro("retrain")
+    book.rows = book.rows_after_a_run()
+    assert zoo.agrees(book.rows)
+    kedro("ingest_tir")
+    (report,) = (zoo.base / "02_intermediate/ingest_report.csv").glob("*/*.csv")
+    counts = pd.read_csv(report).groupby("status").size()
+    assert counts["read"] == sum(good for _, good in book.reached().values())
+
+    second = zoo.shelf().release.current
+    assert second != first
+    zoo.released._model(second).unlink()
+    kedro("rollback")
+    assert zoo.shelf().release.current == first

@@ -1,0 +1,216 @@
+"""A folder of whatever, a second book on what lies in it, and a retraining by the pipeline's own nodes.
+
+The book is kept by what was done to the folder, never by looking at it with the code under test.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import signal
+import traceback
+import warnings
+from collections import Counter
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from retraining_files import put_fleet, tir_text
+
+from tire_pipeline.datasets import IngestStoreDataset, ReleaseDataset
+from tire_pipeline.pipelines.bin.nodes import BinParameters
+from tire_pipeline.pipelines.dedupe_filter.nodes import DedupeFilterParameters, keep_usable
+from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters, to_one_nominal_load
+from tire_pipeline.pipelines.represent.nodes import RepresentParameters
+from tire_pipeline.pipelines.retrain import nodes
+from tire_pipeline.pipelines.rollback.pipeline import restore_previous
+from tire_pipeline.pipelines.train_classifier.nodes import ForestParameters, TrainClassifierParameters
+from tire_pipeline.retraining import Shelf, Store
+from tire_pipeline.run_errors import one_line
+from tire_pipeline.runs import Ticket, take_back, take_turn
+
+ACTORS = "ABD"
+PARAMETERS = nodes.RetrainParameters(
+    settle_seconds=0.0, most_wait_seconds=0.0, most_removed_share=1.0, held_out_share=0.3
+)
+SHAPE = (
+    NormalizeParameters(),
+    RepresentParameters(),
+    BinParameters(),
+    TrainClassifierParameters(forest=ForestParameters(trees=3, depth=3)),
+    1,
+)
+
+
+def sha(content: bytes) -> str:
+    """What the manifest keeps of a file without a sidecar."""
+    return hashlib.sha256(content + b"\0").hexdigest()
+
+
+@dataclass
+class Book:
+    """What lies in the folder, by what was done to it.
+
+    ``files``: path below the folder -> content and whether it is a tire file. ``outside``: the same of a
+    folder elsewhere, reached by links only. ``rows``: path of each file that was taken -> hash of the content
+    that was taken.
+    """
+
+    files: dict[str, tuple[bytes, bool]] = field(default_factory=dict)
+    outside: dict[str, tuple[bytes, bool]] = field(default_factory=dict)
+    folder_links: set[str] = field(default_factory=set)  # to the folder elsewhere
+    file_links: dict[str, str] = field(default_factory=dict)  # link -> name in the folder elsewhere
+    rows: dict[str, str] = field(default_factory=dict)
+
+    def reached(self) -> dict[str, tuple[bytes, bool]]:
+        """Each file once, whatever leads to it."""
+        targets = set(self.outside) if self.folder_links else set(self.file_links.values())
+        return {**self.files, **{f"outside/{n}": self.outside[n] for n in targets & set(self.outside)}}
+
+    def rows_after_a_run(self) -> dict[str, str]:
+        """Good files as they are, bad ones as they were when they were last taken."""
+        rows = {}
+        for name, (content, good) in self.reached().items():
+            if good:
+                rows[name] = sha(content)
+            elif name in self.rows:
+                rows[name] = self.rows[name]
+        return rows
+
+
+class Zoo:
+    """The folders, and what can be done to them."""
+
+    def __init__(self, base: Path) -> None:
+        self.base, self.tir, self.elsewhere = base, base / "01_raw/tir", base / "elsewhere"
+        self.elsewhere.mkdir(parents=True)
+        put_fleet(self.tir, range(6), ACTORS)
+        found = {path: path.read_bytes() for path in self.tir.rglob("*.tir")}
+        self.book = Book({str(p.relative_to(self.tir)): (text, True) for p, text in found.items()})
+        self.serial = 0
+        self.ingested = IngestStoreDataset(path=str(base / "02_intermediate/ingested"))
+        self.released = ReleaseDataset(path=str(base / "06_models/released"))
+        self.going_back = ReleaseDataset(path=str(base / "06_models/released"), for_going_back=True)
+
+    # the folder
+
+    def text(self, actor: str) -> bytes:
+        """A new tire file; no two have the same content."""
+        self.serial += 1
+        return tir_text(100 + self.serial, actor).encode() + b"! %d\n" % self.serial
+
+    def name(self, kind: str) -> str:
+        """A name that is new."""
+        self.serial += 1
+        raw = {
+            "plain": b"n%d.tir",
+            "latin": b"\xfc%d.TIR",
+            "control": b"\n\x1b%d.tir",
+            "escape": b"\\xfc%d.tir",
+        }
+        if kind == "long":
+            return f"{self.serial}".rjust(251, "y") + ".tir"
+        return os.fsdecode(raw[kind] % self.serial)
+
+    def write(self, name: str, content: bytes, *, good: bool, date: float | None, elsewhere: bool) -> None:
+        path = (self.elsewhere if elsewhere else self.tir) / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+        if date is not None:
+            os.utime(path, (date, date))
+        (self.book.outside if elsewhere else self.book.files)[name] = (content, good)
+
+    def rename(self, old: str, new: str) -> None:
+        (self.tir / new).parent.mkdir(parents=True, exist_ok=True)
+        (self.tir / old).rename(self.tir / new)
+        self.book.files[new] = self.book.files.pop(old)
+
+    def remove(self, name: str, *, elsewhere: bool) -> None:
+        ((self.elsewhere if elsewhere else self.tir) / name).unlink()
+        del (self.book.outside if elsewhere else self.book.files)[name]
+
+    def link(self, name: str, target: Path | str) -> None:
+        (self.tir / name).parent.mkdir(parents=True, exist_ok=True)
+        (self.tir / name).symlink_to(target)
+
+    # the runs
+
+    def retrain(self, version: str) -> None:
+        """By the pipeline's own nodes in their order, each result stored where Kedro would store it."""
+        place = f"07_model_output/outcome.txt/{version}"
+        ticket = Ticket.draw(self.base / ".runs", run=version, places=[place])
+        try:
+            take_turn(ticket)
+            store, table, report = nodes.read_new_files(self.ingested.load(), self.tir, PARAMETERS)
+            self.ingested.save(store)
+            (self.base / place).mkdir(parents=True)
+            report.to_csv(self.base / place / "files.csv")
+            kept, _ = keep_usable(
+                table, DedupeFilterParameters(minimum_per_category=1), RepresentParameters(), "D"
+            )
+            normalized = to_one_nominal_load(kept, SHAPE[0])
+            training, held = nodes.hold_out(normalized, kept, PARAMETERS)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", UserWarning)  # few tires for the bins
+                candidate = nodes.train_candidate(training, *SHAPE)
+            shelf = self.released.load()
+            comparison = nodes.compare(candidate, shelf, held, PARAMETERS)
+            shelf, _ = nodes.decide(candidate, shelf, comparison, store, PARAMETERS, *SHAPE)
+            self.released.save(shelf)
+        except BaseException:
+            take_back(self.base, ticket.note)
+            raise
+        finally:
+            ticket.end()
+
+    def retrain_and_be_killed(self, version: str, step: int) -> bool:
+        """Retrain in a process that is killed at its step-th renaming; whether it came that far."""
+        child = os.fork()
+        if child == 0:
+            try:
+                _kill_at(step)
+                self.retrain(version)
+                os._exit(0)
+            except BaseException as error:
+                if isinstance(error, Exception) and one_line(error):  # nothing to train on, no model...
+                    os._exit(0)
+                traceback.print_exc()
+            os._exit(1)
+        code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+        assert code in (0, -signal.SIGKILL), "the run ended in a traceback"
+        return code != 0
+
+    def roll_back(self) -> None:
+        self.released.save(restore_previous(self.going_back.load()))
+
+    # the books against each other
+
+    def stored(self) -> Store:
+        store = self.ingested.load()
+        assert store.table["file"].is_unique
+        taken = {name for name, entry in store.manifest.files.items() if entry.row_sha256}
+        assert set(store.table["file"]) == taken
+        return store
+
+    def agrees(self, rows: dict[str, str]) -> bool:
+        """Whether each file is in the store once, with its content."""
+        files = self.stored().manifest.files.values()
+        return Counter(e.row_sha256 for e in files if e.row_sha256) == Counter(rows.values())
+
+    def shelf(self) -> Shelf:
+        return self.going_back.load()
+
+
+def _kill_at(step: int) -> None:
+    left = step
+
+    def killing(call):
+        def instead(*arguments, **more):
+            nonlocal left
+            if left == 0:
+                os.kill(os.getpid(), signal.SIGKILL)
+            left -= 1
+            return call(*arguments, **more)
+
+        return instead
+
+    os.replace, os.rename, os.mkdir = killing(os.replace), killing(os.rename), killing(os.mkdir)
