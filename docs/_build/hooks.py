@@ -1,0 +1,65 @@
+"""What mkdocs asks while it builds the site: pages that are generated from the code, and the gallery."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+os.environ.setdefault("MPLBACKEND", "Agg")
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+
+from mkdocs.config.defaults import MkDocsConfig  # noqa: E402
+from mkdocs.structure.files import File, Files  # noqa: E402
+
+
+def _reach() -> None:
+    """Let the modules beside this one be imported; mkdocs takes back what a hook adds while it loads."""
+    for folder in (HERE, ROOT / "src"):
+        if str(folder) not in sys.path:
+            sys.path.insert(0, str(folder))
+
+
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    """Add the generated pages and pictures."""
+    _reach()
+    import api
+    import effects_page
+    import gallery
+    import pipelines_page
+
+    made: dict[str, str | bytes] = {
+        "reference/effects.md": effects_page.page(),
+        "reference/pipelines.md": pipelines_page.page(ROOT),
+        **api.pages(ROOT / "src" / "tire_pipeline"),
+        **gallery.pages(ROOT),
+    }
+    for path, content in made.items():
+        old = files.get_file_from_path(path)
+        if old is not None:
+            files.remove(old)
+        files.append(File.generated(config, path, content=content))
+    return files
+
+
+def on_config(config: MkDocsConfig, **_: Any) -> MkDocsConfig:
+    """Put the gallery's examples and the API's packages into the navigation."""
+    _reach()
+    import api
+    import gallery
+
+    for part in config.nav or []:
+        if "Gallery" in part:
+            part["Gallery"] = ["gallery/README.md", *gallery.navigation(ROOT)]
+        for entry in part.get("Reference", []):
+            if isinstance(entry, dict) and "API" in entry:
+                entry["API"] = ["reference/api/index.md", *api.navigation(ROOT / "src" / "tire_pipeline")]
+    return config
+
+
+def on_post_build(config: MkDocsConfig, **_: Any) -> None:
+    """Take away the page for addresses that a server does not find: opened from a file it lacks its looks."""
+    (Path(config.site_dir) / "404.html").unlink(missing_ok=True)

@@ -1,0 +1,33 @@
+"""Each page with questions exists and has ten; what an answer says to type stands on its page."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+QUESTIONS = yaml.safe_load((ROOT / "docs/questions.yml").read_text("utf-8"))
+
+
+def test_ten_questions_with_answers_a_page():
+    for page, questions in QUESTIONS.items():
+        assert (ROOT / page).exists(), page
+        assert len(questions) == 10, page
+        assert len({question for question, _ in questions}) == 10, page
+        assert all(question.endswith("?") and answer for question, answer in questions), page
+
+
+def test_tutorials_have_questions():
+    pages = {str(path.relative_to(ROOT)) for path in (ROOT / "docs/tutorials").glob("*.md")}
+    assert pages <= set(QUESTIONS)
+
+
+def test_what_an_answer_says_to_type_stands_on_the_page():
+    """Options, paths and names with an underscore in an answer occur in the page word for word."""
+    for page, questions in QUESTIONS.items():
+        text = (ROOT / page).read_text("utf-8")
+        for _, answer in questions:
+            for word in re.findall(r"--[a-z-]+|\b\w+_\w+\b|\b[\w.]+/[\w./<>]+", answer):
+                assert word.strip(".") in text, (page, word)

@@ -1,0 +1,109 @@
+"""The documentation builds strictly and works from a file: nothing is fetched, search finds."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "viz"))
+from viz_browser import browser, needs_browser  # noqa: E402
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory) -> Path:
+    """The site, built from this working copy."""
+    pytest.importorskip("material", reason="pip install -e .[docs]")
+    folder = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(folder)]
+    environment = os.environ | {"NO_MKDOCS_2_WARNING": "1"}
+    built = subprocess.run(command, cwd=ROOT, env=environment, check=False, capture_output=True, text=True)
+    assert built.returncode == 0, built.stdout + built.stderr
+    return folder
+
+
+def pages(site: Path) -> list[Path]:
+    return sorted(site.rglob("*.html"))
+
+
+def test_every_page_of_the_site_is_there(site):
+    made = {str(page.relative_to(site)) for page in pages(site)}
+    written = {
+        str(page.relative_to(ROOT / "docs").with_suffix(".html")).replace("README", "index")
+        for page in (ROOT / "docs").rglob("*.md")
+    }
+    assert written <= made
+    assert {"reference/effects.html", "reference/pipelines.html", "reference/api/mismatch.html"} <= made
+
+
+def test_every_script_of_the_gallery_has_its_picture(site):
+    scripts = sorted((ROOT / "docs/gallery").glob("*.py"))
+    assert len(scripts) >= 12
+    for script in scripts:
+        assert (site / "gallery" / f"{script.stem}.png").read_bytes().startswith(b"\x89PNG")
+        assert f'src="{script.stem}.png"' in (site / "gallery" / f"{script.stem}.html").read_text("utf-8")
+
+
+def test_the_catalogue_and_the_registry_are_whole(site):
+    from kedro.framework.project import pipelines
+    from kedro.framework.startup import bootstrap_project
+
+    from tire_pipeline.mismatch.effects import catalogue
+
+    text = (site / "reference/effects.html").read_text("utf-8")
+    assert all(f'id="{name}"' in text for name in catalogue())
+    bootstrap_project(ROOT)
+    text = (site / "reference/pipelines.html").read_text("utf-8")
+    assert all(f'id="{name}"' in text for name in set(pipelines) - {"__default__", "story"})
+
+
+def test_pages_open_without_a_network(site, tmp_path):
+    """Each page is loaded from its file; every request to anywhere else would fail, and is a failure here."""
+    needs_browser()
+    with browser(tmp_path) as driver:
+        driver.execute_cdp_cmd("Network.enable", {})
+        driver.execute_cdp_cmd(
+            "Network.setBlockedURLs", {"urls": ["http://*", "https://*", "ws://*", "wss://*"]}
+        )
+        asked, faults, broken = set(), [], []
+        for page in pages(site):
+            driver.get(page.as_uri())
+            assert driver.title, page
+            for entry in driver.get_log("performance"):
+                message = json.loads(entry["message"])["message"]
+                if message["method"] == "Network.requestWillBeSent":
+                    asked.add(message["params"]["request"]["url"])
+            faults += [(page.name, e["message"]) for e in driver.get_log("browser") if e["level"] == "SEVERE"]
+            images = driver.execute_script(
+                "return [...document.images].filter(i => i.complete && !i.naturalWidth).map(i => i.src)"
+            )
+            broken += [(page.name, src) for src in images]
+    assert faults == []
+    assert broken == []
+    own = ("file:", "data:", "blob:", "about:", "chrome:")  # the last: the browser's empty first page
+    assert any("/bundle." in url for url in asked)
+    assert {url for url in asked if not url.startswith(own)} == set()
+
+
+def test_search_works_from_a_file(site, tmp_path):
+    needs_browser()
+    with browser(tmp_path) as driver:
+        driver.get((site / "index.html").as_uri())
+        box = driver.find_element("css selector", "input.md-search__input")
+        driver.execute_script("arguments[0].focus()", box)
+        box.send_keys("relaxation length")
+        end = time.monotonic() + 60
+        links: list[str] = []
+        while not links and time.monotonic() < end:
+            time.sleep(0.2)
+            found = driver.find_elements("css selector", ".md-search-result__link")
+            links = [link.get_attribute("href") for link in found]
+    assert any("effects.html" in link for link in links), links
