@@ -1,4 +1,4 @@
-# make run | make test | make viz | make long | make bench | make lint | make coverage | make audit | make schedule
+# make run | make test | make docs | make viz | make long | make bench | make lint | make coverage | make audit | make schedule
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
@@ -6,7 +6,7 @@ DATA := data
 export OMP_NUM_THREADS ?= 2
 export PYTHONUNBUFFERED = 1
 
-.PHONY: run test lint long bench coverage audit viz viz-page schedule install
+.PHONY: run test docs lint long bench coverage audit viz viz-page schedule install
 
 run: install
 	@if [ -z "$$(find $(DATA)/01_raw/tir -iname '*.tir' -print -quit 2>/dev/null)" ]; then \
@@ -35,6 +35,13 @@ coverage: install
 		total=$$($(BIN)/coverage report --fail-under=0 --format=total --include="$$folder*" 2>/dev/null) \
 			&& echo "$$folder $$total%"; \
 	done; true
+
+# The documentation as a site that opens from a file, without a network: site/index.html
+docs: install
+	@$(BIN)/python -c "import mkdocs, material" 2>/dev/null || \
+		$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[docs]" -c requirements.lock
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
+	@echo "Open site/index.html"
 
 # Known vulnerabilities of the pinned versions; needs PyPI's JSON interface, and fails where it cannot be asked.
 audit:

@@ -6,8 +6,36 @@ import contextlib
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+
+_CHECKS: list[Callable[[], None]] = []
+
+
+def check_before_replacing(check: Callable[[], None]) -> Callable[[], None]:
+    """Have ``check`` called before any file or folder takes its place; if it raises, nothing changes.
+
+    Parameters
+    ----------
+    check : callable
+
+    Returns
+    -------
+    callable
+        Ends it.
+    """
+    _CHECKS.append(check)
+
+    def stop() -> None:
+        with contextlib.suppress(ValueError):
+            _CHECKS.remove(check)
+
+    return stop
+
+
+def _check() -> None:
+    for check in list(_CHECKS):
+        check()
 
 
 def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
@@ -41,6 +69,7 @@ def replaced_file(path: str | os.PathLike[str], *, parents: bool = True) -> Iter
         Make the folders above it.
     """
     path = Path(path)
+    _check()
     if parents:
         path.parent.mkdir(parents=True, exist_ok=True)
     handle, name = tempfile.mkstemp(prefix=".", suffix=".part", dir=path.parent)
@@ -51,6 +80,7 @@ def replaced_file(path: str | os.PathLike[str], *, parents: bool = True) -> Iter
         with temporary.open("rb") as stream:
             os.fsync(stream.fileno())
         temporary.chmod(0o644)
+        _check()
         temporary.replace(path)
     finally:
         with contextlib.suppress(OSError):
@@ -64,12 +94,14 @@ def replaced_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
     Between two renamings ``path`` is absent; if the second fails the first is undone.
     """
     path = Path(path)
+    _check()
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = Path(tempfile.mkdtemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent))
     old = temporary.with_suffix(".old")
     try:
         yield temporary
         temporary.chmod(0o755)
+        _check()
         if path.exists():
             path.rename(old)
         temporary.rename(path)

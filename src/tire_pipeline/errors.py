@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from tire_pipeline.file_names import printable
+
 
 class TirePipelineError(Exception):
     """Base of all errors that this project raises on purpose.
@@ -24,7 +26,7 @@ class TirePipelineError(Exception):
 
     def __str__(self) -> str:
         text = f"{self.where}: {self.what}" if self.where else self.what
-        return f"{text} -> {self.todo}" if self.todo else text
+        return printable(f"{text} -> {self.todo}" if self.todo else text)
 
 
 class TirError(TirePipelineError, ValueError):

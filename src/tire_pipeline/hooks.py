@@ -2,21 +2,40 @@
 
 from __future__ import annotations
 
-import contextlib
-import json
-import logging
 import os
-import shutil
+import time
+from collections.abc import Callable, Generator
 from pathlib import Path
 from typing import Any
 
 from kedro.framework.hooks import hook_impl
 from kedro.io.core import AbstractVersionedDataset
+from pydantic import Field, ValidationError
 
+from tire_pipeline.atomic import check_before_replacing
 from tire_pipeline.datasets.text_folder import TextFolderDataset
 from tire_pipeline.errors import DomainError
+from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.runs import Ticket, take_back, take_turn
+from tire_pipeline.runs.turn import EXPIRY_SECONDS
 
-LOG = logging.getLogger(__name__)
+
+class TurnParameters(Parameters):
+    """Parameters of ``one_run_at_a_time``.
+
+    Attributes
+    ----------
+    wait_seconds : float
+        How long a run waits for another one on the same data folder before it says who that is and stops.
+    expiry_seconds : float
+        After how long without a sign of life a run on another machine counts as dead.
+    alongside : bool
+        Run beside others. For runs that write different things, such as shares of one work.
+    """
+
+    wait_seconds: float = Field(0.0, ge=0.0)
+    expiry_seconds: float = Field(EXPIRY_SECONDS, gt=0.0)
+    alongside: bool = False
 
 
 def _local_versions(catalog: Any, pipeline: Any, version: str) -> list[Path]:
@@ -33,81 +52,97 @@ def _local_versions(catalog: Any, pipeline: Any, version: str) -> list[Path]:
 
 
 class RunLedgerHooks:
-    """Takes back what a run wrote when it fails or is killed.
+    """One run at a time on a data folder, and nothing left of a run that fails or is killed.
 
-    Before a run, its versions are noted in ``<data>/.runs/<version>.json``. A run that ends well
-    deletes the note. A run that fails deletes its own versions and the note. A run that was killed
-    leaves the note behind, and the next run deletes that run's versions before it reads anything:
-    nothing half-written is ever loaded.
+    A run draws a ticket in ``<data>/.runs`` (:mod:`tire_pipeline.runs`), waits for its turn, and takes back
+    what killed runs left before it reads anything. It checks its ticket around every result: a run that
+    another has declared dead writes nothing more. A run that fails deletes its own versions.
     """
 
     def __init__(self) -> None:
-        self._ledger: Path | None = None
+        self._ticket: Ticket | None = None
+        self._stop_checking: Callable[[], None] = lambda: None
 
     @hook_impl
     def after_context_created(self, context: Any) -> None:
-        """Remember where the data lies."""
+        """Remember where the data lies and how long to wait."""
         data = context.config_loader["globals"].get("data", "data")
-        self._folder = Path(context.project_path) / data / ".runs"
+        self._data = Path(context.project_path) / data
+        parameters = context.config_loader["parameters"]
+        chosen = dict(parameters.get("one_run_at_a_time") or {})
+        if parameters.get("share"):  # of a work that other runs share
+            chosen["alongside"] = True
+        try:
+            self._turn = TurnParameters.model_validate(chosen)
+        except ValidationError as error:
+            raise DomainError(
+                str(error), where="one_run_at_a_time", todo="correct it in conf/base/parameters or --params"
+            ) from error
 
-    @hook_impl(tryfirst=True)
-    def before_pipeline_run(self, run_params: dict[str, Any], pipeline: Any, catalog: Any) -> None:
-        """Clear up after killed runs, then open this run's note."""
-        self.clear_up()
+    @hook_impl(wrapper=True)
+    def before_pipeline_run(
+        self, run_params: dict[str, Any], pipeline: Any, catalog: Any
+    ) -> Generator[None, Any, Any]:
+        """Take this run's turn before any other hook reads or writes."""
+        self._end()  # of a run in this process that was interrupted
         version = run_params["run_id"]
-        folders = _local_versions(catalog, pipeline, version)
-        note = {"pid": os.getpid(), "version": version, "folders": [str(f) for f in folders]}
-        self._folder.mkdir(parents=True, exist_ok=True)
-        self._ledger = self._folder / f"{version.replace(':', '.')}.json"
-        self._ledger.write_text(json.dumps(note, indent=1), encoding="utf-8")
+        places = [_relative(each, self._data) for each in _local_versions(catalog, pipeline, version)]
+        self._ticket = Ticket.draw(
+            self._data / ".runs", run=version, places=places, alongside=self._turn.alongside
+        )
+        try:
+            take_turn(
+                self._ticket,
+                wait_seconds=self._turn.wait_seconds,
+                expiry_seconds=self._turn.expiry_seconds,
+            )
+            self._stop_checking = check_before_replacing(self._ticket.check)
+            return (yield)
+        except BaseException:
+            self._end()
+            raise
 
     @hook_impl
-    def after_pipeline_run(self) -> None:
-        """The run ended well: its results may be trusted."""
-        if self._ledger is not None:
-            self._ledger.unlink(missing_ok=True)
+    def before_dataset_saved(self) -> None:
+        """Stop a run that has lost its ticket before it writes."""
+        if self._ticket is not None:
+            self._ticket.check()
+
+    @hook_impl
+    def after_dataset_saved(self) -> None:
+        """Find out, too, if the ticket was lost during a long write; the error takes it back."""
+        if self._ticket is not None:
+            self._ticket.check()
+
+    @hook_impl(wrapper=True)
+    def after_pipeline_run(self) -> Generator[None, Any, Any]:
+        """The run ended well, and so did all other hooks: its results may be trusted."""
+        try:
+            return (yield)
+        finally:
+            if self._ticket is not None:
+                self._stop_checking()
+                self._ticket.end()
+                self._ticket = None
 
     @hook_impl
     def on_pipeline_error(self) -> None:
         """The run failed: what it wrote goes, so that no later run trusts it."""
-        if self._ledger is not None:
-            take_back(self._ledger)
+        self._end()
 
-    def clear_up(self) -> None:
-        """Take back what killed runs left."""
-        for ledger in sorted(self._folder.glob("*.json")):
-            try:
-                pid = int(json.loads(ledger.read_text(encoding="utf-8"))["pid"])
-            except (ValueError, KeyError, TypeError):
-                pid = -1
-            if pid != os.getpid() and not _alive(pid):
-                LOG.warning("An earlier run (%s) was killed; its results are taken back.", ledger.stem)
-                take_back(ledger)
+    def _end(self) -> None:
+        """Take back what the run wrote, and give its ticket back."""
+        self._stop_checking()
+        if self._ticket is not None:
+            take_back(self._data, self._ticket.note)
+            self._ticket.end()
+            self._ticket = None
 
 
-def take_back(ledger: Path) -> None:
-    """Delete the versions that a run wrote, then its note."""
-    try:
-        folders = json.loads(ledger.read_text(encoding="utf-8"))["folders"]
-    except (ValueError, KeyError, TypeError):
-        folders = []
-    for folder in map(Path, folders):
-        shutil.rmtree(folder, ignore_errors=True)
-        with contextlib.suppress(OSError):
-            folder.parent.rmdir()  # only if no version is left
-    ledger.unlink(missing_ok=True)
-
-
-def _alive(pid: int) -> bool:
-    if pid <= 0:
-        return False
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    except PermissionError:
-        return True
-    return True
+def _relative(folder: Path, data: Path) -> str:
+    """Relative to the data folder, which another container may see under another path."""
+    folder, data = Path(os.path.abspath(folder)), Path(os.path.abspath(data))
+    return str(folder.relative_to(data) if folder.is_relative_to(data) else folder)
 
 
 class FolderHooks:
@@ -140,20 +175,41 @@ class FolderHooks:
         error.add_note(f"node '{node.name}' failed")
 
 
-class SignpostHooks:
-    """After a run, says where its results are."""
+def _duration(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes} min {rest} s" if minutes else f"{rest} s"
 
+
+class SignpostHooks:
+    """After a run, says what was done, how long it took, and where its results are."""
+
+    OUTCOMES = ("evaluation_outcome", "translation_outcome", "mismatch_outcome")
     SIGNS = (
         ("evaluation_report", "report"),
+        ("translation_list", "page of the translated files"),
         ("translated_tir", "translated .tir files"),
+        ("translation_files", "translated .tir files"),
+        ("mismatch_pages", "pages of the recordings"),
+        ("proof_report", "page of the proof"),
+        ("retraining_report", "page of the retraining"),
+        ("translation_page", "page of the translators"),
         ("ingest_report", "ingest report"),
         ("thesis_page", "page of the thesis"),
     )
 
+    @hook_impl
+    def before_pipeline_run(self) -> None:
+        """Remember when the run began."""
+        self._began = time.monotonic()
+
     @hook_impl(trylast=True)
     def after_pipeline_run(self, pipeline: Any, catalog: Any) -> None:
-        """Print the places of those results that this run made."""
+        """Print what came out in sentences, and the places of those results that this run made."""
         made = pipeline.all_outputs()
+        print(f"done in {_duration(time.monotonic() - self._began)}")
+        for name in self.OUTCOMES:
+            if name in made:
+                print(*catalog.load(name), sep="\n")
         for name, what in self.SIGNS:
             if name in made:
                 dataset = catalog.get(name)

@@ -16,11 +16,11 @@ DEFAULT = (
     "evaluate",
 )
 
-#: What kedro-viz opens on, beside the eight: recordings -> mismatch -> proof.
-STORY = ("explain_mismatch", "prove_concealed")
+#: What kedro-viz opens on, beside the eight: the user's files translated; recordings -> mismatch -> proof.
+STORY = ("translate", "explain_mismatch", "prove_concealed")
 
 #: Group in kedro-viz of each pipeline. The first screen shows the groups only, and reads as the story:
-#: files -> features -> classifier -> agent -> evaluation; recordings -> mismatch -> proof.
+#: files -> features -> classifier -> translators -> evaluation, translation; recordings -> mismatch -> proof.
 GROUPS = {
     "make_fleet": "files",
     "ingest_tir": "files",
@@ -29,7 +29,7 @@ GROUPS = {
     "represent": "features",
     "bin": "features",
     "train_classifier": "classifier",
-    "train_agent": "agent",
+    "train_agent": "translators",
     "translate": "translation",
     "compare_translators": "translation",
     "evaluate": "evaluation",
@@ -43,10 +43,15 @@ GROUPS = {
 
 #: Nodes that belong to another group than the rest of their pipeline.
 GROUPS_OF_NODES = {
+    "fit_translator": "translators",
     "make_cases": "recordings",
     "part_cases": "recordings",
     "explain_cases": "mismatch",
     "explain_by_baselines": "mismatch",
+    "make_real_cases": "recordings",
+    "part_real_cases": "recordings",
+    "explain_real_cases": "mismatch",
+    "explain_real_by_baselines": "mismatch",
 }
 
 

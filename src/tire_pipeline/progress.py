@@ -5,17 +5,10 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Generator, Iterable, Iterator
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
-from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
+if TYPE_CHECKING:
+    from rich.console import Console
 
 T = TypeVar("T")
 _SHOW_AFTER_SECONDS = 2.0
@@ -40,6 +33,8 @@ def track(items: Iterable[T], what: str, total: int | None = None) -> Generator[
     >>> list(track([1, 2, 3], "counting"))
     [1, 2, 3]
     """
+    from rich.console import Console  # not needed by an import alone
+
     if total is None and hasattr(items, "__len__"):
         total = len(items)  # type: ignore[arg-type]
     console = Console(file=sys.stderr)
@@ -48,6 +43,15 @@ def track(items: Iterable[T], what: str, total: int | None = None) -> Generator[
 
 
 def _bar(items: Iterable[T], what: str, total: int | None, console: Console) -> Iterator[T]:
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
     start = time.monotonic()
     columns = (
         TextColumn("{task.description}"),

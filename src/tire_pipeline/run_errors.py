@@ -18,6 +18,8 @@ _ADVICE = {
     errno.EROFS: "the folder is read-only: choose another, or mount it writable",
 }
 
+_WITHOUT_LINK = re.compile(r"\s*For further information visit https?://\S+")
+
 
 def chain(error: BaseException) -> list[BaseException]:
     """The error and all that caused it, outermost first."""
@@ -55,7 +57,7 @@ def one_line(error: BaseException) -> str | None:
             text = f"{where}{_ADVICE[each.errno]}"
             break
         if isinstance(each, ParameterValidationError):
-            text = f"{each} -> mend it in conf/base/parameters or --params"
+            text = f"{_WITHOUT_LINK.sub('', str(each))} -> correct it in conf/base/parameters or --params"
             break
     if text is None:
         outermost = next((each for each in errors if isinstance(each, DatasetError)), None)

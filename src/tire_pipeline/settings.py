@@ -2,9 +2,21 @@
 
 from tire_pipeline.front_page import FrontPageHooks
 from tire_pipeline.hooks import FolderHooks, RunLedgerHooks, SignpostHooks
+from tire_pipeline.newest_tables import NewestTablesHooks
+from tire_pipeline.node_progress import NodeProgressHooks
 from tire_pipeline.pipelines.reproduce_thesis.chosen_grid import ThesisGridHooks
+from tire_pipeline.unknown_parameters import UnknownParameterHooks
 
-HOOKS = (FolderHooks(), RunLedgerHooks(), SignpostHooks(), ThesisGridHooks(), FrontPageHooks())
+HOOKS = (
+    UnknownParameterHooks(),
+    FolderHooks(),
+    RunLedgerHooks(),
+    NodeProgressHooks(),
+    NewestTablesHooks(),
+    SignpostHooks(),
+    ThesisGridHooks(),
+    FrontPageHooks(),
+)
 
 # kedro-telemetry comes along with kedro-viz; it stays silent.
 DISABLE_HOOKS_FOR_PLUGINS = ("kedro-telemetry",)

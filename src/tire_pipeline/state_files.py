@@ -1,9 +1,20 @@
-"""One trained thing's state within another's: ``to_state()`` of both in one flat mapping."""
+"""Trained things as plain numbers: one state within another, and a state as a file (NPZ, never pickle)."""
 
 from __future__ import annotations
 
+import hashlib
+import io
+import json
+import zipfile
 from collections.abc import Mapping
 from typing import Any
+
+import numpy as np
+
+from tire_pipeline.errors import DomainError
+
+_PLAIN = "plain.json"
+_SUM = "sha256"
 
 
 def prefixed(prefix: str, state: Mapping[str, Any]) -> dict[str, Any]:
@@ -15,3 +26,64 @@ def without_prefix(prefix: str, state: Mapping[str, Any]) -> dict[str, Any]:
     """Give the part of a state that :func:`prefixed` put into it."""
     start = f"{prefix}."
     return {name[len(start) :]: value for name, value in state.items() if name.startswith(start)}
+
+
+def pack_state(state: dict[str, Any]) -> bytes:
+    """A state as the bytes of a ZIP file."""
+    members: dict[str, bytes] = {}
+    plain: dict[str, Any] = {}
+    _split(state, "", members, plain)
+    members[_PLAIN] = json.dumps(plain, sort_keys=True).encode()
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name in sorted(members):
+            archive.writestr(name, members[name])
+        archive.writestr(_SUM, _checksum(members))
+    return buffer.getvalue()
+
+
+def unpack_state(content: bytes, where: str = "model state") -> dict[str, Any]:
+    """The state that :func:`pack_state` made; anything else is an error."""
+    todo = "train it again; this file is not loaded"
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            members = {name: archive.read(name) for name in archive.namelist()}
+        expected = members.pop(_SUM).decode()
+        if _checksum(members) != expected:
+            raise DomainError("the model's checksum is wrong", where=where, todo=todo)
+        state: dict[str, Any] = json.loads(members.pop(_PLAIN))
+        for name, data in members.items():
+            *groups, last = name.removesuffix(".npy").split("/")
+            target = state
+            for group in groups:
+                target = target.setdefault(group, {})
+            target[last] = np.load(io.BytesIO(data), allow_pickle=False)
+    except (zipfile.BadZipFile, KeyError, ValueError, OSError, EOFError) as error:
+        if isinstance(error, DomainError):
+            raise
+        raise DomainError("the model file is damaged", where=where, todo=todo) from error
+    return state
+
+
+def _split(state: dict[str, Any], prefix: str, members: dict[str, bytes], plain: dict[str, Any]) -> None:
+    for key, value in state.items():
+        if "/" in key:
+            raise DomainError(f"a state's key may not hold '/': {key!r}")
+        if isinstance(value, np.ndarray):
+            if value.dtype.hasobject:
+                raise DomainError(f"the state's entry {prefix}{key} is not plain numbers or text")
+            buffer = io.BytesIO()
+            np.save(buffer, value, allow_pickle=False)
+            members[f"{prefix}{key}.npy"] = buffer.getvalue()
+        elif isinstance(value, dict):
+            plain[key] = {}
+            _split(value, f"{prefix}{key}/", members, plain[key])
+        else:
+            plain[key] = value.item() if isinstance(value, np.generic) else value
+
+
+def _checksum(members: dict[str, bytes]) -> str:
+    total = hashlib.sha256()
+    for name in sorted(members):
+        total.update(name.encode() + b"\0" + hashlib.sha256(members[name]).digest())
+    return total.hexdigest()

@@ -1,4 +1,4 @@
-"""docs/fleet.md says what the code does."""
+"""docs/explanation/fleet.md says what the code does."""
 
 from pathlib import Path
 
@@ -8,5 +8,5 @@ DOCS = Path(__file__).parents[2] / "docs"
 
 
 def test_the_table_of_regimes_is_the_codes() -> None:
-    assert regimes_markdown() in (DOCS / "fleet.md").read_text()
+    assert regimes_markdown() in (DOCS / "explanation" / "fleet.md").read_text()
     assert (DOCS / "figures" / "fleet_one_tire.svg").exists()

@@ -33,7 +33,7 @@ def _folder(tmp_path: Path, fleet: Path, *categories: str) -> Path:
 
 def _versions(folder: Path) -> list[Path]:
     data = folder / "data"
-    return [p for p in data.rglob("*") if p.is_file() and "01_raw" not in p.parts]
+    return [p for p in data.rglob("*") if p.is_file() and not {"01_raw", ".runs"} & set(p.parts)]
 
 
 def test_an_empty_folder(tmp_path):
@@ -143,3 +143,17 @@ def test_a_killed_run_is_taken_back_by_the_next(tmp_path, small_fleet):
     assert "was killed" in done.stdout
     assert [p for p in _versions(folder) if left & set(p.parts)] == []
     assert list((folder / "data/.runs").glob("*.json")) == []
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ("tir_foldr=/x", "there is no parameter 'tir_foldr' -> did you mean 'tir_folder'?"),
+        ("translate.onli=B", "there is no parameter 'onli': did you mean 'only'?"),
+    ],
+)
+def test_an_unknown_parameter_is_an_error_with_the_nearest_name(tmp_path, asked, said):
+    done = kedro(tmp_path, "--pipeline", "translate", "--params", asked)
+    assert done.returncode == 1
+    assert (done.stdout + done.stderr).count(said) == 1
+    assert "pydantic.dev" not in done.stdout + done.stderr

@@ -8,45 +8,65 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [
+    *(ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "data/01_raw/README.md")),
+    *sorted((ROOT / "docs").rglob("*.md")),
+]
+REFERENCE = ROOT / "docs/reference"
+GENERATED = {"effects.md", "pipelines.md"}
+"""Pages of the reference that `make docs` makes, beside those of the API."""
 COMMANDS = [
     ROOT / "README.md",
-    ROOT / "docs/science.md",
-    ROOT / "docs/retraining.md",
-    ROOT / "docs/cluster.md",
+    ROOT / "docs/explanation/evidence.md",
+    ROOT / "docs/how-to/retraining.md",
+    ROOT / "docs/how-to/cluster.md",
 ]
 
 
-def found(pattern: str, pages: list[Path] = PAGES) -> list[tuple[str, str]]:
-    return [(page.name, text) for page in pages for text in re.findall(pattern, page.read_text("utf-8"))]
+def found(pattern: str, pages: list[Path] = PAGES) -> list[tuple[Path, str]]:
+    return [(page, text) for page in pages for text in re.findall(pattern, page.read_text("utf-8"))]
 
 
 def test_pages_of_commands_have_commands():
-    assert all(
-        found(r"`(?:python|pytest|kedro|make) ", [page]) for page in COMMANDS if "science" in page.name
-    )
+    assert len(found(r"`(?:python|pytest|kedro|make) ", [ROOT / "docs/explanation/evidence.md"])) > 10
     assert len(found(r"`pytest [^`]+`")) > 10
 
 
 @pytest.mark.parametrize(
     "pattern",
     [
-        r"`(?:python )?((?:benchmarks|docs|src|tests|conf)/[\w/.-]+\.\w+)",
+        r"`(?:python )?((?:benchmarks|docs|src|tests|conf|examples|notebooks)/[\w/.-]+\.\w+)",
         r"pytest (?:-m long )?(tests/[\w/.]+)",
-        r"\]\((?!http)([^)#]+)\)",
+        r"tire \w+ (?:[\w/.]+ )*(examples/[\w/.]+)",
     ],
 )
 def test_paths_exist(pattern):
-    absent = [
-        (page, path)
-        for page, path in found(pattern)
-        if not ((ROOT / path).exists() or (ROOT / "docs" / path).exists())
-    ]
-    assert absent == []
+    assert found(pattern)
+    assert [(page, path) for page, path in found(pattern) if not (ROOT / path).exists()] == []
+
+
+def test_links_lead_to_files_and_headings():
+    """Links between pages, as mkdocs and a reader of the repository both follow them."""
+    broken = []
+    for page, link in found(r"\]\((?!https?:)([^)\s]+)\)"):
+        path, _, anchor = link.partition("#")
+        target = (page.parent / path).resolve() if path else page
+        made = target.parent == REFERENCE / "api" or (target.parent == REFERENCE and target.name in GENERATED)
+        if not made and (not target.exists() or (anchor and anchor not in anchors(target))):
+            broken.append((str(page.relative_to(ROOT)), link))
+    assert broken == []
+
+
+def anchors(page: Path) -> set[str]:
+    """The anchors of a page's headings, as mkdocs makes them."""
+    titles = re.findall(r"^#+ (.+)$", page.read_text("utf-8"), re.M)
+    return {re.sub(r"[-\s]+", "-", re.sub(r"[^\w\s-]", "", title).strip().lower()) for title in titles}
 
 
 def test_chosen_tests_exist():
-    for _, (path, name) in found(r"pytest (tests/[\w/.]+) -k (\w+)"):
+    pairs = [text for _, text in found(r"pytest (tests/[\w/.]+) -k (\w+)")]
+    assert pairs
+    for path, name in pairs:
         assert name in (ROOT / path).read_text("utf-8")
 
 

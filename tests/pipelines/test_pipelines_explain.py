@@ -8,8 +8,13 @@ import re
 import shutil
 from pathlib import Path
 
+import pandas as pd
 import pytest
 from conftest_kedro import ROOT, kedro
+
+from tire_pipeline.datasets.recording_folder import RecordingFolderDataset
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.pipelines.explain_mismatch.nodes import ExplainParameters, explain_all
 
 pytestmark = pytest.mark.slow
 EXAMPLES = ROOT.parent / "shared" / "recordings" / "concealed_examples"
@@ -36,6 +41,53 @@ def test_a_recording_gets_a_report_a_page_and_a_verdict(tmp_path):
     }
     overview = next((data / "07_model_output/mismatch_overview.csv").rglob("*.csv")).read_text()
     assert "bad/recording.csv" in overview
+    whole = Path(data / "08_reporting/mismatch.html").read_text()
+    assert 'href="mismatch/good/recording.html"' in whole
+    assert "2 recordings: 1 " in whole
+    assert "1 could not be used" in done.stdout
+    assert (data / "08_reporting/tables/mismatch_overview.csv").read_text() == overview
+    assert "mismatch/good/recording.html" in (data / "08_reporting/index.html").read_text()
     page = Path(data / "08_reporting/mismatch/good/recording.html").read_text()
     assert "<svg" in page or "<img" in page
     assert not re.search(r"""(src|href)\s*=\s*["'](?!#|data:)""", page.replace("xlink:href", "href"))
+
+
+@pytest.fixture
+def halves(tmp_path):
+    """A folder with the first and the second part of a recording, and their tire."""
+    recording = pd.read_csv(EXAMPLES / "example07" / "recording.csv")
+    folder = tmp_path / "tire"
+    folder.mkdir()
+    shutil.copy(EXAMPLES / "example07" / "model.tir", folder)
+    for name, part in (("one", slice(0, 400)), ("two", slice(400, 700)), ("three", slice(700, None))):
+        recording[part].to_csv(folder / f"{name}.csv", index=False)
+    return tmp_path
+
+
+@pytest.mark.skipif(not EXAMPLES.exists() and "CI" not in os.environ, reason="../shared is not here")
+def test_recordings_of_one_folder_are_explained_together_and_one_is_held_out(halves):
+    loaders = RecordingFolderDataset(path=str(halves)).load()
+    parameters = ExplainParameters(together=True, hold_out="two*")
+    reports, overview, pages, _ = explain_all(loaders, parameters)
+    report = reports["tire/together"]
+    (effect,) = report["effects"]
+    assert "force_offset" in (effect["name"], *effect["alternatives"])
+    assert report["recordings"] == ["tire/one.csv", "tire/three.csv"]
+    error = report["held_out"]["errors"]["fy"]
+    assert 0.0 < error["rms_after"] < error["rms_before"]
+    assert overview["held_out"].tolist() == ["tire/two.csv"]
+    assert "Tried on a recording that was held out" in pages["tire/together.html"]
+
+
+@pytest.mark.skipif(not EXAMPLES.exists() and "CI" not in os.environ, reason="../shared is not here")
+def test_what_cannot_be_explained_together_is_said(halves):
+    loaders = RecordingFolderDataset(path=str(halves)).load()
+    with pytest.raises(RecordingError, match="matches no recording of a folder"):
+        explain_all(loaders, ExplainParameters(together=True, hold_out="four*"))
+    with pytest.raises(RecordingError, match="together to true"):
+        explain_all(loaders, ExplainParameters(hold_out="two*"))
+    shutil.copy(halves / "tire" / "model.tir", halves / "tire" / "two.tir")
+    (halves / "tire" / "model.tir").rename(halves / "tire" / "one.tir")
+    (halves / "tire" / "three.csv").unlink()
+    with pytest.raises(RecordingError, match="belong to several tires"):
+        explain_all(RecordingFolderDataset(path=str(halves)).load(), ExplainParameters(together=True))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import html
+import json
 import re
 from pathlib import Path
 
@@ -12,6 +14,7 @@ from conftest_kedro import kedro
 from tire_pipeline.tir import read_tir
 
 pytestmark = pytest.mark.slow
+TRANSLATORS = ("thesis' agent", "our agent", "paired mixed model")
 
 
 def _latest(folder: Path, layer: str, name: str) -> Path:
@@ -30,7 +33,11 @@ def test_translated_files_are_valid_and_name_their_source(small_run):
     files = sorted(folder.rglob("*.tir"))
     sources = small_run / "data" / "01_raw" / "evaluation"
     judged = {p.relative_to(sources) for s in ("four", "hidden") for p in (sources / s).rglob("*.tir")}
-    assert {p.relative_to(folder) for p in files} == judged
+    table = pd.read_parquet(_latest(small_run, "07_model_output", "translated_table.parquet"))
+    best = json.loads(_latest(small_run, "07_model_output", "best_translator.json").read_text())["name"]
+    own = table[table["translator"] == best].set_index("file")["verdict"]
+    assert {str(p) for p in judged} == set(own.index)
+    assert {str(p.relative_to(folder)) for p in files} == set(own.index[own == "translated"])
     assert len([p for p in judged if p.parts[0] == "four"]) == 4 * 4
     for file in files[:8]:
         tire = read_tir(file)
@@ -47,8 +54,51 @@ def test_the_reported_figures_are_those_of_the_table(small_run):
     for accuracy in forest["accuracy"]:
         assert f"{accuracy:.1%}" in page
     summary = pd.read_csv(_latest(small_run, "07_model_output", "evaluation_summary.csv"))
-    assert set(summary["translator"]) == {"agent", "no change", "oracle", "floor"}
+    assert set(summary["translator"]) == {*TRANSLATORS, "no change", "oracle", "floor"}
     assert (summary.loc[summary["translator"] == "no change", "ratio"] == 1.0).all()
+
+
+def test_the_page_begins_and_the_run_ends_with_what_the_files_became(small_run):
+    summary = pd.read_csv(_latest(small_run, "07_model_output", "evaluation_summary.csv"))
+    best = json.loads(_latest(small_run, "07_model_output", "best_translator.json").read_text())
+    lines = json.loads(_latest(small_run, "07_model_output", "evaluation_outcome.json").read_text())
+    assert best["name"] == min(best["rms_ratio"], key=best["rms_ratio"].get)
+    assert set(best["rms_ratio"]) == set(TRANSLATORS)
+    rms = summary[(summary["set"] == "hidden") & (summary["metric"] == "forces")].set_index("translator")[
+        "rms"
+    ]
+    assert f"from {rms['no change']:,.0f} N to {rms[best['name']]:,.0f} N" in lines[0]
+    assert f"differs from itself by {rms['floor']:,.0f} N" in lines[1]
+    assert f"files are those of {'' if best['name'] == 'our agent' else 'the '}{best['name']}" in lines[-1]
+    errors = pd.read_csv(_latest(small_run, "07_model_output", "evaluation_table.csv"))
+    own = errors[(errors["set"] == "hidden") & (errors["translator"] == best["name"])]
+    assert own["forces"].mean() ** 0.5 == pytest.approx(rms[best["name"]])
+    page = (small_run / "data" / "08_reporting" / "report.html").read_text()
+    assert html.unescape(re.search(r"<p>(.*?)</p>", page)[1]) == lines[0]
+    stdout = (small_run / "stdout.txt").read_text()
+    places = [stdout.index(line) for line in lines]
+    assert places == sorted(places)
+    assert stdout.index("done in ") < places[0]
+    assert stdout.rindex(" done: ") < places[0]
+
+
+def test_the_newest_tables_lie_as_plain_files_and_the_page_links_them(small_run):
+    reports = small_run / "data" / "08_reporting"
+    for layer, name in (
+        ("02_intermediate", "ingest_report.csv"),
+        ("07_model_output", "evaluation_table.csv"),
+    ):
+        assert (reports / "tables" / name).read_bytes() == _latest(small_run, layer, name).read_bytes()
+    linked = re.findall(r'href="([^"#]+)"', (reports / "report.html").read_text())
+    assert "tables/ingest_report.csv" in linked
+    assert all((reports / link).is_file() for link in linked)
+
+
+def test_a_run_says_nothing_twice_and_nothing_of_its_tools(small_run):
+    lines = (small_run / "stdout.txt").read_text().splitlines()
+    said = [re.sub(r"^\d\d:\d\d:\d\d \w+ ", "", line) for line in lines]
+    assert len(said) == len(set(said))
+    assert not re.search("Warning|async|pydantic|No nodes ran", "\n".join(lines))
 
 
 def test_no_physical_tire_is_on_both_sides(small_run):
@@ -65,7 +115,8 @@ def test_shuffled_truth_leaves_every_translated_file_as_it_was(small_run, tmp_pa
     translated = data / "07_model_output" / "tir"
     before = {p.relative_to(translated): p.read_bytes() for p in sorted(translated.rglob("*.tir"))}
     scores = _latest(small_run, "07_model_output", "evaluation_summary.csv").read_text()
-    truth = sorted((data / "01_raw" / "truth" / "first").rglob("*.tir"))
+    sets = data / "01_raw" / "truth" / "first"
+    truth = sorted(p for name in ("four", "hidden") for p in (sets / name).rglob("*.tir"))
     texts = [p.read_bytes() for p in truth]
     for path, text in zip(truth, texts[1:] + texts[:1], strict=True):
         path.write_bytes(text)

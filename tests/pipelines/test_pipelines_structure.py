@@ -57,6 +57,7 @@ def test_every_dataset_is_in_the_catalog_with_layer_and_description(catalog):
 def test_everything_between_the_eight_is_versioned(catalog):
     default = pipelines["__default__"]
     between = _datasets(default) - default.inputs() - default.outputs()
+    assert {"agent", "our_agent", "translator"} <= between
     for name in sorted(between):
         assert catalog.get(name)._version is not None, name
 
@@ -74,7 +75,33 @@ def test_only_the_judging_node_reads_the_truth(catalog):
 def test_nothing_that_judging_makes_comes_back_into_what_is_judged(catalog):
     default = pipelines["__default__"]
     after = default.from_nodes("evaluation.judge")
-    assert {node.short_name for node in after.nodes} == {"judge", "draw_force_curves", "build_report"}
+    assert {node.short_name for node in after.nodes} == {
+        "judge",
+        "say_outcome",
+        "draw_force_curves",
+        "build_report",
+    }
+
+
+def test_the_tires_that_choose_a_translator_are_judged_nowhere(catalog):
+    readers = {
+        node.short_name
+        for pipeline in pipelines.values()
+        for node in pipeline.nodes
+        if "tuning_truth" in node.inputs
+    }
+    assert readers == {"choose_best"}
+    assert catalog.get("tuning_truth")._path.endswith("truth/first/tuning")
+    with KedroSession.create(project_path=ROOT) as session:
+        assert "tuning" not in session.load_context().config_loader["parameters"]["evaluate"]["sets"]
+
+
+def test_translate_reads_fits_translates_and_draws():
+    steps = {node.short_name for node in pipelines["translate"].nodes}
+    assert steps == {"read_sources", "fit_translator", "translate_all", "draw_translated_files"}
+    fitted = next(node for node in pipelines["translate"].nodes if node.short_name == "fit_translator")
+    assert fitted.outputs == ["translator"]
+    assert fitted in pipelines["__default__"].nodes
 
 
 def test_the_data_may_not_hold_pickles(catalog):

@@ -35,10 +35,15 @@ def test_every_link_leads_to_a_file_even_with_hostile_names(tmp_path):
     for when in ("2026-01-01T00.00.00.000Z", "2026-01-02T00.00.00.000Z"):
         (version / when).mkdir(parents=True)
         (version / when / "confusion_matrix.png").write_bytes(b"")
+    (tmp_path / "mismatch" / "rig" / "deep").mkdir(parents=True)
+    (tmp_path / "tables").mkdir()
+    for name in ("mismatch.html", "mismatch/rig/deep/run.html", "translation.html", "tables/a.csv"):
+        (tmp_path / name).write_text("<title>there</title>")
     (tmp_path / "report.html").write_text("<title>Report</title>")
     page = front_page(tmp_path)
     links = _links(page)
-    assert len(links) == 4
+    assert len(links) == 8
+    assert {"mismatch.html", "mismatch/rig/deep/run.html", "translation.html", "tables/a.csv"} <= set(links)
     for link in links:
         assert Path(tmp_path / link).is_file(), link
     assert any("2026-01-02" in link for link in links)

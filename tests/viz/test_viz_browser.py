@@ -15,8 +15,10 @@ from viz_browser import ROOT, browser, needs_browser, served, small_project
 from tire_pipeline.lineage.descriptions import descriptions
 
 pytestmark = pytest.mark.slow
-FILES_TO_EVALUATION = ["files", "features", "classifier", "agent", "evaluation"]
+FILES_TO_EVALUATION = ["files", "features", "classifier", "translators", "evaluation"]
+FILES_TO_TRANSLATION = ["files", "translators", "translation"]
 RECORDINGS_TO_PROOF = ["recordings", "mismatch", "proof"]
+STORIES = (FILES_TO_EVALUATION, FILES_TO_TRANSLATION, RECORDINGS_TO_PROOF)
 SCREENSHOTS = ROOT / "data" / "08_reporting" / "screenshots"
 
 
@@ -60,9 +62,9 @@ def _asked_elsewhere(driver) -> list[str]:
 
 
 def _assert_story(driver) -> None:
-    _wait(driver, lambda: set(_boxes(driver)) == {*FILES_TO_EVALUATION, *RECORDINGS_TO_PROOF})
+    _wait(driver, lambda: set(_boxes(driver)) == set().union(*STORIES))
     boxes = _settled(driver)
-    for story in (FILES_TO_EVALUATION, RECORDINGS_TO_PROOF):
+    for story in STORIES:
         places = [boxes[name] for name in story]
         assert places == sorted(places), story
 

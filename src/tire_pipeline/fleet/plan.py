@@ -16,7 +16,7 @@ from .settings import (
 )
 from .tires import draw_tires
 
-# The 11 lateral coefficients without camber; see docs/fleet.md for why PEY3 is not among them.
+# The 11 lateral coefficients without camber; see docs/explanation/fleet.md for why PEY3 is not among them.
 FEATURES: tuple[str, ...] = (
     "PCY1",
     "PDY1",

@@ -1,4 +1,4 @@
-"""Write a fleet to the folders of docs/architecture.md, whole or not at all."""
+"""Write a fleet to the folders of docs/reference/architecture.md, whole or not at all."""
 
 from __future__ import annotations
 

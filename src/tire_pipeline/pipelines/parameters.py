@@ -1,9 +1,23 @@
 """What all parameter models share: unknown keys are errors, and values are not changed afterwards."""
 
-from pydantic import BaseModel, ConfigDict
+from difflib import get_close_matches
+
+from pydantic import BaseModel, ConfigDict, model_validator
 
 
 class Parameters(BaseModel):
     """Base of the parameter models; a misspelt key is named, never ignored."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _known_names(cls, values: object) -> object:
+        """Name the nearest parameter to one that is unknown."""
+        for name in values if isinstance(values, dict) else ():
+            if name not in cls.model_fields:
+                near = get_close_matches(str(name), list(cls.model_fields), n=1, cutoff=0.5)
+                known = ", ".join(cls.model_fields)
+                advice = f"did you mean {near[0]!r}?" if near else f"there are {known}"
+                raise ValueError(f"there is no parameter {name!r}: {advice}")
+        return values

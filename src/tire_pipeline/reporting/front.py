@@ -18,7 +18,7 @@ REPORTS = (
         (
             (
                 "report.html",
-                "Which files were read, who measured them, what the translation does",
+                "What translation made of the files, who measured them, which were read",
                 "kedro run",
             ),
             ("confusion_matrix.png", "Which category is taken for which", "kedro run"),
@@ -30,6 +30,11 @@ REPORTS = (
         "Translations",
         (
             ("translated_files.html", "Your files, translated", "kedro run --pipeline translate"),
+            (
+                "translation.html",
+                "How well every translator does",
+                "kedro run --pipeline compare_translators",
+            ),
             ("thesis.html", "The thesis, reproduced", "kedro run --pipeline reproduce_thesis"),
         ),
     ),
@@ -37,7 +42,12 @@ REPORTS = (
         "Recordings, mismatches, proof",
         (
             (
-                "mismatch/*.html",
+                "mismatch.html",
+                "All recordings of the last run",
+                "kedro run --pipeline explain_mismatch",
+            ),
+            (
+                "mismatch/**/*.html",
                 "Where recording and simulation differ",
                 "kedro run --pipeline explain_mismatch",
             ),
@@ -48,6 +58,7 @@ REPORTS = (
             ),
         ),
     ),
+    ("Tables (CSV), the newest of each", (("tables/*.csv", "Table", "kedro run"),)),
     (
         "Retraining and lineage",
         (

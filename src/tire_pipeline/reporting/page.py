@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from importlib.resources import files as package_files
 from urllib.parse import quote
 
 import jinja2
@@ -11,7 +12,7 @@ import pandas as pd
 from markupsafe import Markup
 from matplotlib.figure import Figure as MplFigure
 
-from tire_pipeline.reporting.figures import inline_svg
+from tire_pipeline.drawing import inline_svg
 
 
 @dataclass(frozen=True)
@@ -152,7 +153,14 @@ def render_page(title: str, parts: Sequence[Text | Table | Figure | Links], *, f
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-    return environment.get_template("page.html").render(title=title, parts=parts, footer=footer)
+    return environment.get_template("page.html").render(
+        title=title, parts=parts, footer=footer, style=Markup(page_style())
+    )
+
+
+def page_style() -> str:
+    """The style that all pages share."""
+    return package_files("tire_pipeline.reporting").joinpath("templates", "page.css").read_text("utf-8")
 
 
 def _cell(value: object, digits: int) -> tuple[str, bool]:

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure as MplFigure
 
-from tire_pipeline.reporting.figures import MARKERS, colour_of, new_figure
+from tire_pipeline.drawing import MARKERS, colour_of, new_figure
 from tire_pipeline.reporting.page import Figure, Table, Text, render_page
 
 RATIOS = {
@@ -93,7 +93,7 @@ def translation_page(
         ),
         Table(
             check_goals(hidden),
-            "Goals were fixed beforehand; docs/translation.md says what was chosen where.",
+            "Goals were fixed beforehand; docs/decisions/translation.md says what was chosen where.",
             heading="Goals, met and missed",
         ),
         Table(
@@ -129,9 +129,10 @@ def _summary(hidden: pd.DataFrame) -> list[str]:
     return [
         f"{fleets} fleets ({kinds}; number of seeds: {seeds}), 100 hidden tires each, "
         "without the compound class in the metadata.",
-        f"The mixed model {harm}: its largest ratio anywhere is {largest.max():.2f} ({where}).",
+        f"The mixed model {harm}: its largest ratio of RMS errors, translated over unchanged, is anywhere at "
+        f"most {largest.max() ** 0.5:.2f} ({where}). Ratios in tables and figures are of squared errors.",
         "The metadata, which is known to be right, is the compass; classes of tires that no metadata "
-        "names are found from the curves, the same for all actors (see docs/translation.md).",
+        "names are found from the curves, the same for all actors (see docs/explanation/translation.md).",
         "Translators that learn from the files to translate have seen the sources' files of the other hidden "
         "tires, and no file of the target.",
     ]
@@ -232,7 +233,7 @@ def _by_size(hidden: pd.DataFrame) -> MplFigure:
             axis.set_ylim(0.015, 3.0)
             axis.set_title(f"{kind}: {what}", fontsize=9)
             axis.set_xlabel("bias size")
-            axis.set_ylabel("error ratio")
+            axis.set_ylabel("squared error ratio")
     np.asarray(axes)[0, 0].legend(fontsize=7)
     return figure
 

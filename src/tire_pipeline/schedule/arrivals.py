@@ -10,7 +10,7 @@ from kedro.framework.startup import bootstrap_project
 
 from tire_pipeline.datasets import FolderDataset, IngestStoreDataset
 from tire_pipeline.pipelines.retrain.nodes import RetrainParameters
-from tire_pipeline.retraining import Difference, difference
+from tire_pipeline.retraining import Difference, settled_difference
 
 
 class Session(Protocol):
@@ -43,4 +43,9 @@ def new_files_of(root: Path, config: Session) -> Difference:
         folder, store = context.catalog.get("tir_folder"), context.catalog.get("ingested")
     if not (isinstance(folder, FolderDataset) and isinstance(store, IngestStoreDataset)):
         raise TypeError("the catalog's `tir_folder` and `ingested` have other types")
-    return difference(folder.load(), store.manifest(), settle_seconds=parameters.settle_seconds)
+    return settled_difference(
+        folder.load(),
+        store.manifest(),
+        settle_seconds=parameters.settle_seconds,
+        most_wait_seconds=parameters.settle_seconds,
+    )

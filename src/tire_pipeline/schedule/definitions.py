@@ -26,9 +26,15 @@ UNDERWAY = [
 ]
 
 
+TURN_SECONDS = 3600  # how long a run waits for another one on the same data folder
 TUNING_NODES = ["experiments.search_the_grid"]
 TUNING_PARTS = 2 * len(ANN_GRID["batch_size"]) * len(ANN_GRID["optimizer"])  # on both kinds of folds
-CASE_NODES = ["mismatch.explain_cases", "mismatch.explain_by_baselines"]
+CASE_NODES = [
+    "mismatch.explain_cases",
+    "mismatch.explain_by_baselines",
+    "mismatch.explain_real_cases",
+    "mismatch.explain_real_by_baselines",
+]
 CASES = ProveConcealedParameters.model_fields["cases"].default
 
 
@@ -65,14 +71,20 @@ def kedro_run(
 ) -> None:
     """Run one registered pipeline or a part of it, as ``kedro run --pipeline`` does.
 
-    ``share`` is ``k/n``: of the files that the nodes compute, the k-th of n shares only.
+    ``share`` is ``k/n``: of the files that the nodes compute, the k-th of n shares only. Parts of a pipeline
+    run beside each other; a whole one waits for its turn on the data folder.
     """
     bootstrap_project(ROOT)
+    turn = {"alongside": True} if namespaces or share else {"wait_seconds": TURN_SECONDS}
     with KedroSession.create(
         project_path=ROOT,
         env=config.env,
         conf_source=config.conf_source,
-        runtime_params={**config.parameters, **({"share": share} if share else {})},
+        runtime_params={
+            "one_run_at_a_time": turn,
+            **config.parameters,
+            **({"share": share} if share else {}),
+        },
     ) as session:
         session.run(pipeline_names=[pipeline], namespaces=namespaces, node_names=nodes)
 
@@ -119,7 +131,7 @@ def train_cell(context: dg.OpExecutionContext, config: KedroRun) -> None:
 
 @dg.job(partitions_def=dg.StaticPartitionsDefinition([cell.name for cell in GridParameters().cells]))
 def agents() -> None:
-    """The grid of agents, one partition a cell; each writes results of its own (docs/cluster.md)."""
+    """The grid of agents, one partition a cell; each writes results of its own (docs/how-to/cluster.md)."""
     train_cell()
 
 

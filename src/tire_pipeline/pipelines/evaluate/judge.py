@@ -1,22 +1,21 @@
-"""Compare translations with the target's own measurement: the only place that reads the truth."""
+"""Compare translations with the target's own measurement: the only place that reads the sealed truth."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-
+import numpy as np
 import pandas as pd
 
-from tire_pipeline.errors import DomainError
-from tire_pipeline.evaluation import evaluate_translations
-from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.pipelines.evaluate.translate import UNJUDGED
+from tire_pipeline.evaluation import curves_of, evaluate_translations
+from tire_pipeline.pipelines.evaluate.measured import Files, measured
+from tire_pipeline.pipelines.evaluate.translate import NO_CHANGE, UNJUDGED
 from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
+from tire_pipeline.progress import track
 from tire_pipeline.representations.coefficients import DATASETS
-from tire_pipeline.tire_table import from_models, normalize_table
 
-Files = Mapping[str, Callable[[], TireModel]]
+ORACLE = "oracle"
+FLOOR = "floor"
 BIASED = (*DATASETS["lateral"], *DATASETS["longitudinal"])
-_COLUMNS = ["set", "translator", "metric", "ratio", "improved", "worst", "files"]
+_COLUMNS = ["set", "translator", "metric", "rms", "ratio", "improved", "worst", "files"]
 
 
 def judge(
@@ -25,7 +24,7 @@ def judge(
     normalize: NormalizeParameters,
     target_category: str,
 ) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
-    """Errors of the agent's translations, beside no change, an oracle and the floor.
+    """Errors of every translator's files, beside no change, an oracle and the floor.
 
     Parameters
     ----------
@@ -39,10 +38,11 @@ def judge(
     Returns
     -------
     per_file : DataFrame
-        ``set, file`` and errors after and before.
+        ``set, translator, file`` and errors after and before.
     summary : DataFrame
-        ``set, translator, metric, ratio, improved, worst, files``; translators are agent, no change,
-        oracle (:func:`shifted_by_truth`) and floor.
+        ``set, translator, metric, rms, ratio, improved, worst, files``; ``rms`` is the root of the mean
+        squared error over all files, ``ratio`` that of the squared errors to no change. Translators are those
+        of the table, no change, oracle (:func:`shifted_by_truth`) and floor.
     references : DataFrame
         The target's measurements of the tires of the first set, for figures.
 
@@ -55,26 +55,30 @@ def judge(
     for name, part in translated_table.groupby("set", sort=False):
         if name == UNJUDGED:
             continue
-        before, after = (part[part["state"] == state].reset_index(drop=True) for state in ("before", "after"))
-        tires = before["tire"]
+        before = part[part["state"] == "before"].reset_index(drop=True)
+        tables = {
+            str(who): table.reset_index(drop=True)
+            for who, table in part[part["state"] == "after"].groupby("translator", sort=False)
+        }
         first, second = (
-            measured(evaluation_truth, f"{again}/{name}/{target_category}", tires, normalize.nominal_load)
+            measured(
+                evaluation_truth, f"{again}/{name}/{target_category}", before["tire"], normalize.nominal_load
+            )
             for again in ("first", "second")
         )
-        judged = {
-            translator: evaluate_translations(table, before, first)
-            for translator, table in (
-                ("agent", after),
-                ("no change", before),
-                ("oracle", shifted_by_truth(before, first)),
-                ("floor", second),
-            )
-        }
-        for translator, result in judged.items():
+        written = list(tables)
+        tables |= {NO_CHANGE: before, ORACLE: shifted_by_truth(before, first), FLOOR: second}
+        reference, unchanged = curves_of(first), curves_of(before)
+        for translator, table in track(tables.items(), f"judging set {name}", total=len(tables)):
+            after = unchanged if translator == NO_CHANGE else curves_of(table)
+            result = evaluate_translations(after, unchanged, reference)
+            errors = result.per_file.reset_index(drop=True)
             rows = result.summary.reset_index(names="metric")
-            summaries.append(rows.assign(set=name, translator=translator))
-        errors = judged["agent"].per_file.reset_index(drop=True)
-        per_file.append(pd.concat([before[["set", "file", "category", "tire"]], errors], axis=1))
+            rms = [float(np.sqrt(errors[m].mean())) if m in errors else np.nan for m in rows["metric"]]
+            summaries.append(rows.assign(set=name, translator=translator, rms=rms))
+            if translator in written:
+                said = before[["set", "file", "category", "tire"]].assign(translator=translator)
+                per_file.append(pd.concat([said, errors], axis=1))
         references.append(first.drop_duplicates("tire").assign(set=name))
     if not summaries:
         return pd.DataFrame(columns=["set", "file"]), pd.DataFrame(columns=_COLUMNS), translated_table.head(0)
@@ -102,20 +106,3 @@ def shifted_by_truth(before: pd.DataFrame, first: pd.DataFrame) -> pd.DataFrame:
     shifted = before.copy()
     shifted[names] = before[names] + shift
     return shifted
-
-
-def measured(truth: Files, folder: str, tires: pd.Series, nominal_load: float) -> pd.DataFrame:
-    """The target's measurements in one folder of the truth, row by row those of ``tires``."""
-    names = [f"{folder}/{tire}.tir" for tire in dict.fromkeys(tires)]
-    absent = [name for name in names if name not in truth]
-    if absent:
-        raise DomainError(
-            f"the target's measurement {absent[0]} is missing ({len(absent)} of {len(names)})",
-            where="evaluation_truth",
-            todo="put it there, or set target_category to the category that measured these tires",
-        )
-    table = normalize_table(
-        from_models((name, folder.split("/")[-1], truth[name]()) for name in names), nominal_load
-    )
-    table["tire"] = table["file"].str.split("/").str[-1].str[:-4]
-    return table.set_index("tire").loc[tires].reset_index()

@@ -10,15 +10,30 @@ from matplotlib.figure import Figure as MplFigure
 
 from tire_pipeline.evaluation import curves_of
 from tire_pipeline.evaluation.curves import EvaluationGrid
+from tire_pipeline.pipelines.evaluate.judge import FLOOR
+from tire_pipeline.pipelines.evaluate.translate import NO_CHANGE
 from tire_pipeline.pipelines.train_agent.nodes import learning_figure
 from tire_pipeline.pipelines.train_classifier.nodes import confusion_figure
-from tire_pipeline.reporting import Figure, Table, Text, colour_of, new_figure, render_page
+from tire_pipeline.reporting import Figure, Links, Table, Text, colour_of, new_figure, render_page
 
-THESIS_METRICS = ("forces", "cornering_stiffness", "peak_friction")
+_TABLES = [
+    (
+        "tables/evaluation_summary.csv",
+        "evaluation_summary.csv",
+        "RMS errors by set and translator",
+    ),
+    ("tables/evaluation_table.csv", "evaluation_table.csv", "errors of every file"),
+    ("tables/ingest_report.csv", "ingest_report.csv", "every file: read, or set aside with line and reason"),
+    ("tables/filter_report.csv", "filter_report.csv", "what was dropped before training, and why"),
+    ("tables/classifier_scores.csv", "classifier_scores.csv", "accuracy of every classifier on both splits"),
+    ("index.html", "All reports", ""),
+]
 
 
-def force_figure(translated_table: pd.DataFrame, references: pd.DataFrame) -> MplFigure:
-    """Lateral force of up to four tires: as measured, as translated, and as the target measured."""
+def force_figure(translated_table: pd.DataFrame, references: pd.DataFrame, best: dict[str, Any]) -> MplFigure:
+    """Lateral force of up to four tires: as measured, as the best translated, and as the target measured."""
+    shown = translated_table["translator"].isin([NO_CHANGE, best["name"]])
+    translated_table = translated_table[shown]
     names = list(dict.fromkeys(translated_table["set"]))
     part = translated_table[translated_table["set"] == names[0]] if names else translated_table
     tires = list(dict.fromkeys(part["tire"]))[:4]
@@ -48,6 +63,7 @@ def force_figure(translated_table: pd.DataFrame, references: pd.DataFrame) -> Mp
 
 
 def build_report(
+    outcome: list[str],
     ingest_summary: dict[str, Any],
     filter_report: pd.DataFrame,
     tire_table: pd.DataFrame,
@@ -58,6 +74,7 @@ def build_report(
     evaluation_summary: pd.DataFrame,
     translated_table: pd.DataFrame,
     references: pd.DataFrame,
+    best: dict[str, Any],
     target_category: str,
 ) -> str:
     """One page in plain words; every figure beside what it must be compared with.
@@ -68,66 +85,37 @@ def build_report(
         HTML without outside references.
     """
     parts = [
-        Text(
-            _main(ingest_summary, tire_table, classifier_scores, evaluation_summary, target_category),
-            emphasis=True,
+        Text(outcome, emphasis=True),
+        Figure(
+            force_figure(translated_table, references, best),
+            "Lateral force over slip angle at 6 kN: thin solid as each source measured, dashed as the "
+            f"{best['name']} translated, thick as {target_category} measured. Dashed lines should lie on the "
+            "thick one.",
+            heading="Force curves",
         ),
+        *_translation(evaluation_summary, target_category, best),
         *_files(ingest_summary, filter_report, tire_table),
-        *_classifier(classifier_scores, classifier_per_class),
+        *_classifier(tire_table, classifier_scores, classifier_per_class),
         Figure(confusion_figure(confusion_table), "Shares of each true category."),
         Figure(
             learning_figure(learning_curve),
             "A rising curve says that the agent learned to please the classifier, "
             "not that the tires became right.",
-            heading="The agent",
-        ),
-        *_translation(evaluation_summary, target_category),
-        Figure(
-            force_figure(translated_table, references),
-            "Lateral force over slip angle: solid as measured, dashed as translated.",
-            heading="Force curves",
+            heading="The thesis' agent",
         ),
     ]
-    return render_page("Tire models: who measured them, and what translation does", parts)
-
-
-def _main(
-    ingest: dict[str, Any], table: pd.DataFrame, scores: pd.DataFrame, summary: pd.DataFrame, target: str
-) -> list[str]:
-    forest = scores[(scores["classifier"] == "random_forest") & (scores["features"] == "as they are")]
-    by_split = forest.set_index("split")["accuracy"]
-    guess = table["category"].value_counts(normalize=True).iloc[0]
-    lines = [
-        f"{ingest['read']} of {ingest['files']} files were read; {len(table)} remain after filtering.",
-        f"The forest names the measuring actor rightly for {by_split['random']:.1%} of the test files when "
-        f"files are split at random, and for {by_split['by_tire']:.1%} when they are split by physical tire. "
-        "Only the second figure says what it does on a new tire: at random, variants of one tire stand on "
-        "both sides, and the forest recognises the tire. "
-        f"Always naming the largest category would be right for {guess:.1%}.",
-    ]
-    for name, part in summary[summary["metric"].isin(THESIS_METRICS)].groupby("set", sort=False):
-        ratio = part.pivot(index="metric", columns="translator", values="ratio").loc[list(THESIS_METRICS)]
-        agent = " / ".join(f"{value:.2f}" for value in ratio["agent"])
-        floor = " / ".join(f"{value:.2f}" for value in ratio["floor"])
-        better = int((ratio["agent"] < 1).sum())
-        lines.append(
-            f"Set {name}: after the agent's translation to {target} the errors of forces / "
-            f"cornering stiffness / peak friction are {agent} times those of the untranslated files "
-            f"(1 is doing nothing; "
-            f"{floor} is the target measuring again). It beats doing nothing on {better} of 3."
-        )
-    if summary.empty:
-        lines.append(
-            "No tire here was measured by the target as well, so nobody can tell from these files "
-            "whether the translations are right."
-        )
-    return lines
+    parts.append(Links(_TABLES, heading="Tables"))
+    return render_page(f"Tires as {target_category} would have measured them", parts)
 
 
 def _files(ingest: dict[str, Any], dropped: pd.DataFrame, table: pd.DataFrame) -> list[Text | Table]:
     counts = table.groupby("category").agg(files=("file", "size"), tires=("tire_id", "nunique")).reset_index()
     parts: list[Text | Table] = [
-        Table(counts, "Files and physical tires that remain, by category.", heading="The files")
+        Text(
+            [f"{ingest['read']} of {ingest['files']} files were read; {len(table)} remain after filtering."],
+            heading="The files",
+        ),
+        Table(counts, "Files and physical tires that remain, by category."),
     ]
     if len(dropped):
         reasons = dropped.groupby("reason").size().rename("files").reset_index()
@@ -138,29 +126,43 @@ def _files(ingest: dict[str, Any], dropped: pd.DataFrame, table: pd.DataFrame) -
     return parts
 
 
-def _classifier(scores: pd.DataFrame, per_class: pd.DataFrame) -> list[Table]:
+def _classifier(table: pd.DataFrame, scores: pd.DataFrame, per_class: pd.DataFrame) -> list[Text | Table]:
+    forest = scores[(scores["classifier"] == "random_forest") & (scores["features"] == "as they are")]
+    by_split = forest.set_index("split")["accuracy"]
+    guess = table["category"].value_counts(normalize=True).iloc[0]
+    said = (
+        "The forest names the organisation that measured the tire rightly for "
+        f"{by_split['random']:.1%} of the test files when files are split at random, and for "
+        f"{by_split['by_tire']:.1%} when they are split by physical tire. "
+        "Only the second figure says what it does on a new tire: at random, variants of one tire stand on "
+        "both sides, and the forest recognises the tire. "
+        f"Always naming the largest category would be right for {guess:.1%}."
+    )
     words = {"random": "random", "by_tire": "by physical tire"}
     shown = scores.assign(split=scores["split"].map(words))
     caption = "Accuracy and weighted F1, mean and spread of several trainings."
     detail = per_class.assign(split=per_class["split"].map(words))
     return [
-        Table(shown, caption, heading="Who measured a tire?"),
-        Table(detail, "The agent's forest, for each category."),
+        Text([said], heading="Who measured a tire?"),
+        Table(shown, caption),
+        Table(detail, "The forest that rewards the thesis' agent, for each category."),
     ]
 
 
-def _translation(summary: pd.DataFrame, target: str) -> list[Text | Table]:
+def _translation(summary: pd.DataFrame, target: str, best: dict[str, Any]) -> list[Text | Table]:
     if summary.empty:
         return []
     caption = (
-        "Sum of squared errors to the target's measurement, divided by that of the untranslated files. "
-        "`no change` is the naive baseline, `floor` the target measuring a second time, `oracle` a "
-        "constant shift of the force coefficients of each category, taken from the truth. Improved: share of "
-        "files whose error became smaller by the agent. The first three metrics are the thesis'."
+        "RMS error to the target's measurement, divided by that of the untranslated files: 1 is doing "
+        "nothing. `floor` is the target measuring a second time, `oracle` a constant shift of the force "
+        f"coefficients of each category, taken from the truth. Improved: share of files that the "
+        f"{best['name']} brought nearer. The first three metrics are the thesis'."
     )
-    wide = summary.pivot_table(index=["set", "metric"], columns="translator", values="ratio", sort=False)
-    agent = summary[summary["translator"] == "agent"].set_index(["set", "metric"])
-    shown = wide[["agent", "no change", "oracle", "floor"]].assign(
-        improved=agent["improved"], files=agent["files"]
+    rows = summary[summary["metric"] != "mean"]
+    wide = rows.assign(ratio=np.sqrt(rows["ratio"])).pivot_table(
+        index=["set", "metric"], columns="translator", values="ratio", sort=False
     )
+    written = rows[rows["translator"] == best["name"]].set_index(["set", "metric"])
+    order = [name for name in dict.fromkeys(rows["translator"]) if name not in (best["name"], FLOOR)]
+    shown = wide[[best["name"], FLOOR, *order]].assign(improved=written["improved"], files=written["files"])
     return [Table(shown.reset_index(), caption, heading=f"Translation to {target}")]

@@ -1,4 +1,4 @@
-"""Translate the evaluation tires and write them as .tir files; nothing here sees the truth."""
+"""Translate the evaluation tires by every translator; nothing here sees the truth."""
 
 from __future__ import annotations
 
@@ -7,18 +7,20 @@ from typing import Any
 
 import pandas as pd
 
-from tire_pipeline import __version__
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.pipelines.evaluate.parameters import EvaluateParameters
 from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
 from tire_pipeline.progress import track
-from tire_pipeline.tir import read_tir, tir_bytes
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.translation import translator_from_state
+from tire_pipeline.translation.result import TRANSLATED
 
 Files = Mapping[str, Callable[[], TireModel]]
 UNJUDGED = "own files"
+THESIS_AGENT = "thesis' agent"
+OUR_AGENT = "our agent"
+NO_CHANGE = "no change"
 
 
 def choose_sources(
@@ -76,91 +78,64 @@ def translate_files(
     evaluation_sources: Files,
     tir_files: Files,
     agent: dict[str, Any],
+    our_agent: dict[str, Any],
+    translator: dict[str, Any],
     normalize: NormalizeParameters,
-    target_category: str,
-) -> tuple[pd.DataFrame, dict[str, bytes]]:
-    """Translate files and give them back as texts.
+) -> pd.DataFrame:
+    """Translate the chosen files by the thesis' agent, by our agent and by the translator.
 
     Parameters
     ----------
     chosen : dict
         From :func:`choose_sources`.
     evaluation_sources, tir_files : mapping
-    agent : dict
-        State of the translator.
+    agent, our_agent, translator : dict
+        States of the fitted translators.
     normalize : NormalizeParameters
-        The nominal load that the translator works at.
-    target_category : str
+        The nominal load that the translators work at.
 
     Returns
     -------
-    table : DataFrame
-        Tire tables before and after, at one nominal load: ``set``, ``tire``, ``state`` and the coefficients.
-    files : dict of str to bytes
-        The translated .tir files, each at its own nominal load.
+    DataFrame
+        Tires before and after, at one nominal load: ``set``, ``tire``, ``translator`` ("no change" before),
+        ``state``, ``verdict``, ``expected_rms_ratio`` (the translator's own estimate, NaN if it has none)
+        and the coefficients.
     """
+    _, own = read_chosen(chosen, evaluation_sources, tir_files)
+    before = normalize_table(own, normalize.nominal_load)
+    states = translators(agent, our_agent, translator)
+    parts = [before.assign(translator=NO_CHANGE, state="before", verdict="", expected_rms_ratio=float("nan"))]
+    for name, state in track(states.items(), "translating by each translator", total=len(states)):
+        parts.append(translated_by(state, before).assign(translator=name, state="after"))
+    table = pd.concat(parts, ignore_index=True)
+    names = table["file"].str.split("/")
+    judged = chosen["folder"] == "evaluation"
+    return table.assign(set=names.str[0] if judged else UNJUDGED, tire=names.str[-1].str[:-4])
+
+
+def translators(
+    agent: dict[str, Any], our_agent: dict[str, Any], translator: dict[str, Any]
+) -> dict[str, dict[str, Any]]:
+    """Name the states as tables and pages do."""
+    name = str(translator["translator"]).replace("_", " ")
+    return {THESIS_AGENT: agent, OUR_AGENT: our_agent, name: translator}
+
+
+def read_chosen(
+    chosen: dict[str, Any], evaluation_sources: Files, tir_files: Files
+) -> tuple[dict[str, TireModel], pd.DataFrame]:
+    """Read the chosen files, as models and as a tire table."""
     files = evaluation_sources if chosen["folder"] == "evaluation" else tir_files
     models = {file: files[file]() for file in track(chosen["files"], "reading files to translate")}
     position = 1 if chosen["folder"] == "evaluation" else 0
-    own = from_models((file, file.split("/")[position], model) for file, model in models.items())
-    before = normalize_table(own, normalize.nominal_load)
-    after = translator_from_state(agent).translate(before)
-    method = f"{agent['algorithm']}, {agent['reward']}"
-    texts = write_back(models, own, after, target_category, method)
-    return _both(before, after, chosen["folder"]), texts
+    return models, from_models((file, file.split("/")[position], model) for file, model in models.items())
 
 
-def write_back(
-    models: Mapping[str, TireModel],
-    own: pd.DataFrame,
-    after: pd.DataFrame,
-    target: str,
-    method: str,
-) -> dict[str, bytes]:
-    """The translated tires as .tir texts; only coefficients that changed are written anew."""
-    back = normalize_table(after, own["FNOMIN"].to_numpy())
-    texts = {}
-    for index, file in track(list(own["file"].items()), "writing translated files"):
-        model = models[file]
-        moved = {
-            name: float(back.at[index, name])
-            for name in model.coefficients
-            if name in back.columns and _changed(back.at[index, name], own.at[index, name])
-        }
-        comments = [
-            f"Translated by tire-pipeline {__version__} to category {target}",
-            f"Source: {file}",
-            f"Method: {method}",
-            f"Changed: {' '.join(moved) or 'nothing'}",
-        ]
-        texts[file] = tir_bytes(model.replace(**moved), comments=comments)
-        _read_back(texts[file], moved, file)
-    return texts
-
-
-def _read_back(text: bytes, wanted: Mapping[str, float], file: str) -> None:
-    """A file that does not read back as what was meant is not given to anyone."""
-    found = read_tir(text, path=file).coefficients
-    for name, value in wanted.items():
-        if abs(found[name] - value) > 1e-6 * max(abs(value), 1e-6):
-            raise DomainError(
-                f"{name} was to be {value!r} and reads back as {found[name]!r}",
-                where=file,
-                todo="report this: the writer and the reader disagree",
-            )
-
-
-def _changed(new: Any, old: Any) -> bool:
-    return bool(abs(new - old) > 1e-9 * max(abs(old), 1e-3))
-
-
-def _both(before: pd.DataFrame, after: pd.DataFrame, folder: str) -> pd.DataFrame:
-    parts = []
-    for state, table in (("before", before), ("after", after)):
-        names = table["file"].str.split("/")
-        judged = folder == "evaluation"
-        part = table.assign(
-            set=names.str[0] if judged else UNJUDGED, tire=names.str[-1].str[:-4], state=state
-        )
-        parts.append(part)
-    return pd.concat(parts, ignore_index=True)
+def translated_by(state: Mapping[str, Any], before: pd.DataFrame) -> pd.DataFrame:
+    """Translate a table; with ``verdict`` and ``expected_rms_ratio`` if the translator gives them."""
+    fitted: Any = translator_from_state(state)
+    if not hasattr(fitted, "translation"):
+        return fitted.translate(before).assign(verdict=TRANSLATED, expected_rms_ratio=float("nan"))
+    result = fitted.translation(before, bands=False)
+    said = result.report[["verdict", "expected_rms_ratio"]]
+    return result.table.assign(**{name: said[name].to_numpy() for name in said})

@@ -3,6 +3,7 @@
 from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline.pipelines.explain_mismatch.nodes import explain_all
+from tire_pipeline.pipelines.explain_mismatch.overview import draw_overview
 
 
 def create_pipeline(**_: object) -> Pipeline:
@@ -11,9 +12,15 @@ def create_pipeline(**_: object) -> Pipeline:
         [
             Node(
                 explain_all,
-                inputs="recordings",
+                inputs=["recordings", "params:explain_mismatch"],
                 outputs=["mismatch_reports", "mismatch_overview", "mismatch_pages", "corrected_tir"],
                 name="explain_recordings",
-            )
+            ),
+            Node(
+                draw_overview,
+                inputs=["mismatch_overview", "mismatch_pages"],
+                outputs=["mismatch_overview_page", "mismatch_outcome"],
+                name="draw_overview",
+            ),
         ]
     )

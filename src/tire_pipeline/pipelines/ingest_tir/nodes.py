@@ -10,6 +10,7 @@ from kedro.io import DatasetError
 from pydantic import Field
 
 from tire_pipeline.errors import DomainError, TirePipelineError
+from tire_pipeline.file_names import printable
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.pipelines.parameters import Parameters
 from tire_pipeline.progress import track
@@ -43,7 +44,7 @@ def read_files(
     Returns
     -------
     table : DataFrame
-        The tire table (docs/architecture.md).
+        The tire table (docs/reference/architecture.md).
     report : DataFrame
         One row a file: ``file, category, status, version, line, reason, defaulted, notes``.
     summary : dict
@@ -81,7 +82,8 @@ def _read(
             tire = load()
         except (DatasetError, TirePipelineError, OSError) as error:
             cause = _cause(error)
-            row |= {"status": "set aside", "reason": str(cause), "line": getattr(cause, "line", None)}
+            row |= {"status": "set aside", "reason": printable(str(cause))}
+            row["line"] = getattr(cause, "line", None)
             continue
         notes = tire.metadata.get("warnings", ())
         row["version"] = tire.version

@@ -6,12 +6,15 @@ import io
 import json
 import zipfile
 from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.concealed import make_case
-from tire_pipeline.concealed.baselines import BASELINES
+from tire_pipeline.concealed import Answer, Case, make_case
+from tire_pipeline.concealed.baselines import BASELINES, with_all_inputs
+from tire_pipeline.concealed.real import RealPlan, make_real_case
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.tir import read_tir, tir_bytes
@@ -22,7 +25,15 @@ Read = Callable[[], bytes]
 
 def made_case(seed: int, kind: str) -> bytes:
     """Make a case: ``model.tir``, ``recording``, ``held_out`` and ``answer.json``."""
-    case, answer = make_case(seed, kind)
+    return _packed(*make_case(seed, kind))
+
+
+def made_real_case(plan: RealPlan, folder: Path) -> bytes:
+    """The same of a case from real recordings, sealed sweeps only."""
+    return _packed(*make_real_case(plan, folder))
+
+
+def _packed(case: Case, answer: Answer) -> bytes:
     return pack(
         {
             "model.tir": tir_bytes(case.tire),
@@ -64,17 +75,20 @@ def explained(read: Read, method: str) -> bytes:
     recording = pd.read_parquet(io.BytesIO(shown["recording.parquet"]))
     inputs = pd.read_parquet(io.BytesIO(shown["inputs.parquet"]))
     prediction = pd.DataFrame(index=inputs.index)
+    report: Any
     try:
         if method == "explain_mismatch":
             report = explain_mismatch(tire, recording)
             prediction = report.corrected.predict(inputs)
         else:
-            report = BASELINES[method](tire, recording)
-            prediction = report.predict(inputs)
-        answer = report.to_dict()
+            report = BASELINES[method](tire, with_all_inputs(tire, recording))
+            prediction = report.predict(with_all_inputs(tire, inputs))
+        answer = {"sets": getattr(report, "sets", None), **report.to_dict()}
     except (RecordingError, np.linalg.LinAlgError) as error:  # counts as a miss, with its text in the table
         answer = {"verdict": "refused", "effects": [], "fit": {}, "problem": str(error)}
-    kept = {key: answer.get(key) for key in ("verdict", "effects", "fit", "problem", "next_experiment")}
+    kept = {
+        key: answer.get(key) for key in ("verdict", "effects", "sets", "fit", "problem", "next_experiment")
+    }
     return pack(
         {
             "report.json": json.dumps(kept, default=_plain).encode(),

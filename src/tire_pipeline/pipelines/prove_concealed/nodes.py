@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any, Literal
 
@@ -15,6 +15,7 @@ from tire_pipeline.concealed import Answer, Case, case_plan, held_out_errors, sc
 from tire_pipeline.datasets.computed_folder import source_hash
 from tire_pipeline.pipelines.parameters import Parameters
 from tire_pipeline.pipelines.prove_concealed import files
+from tire_pipeline.pipelines.prove_concealed.real_parameters import RealParameters
 from tire_pipeline.progress import track
 from tire_pipeline.tir import read_tir
 
@@ -32,6 +33,8 @@ class ProveConcealedParameters(Parameters):
         Of the published proof; used once, after all thresholds were fixed on other seeds.
     baselines : tuple of str
         What else is tried on the same cases.
+    real : RealParameters
+        Of the half from real recordings.
     """
 
     cases: int = Field(400, ge=1)
@@ -41,6 +44,7 @@ class ProveConcealedParameters(Parameters):
         "pysindy",
         "gaussian_process",
     )
+    real: RealParameters = RealParameters()
 
 
 def make_cases(parameters: ProveConcealedParameters) -> dict[str, Callable[[], bytes]]:
@@ -53,19 +57,21 @@ def make_cases(parameters: ProveConcealedParameters) -> dict[str, Callable[[], b
 
 
 def part_cases(
-    made: Folder,
+    made: Folder, form: type[Answer] = Answer
 ) -> tuple[dict[str, Callable[[], bytes]], dict[str, Callable[[], bytes]], dict[str, Any]]:
     """Part what is shown, what is held out, and the answers, which are sealed by a hash.
 
     The names of the shown files are numbers only: the kind of a case does not reach who explains it.
     """
-    shown, held_out, answers = {}, {}, []
+    shown: dict[str, Callable[[], bytes]] = {}
+    held_out: dict[str, Callable[[], bytes]] = {}
+    answers: list[Answer] = []
     for name, read in track(made.items(), "sealing the answers", total=len(made)):
         code, rest = name.split("/")
         number = rest.split("_")[0]
         shown[f"{code}/{number}.zip"] = partial(files.shown_part, read)
         held_out[f"{code}/{number}.zip"] = partial(files.held_out_part, read)
-        answers.append(Answer.from_dict(json.loads(files.unpack(read())["answer.json"])))
+        answers.append(form.from_dict(json.loads(files.unpack(read())["answer.json"])))
     data, sha256 = seal(answers)
     return shown, held_out, {"sha256": sha256, "answers": data.decode()}
 
@@ -80,10 +86,15 @@ def explain_by_baselines(
     shown: Folder, parameters: ProveConcealedParameters
 ) -> dict[str, Callable[[], bytes]]:
     """The same cases by the baselines."""
+    return explained_by(shown, parameters.baselines)
+
+
+def explained_by(shown: Folder, methods: Sequence[str]) -> dict[str, Callable[[], bytes]]:
+    """Say how each case is explained by each of these baselines."""
     code = source_hash("concealed/baselines", "magic_formula", "tir")
     return {
         f"{code}/{method}/{name}": partial(files.explained, read, method)
-        for method in parameters.baselines
+        for method in methods
         for name, read in shown.items()
     }
 
@@ -111,19 +122,10 @@ def score_proof(
     details : dict
         Scores by strength and by effect, and the hash of the answers.
     """
-    answers = unseal(sealed["answers"].encode(), sealed["sha256"])
-    truth = {files.unpack(read())["case_id"].decode(): read for read in held_out.values()}
-    methods: dict[str, dict[str, Callable[[], bytes]]] = {METHOD: dict(explained)}
-    for name, read in by_baselines.items():
-        methods.setdefault(name.split("/")[1], {})[name] = read
-    tables, details, misses = [], {"sha256": sealed["sha256"]}, pd.DataFrame()
-    for method, folder in methods.items():
-        reports, errors = {}, {}
-        for read in track(folder.values(), f"scoring {method}", total=len(folder)):
-            content = files.unpack(read())
-            case_id = content["case_id"].decode()
-            reports[case_id] = json.loads(content["report.json"])
-            errors[case_id] = _errors(content, truth[case_id])
+    answers: list[Answer] = unseal(sealed["answers"].encode(), sealed["sha256"])
+    tables, misses = [], pd.DataFrame()
+    details: dict[str, Any] = {"sha256": sealed["sha256"]}
+    for method, (reports, errors) in answers_of(explained, by_baselines, held_out):
         result = score(reports, answers, held_out=errors)
         tables.append(pd.DataFrame(result["scores"]).assign(method=method))
         details[method] = {key: result[key] for key in ("n", "by_strength", "by_effect")}
@@ -131,6 +133,24 @@ def score_proof(
             misses = pd.DataFrame(result["misses"]) if result["misses"] else pd.DataFrame(columns=["case_id"])
     scores = pd.concat(tables, ignore_index=True)
     return scores[["method", *[c for c in scores.columns if c != "method"]]], misses, details
+
+
+def answers_of(
+    explained: Folder, by_baselines: Folder, held_out: Folder
+) -> Iterator[tuple[str, tuple[dict[str, Any], dict[str, Any]]]]:
+    """Yield each method with its reports and its held-out errors by case."""
+    truth = {files.unpack(read())["case_id"].decode(): read for read in held_out.values()}
+    methods: dict[str, dict[str, Callable[[], bytes]]] = {METHOD: dict(explained)}
+    for name, read in by_baselines.items():
+        methods.setdefault(name.split("/")[1], {})[name] = read
+    for method, folder in methods.items():
+        reports, errors = {}, {}
+        for read in track(folder.values(), f"scoring {method}", total=len(folder)):
+            content = files.unpack(read())
+            case_id = content["case_id"].decode()
+            reports[case_id] = json.loads(content["report.json"])
+            errors[case_id] = _errors(content, truth[case_id])
+        yield method, (reports, errors)
 
 
 def _errors(content: dict[str, bytes], read: Callable[[], bytes]) -> dict[str, dict[str, float]]:

@@ -1,4 +1,7 @@
-"""Cases -> explanations -> scores; only ``score_proof`` reads the sealed answers."""
+"""Cases -> explanations -> scores; only ``score_proof`` reads the sealed answers.
+
+Once on cases of the rig simulator, once on cases made from real recordings; one page shows both.
+"""
 
 from kedro.pipeline import Node, Pipeline
 
@@ -8,6 +11,13 @@ from tire_pipeline.pipelines.prove_concealed.nodes import (
     make_cases,
     part_cases,
     score_proof,
+)
+from tire_pipeline.pipelines.prove_concealed.real_nodes import (
+    explain_real_by_baselines,
+    explain_real_cases,
+    make_real_cases,
+    part_real_cases,
+    score_real_proof,
 )
 from tire_pipeline.pipelines.prove_concealed.report import proof_page
 
@@ -47,8 +57,56 @@ def create_pipeline(**_: object) -> Pipeline:
                 name="score_proof",
             ),
             Node(
+                make_real_cases,
+                inputs="params:prove_concealed",
+                outputs="real_concealed_made",
+                name="make_real_cases",
+                tags="real",
+            ),
+            Node(
+                part_real_cases,
+                inputs="real_concealed_made",
+                outputs=["real_concealed_cases", "real_concealed_held_out", "real_concealed_answers"],
+                name="part_real_cases",
+                tags="real",
+            ),
+            Node(
+                explain_real_cases,
+                inputs="real_concealed_cases",
+                outputs="real_concealed_reports",
+                name="explain_real_cases",
+                tags="real",
+            ),
+            Node(
+                explain_real_by_baselines,
+                inputs=["real_concealed_cases", "params:prove_concealed"],
+                outputs="real_concealed_baseline_reports",
+                name="explain_real_by_baselines",
+                tags="real",
+            ),
+            Node(
+                score_real_proof,
+                inputs=[
+                    "real_concealed_reports",
+                    "real_concealed_baseline_reports",
+                    "real_concealed_held_out",
+                    "real_concealed_answers",
+                    "params:prove_concealed",
+                ],
+                outputs=["real_proof_scores", "real_proof_misses", "real_proof_details"],
+                name="score_real_proof",
+                tags="real",
+            ),
+            Node(
                 proof_page,
-                inputs=["proof_scores", "proof_misses", "proof_details"],
+                inputs=[
+                    "proof_scores",
+                    "proof_misses",
+                    "proof_details",
+                    "real_proof_scores",
+                    "real_proof_misses",
+                    "real_proof_details",
+                ],
                 outputs="proof_report",
                 name="proof_page",
             ),

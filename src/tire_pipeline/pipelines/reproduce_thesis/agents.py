@@ -14,7 +14,7 @@ import pandas as pd
 from tire_pipeline.datasets.computed_folder import source_hash
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.pipelines.evaluate.judge import measured
+from tire_pipeline.pipelines.evaluate.measured import measured
 from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
 from tire_pipeline.pipelines.reproduce_thesis import files
 from tire_pipeline.pipelines.reproduce_thesis.parameters import ReproduceThesisParameters

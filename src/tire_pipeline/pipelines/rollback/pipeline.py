@@ -8,9 +8,9 @@ from tire_pipeline.retraining import Shelf, roll_back
 
 
 def restore_previous(shelf: Shelf) -> Shelf:
-    """Put the previous model back and say so."""
+    """Put the last earlier model back whose file is whole, and say so."""
     now = datetime.datetime.now(datetime.UTC).isoformat(timespec="milliseconds")
-    release = roll_back(shelf.release, time=now)
+    release = roll_back(shelf.release, time=now, unusable=shelf.unusable)
     print(f"model in use: {release.current} ({shelf.release.current} taken back)")
     return Shelf(release)
 
@@ -21,7 +21,7 @@ def create_pipeline(**_: object) -> Pipeline:
         [
             Node(
                 restore_previous,
-                inputs="released_model",
+                inputs="released_record",
                 outputs="released_model_updated",
                 name="restore_previous",
             )

@@ -1,4 +1,4 @@
-"""Train the thesis' agent on the bins, rewarded by the forest."""
+"""Train the thesis' agent on bins, rewarded by the forest, and ours on curves, rewarded by a density."""
 
 from __future__ import annotations
 
@@ -9,10 +9,12 @@ from matplotlib.figure import Figure
 from pydantic import Field
 
 from tire_pipeline.classifiers.random_forest import RandomForest
+from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
 from tire_pipeline.pipelines.parameters import Parameters
 from tire_pipeline.reporting import colour_of, new_figure
 from tire_pipeline.representations import representation_from_state
 from tire_pipeline.tire_table import Binning
+from tire_pipeline.translation.likelihood_agent import UPDATES, LikelihoodAgent
 from tire_pipeline.translation.thesis.translator import AgentTranslator
 
 
@@ -27,6 +29,8 @@ class TrainAgentParameters(Parameters):
         Environments side by side, and their steps between two updates (thesis, Tables 2.3 and 2.4).
     total_steps : int
         Of all environments together.
+    likelihood_updates : int
+        Updates of our agent's policy.
     """
 
     algorithm: Literal["PPO", "A2C"] = "PPO"
@@ -34,6 +38,7 @@ class TrainAgentParameters(Parameters):
     environments: int = Field(4, ge=1, le=256)
     rollout_steps: int = Field(320, ge=2)
     total_steps: int = Field(100_000, ge=1)
+    likelihood_updates: int = Field(UPDATES, ge=1)
 
 
 def train_one_agent(
@@ -75,6 +80,34 @@ def train_one_agent(
         n_envs=parameters.environments,
     ).fit(normalized_table, target=target_category, seed=seed, classifier=RandomForest.from_state(classifier))
     return translator.to_state(), translator.learning_curve, learning_figure(translator.learning_curve)
+
+
+def train_our_agent(
+    normalized_table: pd.DataFrame,
+    parameters: TrainAgentParameters,
+    normalize: NormalizeParameters,
+    target_category: str,
+    seed: int,
+) -> dict[str, Any]:
+    """Train an agent that moves a tire's curves to where the target's tires of its kind are probable.
+
+    Parameters
+    ----------
+    normalized_table : DataFrame
+        Tires that it learns from.
+    parameters : TrainAgentParameters
+    normalize : NormalizeParameters
+    target_category : str
+    seed : int
+
+    Returns
+    -------
+    dict
+        State of the translator: densities and policy, and ``nominal_load`` (N).
+    """
+    agent = LikelihoodAgent(updates=parameters.likelihood_updates)
+    agent.fit(normalized_table, target=target_category, seed=seed)
+    return {**agent.to_state(), "nominal_load": normalize.nominal_load}
 
 
 def learning_figure(curve: pd.DataFrame) -> Figure:

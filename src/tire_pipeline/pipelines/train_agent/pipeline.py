@@ -1,12 +1,13 @@
-"""Bins and forest -> agent."""
+"""Bins and forest -> the thesis' agent; tires -> our agent; tires -> the translator."""
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.pipelines.train_agent.nodes import train_one_agent
+from tire_pipeline.pipelines.train_agent.nodes import train_one_agent, train_our_agent
+from tire_pipeline.pipelines.translate.fit import fit_node
 
 
 def create_pipeline(**_: object) -> Pipeline:
-    """Train the thesis' agent."""
+    """Train both agents, and fit the translator that they are compared with."""
     return Pipeline(
         [
             Node(
@@ -22,6 +23,19 @@ def create_pipeline(**_: object) -> Pipeline:
                 ],
                 outputs=["agent", "learning_curve", "learning_figure"],
                 name="train_one_agent",
-            )
+            ),
+            Node(
+                train_our_agent,
+                inputs=[
+                    "normalized_table",
+                    "params:train_agent",
+                    "params:normalize",
+                    "params:target_category",
+                    "params:seed",
+                ],
+                outputs="our_agent",
+                name="train_our_agent",
+            ),
+            fit_node(),
         ]
     )

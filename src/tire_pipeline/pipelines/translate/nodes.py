@@ -3,122 +3,164 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, Literal
+from dataclasses import replace
+from difflib import get_close_matches
+from fnmatch import fnmatch
+from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure as MplFigure
-from pydantic import Field
 
-from tire_pipeline.classifiers import classifier_from_state
 from tire_pipeline.errors import DomainError, TirePipelineError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
-from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.pipelines.translate.parameters import TranslateParameters
+from tire_pipeline.pipelines.translate.suppliers import (
+    BY_FOLDER,
+    UNKNOWN_SUPPLIER,
+    category_of,
+    with_suppliers,
+)
 from tire_pipeline.progress import track
-from tire_pipeline.reporting import Figure, Table, Text, colour_of, new_figure, render_page
-from tire_pipeline.representations import representation_from_state
 from tire_pipeline.tir import tir_bytes
-from tire_pipeline.tire_table import Binning, from_models, normalize_table
-from tire_pipeline.translation import make_translator
-from tire_pipeline.translation.curve_translator import COEFFICIENTS
-from tire_pipeline.translation.result import TranslationResult, comment_lines
+from tire_pipeline.tire_table import from_models, normalize_table
+from tire_pipeline.translation import translator_from_state
+from tire_pipeline.translation.file_curves import file_curves
+from tire_pipeline.translation.of_models import at_own_load
+from tire_pipeline.translation.result import UNKNOWN, TranslationResult
 
 Files = Mapping[str, Callable[[], TireModel]]
-DRAWN = 6
-_PROTOCOLS = (
-    "Categories whose files show that the way of measuring changed on a day: that day with its 90% range, "
-    "how probable a change is, and by how much it moved the curves of the mean tire (90% intervals). Files "
-    "count by their dates, those without one as the mean of both; a target is given by its newest protocol."
-)
 
 
-class TranslateParameters(Parameters):
-    """Parameters of ``translate``.
-
-    Attributes
-    ----------
-    translator : str
-        Which of those that give bands and verdicts. The ``batch`` ones learn from the files to translate as
-        well.
-    pairs : bool
-        May tires that several actors measured be used?
-    trials : int
-        Most files that are translated; 0 is all.
-    """
-
-    translator: Literal[
-        "mixed_model",
-        "paired_mixed_model",
-        "batch_mixed_model",
-        "paired_batch_mixed_model",
-        "likelihood_agent",
-    ] = "paired_mixed_model"
-    pairs: bool = True
-    trials: int = Field(0, ge=0)
-
-
-def translate_all(
+def read_sources(
     files_to_translate: Files,
     normalized_table: pd.DataFrame,
-    classifier: dict[str, Any],
-    representation: dict[str, Any],
-    binning: dict[str, Any],
     parameters: TranslateParameters,
     normalize: NormalizeParameters,
-    target_category: str,
     seed: int,
-) -> tuple[dict[str, bytes], pd.DataFrame, pd.DataFrame, pd.DataFrame, str]:
-    """Translate every file.
+) -> tuple[dict[str, TireModel], pd.DataFrame, pd.DataFrame]:
+    """Read the files to translate, and say of each who supplied it.
 
     Parameters
     ----------
     files_to_translate : mapping
-        ``category/.../name.tir`` to the function that reads it. A file whose folder is no known category is
-        classified first.
+        ``category/.../name.tir`` to the function that reads it.
     normalized_table : DataFrame
-        What the translator learns from.
-    classifier, representation, binning : dict
-        States of the fitted forest and what goes before it.
+        The training files. Their categories are the known ones.
     parameters : TranslateParameters
     normalize : NormalizeParameters
-    target_category : str
     seed : int
 
     Returns
     -------
-    files : dict of str to bytes
-        The translated ``.tir`` files. Those that are refused or already unbiased are not among them.
-    report : DataFrame
-        One row a file: verdict, reason, distance, expected ratio, what moved and why in words.
-    coefficients : DataFrame
-        One row a coefficient that moved.
-    bands : DataFrame
-        ``file, output, normal_load, slip, middle, low, high``: curves with their 90% band.
-    page : str
-        The report as HTML.
+    models : dict of str to TireModel
+        Those that could be read.
+    sources : DataFrame
+        The same as a tire table at one nominal load, with suppliers (:func:`.suppliers.with_suppliers`).
+    unreadable : DataFrame
+        ``file, source, supplier, verdict, reason`` of the others.
 
     Raises
     ------
     DomainError
-        If not one file could be read.
+        If not one file could be read, or none is of those that were asked for.
     """
-    models, problems = _read(files_to_translate, parameters.trials)
+    wanted = chosen_files(files_to_translate, parameters.only)
+    models, problems = _read(wanted, parameters.trials)
     known = set(normalized_table["category"])
-    own = from_models((file, _category(file, known), model) for file, model in models.items())
-    source = normalize_table(own, normalize.nominal_load)
-    source = _classified(source, known, classifier, representation, binning)
-    pairs = {} if parameters.translator == "likelihood_agent" else {"pairs": parameters.pairs}
-    translator = make_translator(parameters.translator, **pairs)
-    result = translator.fit(normalized_table, target=target_category, seed=seed).translation(source)
-    texts = _texts(result, models, own)
-    report = pd.concat([result.report, problems], ignore_index=True)
-    bands = _bands(result, own)
-    page = translate_page(report, bands, result.protocols, parameters, target_category)
-    return texts, report, result.coefficients, bands, page
+    own = from_models((file, category_of(file, known), model) for file, model in models.items())
+    sources = normalize_table(own, normalize.nominal_load)
+    sources = with_suppliers(sources, normalized_table, classify=parameters.classify, seed=seed)
+    for row in problems:
+        row["source"] = category_of(row["file"], known) or UNKNOWN_SUPPLIER
+        row["supplier"] = BY_FOLDER if row["source"] in known else UNKNOWN_SUPPLIER
+    return (
+        models,
+        sources,
+        pd.DataFrame(problems, columns=["file", "source", "supplier", "verdict", "reason"]),
+    )
 
 
-def _read(files: Files, most: int) -> tuple[dict[str, TireModel], pd.DataFrame]:
+def chosen_files(files: Files, only: list[str]) -> dict[str, Callable[[], TireModel]]:
+    """Choose files by their path, one of its folders, or a pattern; one that matches none is an error."""
+    if not only:
+        return dict(files)
+
+    def matches(file: str, pattern: str) -> bool:
+        *folders, name = file.split("/")
+        return pattern in folders or fnmatch(file, pattern) or fnmatch(name, pattern)
+
+    for pattern in only:
+        if not any(matches(file, pattern) for file in files):
+            folders = sorted({file.rpartition("/")[0] for file in files if "/" in file})
+            near = get_close_matches(pattern, [*folders, *files], n=1)
+            raise DomainError(
+                f"only = {pattern!r} matches none of {len(files)} files",
+                where="translate",
+                todo=f"did you mean {near[0]!r}?" if near else f"suppliers are {', '.join(folders[:20])}",
+            )
+    return {file: load for file, load in files.items() if any(matches(file, pattern) for pattern in only)}
+
+
+def translate_all(
+    translator: dict[str, Any],
+    models: dict[str, TireModel],
+    sources: pd.DataFrame,
+    unreadable: pd.DataFrame,
+    parameters: TranslateParameters,
+) -> tuple[dict[str, bytes], pd.DataFrame, pd.DataFrame, pd.DataFrame, pd.DataFrame, dict[str, Any]]:
+    """Translate every file whose supplier is known, and give each a verdict.
+
+    Parameters
+    ----------
+    translator : dict
+        State of a fitted translator.
+    models, sources, unreadable
+        From :func:`read_sources`.
+    parameters : TranslateParameters
+
+    Returns
+    -------
+    files : dict of str to bytes
+        The translated ``.tir`` files, no others.
+    report : DataFrame
+        One row a file: how its supplier is known, verdict, reason, distance, expected RMS error over that of
+        the unchanged file, band of the bias, what moved and why in words.
+    coefficients : DataFrame
+        One row a coefficient that moved.
+    bands : DataFrame
+        ``file, output, normal_load, slip, middle, low, high``: curves of the translated files with their 90%
+        band.
+    protocols : DataFrame
+        Categories that changed how they measure.
+    curves : dict
+        Of every file, for the page (:func:`.translation.file_curves.file_curves`).
+    """
+    fitted: Any = translator_from_state(translator)
+    fitted.farthest = parameters.farthest
+    result = _named_suppliers(fitted.translation(sources), sources)
+    own = from_models((file, "", model) for file, model in models.items())
+    curves = file_curves(list(own["file"]), models, result)
+    translated, comments = at_own_load(result, models, own)
+    texts = {file: tir_bytes(model, comments=comments[file]) for file, model in translated.items()}
+    report = pd.concat([result.report, unreadable], ignore_index=True) if len(unreadable) else result.report
+    report = report.reset_index(drop=True)
+    return texts, report, result.coefficients, _bands(result, own), result.protocols, curves
+
+
+def _named_suppliers(result: TranslationResult, source: pd.DataFrame) -> TranslationResult:
+    """The result with how each supplier is known, and what to do where it is not."""
+    report = result.report.copy()
+    report.insert(1, "supplier", source["supplier"].to_numpy())
+    unknown = (report["verdict"] == UNKNOWN).to_numpy()
+    report.loc[unknown, "source"] = UNKNOWN_SUPPLIER
+    report.loc[unknown, "reason"] = source["supplier_note"].to_numpy()[unknown]
+    targets = (report["supplier"] != BY_FOLDER) & (report["source"] == report["target"])
+    report.loc[targets, "reason"] = "classified as the target's own"
+    return replace(result, report=report)
+
+
+def _read(files: Files, most: int) -> tuple[dict[str, TireModel], list[dict[str, str]]]:
     models: dict[str, TireModel] = {}
     problems = []
     wanted = list(files.items())[: most or None]
@@ -126,7 +168,7 @@ def _read(files: Files, most: int) -> tuple[dict[str, TireModel], pd.DataFrame]:
         try:
             models[file] = load()
         except Exception as error:
-            cause = error.__cause__ or error
+            cause = error if isinstance(error, TirePipelineError) else error.__cause__ or error
             if not isinstance(cause, TirePipelineError | OSError):
                 raise
             problems.append({"file": file, "verdict": "refused", "reason": f"cannot be read: {cause}"})
@@ -134,65 +176,19 @@ def _read(files: Files, most: int) -> tuple[dict[str, TireModel], pd.DataFrame]:
         raise DomainError(
             f"not one of {len(wanted)} files could be read; the first: {problems[0]['reason']}",
             where="translate",
-            todo="mend them, then run again",
+            todo="correct them, then run again",
         )
-    return models, pd.DataFrame(problems)
-
-
-def _category(file: str, known: set[str]) -> str:
-    folders = file.split("/")[:-1]
-    return next((name for name in reversed(folders) if name in known), "")
-
-
-def _classified(
-    source: pd.DataFrame,
-    known: set[str],
-    classifier: dict[str, Any],
-    representation: dict[str, Any],
-    binning: dict[str, Any],
-) -> pd.DataFrame:
-    """Guess the category of files that have none, with its probability; given ones have probability 1."""
-    source = source.assign(category_probability=1.0)
-    unknown = ~source["category"].isin(known).to_numpy()
-    encoder = representation_from_state(representation)
-    if unknown.any() and set(encoder.feature_names) <= set(source.columns):
-        rows = source[unknown]
-        features = encoder.encode(rows)
-        usable = np.isfinite(features).all(axis=1)
-        where = np.flatnonzero(unknown)[usable]
-        forest = classifier_from_state(classifier)
-        chances = forest.predict_proba(Binning.from_state(binning).transform(features[usable]))
-        best = chances.argmax(axis=1)
-        source.iloc[where, source.columns.get_loc("category")] = forest.classes_[best]
-        source.iloc[where, source.columns.get_loc("category_probability")] = chances.max(axis=1)
-    return source
-
-
-def _texts(result: TranslationResult, models: Mapping[str, TireModel], own: pd.DataFrame) -> dict[str, bytes]:
-    """Translated tires at their own nominal load, with what was done in the comments."""
-    back = normalize_table(result.table, own["FNOMIN"].to_numpy())
-    moved = set(result.coefficients["file"]) if len(result.coefficients) else set()
-    texts: dict[str, bytes] = {}
-    for row, file in enumerate(own["file"]):
-        if file not in moved or result.report["verdict"].iloc[row] != "translated":
-            continue
-        model = models[file]
-        values = {
-            name: float(back[name].iloc[row])
-            for name in COEFFICIENTS
-            if name in back.columns and np.isfinite(back[name].iloc[row])
-        }
-        changed = {name: value for name, value in values.items() if value != model.coefficients.get(name)}
-        texts[file] = tir_bytes(model.replace(**changed), comments=comment_lines(result, row, COEFFICIENTS))
-    return texts
+    return models, problems
 
 
 def _bands(result: TranslationResult, own: pd.DataFrame) -> pd.DataFrame:
-    """All bands as one long table."""
+    """Bands of the translated files as one long table."""
     parts = []
-    for output, band in result.bands.items():
+    for output, every in result.bands.items():
+        known = np.isfinite(every.low).any(axis=(1, 2))
+        band = replace(every, middle=every.middle[known], low=every.low[known], high=every.high[known])
         n, loads, slips = band.middle.shape
-        files = own["file"].to_numpy()
+        files = own["file"].to_numpy()[known]
         parts.append(
             pd.DataFrame(
                 {
@@ -206,79 +202,3 @@ def _bands(result: TranslationResult, own: pd.DataFrame) -> pd.DataFrame:
         )
     columns = ["file", "output", "normal_load", "slip", "middle", "low", "high"]
     return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=columns)
-
-
-def translate_page(
-    report: pd.DataFrame,
-    bands: pd.DataFrame,
-    protocols: pd.DataFrame,
-    parameters: TranslateParameters,
-    target: str,
-) -> str:
-    """What was translated, what was not, and why; curves of some with their band."""
-    counts = report["verdict"].value_counts()
-    words = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
-    lines = [
-        f"{len(report)} files, to be as {target} would have measured them: {words}.",
-        "Translated: the error is expected to shrink. Already unbiased: too little would be gained. "
-        "Refused: it lies outside of what was learned from, or the error would probably grow; not written.",
-        f"Method: {parameters.translator}, tires measured by several actors "
-        + ("used." if parameters.pairs else "not used."),
-    ]
-    if "taught" in report and report["taught"].max() > 0:
-        lines.append(
-            "The files to translate taught, too: each was translated by what those of other tires say of "
-            "their categories. With other files beside it, it would come out a little differently."
-        )
-    columns = [
-        "file",
-        "source",
-        "source_probability",
-        *(["protocol"] if len(protocols) else []),
-        "verdict",
-        "distance",
-        "expected_ratio",
-    ]
-    why = report.reindex(columns=["reason", "changes"]).astype("object").fillna("")
-    shown = report.reindex(columns=columns).assign(
-        why=why["reason"].str.cat(why["changes"], sep=". ").str.strip(". ")
-    )
-    parts: list[Text | Table | Figure] = [Text(lines, emphasis=True)]
-    figure = band_figure(bands, shown.loc[shown["verdict"] == "translated", "file"].tolist())
-    if figure is not None:
-        caption = "Lateral force of some translated files with its 90% band, at each load."
-        parts.append(Figure(figure, caption, heading="Curves"))
-    if len(protocols):
-        parts.append(Table(_spaced(protocols), _PROTOCOLS, heading="Changes of protocol"))
-    caption = (
-        "distance: 1 is the edge of the training data, do not trust beyond. expected ratio: expected squared "
-        "error after translation over that before, by the translator's own estimate."
-    )
-    parts.append(Table(_spaced(shown), caption, heading="Every file", most_rows=500, below="why"))
-    return render_page(f"Translated to {target}", parts)
-
-
-def _spaced(table: pd.DataFrame) -> pd.DataFrame:
-    """The table with column names that a browser can break."""
-    return table.rename(columns=lambda name: name.replace("_", " "))
-
-
-def band_figure(bands: pd.DataFrame, files: list[str]) -> MplFigure | None:
-    """Lateral force and its band, for up to six files."""
-    lateral = bands[bands["output"] == "fy"]
-    drawn = [file for file in files if (lateral["file"] == file).any()][:DRAWN]
-    if not drawn:
-        return None
-    columns = min(3, len(drawn))
-    rows = -(-len(drawn) // columns)
-    figure, axes = new_figure(rows, columns, width=3.4 * columns, height=2.8 * rows, squeeze=False)
-    for one, file in zip(np.asarray(axes).ravel(), drawn, strict=False):
-        for i, (load, part) in enumerate(lateral[lateral["file"] == file].groupby("normal_load")):
-            angle = np.degrees(part["slip"])
-            one.plot(angle, part["middle"] / 1e3, color=colour_of(i), label=f"{load / 1e3:.0f} kN")
-            one.fill_between(angle, part["low"] / 1e3, part["high"] / 1e3, color=colour_of(i), alpha=0.25)
-        one.set_title(file, fontsize=8)
-        one.set_xlabel("slip angle / deg")
-        one.set_ylabel("lateral force / kN")
-    np.asarray(axes).ravel()[0].legend(title="normal load", fontsize=7)
-    return figure

@@ -1,36 +1,62 @@
-"""Files + training table -> translated files, bands, verdicts."""
+"""Files + fitted translator -> translated files, bands, verdicts, page."""
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.pipelines.translate.nodes import translate_all
+from tire_pipeline.pipelines.translate.fit import fit_node
+from tire_pipeline.pipelines.translate.nodes import read_sources, translate_all
+from tire_pipeline.pipelines.translate.page import translate_page
 
 
 def create_pipeline(**_: object) -> Pipeline:
-    """Translate the user's files to the target category."""
-    pipeline = Pipeline(
+    """Translate the user's files to the target category: read, fit, translate, draw."""
+    return Pipeline(
         [
             Node(
-                translate_all,
+                read_sources,
                 inputs=[
                     "files_to_translate",
                     "normalized_table",
-                    "classifier",
-                    "representation",
-                    "binning",
                     "params:translate",
                     "params:normalize",
-                    "params:target_category",
                     "params:seed",
+                ],
+                outputs=["source_models", "source_table", "unreadable_sources"],
+                name="read_sources",
+            ),
+            fit_node(),
+            Node(
+                translate_all,
+                inputs=[
+                    "translator",
+                    "source_models",
+                    "source_table",
+                    "unreadable_sources",
+                    "params:translate",
                 ],
                 outputs=[
                     "translation_files",
                     "translation_report",
                     "translation_coefficients",
                     "translation_bands",
-                    "translation_list",
+                    "translation_protocols",
+                    "translation_curves",
                 ],
                 name="translate_all",
-            )
+            ),
+            Node(
+                translate_page,
+                inputs=[
+                    "translation_report",
+                    "translation_curves",
+                    "translation_coefficients",
+                    "translation_protocols",
+                    "source_table",
+                    "demonstration_files",
+                    "params:translate",
+                    "params:target_category",
+                ],
+                outputs=["translation_list", "translation_outcome"],
+                name="draw_translated_files",
+            ),
         ]
     )
-    return pipeline

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import io
 import re
-from typing import Any
+import textwrap
+from typing import Any, TypeVar
 
 from markupsafe import Markup
 from matplotlib import rc_context
 from matplotlib.figure import Figure as MplFigure
+from matplotlib.figure import FigureBase
+
+F = TypeVar("F", bound=FigureBase)
 
 #: Okabe and Ito (2008), in an order that also differs in lightness.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D1F")
@@ -72,3 +76,23 @@ def inline_svg(figure: MplFigure) -> Markup:
         r'(<svg[^>]*?) width="[^"]*" height="[^"]*"|(<svg[^>]*?) height="[^"]*"', r"\1\2", svg, count=1
     )
     return Markup(svg)
+
+
+def captioned(figure: F, caption: str) -> F:
+    """Write a caption below a figure that stands alone; in a page the page's own caption says it.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure or SubFigure
+        With a constrained layout, as from :func:`new_figure`, which makes room for it.
+    caption : str
+        What to see in it. It is broken into lines as wide as the figure.
+
+    Returns
+    -------
+    matplotlib.figure.Figure or SubFigure
+        The same figure.
+    """
+    width = int(figure.bbox.width / figure.figure.dpi * 15.0)  # characters of this size in a line
+    figure.supxlabel(textwrap.fill(caption, width), x=0.01, ha="left", fontsize=8, color="#444444")
+    return figure

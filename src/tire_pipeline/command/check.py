@@ -1,0 +1,181 @@
+"""``tire check``: what a recording holds, and what is wrong with it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+import numpy as np
+
+from tire_pipeline.command.options import FILE, output_options, read_runs, reading_options
+from tire_pipeline.command.outcome import Grid, Outcome, finish
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from tire_pipeline.recordings import Issue
+
+UNUSABLE = 1
+"""Exit code if the recording cannot be explained."""
+_MOST_DRAWN = 4000
+
+
+@click.command(
+    help="Check the recording RUN: channels with their units, what was assumed on reading, what is wrong. "
+    "The exit code is 1 if it cannot be explained."
+)
+@click.argument("run", type=FILE)
+@reading_options
+@output_options()
+def command(
+    run: Path,
+    axes: str | None,
+    units: tuple[str, ...],
+    names: tuple[str, ...],
+    format_: str | None,
+    **output: Any,
+) -> None:
+    """Check a recording."""
+    from tire_pipeline.recordings import check_recording
+
+    runs = read_runs([run], axes=axes, units=units, names=names, format_=format_)
+    recording = runs[run.name]
+    issues = check_recording(recording)
+    finish(_outcome(run, recording, issues, axes), f"{run.stem}_check", **output)
+    if any(issue.severity == "error" for issue in issues):
+        click.get_current_context().exit(UNUSABLE)
+
+
+def _outcome(run: Path, recording: pd.DataFrame, issues: list[Issue], axes: str | None) -> Outcome:
+    attrs = recording.attrs
+    errors = sum(issue.severity == "error" for issue in issues)
+    verdict = "It cannot be explained as it is" if errors else "It can be explained"
+    counts = [_count(errors, "error"), _count(len(issues) - errors, "warning")]
+    lines = [f"{verdict}: {' and '.join(counts)}.", _size(recording), _axes(recording, axes)]
+    channels = Grid(
+        ("column", "channel", "unit", "lowest", "median", "highest", "missing"),
+        [_channel(recording, str(c)) for c in recording.select_dtypes("number").columns],
+        "Channels, in SI units",
+    )
+    found = Grid(
+        ("severity", "what", "where", "what to do"),
+        [(i.severity, i.name.replace("_", " "), i.where, i.advice) for i in issues],
+        "What is wrong",
+    )
+    notes = [*attrs.get("conversions", []), *attrs.get("notes", [])]
+    data = {
+        "file": run,
+        "format": attrs.get("format"),
+        "rows": len(recording),
+        "usable": not errors,
+        "issues": [
+            {"name": i.name, "severity": i.severity, "where": i.where, "advice": i.advice, "rows": i.rows}
+            for i in issues
+        ],
+        "channels": {row[0]: dict(zip(channels.header[1:], row[1:], strict=True)) for row in channels.rows},
+        "conversions": attrs.get("conversions", []),
+        "notes": attrs.get("notes", []),
+    }
+
+    def page() -> str:
+        return _page(run, recording, lines, channels, found, notes)
+
+    return Outcome(run.name, lines, data, page, [channels, *([found] if issues else [])], notes)
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number or 'no'} {what}{'' if number == 1 else 's'}"
+
+
+def _size(recording: pd.DataFrame) -> str:
+    kind = recording.attrs.get("format", "")
+    if "time" not in recording:
+        return f"{kind}, {len(recording):,} steady points (no time)."
+    time = recording["time"].to_numpy(dtype=float)
+    time = time[np.isfinite(time)]
+    if time.size < 2:
+        return f"{kind}, {len(recording):,} samples."
+    step = float(np.median(np.diff(time)))
+    rate = f" at {1.0 / step:.4g} Hz" if step > 0.0 else ""
+    return f"{kind}, {len(recording):,} samples over {np.ptp(time):,.0f} s{rate}."
+
+
+def _axes(recording: pd.DataFrame, axes: str | None) -> str:
+    """Say which sign the side force has: what the reader of a file has to compare with the rig's manual."""
+    read = f"Read as {axes.upper() if axes else 'ISO, which is assumed'}"
+    if not {"slip_angle", "fy"} <= set(recording):
+        return f"{read} where names do not tell."
+    pair = recording[["slip_angle", "fy"]].to_numpy(dtype=float)
+    pair = pair[np.isfinite(pair).all(axis=1)]
+    if len(pair) < 3 or np.any(np.ptp(pair, axis=0) == 0.0):
+        return f"{read} where names do not tell."
+    together = float(np.corrcoef(pair.T)[0, 1])
+    if abs(together) < 0.5:
+        return f"{read}; the side force does not follow the slip angle."
+    sign = "negative, as in ISO W" if together < 0.0 else "positive, which ISO W has not"
+    return f"{read}: at a positive slip angle the side force is {sign}."
+
+
+def _channel(recording: pd.DataFrame, column: str) -> tuple[Any, ...]:
+    values = recording[column].to_numpy(dtype=float)
+    finite = values[np.isfinite(values)]
+    low, middle, high = np.quantile(finite, [0.0, 0.5, 1.0]) if finite.size else [np.nan] * 3
+    attrs = recording.attrs
+    return (
+        column,
+        attrs.get("channels", {}).get(column, ""),
+        attrs.get("units", {}).get(column, ""),
+        float(low) + 0.0,
+        float(middle) + 0.0,
+        float(high) + 0.0,
+        int(values.size - finite.size),
+    )
+
+
+def _page(
+    run: Path,
+    recording: pd.DataFrame,
+    lines: list[str],
+    channels: Grid,
+    issues: Grid,
+    notes: list[str],
+) -> str:
+    import pandas as pd
+
+    from tire_pipeline.reporting import Figure, Table, Text, render_page
+
+    parts: list[Any] = [Text(lines, emphasis=True)]
+    if issues.rows:
+        parts.append(Table(pd.DataFrame(issues.rows, columns=list(issues.header)), heading="What is wrong"))
+    parts.append(Figure(*_figure(recording), heading="Channels"))
+    parts.append(Table(pd.DataFrame(channels.rows, columns=list(channels.header)), channels.title, digits=4))
+    if notes:
+        parts.append(Text(notes, heading="What was done and assumed on reading"))
+    return render_page(run.name, parts, footer=f"tire check {run.name}")
+
+
+def _figure(recording: pd.DataFrame) -> tuple[Any, str]:
+    from tire_pipeline.drawing import colour_of, new_figure
+    from tire_pipeline.recordings.channels import CANONICAL
+
+    units = {c.name: c.unit for c in CANONICAL if c.name != "time" and c.name in recording}
+    step = max(1, len(recording) // _MOST_DRAWN)
+    timed = "time" in recording
+    x = recording["time"].to_numpy(dtype=float)[::step] if timed else np.arange(len(recording))[::step]
+    steps = np.diff(x, prepend=x[:1])
+    gaps = np.flatnonzero(steps > 5.0 * np.median(steps))
+    figure, axes = new_figure(
+        len(units), 1, width=9.0, height=1.15 * len(units) + 0.6, squeeze=False, sharex=True
+    )
+    for panel, (name, unit) in zip(axes.ravel(), units.items(), strict=True):
+        values = recording[name].to_numpy(dtype=float)[::step].copy()
+        values[gaps] = np.nan  # no line over a gap
+        if unit == "rad":
+            values, unit = np.degrees(values), "deg"
+        look: Any = {"lw": 0.6} if timed else {"ls": "", "marker": "."}
+        panel.plot(x, values, color=colour_of(0), **look)
+        panel.set_ylabel(f"{name.replace('_', ' ')}\n({unit})", fontsize=8)
+    axes.ravel()[-1].set_xlabel("time (s)" if timed else "point")
+    thinned = f" Every {step}. sample is drawn." if step > 1 else ""
+    return figure, f"The channels that are known, as read: ISO W axes; angles in degrees.{thinned}"

@@ -1,0 +1,142 @@
+"""``tire compare``: two .tir files beside each other."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tire_pipeline.command.options import FILE, output_options
+from tire_pipeline.command.outcome import Grid, Outcome, finish
+
+if TYPE_CHECKING:
+    from tire_pipeline.magic_formula import TireModel
+    from tire_pipeline.magic_formula.compare import Difference
+
+_NOTHING = 1e-9
+"""Share of the largest force below which a difference is that of rounding."""
+
+
+@click.command(help="Compare A.tir with B.tir: key figures, forces at pure slip, coefficients that differ.")
+@click.argument("first", type=FILE, metavar="A.tir")
+@click.argument("second", type=FILE, metavar="B.tir")
+@click.option("--load", "loads", type=float, multiple=True, help="Normal load, N; may be given again.")
+@click.option("--camber", type=float, default=0.0, show_default=True, help="Camber, deg.")
+@output_options()
+def command(first: Path, second: Path, loads: tuple[float, ...], camber: float, **output: Any) -> None:
+    """Compare two files."""
+    from tire_pipeline.tir import read_tir
+
+    names = (first.name, second.name) if first.name != second.name else (str(first), str(second))
+    outcome = compared(dict(zip(names, (read_tir(first), read_tir(second)), strict=True)), loads, camber)
+    finish(outcome, f"{first.stem}_against_{second.stem}", **output)
+
+
+def compared(
+    models: dict[str, TireModel], loads: tuple[float, ...] = (), camber: float = 0.0, title: str = ""
+) -> Outcome:
+    """Compare two models by name; ``camber`` in degrees."""
+    from tire_pipeline.magic_formula.compare import changed_values, compare_models
+    from tire_pipeline.magic_formula.key_figures import key_figures, usual_loads
+
+    (a, first), (b, second) = models.items()
+    at = list(loads) or usual_loads([first, second])
+    apart = compare_models(first, second, loads=at, camber=math.radians(camber))
+    changed = changed_values(first, second)
+    load = at[len(at) // 2]
+    pairs = list(zip(key_figures(first, load), key_figures(second, load), strict=True))
+    figures = Grid(
+        ("quantity", "A", "B", "change", "unit"),
+        [(x.name, x.value, y.value, _change(x.value, y.value), x.unit) for x, y in pairs],
+        f"At {load:,.0f} N, no camber",
+    )
+    forces = Grid(
+        ("output", "RMS", "largest", "unit", "RMS, of the largest"),
+        [_row(d) for d in apart],
+        f"B minus A, pure slip, {', '.join(f'{x:,.0f}' for x in at)} N",
+    )
+    lines = _lines(models, apart, len(changed))
+    data = {
+        "files": list(models),
+        "versions": [first.version, second.version],
+        "loads": at,
+        "differences": {d.output: asdict(d) for d in apart},
+        "key_figures": {x.name: {a: x.value, b: y.value, "unit": x.unit} for x, y in pairs},
+        "coefficients": {name: [x, y] for name, x, y in changed},
+    }
+
+    def page() -> str:
+        return _page(models, lines, [figures, forces], changed, at, camber, title)
+
+    return Outcome(title or f"{a} and {b}", lines, data, page, [figures, forces])
+
+
+def _lines(models: dict[str, TireModel], apart: list[Difference], changed: int) -> list[str]:
+    (a, first), (b, second) = models.items()
+    known = [d for d in apart if math.isfinite(d.share)]
+    sizes = ", ".join(f"{d.output.capitalize()} {_percent(d.share)}" for d in known)
+    lines = [
+        f"A is {a} (version {first.version}), B is {b} (version {second.version}).",
+        f"RMS difference of the forces, of the largest: {sizes or 'no force is in the files'}.",
+    ]
+    opposite = [d.output.capitalize() for d in apart if d.opposite]
+    if opposite:
+        lines.append(
+            f"{' and '.join(opposite)} of B {'has' if len(opposite) == 1 else 'have'} the other sign: "
+            "the files are in different axes, and the differences say nothing about the tires."
+        )
+    lines.append(f"{changed} coefficients differ.")
+    return lines
+
+
+def _row(difference: Difference) -> tuple[Any, ...]:
+    unit = "N m" if difference.output.startswith("m") else "N"
+    rms, largest = (x if difference.share > _NOTHING else 0.0 for x in (difference.rms, difference.largest))
+    return difference.output.capitalize(), rms, largest, unit, _percent(difference.share)
+
+
+def _percent(share: float) -> str:
+    if not math.isfinite(share):
+        return "–"
+    return f"{100 * share:.2g} %" if share > _NOTHING else "0 %"
+
+
+def _change(before: float, after: float) -> str:
+    if not (math.isfinite(before) and math.isfinite(after)) or before == 0.0:
+        return "–"
+    return f"{100 * (after / before - 1):+.1f} %"
+
+
+def _page(
+    models: dict[str, TireModel],
+    lines: list[str],
+    grids: list[Grid],
+    changed: list[tuple[str, float, float]],
+    loads: list[float],
+    camber: float,
+    title: str,
+) -> str:
+    import pandas as pd
+
+    from tire_pipeline.magic_formula.plots import draw_models
+    from tire_pipeline.reporting import Figure, Table, Text, render_page
+
+    parts: list[Any] = [
+        Text(lines, emphasis=True),
+        Figure(
+            *draw_models(
+                dict(zip("AB", models.values(), strict=True)), loads=loads, camber=math.radians(camber)
+            ),
+            heading="Curves",
+        ),
+    ]
+    for grid, heading in zip(grids, ("Key figures", "Forces"), strict=True):
+        parts.append(Table(pd.DataFrame(grid.rows, columns=list(grid.header)), grid.title, heading))
+    frame = pd.DataFrame(changed, columns=["coefficient", "A", "B"])
+    if len(frame):
+        said = "SI units; a dash: the version does not use it, or the file lacks it."
+        parts.append(Table(frame, said, "Coefficients that differ", digits=6, most_rows=1000))
+    return render_page(title or " and ".join(models), parts, footer=f"tire compare {' '.join(models)}")

@@ -1,0 +1,127 @@
+"""``tire explain``: where a .tir file and recordings differ, and why."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tire_pipeline.command.options import FILE, check_target, output_options, read_runs, reading_options
+from tire_pipeline.command.outcome import Grid, Outcome, finish
+from tire_pipeline.errors import RecordingError
+
+if TYPE_CHECKING:
+    from tire_pipeline.mismatch import MismatchReport
+
+NO_TIRE = "-"
+
+
+@click.command(
+    help="Say where FILE.tir and the recordings RUN differ, what the model left out, and prove it. "
+    "Several recordings of the tire are explained together, in the order given. "
+    "FILE.tir may be -, if the recordings hold the simulated force (simulated_fy or simulated_fx)."
+)
+@click.argument("file", type=FILE, metavar="FILE.tir")
+@click.argument("runs", type=FILE, nargs=-1, required=True, metavar="RUN...")
+@click.option(
+    "--hold-out",
+    type=FILE,
+    metavar="RUN",
+    help="A recording that takes no part: the explained model predicts it, and the page says how well.",
+)
+@click.option("--corrected", type=FILE, help="Write the corrected .tir file here.")
+@click.option("--overwrite", is_flag=True, help="Replace a corrected file of that name.")
+@reading_options
+@output_options("-o")
+def command(
+    file: Path,
+    runs: tuple[Path, ...],
+    hold_out: Path | None,
+    corrected: Path | None,
+    overwrite: bool,
+    axes: str | None,
+    units: tuple[str, ...],
+    names: tuple[str, ...],
+    format_: str | None,
+    **output: Any,
+) -> None:
+    """Explain a mismatch."""
+    from tire_pipeline.mismatch import explain_recordings
+    from tire_pipeline.tir import read_tir
+
+    if corrected is not None:
+        if str(file) == NO_TIRE:
+            raise RecordingError("without a .tir file there is none to correct", todo="leave --corrected out")
+        check_target(corrected, overwrite, file)
+    tire = None if str(file) == NO_TIRE else read_tir(file)
+    paths = list(dict.fromkeys([*runs, *([_among(hold_out, runs)] if hold_out else [])]))
+    read = read_runs(paths, axes=axes, units=units, names=names, format_=format_)
+    by_path = dict(zip(paths, read, strict=True))
+    held_out = by_path[_among(hold_out, runs)] if hold_out else None
+    report = explain_recordings(tire, read, held_out=held_out)
+    if len(read) == 1:
+        report.notes[:0] = next(iter(read.values())).attrs.get("notes", [])
+    written = [report.corrected.to_tir(corrected, overwrite=overwrite)] if corrected else []
+    stem = runs[0].stem if str(file) == NO_TIRE else file.stem
+    finish(_outcome(report, file, written), f"{stem}_explain", **output)
+
+
+def _among(hold_out: Path, runs: tuple[Path, ...]) -> Path:
+    """The recording that is meant: one of those given, by path or name, or a further file."""
+    for run in runs:
+        if run == hold_out or run.name == str(hold_out):
+            return run
+    return hold_out
+
+
+def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Outcome:
+    errors = Grid(
+        ("output", "noise", "RMS before", "RMS after", "95% interval", "unit"),
+        [
+            (
+                name.capitalize(),
+                fit.noise_floor,
+                fit.rms_before,
+                fit.rms_after,
+                f"{fit.rms_after_low:.3g} to {fit.rms_after_high:.3g}",
+                "N m" if name.startswith("m") else "N",
+            )
+            for name, fit in report.fit.items()
+        ],
+        "On sweeps left out of the fit",
+    )
+    grids = [errors]
+    if report.effects:
+        grids.append(
+            Grid(
+                ("effect", "kind", "parameter", "value", "standard error", "unit"),
+                [
+                    (effect.name, effect.kind, name, float(value), float(error), unit)
+                    for effect in report.effects
+                    for name, (value, error, unit) in (effect.parameters or {"": (0.0, 0.0, "")}).items()
+                ],
+                "Found",
+            )
+        )
+    if report.held_out is not None:
+        grids.append(
+            Grid(
+                ("output", "RMS before", "RMS after", "after, of before (95%)"),
+                [
+                    (n.capitalize(), e.rms_before, e.rms_after, f"{e.ratio_low:.2f} to {e.ratio_high:.2f}")
+                    for n, e in report.held_out.errors.items()
+                ],
+                f"On {report.held_out.recording}, which was held out",
+            )
+        )
+
+    def page() -> str:
+        import tempfile
+
+        with tempfile.TemporaryDirectory() as folder:
+            return report.to_html(Path(folder) / "page.html").read_text(encoding="utf-8")
+
+    data = {"file": file, **report.to_dict()}
+    title = f"{file} and {', '.join(report.recordings)}: {report.verdict}"
+    return Outcome(title, [report.summary], data, page, grids, report.notes, written)

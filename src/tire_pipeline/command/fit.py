@@ -1,0 +1,139 @@
+"""``tire fit``: recordings -> a tire model as a .tir file."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tire_pipeline.command.options import FILE, check_target, output_options, read_runs, reading_options
+from tire_pipeline.command.outcome import Grid, Outcome, finish
+
+if TYPE_CHECKING:
+    from tire_pipeline.magic_formula import FitResult
+
+
+@click.command(
+    help="Fit a tire model to the recordings RUN (one tire; steady state, transients left out) and write it."
+)
+@click.argument("runs", type=FILE, nargs=-1, required=True, metavar="RUN...")
+@click.option("-o", "--output", "target", type=FILE, required=True, help="The .tir file to write.")
+@click.option("--version", default="5.2", show_default=True, help="Version of the Magic Formula.")
+@click.option(
+    "--start", type=FILE, help="A .tir file to start from; what the data leave open keeps its values."
+)
+@click.option("--nominal-load", type=float, help="FNOMIN, N; else that of --start, or the median load.")
+@click.option("--radius", type=float, help="UNLOADED_RADIUS, m; else that of --start or of the recording.")
+@click.option("--overwrite", is_flag=True, help="Replace a file of that name.")
+@reading_options
+@output_options()
+def command(
+    runs: tuple[Path, ...],
+    target: Path,
+    version: str,
+    start: Path | None,
+    nominal_load: float | None,
+    radius: float | None,
+    overwrite: bool,
+    axes: str | None,
+    units: tuple[str, ...],
+    names: tuple[str, ...],
+    format_: str | None,
+    **output: Any,
+) -> None:
+    """Fit a model."""
+    from tire_pipeline.magic_formula import fit_magic_formula
+    from tire_pipeline.recordings import join_recordings
+    from tire_pipeline.tir import read_tir, write_tir
+
+    check_target(target, overwrite, *runs, *([start] if start else []))
+    recordings = read_runs(runs, axes=axes, units=units, names=names, format_=format_)
+    joined = join_recordings(recordings) if len(recordings) > 1 else next(iter(recordings.values()))
+    result = fit_magic_formula(
+        joined,
+        version,
+        None if start is None else read_tir(start),
+        nominal_load=nominal_load,
+        unloaded_radius=radius,
+    )
+    said = ", ".join(f"{name} {100 * value:.2g} %" for name, value in result.relative_rms.items())
+    write_tir(
+        result.model,
+        target,
+        comments=[
+            f"fitted by tire_pipeline to {', '.join(recordings)}",
+            f"RMS of residuals over the largest magnitude: {said}",
+            *result.undetermined,
+        ],
+        overwrite=overwrite,
+    )
+    notes = [*joined.attrs.get("notes", []), *result.notes]
+    finish(_outcome(result, list(recordings), target, notes), f"{target.stem}_fit", **output)
+
+
+def _outcome(result: FitResult, runs: list[str], target: Path, notes: list[str]) -> Outcome:
+    model = result.model
+    sizes = ", ".join(f"{n.capitalize()} {100 * v:.2g} %" for n, v in result.relative_rms.items())
+    lines = [
+        f"Magic Formula {model.version} fitted to {', '.join(runs)}: "
+        f"{len(result.standard_errors)} coefficients, FNOMIN = {model.value('FNOMIN'):g} N.",
+        f"RMS of the residuals, of the largest magnitude: {sizes}.",
+    ]
+    residuals = Grid(
+        ("output", "load (N)", "camber (deg)", "points", "bias", "RMS", "largest", "RMS (%)"),
+        [_row(row) for row in result.residuals.itertuples(index=False)],
+        "Residuals, model minus measured, N or N m",
+    )
+    data = {
+        "recordings": runs,
+        "output": target,
+        "version": model.version,
+        "coefficients": dict(model.coefficients),
+        "standard_errors": dict(result.standard_errors),
+        "relative_rms": dict(result.relative_rms),
+        "undetermined": result.undetermined,
+        "notes": notes,
+    }
+
+    def page() -> str:
+        return _page(result, lines, residuals, notes, target)
+
+    said = [f"not determined by the data: {text}" for text in result.undetermined]
+    return Outcome(target.name, lines, data, page, notes=[*said, *notes], written=[target])
+
+
+def _row(row: Any) -> tuple[Any, ...]:
+    camber = round(math.degrees(row.camber)) + 0
+    name = str(row.output).capitalize()
+    load = float(row.normal_load)
+    return name, load, camber, int(row.count), row.bias, row.rms, row.largest, row.rms_percent
+
+
+def _page(result: FitResult, lines: list[str], residuals: Grid, notes: list[str], target: Path) -> str:
+    import pandas as pd
+
+    from tire_pipeline.errors import DomainError
+    from tire_pipeline.magic_formula.fitting.plots import draw_fit
+    from tire_pipeline.magic_formula.plots import draw_models
+    from tire_pipeline.reporting import Figure, Table, Text, render_page
+
+    parts: list[Any] = [Text(lines, emphasis=True)]
+    try:
+        parts.append(Figure(*draw_fit(result.model, result.measured), heading="Fit"))
+    except DomainError:
+        parts.append(Figure(*draw_models({target.name: result.model}), heading="The fitted model"))
+    table = pd.DataFrame(
+        [(n, result.model.value(n), error) for n, error in result.standard_errors.items()],
+        columns=["coefficient", "value", "standard error"],
+    )
+    if result.undetermined:
+        parts.append(Text(result.undetermined, heading="Not determined by the data"))
+    if notes:
+        parts.append(Text(notes, heading="Notes"))
+    frame = pd.DataFrame(residuals.rows, columns=list(residuals.header))
+    parts.append(Table(frame, f"{residuals.title}; loads and cambers in groups.", "Residuals"))
+    said = "A dash: the coefficient ended at its bound."
+    parts.append(Table(table, said, "Coefficients", digits=5, most_rows=400))
+    return render_page(target.name, parts, footer=f"tire fit -o {target.name}")

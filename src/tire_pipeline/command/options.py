@@ -1,0 +1,118 @@
+"""Options that several subcommands share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from tire_pipeline.errors import TirError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+F = TypeVar("F", bound=Callable[..., Any])
+FILE = click.Path(path_type=Path)
+
+
+def output_options(*names: str) -> Callable[[F], F]:
+    """``--page``, ``--no-page`` and ``--json``; ``names`` are further names of ``--page``."""
+
+    def add(function: F) -> F:
+        for option in (
+            click.option("--json", "as_json", is_flag=True, help="Print JSON, and nothing else."),
+            click.option("--no-page", is_flag=True, help="Write no page."),
+            click.option(
+                *names,
+                "--page",
+                type=FILE,
+                help="The page to write; else one named after file and command in the present folder.",
+            ),
+        ):
+            function = option(function)
+        return function
+
+    return add
+
+
+def reading_options(function: F) -> F:
+    """``--axes``, ``--unit``, ``--name`` and ``--format``: how recordings are read."""
+    for option in (
+        click.option(
+            "--format", "format_", help="TYDEX, CSV, MDF4, MAT or Parquet; else told by the content."
+        ),
+        click.option(
+            "--name",
+            "names",
+            multiple=True,
+            metavar="CHANNEL=COLUMN",
+            help="What a channel is, as --name Querkraft=fy; may be given again.",
+        ),
+        click.option(
+            "--unit",
+            "units",
+            multiple=True,
+            metavar="CHANNEL=UNIT",
+            help="The unit of a channel, as --unit SA=deg; may be given again.",
+        ),
+        click.option(
+            "--axes",
+            type=click.Choice(["ISO", "SAE"], case_sensitive=False),
+            help="Axes of the file where its names do not tell; left out, ISO is assumed, which is said.",
+        ),
+    ):
+        function = option(function)
+    return function
+
+
+def read_runs(
+    paths: Sequence[Path],
+    *,
+    axes: str | None,
+    units: Sequence[str],
+    names: Sequence[str],
+    format_: str | None,
+) -> dict[str, pd.DataFrame]:
+    """Read recordings, by file name, or by path where two have one name."""
+    from tire_pipeline.recordings import read_recording
+
+    short = {path.name for path in paths}
+    unique = len(short) == len(paths)
+    runs = {}
+    for path in paths:
+        runs[path.name if unique else str(path)] = read_recording(
+            path,
+            format=format_,
+            axes=axes,
+            units=_pairs(units, "--unit"),
+            names=_pairs(names, "--name"),
+        )
+    return runs
+
+
+def _pairs(texts: Sequence[str], option: str) -> dict[str, str]:
+    pairs = {}
+    for text in texts:
+        channel, equals, value = text.rpartition("=")
+        if not equals or not channel or not value:
+            raise click.BadParameter(f"{text!r} is not CHANNEL=VALUE", param_hint=option)
+        pairs[channel] = value
+    return pairs
+
+
+def check_target(path: Path, overwrite: bool, *sources: Path) -> None:
+    """Refuse to write over a file, before anything long is computed.
+
+    Raises
+    ------
+    TirError
+        The file is there and ``overwrite`` is False, or it is one of the files that are read.
+    """
+    if any(path.exists() and source.exists() and path.samefile(source) for source in sources):
+        raise TirError("this is the input, which is never changed", path=str(path), todo="choose another -o")
+    if path.exists() and not overwrite:
+        raise TirError(
+            "there is a file of that name", path=str(path), todo="choose another -o, or add --overwrite"
+        )

@@ -1,0 +1,155 @@
+"""What a subcommand found: printed for people or machines, and written as a page."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import click
+import numpy as np
+
+from tire_pipeline.atomic import write_bytes
+from tire_pipeline.errors import DomainError
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A small table.
+
+    Attributes
+    ----------
+    header : sequence of str
+    rows : sequence of sequence
+        Texts and numbers.
+    title : str
+    """
+
+    header: Sequence[str]
+    rows: Sequence[Sequence[Any]]
+    title: str = ""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a subcommand found.
+
+    Attributes
+    ----------
+    title : str
+    lines : sequence of str
+        The result in sentences; the first one matters most.
+    data : mapping
+        The same for machines.
+    page : callable
+        Gives the page as HTML; called only if a page is wanted.
+    grids : sequence of Grid
+        Tables for the terminal.
+    notes : sequence of str
+        What else to know, printed last.
+    written : sequence of Path
+        Files that were written beside the page.
+    """
+
+    title: str
+    lines: Sequence[str]
+    data: Mapping[str, Any]
+    page: Callable[[], str]
+    grids: Sequence[Grid] = ()
+    notes: Sequence[str] = ()
+    written: Sequence[Path] = field(default_factory=tuple)
+
+
+def finish(outcome: Outcome, name: str, *, page: Path | None, no_page: bool, as_json: bool) -> None:
+    """Write the page, then print the result.
+
+    Parameters
+    ----------
+    outcome : Outcome
+    name : str
+        Name of the page, without its suffix, if ``page`` does not give it.
+    page : Path, optional
+    no_page, as_json : bool
+
+    Raises
+    ------
+    DomainError
+        The page's name does not end in ``.html``.
+    """
+    written = [str(path) for path in outcome.written]
+    if not no_page:
+        target = page_path(page, name)
+        write_bytes(target, outcome.page().encode())
+        written.append(str(target))
+    if as_json:
+        click.echo(json.dumps(plain({**outcome.data, "written": written}), ensure_ascii=False, indent=1))
+        return
+    _print(outcome, written)
+
+
+def page_path(page: Path | None, name: str) -> Path:
+    """Where the page goes; anything but HTML is refused, so that no input is overwritten."""
+    path = Path(f"{name}.html") if page is None else page
+    if path.suffix.lower() not in (".html", ".htm"):
+        raise DomainError("the page is HTML", where=str(path), todo="choose a name that ends in .html")
+    return path
+
+
+def _print(outcome: Outcome, written: Sequence[str]) -> None:
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    console = Console(highlight=False)
+    console.print(Text(outcome.title, style="bold"))
+    for line in outcome.lines:
+        console.print(Text(line))
+    for grid in outcome.grids:
+        table = Table(title=grid.title or None, title_justify="left", box=None, pad_edge=False)
+        numbers = [any(_is_number(row[k]) for row in grid.rows) for k in range(len(grid.header))]
+        for heading, number in zip(grid.header, numbers, strict=True):
+            table.add_column(heading, justify="right" if number else "left", overflow="fold")
+        for row in grid.rows:
+            table.add_row(*(Text(digits(cell)) for cell in row))
+        console.print()
+        console.print(table)
+    if outcome.notes:
+        console.print()
+    for note in outcome.notes:
+        console.print(Text(f"note: {note}"))
+    if written:
+        console.print()
+        console.print(Text(f"written: {', '.join(written)}"))
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float | np.number) and not isinstance(value, bool)
+
+
+def digits(value: Any) -> str:
+    """Return a cell's text: numbers with the digits that matter, a dash for nothing."""
+    if value is None or (isinstance(value, float) and not math.isfinite(value)):
+        return "–"
+    if isinstance(value, float):
+        return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.4g}"
+    return str(value)
+
+
+def plain(value: Any) -> Any:
+    """Return JSON types: no arrays, NaN and infinities as null."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(each) for key, each in value.items()}
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [plain(each) for each in value]
+    if isinstance(value, np.generic):
+        return plain(value.item())
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, Path):
+        return str(value)
+    return value

@@ -1,0 +1,130 @@
+"""``tire show``: what a .tir file holds."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tire_pipeline.command.options import FILE, output_options
+from tire_pipeline.command.outcome import Grid, Outcome, finish
+
+if TYPE_CHECKING:
+    from tire_pipeline.magic_formula import TireModel
+
+_UNITS = {
+    "slip_angle": (57.29577951308232, "deg"),
+    "slip_ratio": (1.0, ""),
+    "camber": (57.29577951308232, "deg"),
+    "normal_load": (1.0, "N"),
+    "speed": (1.0, "m/s"),
+    "pressure": (1e-3, "kPa"),
+}
+_FEW = 12
+
+
+@click.command(help="Show what FILE.tir holds: version, ranges, key figures, what is missing, curves.")
+@click.argument("file", type=FILE, metavar="FILE.tir")
+@click.option(
+    "--load", "loads", type=float, multiple=True, help="Normal load of a curve, N; may be given again."
+)
+@click.option("--camber", type=float, default=0.0, show_default=True, help="Camber of the curves, deg.")
+@output_options()
+def command(file: Path, loads: tuple[float, ...], camber: float, **output: Any) -> None:
+    """Show a file."""
+    from tire_pipeline.tir import read_tir
+
+    model = read_tir(file)
+    finish(_outcome(model, file, loads, camber), f"{file.stem}_show", **output)
+
+
+def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: float) -> Outcome:
+    from tire_pipeline.magic_formula.key_figures import key_figures
+
+    figures = key_figures(model)
+    ranges = {name: (low, high) for name, (*_, low, high) in model.ranges.items()}
+    lines = [
+        f"Magic Formula {model.version}, nominal load {model.value('FNOMIN'):g} N, "
+        f"{len(model.coefficients)} coefficients."
+    ]
+    missing = dict(model.defaulted)
+    if missing:
+        lines.append(f"Missing: {_missing(missing)}.")
+    lines += _gaps(model)
+    warnings = [str(text) for text in model.metadata.get("warnings", ())]  # type: ignore[attr-defined]
+    key = Grid(
+        ("quantity", "value", "unit"),
+        [(f.name, f.value, f.unit) for f in figures],
+        "At the nominal load, no camber",
+    )
+    valid = Grid(("valid for", "from", "to", "unit"), [_range(n, *ends) for n, ends in ranges.items()])
+    data = {
+        "file": file,
+        "version": model.version,
+        "coefficients": dict(model.coefficients),
+        "missing": missing,
+        "ranges": ranges,
+        "key_figures": {f.name: {"value": f.value, "unit": f.unit} for f in figures},
+        "warnings": warnings,
+    }
+    grids = [key, *([valid] if ranges else [])]
+
+    def page() -> str:
+        return _page(model, file, lines, grids, warnings, loads, camber)
+
+    return Outcome(file.name, lines, data, page, grids, warnings)
+
+
+def _gaps(model: TireModel) -> list[str]:
+    """What a simulation with this file lacks."""
+    gaps = []
+    if all(model.value(name) == 0.0 for name in ("RBX1", "RBY1")):
+        gaps.append("There is no combined slip: braking and cornering do not weaken each other.")
+    if all(model.value(name) == 0.0 for name in ("PTX1", "PTY1")):
+        gaps.append("There are no relaxation lengths: forces follow the slip at once.")
+    return gaps
+
+
+def _missing(missing: dict[str, float]) -> str:
+    names = list(missing)
+    more = f" and {len(names) - _FEW} more" if len(names) > _FEW else ""
+    return f"{', '.join(names[:_FEW])}{more} (0, or what leaves the equations neutral, stands in)"
+
+
+def _range(name: str, low: float, high: float) -> tuple[str, float, float, str]:
+    factor, unit = _UNITS[name]
+    return name.replace("_", " "), low * factor, high * factor, unit
+
+
+def _page(
+    model: TireModel,
+    file: Path,
+    lines: list[str],
+    grids: list[Grid],
+    warnings: list[str],
+    loads: tuple[float, ...],
+    camber: float,
+) -> str:
+    import math
+
+    import pandas as pd
+
+    from tire_pipeline.magic_formula.plots import draw_models
+    from tire_pipeline.reporting import Figure, Table, Text, render_page
+
+    figure = draw_models({file.name: model}, loads=loads or None, camber=math.radians(camber))
+    given = pd.DataFrame(
+        {"coefficient": list(model.coefficients), "value": list(model.coefficients.values())}
+    )
+    absent = pd.DataFrame({"coefficient": list(model.defaulted), "stands in": list(model.defaulted.values())})
+    parts: list[Any] = [Text(lines, emphasis=True), Figure(*figure, heading="Curves")]
+    if warnings:
+        parts.append(Text(warnings, heading="What is odd in the file"))
+    headings = ("Key figures", "Ranges")
+    for grid, heading in zip(grids, headings, strict=False):
+        parts.append(Table(pd.DataFrame(grid.rows, columns=list(grid.header)), grid.title, heading))
+    if len(absent):
+        parts.append(Table(absent, "Not in the file; what stands in for them.", "Missing", most_rows=400))
+    parts.append(Table(given, "SI units.", "All coefficients", digits=8, most_rows=1000))
+    return render_page(file.name, parts, footer=f"tire show {file.name}")

@@ -1,0 +1,155 @@
+"""``tire translate``: a .tir file as another organisation would have measured the tire."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tire_pipeline.command.options import FILE, check_target, output_options
+from tire_pipeline.command.outcome import Grid, Outcome, finish
+from tire_pipeline.errors import DomainError
+
+if TYPE_CHECKING:
+    from tire_pipeline.magic_formula import TireModel
+    from tire_pipeline.translation.result import TranslationResult
+
+USUAL_LOAD = 6000.0
+_ASSUMED = (
+    f"the translator does not say at which nominal load it has learned: {USUAL_LOAD:g} N, the default of "
+    "normalize, is assumed; give --nominal-load if it was another"
+)
+
+
+@click.command(
+    help="Write FILE.tir as the target organisation would have measured the tire, with a verdict and bands."
+)
+@click.argument("file", type=FILE, metavar="FILE.tir")
+@click.option(
+    "--model",
+    "stored",
+    type=FILE,
+    required=True,
+    help="A fitted translator: its file, its versioned folder (the newest is taken) or a folder of releases.",
+)
+@click.option(
+    "--from", "category", help="Who measured the tire; else a folder of the file's path that is known."
+)
+@click.option("-o", "--output", "target", type=FILE, help="The file to write; else FILE_as_TARGET.tir.")
+@click.option(
+    "--nominal-load",
+    type=float,
+    help=f"Nominal load of the translator's training table, N; else what the model says, or {USUAL_LOAD:g}.",
+)
+@click.option(
+    "--farthest",
+    type=click.FloatRange(0.0, 3.0, min_open=True),
+    default=1.0,
+    show_default=True,
+    help="Distance from the training data up to which a tire is translated; 1 is their edge.",
+)
+@click.option("--overwrite", is_flag=True, help="Replace a file of that name.")
+@output_options()
+def command(
+    file: Path,
+    stored: Path,
+    category: str | None,
+    target: Path | None,
+    nominal_load: float | None,
+    farthest: float,
+    overwrite: bool,
+    **output: Any,
+) -> None:
+    """Translate a file."""
+    from tire_pipeline.command.stored import translator_state
+    from tire_pipeline.tir import read_tir, write_tir
+    from tire_pipeline.translation import translator_from_state
+    from tire_pipeline.translation.of_models import translate_models
+
+    model = read_tir(file)
+    state, source = translator_state(stored)
+    translator: Any = translator_from_state(state)
+    goal = str(getattr(translator, "target", "target"))
+    target = Path(f"{file.stem}_as_{goal}.tir") if target is None else target
+    check_target(target, overwrite, file)
+    who = category or _folder(file, translator)
+    load = nominal_load or float(state.get("nominal_load", USUAL_LOAD))
+    notes = [] if nominal_load or "nominal_load" in state else [_ASSUMED]
+    result, translated, comments = translate_models(
+        translator, {file.name: (who, model)}, nominal_load=load, farthest=farthest
+    )
+    written = []
+    for name, new in translated.items():
+        written.append(write_tir(new, target, comments=comments[name], overwrite=overwrite))
+    outcome = _outcome(file, model, translated.get(file.name), result, source, written, notes)
+    finish(outcome, f"{file.stem}_translate", **output)
+
+
+def _folder(file: Path, translator: Any) -> str:
+    from tire_pipeline.translation.of_models import categories_of
+
+    known = categories_of(translator)
+    for folder in reversed(file.resolve().parent.parts):
+        if folder in known:
+            return folder
+    raise DomainError(
+        "who measured this tire is not known",
+        where=str(file),
+        todo=f"add --from with one of {', '.join(known) or 'the training categories'}",
+    )
+
+
+def _outcome(
+    file: Path,
+    model: TireModel,
+    translated: TireModel | None,
+    result: TranslationResult,
+    source: Path,
+    written: list[Path],
+    notes: list[str],
+) -> Outcome:
+    said: Mapping[str, Any] = result.report.iloc[0].to_dict()
+    bands = said.get("bias_band", "")
+    lines = [
+        f"{file.name}, measured by {said['source']}, to be as {said['target']} would have measured it: "
+        f"{said['verdict']}.",
+        *([f"{str(said['reason'])[:1].upper()}{str(said['reason'])[1:]}."] if said["reason"] else []),
+        *([f"{said['changes']}."] if said["changes"] else []),
+        *([f"Bias, {said['target']} less {said['source']} (90% bands): {bands}."] if bands else []),
+    ]
+    moved = [(r["coefficient"], r["from"], r["to"]) for r in result.coefficients.to_dict("records")]
+    grid = Grid(("coefficient", "from", "to"), moved, "At the translator's nominal load")
+    data = {
+        "file": file,
+        "model": source,
+        **{name: said[name] for name in said if name != "file"},
+        "coefficients": {name: [a, b] for name, a, b in moved},
+    }
+
+    def page() -> str:
+        return _page(file, model, translated, result, lines, grid)
+
+    return Outcome(file.name, lines, data, page, notes=notes, written=written)
+
+
+def _page(
+    file: Path,
+    model: TireModel,
+    translated: TireModel | None,
+    result: TranslationResult,
+    lines: list[str],
+    grid: Grid,
+) -> str:
+    import pandas as pd
+
+    from tire_pipeline.reporting import Figure, Table, Text, render_page
+    from tire_pipeline.reporting.one_translation import draw_translation
+
+    parts: list[Any] = [Text(lines, emphasis=True)]
+    parts.append(Figure(*draw_translation(model, translated, result.bands), heading="Curves"))
+    if grid.rows:
+        frame = pd.DataFrame(grid.rows, columns=list(grid.header))
+        parts.append(Table(frame, f"{grid.title}.", "Coefficients that moved", digits=5, most_rows=400))
+    return render_page(file.name, parts, footer=f"tire translate {file.name}")

@@ -1,0 +1,107 @@
+"""What the files became, in one plain sentence each."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pandas as pd
+
+from tire_pipeline.pipelines.evaluate.judge import FLOOR
+from tire_pipeline.pipelines.evaluate.translate import NO_CHANGE, OUR_AGENT, UNJUDGED
+from tire_pipeline.translation.result import TRANSLATED
+
+METRIC = "forces"
+
+
+def say_outcome(
+    translated_table: pd.DataFrame,
+    evaluation_summary: pd.DataFrame,
+    best: dict[str, Any],
+    target_category: str,
+) -> list[str]:
+    """Say what the files became by the best translator, beside the floor; then what the others did.
+
+    Parameters
+    ----------
+    translated_table, evaluation_summary : DataFrame
+    best : dict
+        From :func:`.best.choose_best`.
+    target_category : str
+
+    Returns
+    -------
+    list of str
+        The first sentences of the report, and the last lines of a run.
+    """
+    lines = []
+    forces = evaluation_summary[evaluation_summary["metric"] == METRIC]
+    for name in sorted(forces["set"].unique(), key=_most_tires(translated_table)):
+        lines += _judged(str(name), forces[forces["set"] == name], translated_table, best, target_category)
+    if UNJUDGED in set(translated_table["set"]):
+        lines.append(_unjudged(translated_table, best, target_category))
+    lines.append(_whose_files(best))
+    return lines
+
+
+def _most_tires(table: pd.DataFrame) -> Any:
+    tires = table.groupby("set")["tire"].nunique()
+    return lambda name: -int(tires[name])
+
+
+def _judged(
+    name: str, forces: pd.DataFrame, table: pd.DataFrame, best: dict[str, Any], target: str
+) -> list[str]:
+    rms = forces.set_index("translator")["rms"]
+    before = rms[NO_CHANGE]
+    part = table[(table["set"] == name) & (table["translator"] == best["name"])]
+    acted = int((part["verdict"] == TRANSLATED).sum())
+    others = [who for who in table["translator"].unique() if who not in (best["name"], NO_CHANGE)]
+    left = "; the others count unchanged" if acted < len(part) else ""
+    return [
+        f"Set {name}, {part['tire'].nunique()} tires that no translator has seen: {acted} of "
+        f"{len(part)} files were translated by {_object(best)}{left}; the RMS error of lateral force "
+        f"went from {before:,.0f} N to {rms[best['name']]:,.0f} N ({rms[best['name']] / before:.0%}).",
+        f"The floor: {target} measuring these tires again differs from itself by {rms[FLOOR]:,.0f} N "
+        f"({rms[FLOOR] / before:.0%}).",
+        *(
+            f"{_subject(who)} leaves {rms[who]:,.0f} N ({rms[who] / before:.0%} of doing nothing)."
+            for who in others
+            if who in rms
+        ),
+    ]
+
+
+def _subject(name: str) -> str:
+    return name.capitalize() if name == OUR_AGENT else f"The {name}"
+
+
+def _object(best: dict[str, Any]) -> str:
+    name = str(best["name"])
+    return name if name == OUR_AGENT else f"the {name}"
+
+
+def _unjudged(table: pd.DataFrame, best: dict[str, Any], target: str) -> str:
+    part = table[(table["translator"] == best["name"]) & (table["verdict"] == TRANSLATED)]
+    count = int((table["translator"] == best["name"]).sum())
+    middle = part["expected_rms_ratio"].median()
+    estimate = (
+        f"their RMS error is expected to shrink to {middle:.0%} (median, the translator's own estimate)"
+        if middle == middle
+        else "the translator gives no estimate of its error"
+    )
+    return (
+        f"{len(part)} of {count} of your files were translated to {target} by {_object(best)}: "
+        f"{estimate}. There are no evaluation tires that {target} measured, too, so neither the error nor "
+        "the floor can be told from these files."
+    )
+
+
+def _whose_files(best: dict[str, Any]) -> str:
+    if not best["tires"]:
+        return f"The .tir files are those of {_object(best)}; there were no tuning tires to choose by."
+    others = ", ".join(f"{who} {ratio:.0%}" for who, ratio in best["rms_ratio"].items())
+    return (
+        f"The .tir files are those of {_object(best)}: on {best['tires']} tuning tires, judged nowhere "
+        f"else, the mean RMS error of lateral force, cornering stiffness and peak friction is {others} of "
+        "doing nothing."
+    )

@@ -1,0 +1,55 @@
+"""All recordings on one page, and what a run says last."""
+
+from __future__ import annotations
+
+from pathlib import PurePosixPath
+
+import pandas as pd
+
+from tire_pipeline.reporting import Links, Table, Text, render_page
+
+
+def draw_overview(overview: pd.DataFrame, pages: dict[str, str]) -> tuple[str, list[str]]:
+    """Sum up all recordings of a run on one page.
+
+    Parameters
+    ----------
+    overview : DataFrame
+        ``recording, verdict, effects, alternatives, held_out, problem``.
+    pages : dict of str to str
+        The recordings' pages by path.
+
+    Returns
+    -------
+    page : str
+        HTML; it links the recordings' pages.
+    outcome : list of str
+        The last lines of a run.
+    """
+    shown = overview.fillna("").astype(str)
+    counts = shown.loc[shown["verdict"] != "", "verdict"].value_counts()
+    said = [f"{count} {verdict}" for verdict, count in counts.items()]
+    failed = int((shown["verdict"] == "").sum())
+    if failed:
+        said.append(f"{failed} could not be used")
+    outcome = [f"{len(shown)} recordings: {', '.join(said)}."]
+    links = []
+    for row in shown.to_dict("records"):
+        path = str(PurePosixPath(row["recording"]).with_suffix(".html"))
+        text = (
+            f"{row['verdict']}: {row['effects'] or 'no effect named'}" if row["verdict"] else row["problem"]
+        )
+        links.append((f"mismatch/{path}" if path in pages else "", row["recording"], text))
+    table = shown[["recording", "verdict", "effects", "alternatives", "held_out", "problem"]]
+    parts = [
+        Text(outcome, emphasis=True),
+        Links(links, heading="Recordings"),
+        Table(
+            table.rename(columns={"held_out": "held out"}),
+            "Effects are what the model left out, by their names; alternatives cannot be told from them by "
+            "these recordings.",
+            heading="In one table",
+            most_rows=1000,
+        ),
+    ]
+    return render_page("Recordings against their simulations", parts), outcome

@@ -1,0 +1,62 @@
+"""Fit the translator: a versioned model that `translate`, `evaluate` and `tire translate` read."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pandas as pd
+from kedro.pipeline import Node
+
+from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
+from tire_pipeline.pipelines.translate.parameters import TranslateParameters
+from tire_pipeline.translation import make_translator
+
+
+def fit_translator(
+    normalized_table: pd.DataFrame,
+    parameters: TranslateParameters,
+    normalize: NormalizeParameters,
+    target_category: str,
+    seed: int,
+) -> dict[str, Any]:
+    """Learn how each organisation's measurements differ from the target's.
+
+    Parameters
+    ----------
+    normalized_table : DataFrame
+        What the translator learns from. Its categories are the known ones.
+    parameters : TranslateParameters
+    normalize : NormalizeParameters
+    target_category : str
+    seed : int
+
+    Returns
+    -------
+    dict
+        State of the fitted translator, with ``nominal_load`` (N), at which it works.
+
+    Raises
+    ------
+    DomainError
+        If there is no file of the target, or none of any other category.
+    """
+    gate = {"gate": True} if parameters.translator == "likelihood_agent" else {"pairs": parameters.pairs}
+    translator = make_translator(parameters.translator, farthest=parameters.farthest, **gate)
+    translator.fit(normalized_table, target=target_category, seed=seed)
+    return {**translator.to_state(), "nominal_load": normalize.nominal_load}
+
+
+def fit_node() -> Node:
+    """Give the node that both ``train_agent`` and ``translate`` run."""
+    return Node(
+        fit_translator,
+        inputs=[
+            "normalized_table",
+            "params:translate",
+            "params:normalize",
+            "params:target_category",
+            "params:seed",
+        ],
+        outputs="translator",
+        name="fit_translator",
+    )

@@ -1,0 +1,124 @@
+"""The page of the translated files, and what a run says last."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pandas as pd
+
+from tire_pipeline.classifiers.open_set import LEAST_PROBABILITY, LEAST_TYPICALITY
+from tire_pipeline.pipelines.translate.parameters import TranslateParameters
+from tire_pipeline.reporting import Table
+from tire_pipeline.reporting.translated import translated_page
+from tire_pipeline.translation.result import EDGE, REFUSED, TRANSLATED, UNKNOWN
+
+_PROTOCOLS = (
+    "Categories whose files show that the way of measuring changed on a day: that day with its 90% range, "
+    "how probable a change is, and by how much it moved the curves of the mean tire (90% intervals). Files "
+    "count by their dates, those without one as the mean of both; a target is given by its newest protocol."
+)
+
+
+def translate_page(
+    report: pd.DataFrame,
+    curves: dict[str, Any],
+    coefficients: pd.DataFrame,
+    protocols: pd.DataFrame,
+    source_table: pd.DataFrame,
+    demonstration_files: list[str],
+    parameters: TranslateParameters,
+    target: str,
+) -> tuple[str, list[str]]:
+    """Draw every file on one page, and say how many were translated.
+
+    Parameters
+    ----------
+    report, coefficients, protocols : DataFrame
+    curves : dict
+        From :func:`.nodes.translate_all`.
+    source_table : DataFrame
+        Tires by ``file`` and ``tire_id``.
+    demonstration_files : list of str
+        Files that are not the user's own.
+    parameters : TranslateParameters
+    target : str
+
+    Returns
+    -------
+    page : str
+        HTML.
+    outcome : list of str
+        The last lines of a run.
+    """
+    own = set(report["file"].astype(str)) - set(demonstration_files)
+    outcome = _outcome(report, own, target)
+    tables = []
+    if len(protocols):
+        shown = protocols.rename(columns=lambda name: name.replace("_", " "))
+        tables.append(Table(shown, _PROTOCOLS, heading="Changes of protocol"))
+    page = translated_page(
+        f"Translated to {target}",
+        [*outcome, *_explained(report, parameters)],
+        report,
+        curves,
+        coefficients,
+        own=own,
+        tires=dict(zip(source_table["file"], source_table["tire_id"], strict=True)),
+        tables=tables,
+    )
+    return page, outcome
+
+
+def _outcome(report: pd.DataFrame, own: set[str], target: str) -> list[str]:
+    lines = []
+    mine = report["file"].isin(own)
+    if mine.any() and not mine.all():
+        lines.append(f"Your own {_counted(report[mine], target)}")
+        lines.append(f"The demonstration fleet's {_counted(report[~mine], target)}")
+    else:
+        said = _counted(report, target)
+        lines.append(f"{'Your ' if mine.all() else 'The demonstration fleet has '}{said}")
+    translated = report[report["verdict"] == TRANSLATED]
+    if len(translated):
+        middle = translated["expected_rms_ratio"].median()
+        lines.append(
+            f"The RMS error of the translated files is expected to shrink to {middle:.0%} of the unchanged "
+            "files' (median, the translator's own estimate; nobody has judged it on these files)."
+        )
+    return lines
+
+
+def _counted(report: pd.DataFrame, target: str) -> str:
+    counts = report["verdict"].value_counts().to_dict()
+    first = [f"{counts.pop(TRANSLATED, 0)} translated to {target}", f"{counts.pop(REFUSED, 0)} refused"]
+    first.append(f"{counts.pop(UNKNOWN, 0)} of an unknown supplier")
+    others = [f"{count} {verdict}" for verdict, count in counts.items()]
+    return f"{len(report)} files: {', '.join([*first, *others])}."
+
+
+def _explained(report: pd.DataFrame, parameters: TranslateParameters) -> list[str]:
+    reach = "distance 1, the edge of the training data"
+    if parameters.farthest != EDGE:
+        reach = f"distance {parameters.farthest:g}, as asked for (1 is the edge of the training data)"
+    lines = [
+        "Translated: the error is expected to shrink. Already unbiased: the target's own, or the 90% bands "
+        "of the supplier's bias hold zero. Left alone: too little would be gained, or the bias cannot be "
+        "told from chance. Unknown supplier: its folder is no known category, so nothing can be said of its "
+        "bias. Refused: it cannot be read or translated, or lies beyond what was learned from.",
+        f"Only translated files are written, none beyond {reach}. Errors are RMS.",
+        f"Method: {parameters.translator}, tires measured by several actors "
+        + ("used." if parameters.pairs else "not used."),
+    ]
+    if parameters.classify:
+        lines.append(
+            "Files of unknown suppliers were classified, as asked for: one is given to a category from a "
+            f"calibrated probability of {LEAST_PROBABILITY:g} on, if at least {LEAST_TYPICALITY:.0%} of the "
+            "category's own files are as far from its mean. A laboratory that copies the rig, the ranges and "
+            "the fits of a known one cannot be told from it."
+        )
+    if "taught" in report and report["taught"].max() > 0:
+        lines.append(
+            "The files to translate taught, too: each was translated by what those of other tires say of "
+            "their categories. With other files beside it, it would come out a little differently."
+        )
+    return lines

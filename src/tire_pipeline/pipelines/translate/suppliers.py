@@ -1,0 +1,102 @@
+"""Who supplied the files to translate: their folder says it, or, if asked, an open-set classification."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from tire_pipeline.classifiers.open_set import (
+    LEAST_PROBABILITY,
+    LEAST_TYPICALITY,
+    Assignment,
+    OpenSetClassifier,
+)
+from tire_pipeline.classifiers.supplier_features import supplier_features
+
+UNKNOWN_SUPPLIER = "unknown"
+BY_FOLDER = "by its folder"
+WHAT_TO_DO = (
+    "put training files of this supplier into a folder of its own and train again, or ask for classification "
+    "by --params translate.classify=true"
+)
+
+
+def category_of(file: str, known: set[str]) -> str:
+    """Return the innermost folder of ``file`` that is a known category, "" if none is."""
+    folders = file.split("/")[:-1]
+    return next((name for name in reversed(folders) if name in known), "")
+
+
+def with_suppliers(
+    source: pd.DataFrame, training: pd.DataFrame, *, classify: bool, seed: int
+) -> pd.DataFrame:
+    """Say of each file who supplied it, and how that is known.
+
+    Parameters
+    ----------
+    source : DataFrame
+        Files to translate, at the nominal load of ``training``; ``category`` is "" where the folder is no
+        known category.
+    training : DataFrame
+        What is known of suppliers.
+    classify : bool
+        Classify files of unknown suppliers. Only those are given to a category whose probability and
+        typicality suffice (:mod:`.classifiers.open_set`).
+    seed : int
+
+    Returns
+    -------
+    DataFrame
+        ``source`` with ``category`` as it is known now, ``category_probability``, ``supplier`` (how the
+        supplier is known, in words; "unknown") and ``supplier_note`` (of unknown suppliers: why and what to
+        do).
+    """
+    known = sorted(training["category"].astype(str).unique())
+    unknown = ~source["category"].isin(known)
+    found = source.copy().assign(category_probability=1.0, supplier=BY_FOLDER, supplier_note="")
+    found.loc[unknown, "supplier"] = UNKNOWN_SUPPLIER
+    found.loc[unknown, "category_probability"] = float("nan")
+    found.loc[unknown, "supplier_note"] = [
+        f"{_place(file)} is no known category ({', '.join(known)}): {WHAT_TO_DO}"
+        for file in found.loc[unknown, "file"]
+    ]
+    if classify and unknown.any():
+        _classify(found, unknown, training, seed)
+    return found
+
+
+def _place(file: str) -> str:
+    folder = file.rpartition("/")[0]
+    return f"its folder {folder!r}" if folder else "it is in no folder, which"
+
+
+def _classify(found: pd.DataFrame, unknown: pd.Series, training: pd.DataFrame, seed: int) -> None:
+    tires = training["tire_id"].to_numpy(dtype=str)
+    model = OpenSetClassifier().fit(
+        supplier_features(training)[0], training["category"].to_numpy(dtype=str), tires, seed=seed
+    )
+    told = model.assign(supplier_features(found.loc[unknown])[0])
+    for i, row in enumerate(found.index[unknown]):
+        if told.given[i]:
+            found.loc[row, "category"] = told.category[i]
+            found.loc[row, "category_probability"] = told.probability[i]
+            found.loc[row, "supplier"] = (
+                f"classified (probability {_shown(told.probability[i])}, typicality {told.typicality[i]:.2f})"
+            )
+            found.loc[row, "supplier_note"] = ""
+        else:
+            found.loc[row, "supplier_note"] = _why_nobodys(told, i)
+
+
+def _why_nobodys(told: Assignment, i: int) -> str:
+    name = told.category[i]
+    probability, least = told.probability[i], f"{LEAST_PROBABILITY:g} is needed"
+    return (
+        f"given to no category: if its supplier were one of the known ones, it would be {name} (calibrated "
+        f"probability {_shown(probability)}, {least}), and its typicality among {name}'s files is "
+        f"{told.typicality[i]:.2f} ({LEAST_TYPICALITY:g} is needed); put training files of this supplier "
+        "into a folder of its own and train again"
+    )
+
+
+def _shown(probability: float) -> str:
+    return "above 0.99" if probability > 0.99 else f"{probability:.2f}"

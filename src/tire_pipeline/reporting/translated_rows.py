@@ -1,0 +1,70 @@
+"""Rows of the page of translated files, and what came of each supplier's."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+COLUMNS = (
+    "file",
+    "own",
+    "supplier",
+    "known",
+    "tire",
+    "verdict",
+    "distance",
+    "ratio",
+    "reason",
+    "changes",
+    "bias",
+    "protocol",
+)
+VERDICTS = ("translated", "already unbiased", "left alone", "refused", "unknown supplier")
+
+
+def rows_of(report: pd.DataFrame, own: set[str], tires: Mapping[str, str]) -> list[list[Any]]:
+    """Give the rows by ``COLUMNS``, the user's own files first, then by file; None for what is not known."""
+    texts = report.reindex(
+        columns=["file", "source", "supplier", "verdict", "reason", "changes", "bias_band", "protocol"]
+    )
+    texts = texts.astype(object).where(texts.notna(), "")
+    numbers = report.reindex(columns=["distance", "expected_rms_ratio"]).astype(float)
+    rows = []
+    for said, (distance, ratio) in zip(texts.to_dict("records"), numbers.to_numpy(), strict=True):
+        file = str(said["file"])
+        rows.append(
+            [
+                file,
+                file in own,
+                said["source"],
+                said["supplier"],
+                tires.get(file, ""),
+                said["verdict"],
+                _rounded(distance),
+                _rounded(ratio),
+                said["reason"],
+                said["changes"],
+                said["bias_band"],
+                said["protocol"],
+            ]
+        )
+    return sorted(rows, key=lambda row: (not row[1], row[0]))
+
+
+def by_supplier(rows: list[list[Any]]) -> list[dict[str, Any]]:
+    """Count the verdicts of each supplier, with the median expected RMS error of its translated files."""
+    found = []
+    for name in sorted({row[2] for row in rows}):
+        part = [row for row in rows if row[2] == name]
+        counts = [sum(row[5] == verdict for row in part) for verdict in VERDICTS]
+        ratios = [row[7] for row in part if row[5] == "translated" and row[7] is not None]
+        middle = f"{np.median(ratios):.0%}" if ratios else "–"
+        found.append({"name": name, "files": len(part), "counts": counts, "ratio": middle})
+    return found
+
+
+def _rounded(value: float) -> float | None:
+    return float(f"{value:.3g}") if np.isfinite(value) else None

@@ -1,0 +1,61 @@
+"""A parameter that nothing knows is an error with the nearest name, never ignored."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from kedro.config import OmegaConfigLoader
+from kedro.framework.hooks import hook_impl
+
+from tire_pipeline.errors import DomainError
+
+_RUNTIME = re.compile(r"\$\{runtime_params:\s*(\w+)")
+
+
+class UnknownParameterHooks:
+    """Checks the top-level names of ``--params`` before anything runs."""
+
+    @hook_impl(tryfirst=True)
+    def after_context_created(self, context: Any) -> None:
+        """Refuse a name that neither the parameters nor the catalog know."""
+        asked = dict(context.config_loader.runtime_params or {})
+        if asked:
+            check_names(asked, known_names(context.config_loader))
+
+
+def known_names(loader: OmegaConfigLoader) -> set[str]:
+    """Top-level names of all parameters, and those that the catalog asks for at run time."""
+    plain = OmegaConfigLoader(
+        conf_source=loader.conf_source,
+        env=loader.env,
+        base_env=loader.base_env,
+        default_run_env=loader.default_run_env,
+        config_patterns=loader.config_patterns,
+        merge_strategy=loader.merge_strategy,
+    )
+    names = {str(name) for name in plain["parameters"]}
+    for file in Path(loader.conf_source).rglob("*.yml"):
+        names |= set(_RUNTIME.findall(file.read_text(encoding="utf-8")))
+    return names
+
+
+def check_names(asked: Iterable[str], known: set[str]) -> None:
+    """Check names of parameters.
+
+    Raises
+    ------
+    DomainError
+        A name is unknown; it names the nearest one.
+    """
+    for name in asked:
+        if str(name) not in known:
+            near = get_close_matches(str(name), sorted(known), n=1, cutoff=0.5)
+            raise DomainError(
+                f"there is no parameter {name!r}",
+                where="--params",
+                todo=f"did you mean {near[0]!r}?" if near else f"use one of {', '.join(sorted(known))}",
+            )

@@ -1,0 +1,235 @@
+"""The command ``tire`` as an engineer types it: short results, pages, JSON, errors of one line."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pandas as pd
+import pytest
+from click.testing import CliRunner
+
+from tire_pipeline.command.cli import COMMANDS, tire
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.tir import read_tir, write_tir
+
+COEFFICIENTS = {
+    "FNOMIN": 4000.0,
+    "UNLOADED_RADIUS": 0.32,
+    "LONGVL": 16.7,
+    "PCY1": 1.35,
+    "PDY1": 1.02,
+    "PDY2": -0.1,
+    "PEY1": -1.2,
+    "PKY1": -22.0,
+    "PKY2": 2.1,
+    "PCX1": 1.6,
+    "PDX1": 1.1,
+    "PKX1": 22.0,
+    "PHY3": 0.01,
+}
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """An empty folder to work in, with a tire."""
+    monkeypatch.chdir(tmp_path)
+    write_tir(TireModel.from_coefficients(COEFFICIENTS), "a.tir")
+    return tmp_path
+
+
+def record(name: str, *, seed: int = 0, friction: float = 1.0, seconds: float = 80.0) -> None:
+    rng = np.random.default_rng(seed)
+    time = np.arange(0.0, seconds, 0.02)
+    angle = 0.16 * np.sin(2.0 * np.pi * time / 7.0)
+    load = np.array([2500.0, 4500.0, 6000.0])[(time // 14.0).astype(int) % 3]
+    fy = (
+        friction
+        * TireModel.from_coefficients(COEFFICIENTS).forces(slip_angle=angle / friction, normal_load=load).fy
+    )
+    columns = {"time": time, "slip_angle": angle, "normal_load": load, "speed": 16.7 + 0.0 * time}
+    noise = 25.0 * rng.standard_normal(time.size)
+    pd.DataFrame({**columns, "fy": fy + noise}).to_csv(name, index=False)
+
+
+def run(*arguments: str, code: int = 0):
+    result = CliRunner().invoke(tire, [str(each) for each in arguments], catch_exceptions=False)
+    assert result.exit_code == code, result.output
+    return result
+
+
+def told(*arguments: str, code: int = 0):
+    return json.loads(run(*arguments, "--json", code=code).stdout)
+
+
+def page(path) -> str:
+    text = path.read_text(encoding="utf-8")
+    assert not re.search(r"""(src|href)\s*=\s*["'](?!#|data:)""", text.replace("xlink:href", "href"))
+    return text
+
+
+def test_help_names_every_subcommand_and_imports_none():
+    code = (
+        "import sys\nfrom tire_pipeline.command.cli import tire\n"
+        "try:\n    tire(['--help'])\nexcept SystemExit:\n    pass\n"
+        "print(sorted(m for m in sys.modules if 'numpy' in m or 'kedro' in m or 'command.' in m))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert all(f"  {name} " in done.stdout for name in COMMANDS)
+    assert done.stdout.splitlines()[-1] == "['tire_pipeline.command.cli']"
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_each_subcommand_has_help_and_the_shared_options(name):
+    text = run(name, "--help").stdout
+    assert all(option in text for option in ("--json", "--no-page", "--page"))
+
+
+def test_python_m_runs_the_command(folder):
+    call = [sys.executable, "-m", "tire_pipeline.command", "show", "a.tir", "--no-page"]
+    done = subprocess.run(call, capture_output=True, text=True, check=True)
+    assert "Magic Formula 5.2, nominal load 4000 N" in done.stdout
+
+
+def test_show_says_version_ranges_and_what_is_missing(folder):
+    model = read_tir("a.tir").replace(FZMIN=500.0, FZMAX=9000.0)
+    write_tir(model, "b.tir")
+    text = run("show", "b.tir").stdout
+    assert "There is no combined slip" in text
+    assert re.search(r"normal load +500 +9,000 +N", text)
+    found = told("show", "b.tir", "--no-page")
+    assert found["version"] == "5.2"
+    assert found["ranges"]["normal_load"] == [500.0, 9000.0]
+    assert found["coefficients"]["PKY1"] == -22.0
+    small = model.forces(slip_angle=1e-6, normal_load=4000.0).fy
+    stiffness = found["key_figures"]["cornering stiffness"]["value"]
+    assert stiffness == pytest.approx(abs(small) / 1e-6 * np.pi / 180.0, rel=1e-3)
+    html = page(folder / "b_show.html")
+    assert "<svg" in html
+    assert "largest lateral friction" in html
+
+
+def test_a_warning_is_a_line_and_said_once(folder):
+    without = {name: value for name, value in COEFFICIENTS.items() if name != "UNLOADED_RADIUS"}
+    write_tir(TireModel.from_coefficients({**without, "QDZ1": 0.1}), "b.tir")
+    lines = run("show", "b.tir", "--no-page").stderr.splitlines()
+    assert any("UNLOADED_RADIUS" in line for line in lines)
+    assert all(line.startswith("warning: ") for line in lines)
+    assert len(set(lines)) == len(lines)
+
+
+def test_compare_measures_the_forces_apart(folder):
+    write_tir(read_tir("a.tir").replace(LMUY=0.9, PKY1=-21.0), "b.tir")
+    found = told("compare", "a.tir", "b.tir", "--load", 4000)
+    assert set(found["coefficients"]) == {"LMUY", "PKY1"}
+    assert found["coefficients"]["PKY1"] == [-22.0, -21.0]
+    assert found["differences"]["fx"]["rms"] == 0.0
+    assert 0.02 < found["differences"]["fy"]["share"] < 0.11
+    assert "Coefficients that differ" in page(folder / "a_against_b.html")
+    assert "B minus A" in run("compare", "a.tir", "b.tir").stdout
+
+
+def test_compare_warns_of_other_axes(folder):
+    write_tir(read_tir("a.tir").replace(PKY1=22.0, PHY3=-0.01), "b.tir")
+    assert "the files are in different axes" in " ".join(run("compare", "a.tir", "b.tir").stdout.split())
+
+
+def test_convert_keeps_the_forces_and_says_what_it_cannot_keep(folder):
+    result = told("convert", "a.tir", "--to", "6.1")
+    assert read_tir("a_6.1.tir").version == "6.1"
+    assert result["differences"]["fy"]["share"] < 1e-12
+    assert any("PHY3" in note for note in result["notes"])
+    assert "PHY3 has no exact place in 6.1" in (folder / "a_6.1.tir").read_text()
+    assert "there is a file of that name" in run("convert", "a.tir", "--to", "6.1", code=2).stderr
+    run("convert", "a.tir", "--to", "6.1", "--overwrite", "--no-page")
+
+
+def test_fit_writes_what_was_measured(folder):
+    record("run.csv")
+    before = (folder / "run.csv").read_bytes()
+    found = told("fit", "run.csv", "-o", "out.tir")
+    fitted = read_tir("out.tir")
+    assert (folder / "run.csv").read_bytes() == before
+    assert fitted.coefficients["PDY1"] == pytest.approx(found["coefficients"]["PDY1"])
+    assert found["relative_rms"]["fy"] < 0.01
+    there = read_tir("a.tir").forces(slip_angle=0.1, normal_load=4500.0).fy
+    assert fitted.forces(slip_angle=0.1, normal_load=4500.0).fy == pytest.approx(there, rel=0.02)
+    assert "Points: measured at pure slip" in page(folder / "out_fit.html")
+    assert "out.tir" in run("fit", "run.csv", "-o", "out.tir", code=2).stderr
+
+
+def test_fit_takes_several_recordings_together(folder):
+    record("run1.csv", seconds=30.0)
+    record("run2.csv", seed=1, seconds=30.0)
+    found = told("fit", "run1.csv", "run2.csv", "-o", "out.tir", "--start", "a.tir", "--no-page")
+    assert found["recordings"] == ["run1.csv", "run2.csv"]
+    assert any("joined" in note for note in found["notes"])
+
+
+def test_explain_several_together_and_one_held_out(folder):
+    for k, name in enumerate(("one.csv", "two.csv", "three.csv")):
+        record(name, seed=k, friction=0.88)
+    result = told(
+        "explain", "a.tir", "one.csv", "two.csv", "three.csv", "--hold-out", "two.csv", "-o", "report.html",
+        "--corrected", "corrected.tir",
+    )  # fmt: skip
+    assert [effect["name"] for effect in result["effects"]] == ["friction_scale"]
+    assert result["recordings"] == ["one.csv", "three.csv"]
+    error = result["held_out"]["errors"]["fy"]
+    assert error["rms_after"] < 0.5 * error["rms_before"]
+    assert read_tir("corrected.tir").coefficients["LMUY"] == pytest.approx(0.88, abs=0.02)
+    assert "Tried on a recording that was held out" in page(folder / "report.html")
+    assert result["written"] == ["corrected.tir", "report.html"]
+
+
+def test_a_held_out_recording_need_not_be_among_the_explained(folder):
+    record("one.csv", friction=0.88)
+    record("two.csv", seed=1, friction=0.88)
+    text = run("explain", "a.tir", "one.csv", "--hold-out", "two.csv", "--no-page").stdout
+    assert "On two.csv, which was held out" in text
+
+
+def test_check_lists_channels_and_fails_on_what_cannot_be_explained(folder):
+    record("run.csv")
+    found = told("check", "run.csv")
+    assert found["usable"]
+    assert found["channels"]["fy"]["unit"] == "N"
+    assert "<svg" in page(folder / "run_check.html")
+    pd.read_csv("run.csv").drop(columns="fy").to_csv("none.csv", index=False)
+    assert "cannot be explained" in run("check", "none.csv", "--no-page", code=1).stdout
+    renamed = pd.read_csv("run.csv").rename(columns={"fy": "Querkraft"})
+    renamed["slip_angle"] = np.degrees(renamed["slip_angle"])
+    renamed.to_csv("own.csv", index=False)
+    own = told("check", "own.csv", "--name", "Querkraft=fy", "--unit", "slip_angle=deg", "--no-page")
+    assert own["channels"]["fy"]["channel"] == "Querkraft"
+    assert own["channels"]["slip_angle"]["highest"] == pytest.approx(0.16, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("show", "none.tir"), "none.tir: cannot be read"),
+        (("show", "bad.tir"), "bad.tir"),
+        (("show", "a.tir", "--page", "a.tir"), "the page is HTML"),
+        (("convert", "a.tir", "--to", "7.0"), "Magic Formula version '7.0' is not known"),
+        (("convert", "a.tir", "--to", "6.1", "-o", "a.tir", "--overwrite"), "never changed"),
+        (("convert", "a.tir", "--to", "6.1", "-o", "no/such/folder.tir"), "no/such"),
+        (("check", "none.csv"), "no such file"),
+        (("check", "a.tir", "--name", "x"), "is not CHANNEL=VALUE"),
+        (("explain", "a.tir", "none.csv"), "no such file"),
+        (("translate", "a.tir", "--model", "none"), "there is no such model"),
+        (("shw", "a.tir"), "Did you mean 'show'?"),
+    ],
+)
+def test_errors_are_one_line_and_exit_code_2(folder, arguments, message):
+    (folder / "bad.tir").write_text("nothing of a tire\n")
+    before = (folder / "a.tir").read_bytes()
+    result = run(*arguments, code=2)
+    assert message in result.stderr
+    assert "Traceback" not in result.output
+    assert len([line for line in result.stderr.splitlines() if "rror" in line]) == 1
+    assert (folder / "a.tir").read_bytes() == before
+    assert sorted(path.name for path in folder.iterdir()) == ["a.tir", "bad.tir"]

@@ -1,0 +1,131 @@
+"""``tire translate`` with a translator stored as the pipelines store it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from tire_pipeline.command.cli import tire
+from tire_pipeline.fleet import FleetSettings, make_fleet
+from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
+from tire_pipeline.state_files import pack_state
+from tire_pipeline.tir import read_tir, write_tir
+from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
+from tire_pipeline.translation import make_translator
+
+pytestmark = pytest.mark.slow
+NEWEST = "2026-03-01T10.00.00.000Z"
+
+
+@pytest.fixture(scope="module")
+def fleet():
+    return make_fleet(FleetSettings(seed=77, files=450, tuning_tires=1, hidden_tires=2))
+
+
+@pytest.fixture(scope="module")
+def translator(fleet):
+    files = fleet.files.items()
+    models = ((path, path.split("/")[-2], read_tir(text.encode("latin-1"))) for path, text in files)
+    table = dedupe_and_filter(normalize_table(from_models(models), 6000.0), features=LATERAL_WITHOUT_CAMBER)[
+        0
+    ].reset_index(drop=True)
+    return make_translator("mixed_model").fit(table, target="D", seed=0)
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch, fleet, translator):
+    """A folder with one of the evaluation tires and a versioned translator."""
+    monkeypatch.chdir(tmp_path)
+    text = next(t for p, t in fleet.evaluation.items() if p.startswith("hidden/A/"))
+    (tmp_path / "A").mkdir()
+    (tmp_path / "A" / "tire.tir").write_bytes(text.encode("latin-1"))
+    state = pack_state({**translator.to_state(), "nominal_load": 6000.0})
+    for version, content in (("2026-01-01T10.00.00.000Z", b"old"), (NEWEST, state)):
+        place = tmp_path / "06_models" / "translator.npz" / version / "translator.npz"
+        place.parent.mkdir(parents=True)
+        place.write_bytes(content)
+    return tmp_path
+
+
+def run(*arguments: str, code: int = 0):
+    result = CliRunner().invoke(tire, [str(each) for each in arguments], catch_exceptions=False)
+    assert result.exit_code == code, result.output
+    return result
+
+
+def test_a_file_is_translated_as_the_translator_itself_does(folder, translator):
+    said = json.loads(run("translate", "A/tire.tir", "--model", "06_models/translator.npz", "--json").stdout)
+    assert said["source"] == "A"
+    assert said["target"] == "D"
+    assert NEWEST in said["model"]
+    model = read_tir("A/tire.tir")
+    table = normalize_table(from_models([("tire.tir", "A", model)]), 6000.0)
+    result = translator.translation(table)
+    assert said["verdict"] == result.report["verdict"].iloc[0] == "translated"
+    back = normalize_table(result.table, model.value("FNOMIN")).iloc[0]
+    new = read_tir("tire_as_D.tir")
+    for name in ("PDY1", "PKY1", "PKY2"):
+        assert new.coefficients[name] == pytest.approx(back[name], rel=1e-12)
+    assert new.coefficients["FNOMIN"] == model.coefficients["FNOMIN"]
+    assert "source category: A" in Path("tire_as_D.tir").read_text(encoding="latin-1")
+    page = Path("tire_translate.html").read_text()
+    assert "90% probability" in page
+    assert "Coefficients that moved" in page
+
+
+def test_a_tire_beyond_the_training_data_is_written_only_if_asked_for(folder):
+    tire = read_tir("A/tire.tir")
+    write_tir(tire.replace(PKY1=1.3 * tire.coefficients["PKY1"]), "A/stiff.tir")
+    asked = ("translate", "A/stiff.tir", "--model", "06_models/translator.npz", "--no-page")
+    text = run(*asked).stdout
+    assert ": refused." in text
+    assert "outside of what d has measured: distance" in text.lower()
+    assert not Path("stiff_as_D.tir").exists()
+    assert ": translated." in run(*asked, "--farthest", "3").stdout
+    assert "beyond its edge, 1; written because asked for" in Path("stiff_as_D.tir").read_text("latin-1")
+
+
+def test_who_measured_it_is_told_by_the_option_or_the_folder(folder):
+    Path("elsewhere.tir").write_bytes(Path("A/tire.tir").read_bytes())
+    stored = ("--model", "06_models/translator.npz", "--no-page")
+    assert "add --from with one of A, B, C" in run("translate", "elsewhere.tir", *stored, code=2).stderr
+    assert "measured by B" in run("translate", "elsewhere.tir", *stored, "--from", "B").stdout
+    wrong = run("translate", "elsewhere.tir", *stored, "--overwrite", "--from", "X", code=2)
+    assert "no files of 'X'" in wrong.stderr
+
+
+def test_a_target_file_of_the_target_is_left_alone(folder):
+    text = run("translate", "A/tire.tir", "--model", "06_models/translator.npz", "--from", "D").stdout
+    assert "already unbiased" in text
+    assert not Path("tire_as_D.tir").exists()
+
+
+def test_nothing_beyond_the_edge_of_the_training_data_is_written(folder):
+    call = ("translate", "A/tire.tir", "--model", "06_models/translator.npz", "--farthest", "0.01", "--json")
+    said = json.loads(run(*call).stdout)
+    assert said["verdict"] == "refused"
+    assert said["distance"] > 0.01
+    assert said["written"] == ["tire_translate.html"]
+    assert not Path("tire_as_D.tir").exists()
+
+
+def test_other_places_of_a_model(folder, translator):
+    state = {"translator": translator.to_state(), "nominal_load": np.float64(6000.0)}
+    released = folder / "released"
+    (released / "models").mkdir(parents=True)
+    (released / "models" / "m2.npz").write_bytes(pack_state(state))
+    (released / "record.json").write_text(json.dumps({"models": ["m1", "m2"]}))
+    for place in ("released", "released/models/m2.npz", "released/models", "06_models"):
+        said = json.loads(run("translate", "A/tire.tir", "--model", place, "--overwrite", "--json").stdout)
+        assert said["verdict"] == "translated"
+    (folder / "06_models" / "agent.npz").write_bytes(b"another model")
+    run("translate", "A/tire.tir", "--model", "06_models", "--overwrite", "--no-page")
+    damaged = released / "models" / "m2.npz"
+    damaged.write_bytes(damaged.read_bytes()[:-200])
+    assert "damaged" in run("translate", "A/tire.tir", "--model", "released", code=2).stderr
+    (folder / "other.npz").write_bytes(pack_state({"classifier": "random_forest"}))
+    assert "no translator" in run("translate", "A/tire.tir", "--model", "other.npz", code=2).stderr

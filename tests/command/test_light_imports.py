@@ -1,0 +1,48 @@
+"""What is slow to import is imported when it is needed, not before."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+HEAVY = ("torch", "stable_baselines3", "gymnasium", "kedro", "matplotlib", "sklearn", "statsmodels")
+SLOW_SCIPY = ("scipy.stats", "scipy.signal", "scipy.optimize", "scipy.io")
+
+
+def loaded(statement: str) -> set[str]:
+    """Modules that a fresh process has after a statement."""
+    code = f"import json, sys\n{statement}\nprint(json.dumps(sorted(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return set(json.loads(done.stdout.splitlines()[-1]))
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "import tire_pipeline.magic_formula",
+        "import tire_pipeline.tir",
+        "import tire_pipeline.recordings",
+        "import tire_pipeline.mismatch",
+        "from tire_pipeline.magic_formula import TireModel",
+        "from tire_pipeline.tir import read_tir, write_tir",
+        "from tire_pipeline.recordings import read_recording, check_recording",
+        "from tire_pipeline.mismatch import explain_mismatch, MismatchReport",
+    ],
+)
+def test_an_import_loads_nothing_that_is_not_needed_yet(statement):
+    modules = loaded(statement)
+    assert "numpy" in modules or "import tire_pipeline.mismatch" in statement
+    assert modules.isdisjoint((*HEAVY, *SLOW_SCIPY))
+
+
+def test_the_names_that_are_imported_on_demand_are_there():
+    import tire_pipeline.mismatch as mismatch
+
+    assert {name: getattr(mismatch, name).__name__ for name in mismatch.__all__} == {
+        name: name for name in mismatch.__all__
+    }
+    with pytest.raises(AttributeError, match="explain_missmatch"):
+        _ = mismatch.explain_missmatch
