@@ -32,6 +32,7 @@ _RULED_OUT = float(ndtri(0.975))
 _ROUNDS = 4
 _CLOSE = 0.05
 _MOST_FORMS = 3
+_SMALL, _SIZES, _HALVINGS = 1e-4, 97, 40
 _OF_THE_FORM = frozenset("reference lag moment radius fades linear".split())
 """Parameters that say which form an effect has, not how large it is."""
 
@@ -205,10 +206,24 @@ class _Scene:
 
     def _possible(self, sight: Sight, size: float) -> float:
         """Return the smallest size from this one on that a tire or a rig can have, or infinity."""
-        effect, most = sight.variant.effect, largest(sight.parameter)
-        while size <= most and effect.outside(self.data, sight.values(self.data, size)):
-            size *= 1.1
-        return size if size <= most else np.inf
+        size = max(size, self._least(sight))
+        possible = size <= largest(sight.parameter) and not self._outside(sight, size)
+        return size if possible else np.inf
+
+    def _least(self, sight: Sight) -> float:
+        """Return the smallest size that a tire or a rig can have, whatever the recording shows."""
+        sizes = np.geomspace(_SMALL, 1.0, _SIZES) * largest(sight.parameter)
+        k = next((k for k, size in enumerate(sizes) if not self._outside(sight, size)), None)
+        if not k:
+            return 0.0 if k == 0 else np.inf
+        low, high = float(sizes[k - 1]), float(sizes[k])
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if self._outside(sight, middle) else (low, middle)
+        return high
+
+    def _outside(self, sight: Sight, size: float) -> bool:
+        return sight.variant.effect.outside(self.data, sight.values(self.data, size))
 
 
 def visible(search: Search, *, unexplained: bool) -> list[Visible]:
