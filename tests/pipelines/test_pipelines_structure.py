@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -52,6 +53,22 @@ def test_every_dataset_is_in_the_catalog_with_layer_and_description(catalog):
         metadata = catalog.get(name).metadata
         assert metadata["kedro-viz"]["layer"][:2].isdigit(), name
         assert len(metadata["description"]) > 15, name
+
+
+def test_no_layer_comes_before_and_after_another(catalog):
+    """kedro-viz draws no layers at all where two depend on each other."""
+
+    def layers(names) -> set[str]:
+        datasets = {name for name in names if not name.startswith(("params:", "parameters"))}
+        return {catalog.get(name).metadata["kedro-viz"]["layer"] for name in datasets}
+
+    for pipeline in pipelines.values():
+        order: TopologicalSorter[str] = TopologicalSorter()
+        for node in pipeline.nodes:
+            before = layers(node.inputs)
+            for after in layers(node.outputs):
+                order.add(after, *(before - {after}))
+        order.prepare()  # raises CycleError
 
 
 def test_everything_between_the_eight_is_versioned(catalog):
