@@ -7,7 +7,10 @@ import shutil
 import signal
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from threading import Event, Thread
 
 import pytest
 from run_processes import ROOT, InNamespace, namespaces
@@ -59,24 +62,47 @@ def test_a_killed_run_is_taken_back_from_another_namespace(folder):
     assert _notes(folder) == []
 
 
+@contextmanager
+def _growing(path: Path) -> Iterator[None]:
+    """A file that keeps growing for as long as the block takes: a retraining waits for it."""
+    done = Event()
+
+    def grow() -> None:
+        while not done.wait(0.5):
+            path.touch()
+
+    thread = Thread(target=grow)
+    thread.start()
+    try:
+        yield
+    finally:
+        done.set()
+        thread.join()
+
+
 def test_a_living_run_is_left_alone_by_another_namespace_and_named(folder):
     put(folder / "data/01_raw/tir", "A/fresh.tir", tir_text(900, "A"), age=0.0)
-    with _kedro(folder, "first", settle=25) as first:
-        first.wait_until(lambda: _notes(folder))
-        with _kedro(folder, "second", "ingest_tir") as second:
-            assert second.wait() == 1
-            said = [line for line in second.said().splitlines() if line.startswith("error:")]
-            assert len(said) == 1, second.said()
-            assert "Traceback" not in second.said()
-            assert f"host {os.uname().nodename}, process 1 there" in said[0]
-            assert "is alive" in said[0]
-        assert first.running()
-        with _kedro(folder, "third", "rollback", more=",one_run_at_a_time.wait_seconds=300") as third:
-            assert first.wait() == 0, first.said()
-            third.wait()
-            assert "Waiting for run" in third.said()
-            assert "only" in third.said()  # its turn came: there is nothing to roll back to
-            assert "was killed" not in third.said()
+    fresh = folder / "data/01_raw/tir/A/fresh.tir"
+    long_wait = ",retrain.most_wait_seconds=300"
+    with ExitStack() as runs:
+        with _growing(fresh):
+            first = runs.enter_context(_kedro(folder, "first", settle=5, more=long_wait))
+            first.wait_until(lambda: _notes(folder))
+            with _kedro(folder, "second", "ingest_tir") as second:
+                assert second.wait() == 1
+                said = [line for line in second.said().splitlines() if line.startswith("error:")]
+                assert len(said) == 1, second.said()
+                assert "Traceback" not in second.said()
+                assert f"host {os.uname().nodename}, process 1 there" in said[0]
+                assert "is alive" in said[0]
+            waits = ",one_run_at_a_time.wait_seconds=300"
+            third = runs.enter_context(_kedro(folder, "third", "rollback", more=waits))
+            third.wait_until(lambda: "Waiting for run" in third.said())
+            assert first.running()
+        assert first.wait() == 0, first.said()
+        third.wait()
+        assert "only" in third.said()  # its turn came: there is nothing to roll back to
+        assert "was killed" not in third.said()
     assert len(_results(folder)) == 1
     assert _notes(folder) == []
 

@@ -15,6 +15,7 @@ from tire_pipeline.datasets._one_at_a_time import locked
 from tire_pipeline.errors import DomainError
 from tire_pipeline.runs import LostTicketError, Note, Ticket, system_lock, take_turn
 from tire_pipeline.runs import ticket as tickets
+from tire_pipeline.runs.system_lock import is_held
 
 STEP = 0.5
 
@@ -107,6 +108,20 @@ def test_a_second_run_waits_if_asked_to(draw):
     _turn(second, clock, wait_seconds=20.0)
     assert 1010 < clock.now < 1012
     second.check()
+
+
+def test_a_run_that_ends_while_it_is_looked_at_keeps_its_results(draw, runs, monkeypatch):
+    """Its note was listed, and its lock is free: that is how a run ends well, too."""
+    first = draw("good", places=["table.csv/good"])
+    (runs.parent / "table.csv/good").mkdir(parents=True)
+
+    def ends_meanwhile(path: Path) -> bool | None:
+        first.end()
+        return is_held(path)
+
+    monkeypatch.setattr("tire_pipeline.runs.turn.is_held", ends_meanwhile)
+    _turn(draw("next"))
+    assert (runs.parent / "table.csv/good").exists()
 
 
 def test_the_first_come_is_served_first(draw):

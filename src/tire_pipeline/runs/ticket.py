@@ -221,10 +221,19 @@ def open_notes(folder: Path, below: int) -> list[Note]:
     return notes
 
 
-def retire(folder: Path, number: int, state: str) -> None:
-    """Take a note away; its number stays remembered as ``ended``, or ``taken`` with what it says."""
-    with contextlib.suppress(FileNotFoundError):  # another was faster
+def retire(folder: Path, number: int, state: str) -> bool:
+    """Take a note away; its number stays remembered as ``ended``, or ``taken`` with what it says.
+
+    Returns
+    -------
+    bool
+        False if another was faster. Whoever takes the note away decides what became of the run.
+    """
+    try:
         (folder / f"{number:06d}.json").rename(folder / f"{number:06d}.{state}")
+    except FileNotFoundError:
+        return False
+    return True
 
 
 def prune(folder: Path) -> None:

@@ -140,9 +140,13 @@ def take_back(data: Path, note: Note) -> None:
 
 
 def _bury(folder: Path, note: Note) -> None:
-    """Take a dead run's note away first, so that it finds out if it is not dead; then its results."""
+    """Take a dead run's note away first, so that it finds out if it is not dead; then its results.
+
+    A run that ended while it was being looked at has taken its note away itself: its results stay.
+    """
+    if not retire(folder, note.number, "taken"):
+        return
     LOG.warning("An earlier run (%s) was killed; its results are taken back.", note.run or note.number)
-    retire(folder, note.number, "taken")
     take_back(folder.parent, note)
 
 
