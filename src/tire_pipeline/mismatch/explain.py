@@ -82,11 +82,24 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame) -> MismatchReport:
 
 
 def _search(search: Search, prepared: Prepared) -> None:
-    """Look for effects, if the recording carries an answer."""
-    if prepared.stopped:
-        search.refused.update({n: f"not looked for: {prepared.stopped}" for n in catalogue()})
-    else:
+    """Look for effects, if the recording carries an answer or one effect could give it."""
+    question = prepared.question
+    if not prepared.stopped or (question is not None and question.removed is not None):
         search_all(search)
+    if not prepared.stopped or question is None:
+        return
+    if len(search.fit.names) == 1 and question.answered(_removed(search)):
+        prepared.question = None
+        return
+    search.fit, search.gates = Fit([], []), []
+    search.refused.update({n: f"not looked for: {prepared.stopped}" for n in catalogue()})
+
+
+def _removed(search: Search) -> float:
+    """Share of the squared mismatch that the effects remove, of the force that has the least."""
+    left = residual(search.data, search.fit.changes)
+    before = residual(search.data, [])
+    return min(1.0 - float(np.sum(left[o] ** 2) / np.sum(before[o] ** 2)) for o in search.data.outputs)
 
 
 def _refit(search: Search, prepared: Prepared) -> None:

@@ -5,6 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 
+AS_WELL = 1.5
+"""Two explanations whose squared residuals differ by less leave the same: sweeps of one tire on one rig
+differ by as much (calspan, the same sweep repeated)."""
+
+
 @dataclass(frozen=True)
 class Question:
     """A question that the recording does not answer.
@@ -18,11 +23,19 @@ class Question:
     verdict : str
         The report's verdict if nothing can be explained before it is settled; "" if effects can be looked
         for all the same, and only no corrected file may be written.
+    removed : float, optional
+        Share of the squared mismatch that is gone if what is asked is so. One cause that removes as much
+        answers the question: it needs less to be assumed.
     """
 
     why: str
     todo: str
     verdict: str = ""
+    removed: float | None = None
+
+    def answered(self, removed: float) -> bool:
+        """Whether one cause that removes this share of the squared mismatch leaves as little."""
+        return self.removed is not None and 1.0 - removed <= AS_WELL * (1.0 - self.removed)
 
     @property
     def in_words(self) -> str:

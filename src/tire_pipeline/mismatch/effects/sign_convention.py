@@ -33,6 +33,10 @@ _SURE = 8.0
 _ALIKE = 3.0
 """Nats within which two conventions cannot be told apart."""
 
+_GAIN_OFF = 0.3
+_OFFSET = 0.03
+"""How far the force's gain, and its offset over the largest force, may be off where nothing else is wrong."""
+
 _STRETCHES = 20
 """What the model gets wrong is taken as independent from one of so many stretches of rows to the next."""
 
@@ -125,6 +129,7 @@ def convention(
     if not chosen:
         return (), []
     same = [s for s in sets if s and share[s] > 0.5 and _alike(recorded, turned[chosen], turned[s])]
+    same.sort(key=lambda s: round(float(np.sum((recorded - turned[s]) ** 2)), 6))
     return same[0], same[1:]
 
 
@@ -172,18 +177,24 @@ def _likelier(recorded: Array, base: Array, other: Array, *, sized: bool = True)
     """Nats by which ``other`` is likelier than ``base``: how much of their difference is in the record.
 
     ``recorded - base`` is fitted by a gain, an offset and b times the difference: b is 0 if ``base`` is right
-    and 1 if ``other`` is. Its error is the scatter of what is left over stretches of rows, and the form
-    error. With ``sized`` nothing is returned (-inf) where a b of any size is likelier than one of exactly 1.
+    and 1 if ``other`` is. Gain and offset are as far off as load cells are (`_GAIN_OFF`, `_OFFSET`): with free
+    ones the other side's ply steer would be an offset. b's error is the scatter of what is left over stretches
+    of rows, and the form error. With ``sized`` nothing is returned (-inf) where a b of any size is likelier
+    than one of exactly 1.
     """
     part = other - base
     x = np.column_stack([base, np.ones(base.size), part])
     size = np.sqrt(np.mean(x**2, axis=0))
     if size[2] < 1e-4 * size[0]:
         return 0.0 if not sized else -np.inf
-    x = x / size
-    inverse = np.linalg.pinv(x.T @ x, rcond=1e-10)
-    fit = inverse @ (x.T @ (recorded - base))
-    left = recorded - base - x @ fit
+    x, gap = x / size, recorded - base
+    off = np.array([_GAIN_OFF * size[0], _OFFSET * float(np.max(np.abs(base))), np.inf])
+    square = x.T @ x
+    left = gap - x @ (np.linalg.pinv(square, rcond=1e-10) @ (x.T @ gap))
+    prior = np.diag(float(np.mean(left**2)) * base.size / _STRETCHES / off**2)
+    inverse = np.linalg.pinv(square + prior, rcond=1e-10)
+    fit = inverse @ (x.T @ gap)
+    left = gap - x @ fit
     stretch = np.arange(base.size) * _STRETCHES // base.size
     score = np.array([np.bincount(stretch, x[:, k] * left, _STRETCHES) for k in range(3)])
     error = np.sqrt(max((inverse @ (score @ score.T) @ inverse)[2, 2], 0.0)) / size[2]

@@ -11,7 +11,7 @@ class TurnSlip(Effect):
 
     Covers the shift of the slip angle and one loss of friction for both forces. Not covered: loss of
     cornering stiffness (PKYP1, in the square of curvature times radius: below 1% but in parking), and the
-    moment.
+    moment. Path curvature cannot raise the friction: every factor zeta of the source is 1 at most.
     """
 
     name = "turn_slip"
@@ -21,7 +21,7 @@ class TurnSlip(Effect):
     channels = ("turn_slip",)
     parameters = (
         Parameter("shift", "m", -2.0, 2.0, 0.005),
-        Parameter("friction_loss", "1", -3.0, 3.0, 0.02),
+        Parameter("friction_loss", "1", 0.0, 3.0, 0.02),
     )
     looks_like = {"camber": "camber acts on a straight path too"}
     experiment = "the same slip angles on paths of two radii"
