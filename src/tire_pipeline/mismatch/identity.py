@@ -140,9 +140,7 @@ def figures(tire: Any, arrays: Mapping[str, Array], output: str) -> Figures:
     return min(at, key=lambda f: int(f.off.sum()))
 
 
-def _at_load(
-    output: str, p: Array, covariance: Array, free: Array, excess: float, removed: float
-) -> Figures:
+def _at_load(output: str, p: Array, covariance: Array, free: Array, excess: float, removed: float) -> Figures:
     """Return the figures with friction and stiffness at a load, as excess over its median."""
     turn = np.eye(5)
     turn[0, 1] = turn[2, 3] = excess

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-
 AS_WELL = 1.5
 """Two explanations whose squared residuals differ by less leave the same: sweeps of one tire on one rig
 differ by as much (calspan, the same sweep repeated)."""

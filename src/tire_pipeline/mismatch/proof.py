@@ -7,8 +7,8 @@ import numpy as np
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.report import OutputFit
-from tire_pipeline.mismatch.search import Search
 from tire_pipeline.mismatch.simulate import simulate_moments
+from tire_pipeline.mismatch.state import Search
 
 Array = np.ndarray
 _LOCKED = {"moment", "radius"}
@@ -155,6 +155,21 @@ def _left_out(search: Search, fit: Fit) -> dict[str, Array]:
         for o in out:
             out[o][rows] -= fit.columns[o][rows] @ delta
     return out
+
+
+def makes_worse(search: Search) -> bool:
+    """Whether the effects leave as much as the model that came in, on sweeps that the fit has not seen.
+
+    In newtons, as the model will be used: without the misfit and the coefficients beside which the evidence
+    was weighed.
+    """
+    return bool(search.fit.names) and _held_out_power(search, search.fit) >= len(search.data.outputs)
+
+
+def _held_out_power(search: Search, fit: Fit) -> float:
+    """Mean square of what is left on held-out sweeps over that of the mismatch, outputs added."""
+    before, after = residual(search.data, []), _left_out(search, fit)
+    return float(sum(np.mean(after[o] ** 2) / max(np.mean(before[o] ** 2), 1e-300) for o in after))
 
 
 def held_out_condition(data: Data) -> tuple[str, Array | None]:

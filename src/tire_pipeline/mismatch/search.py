@@ -27,6 +27,7 @@ from tire_pipeline.mismatch.gates import (
 )
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.left_out import groups, left_out_error
+from tire_pipeline.mismatch.proof import makes_worse
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.screening import (
     frozen_cost,
@@ -358,6 +359,15 @@ def _withdraw(search: Search) -> None:
             _drop(search, worst_one)
             _eliminate(search)
             continue
+        if makes_worse(search):
+            weakest = int(np.argmin([g.gain for g in search.gates]))
+            name = search.fit.names[weakest]
+            search.withdrawn.append(name)
+            search.refused[name] = "sweeps that its fit has not seen are predicted no better with it"
+            search.log.append(f"withdrawn {name}: held-out sweeps")
+            _drop(search, weakest)
+            _eliminate(search)
+            continue
         found = search.doubts = doubts(search)
         worst = max(found, key=lambda d: d.size)
         if worst.size <= 0.0:
@@ -380,7 +390,8 @@ def _of_some_loads(search: Search) -> int | None:
         return None
     left = left_out_error(search, search.fit, group)
     for i, name in enumerate(search.fit.names):
-        if catalogue()[name].own_inputs and left >= left_out_error(
+        effect = catalogue()[name]
+        if (effect.own_inputs or effect.channels) and left >= left_out_error(
             search, without(search, search.fit, i), group
         ):
             return i

@@ -29,9 +29,9 @@ class LoadSensitivity(Effect):
     own_inputs = True
     scales = True
     parameters = (
-        Parameter("rate", "1", -0.6, 0.6, 0.01),
-        Parameter("stiffness", "1", -0.9, 0.9, 0.01),
-        Parameter("lateral_stiffness", "1", -0.9, 0.9, 0.01, output="fy"),
+        Parameter("rate", "1", -1.5, 1.5, 0.01),
+        Parameter("stiffness", "1", -1.5, 1.5, 0.01),
+        Parameter("lateral_stiffness", "1", -1.5, 1.5, 0.01, output="fy"),
     )
     looks_like = {
         "friction_scale": "a friction factor is the same at every load",

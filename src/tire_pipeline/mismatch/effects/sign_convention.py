@@ -129,7 +129,8 @@ def convention(
     if not chosen:
         return (), []
     same = [s for s in sets if s and share[s] > 0.5 and _alike(recorded, turned[chosen], turned[s])]
-    same.sort(key=lambda s: round(float(np.sum((recorded - turned[s]) ** 2)), 6))
+    left = {s: float(np.sum((recorded - turned[s]) ** 2)) for s in same}
+    same.sort(key=lambda s: round(left[s] / max(min(left.values()), 1e-300), 2))  # fewest turns of equal ones
     return same[0], same[1:]
 
 
@@ -177,10 +178,10 @@ def _likelier(recorded: Array, base: Array, other: Array, *, sized: bool = True)
     """Nats by which ``other`` is likelier than ``base``: how much of their difference is in the record.
 
     ``recorded - base`` is fitted by a gain, an offset and b times the difference: b is 0 if ``base`` is right
-    and 1 if ``other`` is. Gain and offset are as far off as load cells are (`_GAIN_OFF`, `_OFFSET`): with free
-    ones the other side's ply steer would be an offset. b's error is the scatter of what is left over stretches
-    of rows, and the form error. With ``sized`` nothing is returned (-inf) where a b of any size is likelier
-    than one of exactly 1.
+    and 1 if ``other`` is. Gain and offset are as far off as load cells are: with free ones the ply steer of
+    the other side would be an offset. b's error is the scatter of what is left over stretches of rows, and
+    the form error. With ``sized`` nothing is returned (-inf) where a b of any size is likelier than one of
+    exactly 1.
     """
     part = other - base
     x = np.column_stack([base, np.ones(base.size), part])
