@@ -81,5 +81,5 @@ def test_a_report_is_drawn_and_fits_in_a_notebook(together):
     ]
     assert {"time (s)", "Fy recorded - simulated (N)", "slip angle (deg)", "normal load (kN)"} <= set(texts)
     assert "recorded minus simulated" in figure.subfigs[0].get_supxlabel()
-    assert repr(report).startswith("MismatchReport('explained': friction_scale.")
+    assert repr(report).startswith(f"MismatchReport({report.verdict!r}: friction_scale.")
     assert "<th>RMS before</th>" in report._repr_html_()

@@ -39,7 +39,6 @@ MOST = 0.5
 """So many figures, one of them a load slope, and with them right at least half of the mismatch is gone."""
 
 _ROWS = 4000
-_LOADS = 15
 _STRETCHES = 20
 _STEPS = 12
 _FARTHEST = 2.0
@@ -54,8 +53,7 @@ class Figures:
     output : str
     values, errors : ndarray, shape (5,)
         Logarithms of true over file's, in the order of ``FIGURES`` (curvature: of the effective slip in the
-        bend); NaN where the recording does not tell. Friction and stiffness are those at the load at which
-        the fewest figures are off: a file fitted at one load is right there, and lacks load sensitivity.
+        bend); NaN where the recording does not tell.
     removed : float
         Share of the squared mismatch that is gone with them.
     """
@@ -133,22 +131,10 @@ def figures(tire: Any, arrays: Mapping[str, Array], output: str) -> Figures:
     inverse = np.linalg.pinv(columns.T @ columns, rcond=1e-12)
     stretch = np.arange(recorded.size) * _STRETCHES // recorded.size
     score = np.array([np.bincount(stretch, c * left, _STRETCHES) for c in columns.T])
-    covariance = (inverse @ (score @ score.T) @ inverse)[: free.size, : free.size]
-    removed = 1.0 - float(left @ left) / max(before, 1e-300)
-    loads = np.quantile(model.excess, np.linspace(0.0, 1.0, _LOADS)) if model.loaded else np.zeros(1)
-    at = [_at_load(output, p[free], covariance, free, excess, removed) for excess in (0.0, *loads)]
-    return min(at, key=lambda f: int(f.off.sum()))
-
-
-def _at_load(output: str, p: Array, covariance: Array, free: Array, excess: float, removed: float) -> Figures:
-    """Return the figures with friction and stiffness at a load, as excess over its median."""
-    turn = np.eye(5)
-    turn[0, 1] = turn[2, 3] = excess
-    turn = turn[np.ix_(free, free)]
-    values, errors = np.full(5, np.nan), np.full(5, np.nan)
-    values[free] = turn @ p
-    errors[free] = np.sqrt(np.maximum(np.diag(turn @ covariance @ turn.T), 0.0))
-    return Figures(output, values, errors, removed)
+    errors, values = np.full(5, np.nan), np.full(5, np.nan)
+    errors[free] = np.sqrt(np.maximum(np.diag(inverse @ (score @ score.T) @ inverse), 0.0))[: free.size]
+    values[free] = p[free]
+    return Figures(output, values, errors, 1.0 - float(left @ left) / max(before, 1e-300))
 
 
 class _Similar:

@@ -33,8 +33,8 @@ class LowPass(Effect):
     order = 94
 
     def starts(self, data: object) -> list[dict[str, float]]:
-        """Two lags."""
-        return [{"lag": lag} for lag in (0.02, 0.1)]
+        """Three lags: of a filter, of a slow one, and of something that is late."""
+        return [{"lag": lag} for lag in (0.02, 0.1, 0.6)]
 
     def outputs(self, state: State, data: object, p: Parameters) -> None:
         """Filter the forces."""

@@ -7,7 +7,7 @@ import numpy as np
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.shared import first_order
 
-_IN_RADII = (0.1, 6.0)
+_IN_RADII = (0.1, 4.0)
 """Length over the unloaded radius that a tire can have: about 0.5 to 3 for the lateral force, less along."""
 
 
