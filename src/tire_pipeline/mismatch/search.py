@@ -390,8 +390,7 @@ def _of_some_loads(search: Search) -> int | None:
         return None
     left = left_out_error(search, search.fit, group)
     for i, name in enumerate(search.fit.names):
-        effect = catalogue()[name]
-        if (effect.own_inputs or effect.channels) and left >= left_out_error(
+        if catalogue()[name].own_inputs and left >= left_out_error(
             search, without(search, search.fit, i), group
         ):
             return i
