@@ -150,6 +150,8 @@ def _report(prepared: Prepared, search: Search, recording: pd.DataFrame) -> Mism
     following = " ".join(experiments)
     outputs = tuple(prepared.data.outputs)
     reference: dict[str, Any] = {"scales": data.scales, "measured": tuple(sorted(data.present))}
+    load = data.get("normal_load")
+    reference["load_range"] = {"low": float(load.min()), "high": float(load.max())}
     if "pressure" in data.present:
         reference["pressure_nominal"] = data.pressure_nominal
     if "speed" in data.present:

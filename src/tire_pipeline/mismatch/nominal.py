@@ -27,8 +27,19 @@ class Nominal(Channels):
         return float(self.tire.coefficients.get("UNLOADED_RADIUS", 0.32))
 
     def load_excess(self, load: Array) -> Array:
-        """Return ``(Fz - Fz0) / Fz0``."""
-        return (load - self.load_nominal) / self.load_nominal
+        """Return ``(Fz - Fz0) / Fz0``, which fades outside of the loads that the effects were fitted to.
+
+        A line through the recorded loads says nothing of others: it goes to zero there, over the width of
+        what was recorded, and the model that came in stays.
+        """
+        excess = (load - self.load_nominal) / self.load_nominal
+        known = self.fixed.get("load_range")
+        if known is None:
+            return excess
+        low, high = known["low"], known["high"]
+        inside = np.clip(load, low, high)
+        faded = 1.0 - np.abs(load - inside) / max(high - low, 0.1 * self.load_nominal)
+        return (inside - self.load_nominal) / self.load_nominal * np.maximum(faded, 0.0)
 
     @cached_property
     def pressure_levels(self) -> list[float]:

@@ -96,6 +96,9 @@ def _one_more(search: Search, ranked: list[tuple[float, Variant]], shaped: Syste
             "refit: " + ", ".join(f"{'+'.join(f.names)} {gain_of(search, f, empty):.0f}" for f in fits[:6])
         )
         likely = [f for f in fits if gain_of(search, f, empty) > settings.LEAST_GAIN]
+        if not search.fit.names:  # what a straight line promised, and the refit did not keep, begins nothing
+            kept = {f.names[-1] for f in likely} | {v.name for _, v in ranked} - {f.names[-1] for f in fits}
+            search.first = [(gain, v) for gain, v in search.first if v.name in kept]
         hidden = [f for f in likely if not _visible(search, f)]
         plainer = [_judged(search, f, shaped) for f in _plainer(search, hidden)]
         if _take(search, likeliest(search, [*fits, *plainer])):
