@@ -158,18 +158,27 @@ def _left_out(search: Search, fit: Fit) -> dict[str, Array]:
 
 
 def makes_worse(search: Search) -> bool:
-    """Whether the effects leave as much as the model that came in, on sweeps that the fit has not seen.
+    """Whether the effects leave as much as the model that came in, where the fit has not seen the recording.
 
-    In newtons, as the model will be used: without the misfit and the coefficients beside which the evidence
-    was weighed.
+    On sweeps left out one at a time, or on the held-out condition as a whole. In newtons, as the model will
+    be used: without the misfit and the coefficients beside which the evidence was weighed.
     """
-    return bool(search.fit.names) and _held_out_power(search, search.fit) >= len(search.data.outputs)
+    if not search.fit.names:
+        return False
+    before = residual(search.data, [])
+    sweeps = _power(_left_out(search, search.fit), before) >= 1.0
+    _, rows = held_out_condition(search.data)
+    condition = None if rows is None else _condition(search, rows)
+    if rows is None or condition is None:
+        return sweeps
+    return sweeps or _power(condition, {o: b[rows] for o, b in before.items()}) >= 1.0
 
 
-def _held_out_power(search: Search, fit: Fit) -> float:
-    """Mean square of what is left on held-out sweeps over that of the mismatch, outputs added."""
-    before, after = residual(search.data, []), _left_out(search, fit)
-    return float(sum(np.mean(after[o] ** 2) / max(np.mean(before[o] ** 2), 1e-300) for o in after))
+def _power(after: dict[str, Array], before: dict[str, Array]) -> float:
+    """Mean square of what is left over that of the mismatch, mean over the outputs."""
+    return float(
+        np.mean([np.mean(after[o] ** 2) / max(float(np.mean(before[o] ** 2)), 1e-300) for o in after])
+    )
 
 
 def held_out_condition(data: Data) -> tuple[str, Array | None]:
