@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-HEAVY = ("torch", "stable_baselines3", "gymnasium", "kedro", "matplotlib", "sklearn", "statsmodels")
+HEAVY = ("torch", "stable_baselines3", "gymnasium", "kedro", "matplotlib", "sklearn")
 SLOW_SCIPY = ("scipy.stats", "scipy.signal", "scipy.optimize", "scipy.io")
 
 

@@ -12,7 +12,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from statsmodels.stats.proportion import proportion_confint
+from scipy.stats import binomtest
 
 from tire_pipeline.concealed.answers import Answer, EffectTruth
 from tire_pipeline.concealed.measures import calibration_error, interval_iou
@@ -313,7 +313,7 @@ def share_row(
     """Proportion with Wilson's 95% interval."""
     n = len(hits)
     k = int(np.sum(hits)) if n else 0
-    low, high = proportion_confint(k, n, method="wilson") if n else (float("nan"),) * 2
+    low, high = binomtest(k, n).proportion_ci(0.95, method="wilson") if n else (float("nan"),) * 2
     return _row(name, k / n if n else float("nan"), low, high, n, at_most, at_least)
 
 
