@@ -1,10 +1,11 @@
-"""One look for all figures: Okabe-Ito colours (safe for colour-blind people), units on every axis."""
+"""One look for all figures and pages: Okabe-Ito colours (safe for the colour-blind), units on every axis."""
 
 from __future__ import annotations
 
 import io
 import re
 import textwrap
+from importlib.resources import files as package_files
 from typing import Any, TypeVar
 
 from markupsafe import Markup
@@ -76,6 +77,11 @@ def inline_svg(figure: MplFigure) -> Markup:
         r'(<svg[^>]*?) width="[^"]*" height="[^"]*"|(<svg[^>]*?) height="[^"]*"', r"\1\2", svg, count=1
     )
     return Markup(svg)
+
+
+def page_style() -> str:
+    """The style that all pages share: light and dark, and for print."""
+    return package_files("tire_pipeline").joinpath("page.css").read_text("utf-8")
 
 
 def captioned(figure: F, caption: str) -> F:

@@ -181,7 +181,7 @@ def test_explain_several_together_and_one_held_out(folder):
     error = result["held_out"]["errors"]["fy"]
     assert error["rms_after"] < 0.5 * error["rms_before"]
     assert read_tir("corrected.tir").coefficients["LMUY"] == pytest.approx(0.88, abs=0.02)
-    assert "Tried on a recording that was held out" in page(folder / "report.html")
+    assert "Tested on a held-out recording" in page(folder / "report.html")
     assert result["written"] == ["corrected.tir", "report.html"]
 
 

@@ -10,7 +10,7 @@ from mismatch_shared import shared
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.locate import Located
-from tire_pipeline.mismatch.words import summary
+from tire_pipeline.mismatch.sentences import summary
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
 
@@ -105,17 +105,20 @@ def test_the_report_is_plain_json_and_one_page(pressed, tmp_path):
 @pytest.mark.parametrize(
     ("when", "said"),
     [
-        ([(10.0, 20.0)], " (seen between 10 and 20 s)."),
-        ([(10.0, 20.0), (30.0, 41.5)], " (seen between 10 and 20 s, 30 and 41.5 s)."),
-        ([(0.0, 80.0)], "."),
-        ([], "."),
+        ([(10.0, 20.0)], " (seen between 10 and 20 s),"),
+        ([(10.0, 20.0), (30.0, 41.5)], " (seen between 10 and 20 s, 30 and 41.5 s),"),
+        ([(0.0, 80.0)], ","),
+        ([], ","),
     ],
 )
 def test_the_summary_says_when_an_effect_is_seen(pressed, when, said):
     (effect,) = pressed.effects
     left, ranges = pressed.remainder, {"time": (0.0, 100.0)}
     text = summary("explained", [replace(effect, when=when)], pressed.fit, [], left, "", ranges)
-    assert f"Left out of the model: {effect.title}{said}" in text
+    assert text.startswith(
+        f"Explained: the difference comes from {effect.title}{said} which the model leaves out. "
+    )
+    assert text.endswith("Next, test the corrected model on a recording that took no part before you use it.")
 
 
 @pytest.mark.parametrize(

@@ -46,7 +46,7 @@ def test_page_and_data_have_the_held_out_recording(together, tmp_path):
     assert data["recordings"] == ["a", "c"]
     assert data["held_out"]["errors"]["fy"]["rms_after"] == report.held_out.errors["fy"].rms_after
     page = report.to_html(tmp_path / "page.html").read_text()
-    assert "Tried on a recording that was held out" in page
+    assert "Tested on a held-out recording" in page
     assert "Explained together: a, c." in page
 
 

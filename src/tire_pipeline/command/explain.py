@@ -89,7 +89,7 @@ def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Outcome
             )
             for name, fit in report.fit.items()
         ],
-        "On sweeps left out of the fit",
+        "On held-out sweeps",
     )
     grids = [errors]
     if report.effects:

@@ -135,6 +135,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
             tire, arrays, findings, str(recording.attrs.get("axes_doubt", ""))
         )
     assumed = list(recording.attrs.get("assumed", [AS_GIVEN]))
+    assumed += [t.replace(" from ", " converted from ", 1) for t in recording.attrs.get("conversions", [])]
     assumed += [f"{n} is taken as {f:.6g} times what was recorded" for n, f in factors.items() if f != 1.0]
     present = {n for n in INPUTS if n in recording.columns and n in arrays}
     for name in ("camber", "slip_ratio", "slip_angle"):

@@ -26,10 +26,11 @@ from tire_pipeline.mismatch.remainder import remainder
 from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFit, Remainder
 from tire_pipeline.mismatch.restart import search_all, unlike
 from tire_pipeline.mismatch.search import Search
+from tire_pipeline.mismatch.sentences import summary
 from tire_pipeline.mismatch.simulate import simulate
 from tire_pipeline.mismatch.thinning import refit_on_all, thinned
 from tire_pipeline.mismatch.visible import visible
-from tire_pipeline.mismatch.words import not_looked_for, summary
+from tire_pipeline.mismatch.words import not_looked_for
 from tire_pipeline.progress import track
 
 Array = np.ndarray

@@ -56,7 +56,7 @@ def time_line(report: MismatchReport, output: str, figure: FigureBase | None = N
                     ymax=1.0 - 0.05 * number,
                     color=f"C{number + 2}",
                     lw=0,
-                    label=effect.name if k == 0 else None,
+                    label=effect.name.replace("_", " ") if k == 0 else None,
                 )
         floor = s[f"floor_{output}"]
         axes.axhspan(-floor, floor, color="#BBBBBB", alpha=0.6, lw=0, label="noise (1 sigma)")
@@ -136,7 +136,10 @@ def overview(report: MismatchReport) -> Figure:
     return figure
 
 
-_MAP_CAPTION = "{} over slip and load: recorded minus simulated force (cells: means)."
+_MAP_CAPTION = (
+    "{} over slip and load: recorded minus simulated force, mean of each cell. Strong colour marks where "
+    "they differ; it should fade from before to after."
+)
 
 
 def _order(report: MismatchReport) -> list[str]:
@@ -170,4 +173,4 @@ def _time_caption(report: MismatchReport, output: str) -> str:
         return f"{name} over the points in their order."
     bars = any(effect.when for effect in report.effects if effect.output == output)
     said = " The bars at the top say when each effect is above the noise." if bars else ""
-    return f"{name} over time.{said}"
+    return f"{name} over time.{said} What lies within the grey band is noise."

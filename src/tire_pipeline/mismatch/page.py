@@ -3,22 +3,29 @@
 from __future__ import annotations
 
 import math
+from pathlib import PurePath
 from typing import Any
 
 import jinja2
+from markupsafe import Markup
 
+from tire_pipeline.drawing import page_style
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.figures import drawings
-from tire_pipeline.mismatch.report import MismatchReport, Visible
-from tire_pipeline.mismatch.words import amount, condition, gaussian, interval
+from tire_pipeline.mismatch.report import EffectReport, MismatchReport, Visible
+from tire_pipeline.mismatch.words import amount, condition, gaussian, in_words, interval
+
+_TOO_LITTLE = {"does not pay for itself": "too little evidence for its parameters"}
 
 
-def render(report: MismatchReport) -> str:
+def render(report: MismatchReport, *, home: str = "") -> str:
     """Return the page.
 
     Parameters
     ----------
     report : MismatchReport
+    home : str
+        Address of the page that links to this one.
     """
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("tire_pipeline.mismatch"),
@@ -27,26 +34,27 @@ def render(report: MismatchReport) -> str:
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-    environment.filters["number"] = number
-    environment.filters["condition"] = condition
+    environment.filters |= {"number": number, "percent": percent, "condition": condition}
+    errors = [(o, f) for o, f in report.fit.items() if math.isfinite(f.rms_before)]
+    seen, silent = _visible(report.visible)
+    name = ", ".join(PurePath(each).name for each in report.recordings) or "Simulation and recording"
     return environment.get_template("report.html").render(
         report=report,
+        title=f"{name}: {report.verdict}",
+        name=name,
+        home=home,
+        style=Markup(page_style()),
         drawings=drawings(report),
+        errors=errors,
+        conditions=any(f.held_out_condition for _, f in errors),
         effects=[_effect(e) for e in report.effects],
         located=_located(report),
         gaussian=[gaussian(f) for f in report.remainder.gaussian],
         candidates=[_candidate(c) for c in report.candidates],
-        visible=[_seen(v) for v in report.visible],
+        next_experiment=in_words(report.next_experiment),
+        visible=seen,
+        silent=silent,
     )
-
-
-def _located(report: MismatchReport) -> list[tuple[str, str, float, float, float]]:
-    """One row for each output and axis: the stretch along the force before the one of plain differences."""
-    rows: dict[tuple[str, str], Any] = {}
-    for f in sorted(report.located, key=lambda f: not f.along_force):
-        rows.setdefault((f.output, f.axis), f)
-    order = [f for f in report.located if rows[f.output, f.axis] is f]
-    return [(f.output, interval(f.axis, f.low, f.high), f.mean, f.share, f.p_value) for f in order[:8]]
 
 
 def number(value: Any, digits: int = 3) -> str:
@@ -58,31 +66,82 @@ def number(value: Any, digits: int = 3) -> str:
     return str(value)
 
 
-def _effect(effect: Any) -> dict[str, Any]:
+def percent(share: float) -> str:
+    """Return a share of something, a dash where it is none or more than all of it."""
+    return f"{100.0 * share:.2g}%" if 0.0 < abs(share) < 0.995 else "–"
+
+
+def _located(report: MismatchReport) -> list[tuple[str, str, float, float, float]]:
+    """One row for each output and axis: the stretch along the force before the one of plain differences."""
+    rows: dict[tuple[str, str], Any] = {}
+    for f in sorted(report.located, key=lambda f: not f.along_force):
+        rows.setdefault((f.output, f.axis), f)
+    order = [f for f in report.located if rows[f.output, f.axis] is f]
+    return [(f.output, interval(f.axis, f.low, f.high), f.mean, f.share, f.p_value) for f in order[:8]]
+
+
+def _effect(effect: EffectReport) -> dict[str, Any]:
     looks = catalogue()[effect.name].looks_like
     return {
         "it": effect,
+        "certainty": _certainty(effect),
+        "parameters": [
+            (name.replace("_", " "), amount(value, unit, 3), amount(error, unit))
+            for name, (value, error, unit) in effect.parameters.items()
+        ],
         "where": [interval(a, low, high) for a, (low, high) in effect.where.items()],
         "when": [f"{a:.1f} to {b:.1f} s" for a, b in effect.when[:12]],
         "more": max(0, len(effect.when) - 12),
         "looks": [
-            (n, looks.get(n) or catalogue()[n].looks_like.get(effect.name, "")) for n in effect.alternatives
+            (catalogue()[n].title, n, looks.get(n) or catalogue()[n].looks_like.get(effect.name, ""))
+            for n in effect.alternatives
         ],
+        "evidence": _evidence(effect.evidence),
     }
+
+
+def _certainty(effect: EffectReport) -> str:
+    """How sure the name is, and what it removes."""
+    text = f"Probability {effect.confidence:.0%}"
+    if effect.alternatives:
+        text += " that it is this or one of its alternatives"
+    if math.isfinite(effect.share):
+        text += f"; it removes {percent(effect.share)} of the squared error on held-out sweeps"
+        text += f", mostly in {effect.output.capitalize()}"
+    return f"{text}."
+
+
+def _evidence(evidence: dict[str, float | str]) -> str:
+    """What a reader needs to judge the evidence; the JSON has all of it."""
+    if "gain_nats" not in evidence:
+        return in_words(str(evidence.get("found", "")))
+    gain, loose, frozen = (
+        number(evidence[key])
+        for key in ("gain_nats", "gain_with_loose_coefficients", "gain_with_frozen_coefficients")
+    )
+    p = evidence["wilcoxon_p"]
+    p_value = "p below 0.001" if isinstance(p, float) and p < 1e-3 else f"p = {number(p, 2)}"
+    return (
+        f"Log evidence {gain} ({loose} with the formula's coefficients free, {frozen} with them fixed); "
+        f"better on held-out sweeps with {p_value} (Wilcoxon, {evidence['sweeps']} sweeps)"
+    )
 
 
 def _candidate(row: dict[str, Any]) -> dict[str, Any]:
-    return {**row, "title": catalogue()[row["name"]].title}
+    why = _TOO_LITTLE.get(row["why"], row["why"])
+    kind = "physics" if row["kind"] == "physics" else "recording"
+    return {**row, "title": catalogue()[row["name"]].title, "kind": kind, "why": in_words(why)}
 
 
-def _seen(row: Visible) -> dict[str, Any]:
-    """Return a row of what could have been seen: sizes in words where there are any."""
-    sizes = [amount(x, row.unit) if math.isfinite(x) else "–" for x in (row.ruled_out, row.seen)]
-    title = catalogue()[row.name].title
-    return {
-        "it": row,
-        "title": title,
-        "ruled_out": sizes[0],
-        "seen": sizes[1],
-        "why": row.text.removeprefix(f"{title}: "),
-    }
+def _visible(rows: list[Visible]) -> tuple[list[dict[str, Any]], list[tuple[str, list[str]]]]:
+    """Rows with sizes, and the titles of effects about which nothing can be said, by reason."""
+    sized: list[dict[str, Any]] = []
+    silent: dict[str, list[str]] = {}
+    for row in rows:
+        title = catalogue()[row.name].title
+        sizes = [amount(x, row.unit) if math.isfinite(x) else "–" for x in (row.ruled_out, row.seen)]
+        if row.parameter and sizes[0] != sizes[1]:
+            sized.append({"it": row, "title": title, "ruled_out": sizes[0], "seen": sizes[1]})
+        elif not row.text.startswith(f"{title}: named"):
+            silent.setdefault(row.text.removeprefix(f"{title}: ").rstrip("."), []).append(title)
+    return sized, list(silent.items())

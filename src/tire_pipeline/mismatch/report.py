@@ -292,12 +292,12 @@ class MismatchReport:
         path.write_text(json.dumps(self.to_dict(), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
         return path
 
-    def to_html(self, path: str | Path) -> Path:
-        """Write the report as one HTML page that needs no network."""
+    def to_html(self, path: str | Path, *, home: str = "") -> Path:
+        """Write the report as one HTML page that needs no network; ``home`` is a page to link back to."""
         from tire_pipeline.mismatch.page import render
 
         path = Path(path)
-        path.write_text(render(self), encoding="utf-8")
+        path.write_text(render(self, home=home), encoding="utf-8")
         return path
 
 

@@ -14,7 +14,7 @@ from tire_pipeline.mismatch.checks import INPUTS
 from tire_pipeline.mismatch.corrected import CorrectedModel
 from tire_pipeline.mismatch.explain import explain_mismatch
 from tire_pipeline.mismatch.report import HeldOutFit, MismatchReport, PredictionError
-from tire_pipeline.mismatch.words import on_held_out
+from tire_pipeline.mismatch.sentences import TRY_IT, on_held_out
 from tire_pipeline.recordings.join import join_recordings
 
 Array = np.ndarray
@@ -69,7 +69,8 @@ def explain_recordings(
     if held_out is None:
         return report
     tried = predict_held_out(report.corrected, recordings[held_out], held_out)
-    return replace(report, held_out=tried, summary=f"{report.summary} {on_held_out(tried)}")
+    told = report.summary.removesuffix(TRY_IT).rstrip()
+    return replace(report, held_out=tried, summary=f"{told} {on_held_out(tried)}")
 
 
 def predict_held_out(corrected: CorrectedModel, recording: pd.DataFrame, name: str) -> HeldOutFit:

@@ -213,6 +213,9 @@ def _laid_end_to_end(
     result = pd.concat([frame.reset_index(drop=True) for frame in laid], ignore_index=True)
     result.attrs = {"joined": joined, "notes": notes, "steady_points": not timed}
     frames = recordings.values()
+    converted = dict.fromkeys(text for frame in frames for text in frame.attrs.get("conversions", []))
+    if converted:
+        result.attrs["conversions"] = list(converted)
     assumed = dict.fromkeys(text for frame in frames for text in frame.attrs.get("assumed", []))
     doubts = dict.fromkeys(str(frame.attrs.get("axes_doubt", "")) for frame in frames)
     if assumed:

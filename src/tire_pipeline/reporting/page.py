@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from importlib.resources import files as package_files
 from urllib.parse import quote
 
 import jinja2
@@ -12,7 +11,7 @@ import pandas as pd
 from markupsafe import Markup
 from matplotlib.figure import Figure as MplFigure
 
-from tire_pipeline.drawing import inline_svg
+from tire_pipeline.drawing import inline_svg, page_style
 
 
 @dataclass(frozen=True)
@@ -156,11 +155,6 @@ def render_page(title: str, parts: Sequence[Text | Table | Figure | Links], *, f
     return environment.get_template("page.html").render(
         title=title, parts=parts, footer=footer, style=Markup(page_style())
     )
-
-
-def page_style() -> str:
-    """The style that all pages share."""
-    return package_files("tire_pipeline.reporting").joinpath("templates", "page.css").read_text("utf-8")
 
 
 def _cell(value: object, digits: int) -> tuple[str, bool]:

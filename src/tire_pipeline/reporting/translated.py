@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 from markupsafe import Markup
 
+from tire_pipeline.drawing import page_style
 from tire_pipeline.reporting.embedded import (
     LEVELS,
     data_element,
@@ -78,7 +79,7 @@ def translated_page(
         "rows": packed_json([[visible(v) if isinstance(v, str) else v for v in row] for row in rows]),
         "parts": _parts(order, curves, coefficients),
     }
-    script, style = _text("translated.js"), _text("page.css") + _text("translated.css")
+    script, style = _text("translated.js"), page_style() + _text("translated.css")
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("tire_pipeline.reporting"),
         autoescape=True,

@@ -1,0 +1,216 @@
+"""The report in three sentences: the verdict and its names, where and how much, and what to do next."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.locate import Located
+from tire_pipeline.mismatch.report import EffectReport, HeldOutFit, OutputFit, Remainder
+from tire_pipeline.mismatch.words import figure, in_words, newtons, place
+
+_FEW_STRETCHES = 3
+"""More stretches of time are not listed in the summary; the report has them all."""
+
+_MOST = 0.5
+_HARDLY = 0.2
+"""What is most of the time or of the mismatch, and below which part of its RMS a mean difference shows hardly
+anything of it."""
+
+TRY_IT = "Next, test the corrected model on a recording that took no part before you use it."
+_RECORD_ANEW = "Next, correct the recording at its source and explain it again."
+_NOTHING_TO_DO = "There is nothing to correct; the page lists the effects that this recording rules out."
+
+Ranges = Mapping[str, tuple[float, float]]
+
+
+def summary(
+    verdict: str,
+    effects: Sequence[EffectReport],
+    fit: dict[str, OutputFit],
+    located: Sequence[Located],
+    remainder: Remainder,
+    next_experiment: str,
+    ranges: Ranges | None = None,
+    even: Mapping[str, float] | None = None,
+) -> str:
+    """Return the report in a few sentences.
+
+    Parameters
+    ----------
+    verdict, effects, fit, located, remainder, next_experiment
+        Of the report.
+    ranges : mapping, optional
+        Axis -> (lowest, highest) recorded, SI, to say "above" and "below" where a stretch ends there.
+    even : mapping, optional
+        Output -> share of the force by which it is off throughout.
+    """
+    fit = {o: f for o, f in fit.items() if o in ("fx", "fy")}
+    if verdict == "agrees":
+        return f"{_agreement(fit)} {_NOTHING_TO_DO}"
+    ranges = ranges or {}
+    place_and_size = [_spot(effects, fit, located, remainder, ranges, even or {}), _size(effects, fit)]
+    middle = "; ".join(part for part in place_and_size if part)
+    parts = [
+        f"{_verdict(verdict, effects, remainder, ranges)}.",
+        f"{middle[:1].upper()}{middle[1:]}." if middle else "",
+        _next(effects, next_experiment),
+    ]
+    return " ".join(part for part in parts if part)
+
+
+def on_held_out(fit: HeldOutFit) -> str:
+    """Return how the explained model predicts a recording that was held out, in a sentence."""
+    parts = []
+    for output, error in fit.errors.items():
+        unit = "N m" if output.startswith("m") else "N"
+        sizes = f"from {newtons(error.rms_before)} {unit} to {newtons(error.rms_after)} {unit}"
+        if error.ratio_high < 1.0:
+            parts.append(f"{output.capitalize()} falls {sizes}")
+        elif error.ratio_low > 1.0:
+            parts.append(f"{output.capitalize()} rises {sizes}: what was found does not hold there")
+        else:
+            parts.append(f"{output.capitalize()} is about the same as before ({sizes})")
+    return f"In {fit.recording}, which was held out, the RMS error of {', that of '.join(parts)}."
+
+
+def _agreement(fit: dict[str, OutputFit]) -> str:
+    sizes = ", ".join(
+        f"{o.capitalize()} {newtons(f.rms_before)} N (noise {newtons(f.noise_floor)} N)"
+        for o, f in fit.items()
+    )
+    return (
+        "Simulation and recording agree: what differs is no larger than noise and the misfit that a fitted "
+        f"tire model always has. The RMS difference is {sizes}."
+    )
+
+
+def _verdict(verdict: str, effects: Sequence[EffectReport], remainder: Remainder, ranges: Ranges) -> str:
+    """The verdict, the causes, and what is left without a name."""
+    sizes = ", ".join(f"{o.capitalize()} {newtons(s)} N" for o, s in remainder.size.items())
+    left = f"{sizes} RMS above noise"
+    if remainder.located:
+        f = remainder.located[0]
+        left += f", clearest in {f.output.capitalize()} {place(f.axis, f.low, f.high, ranges)}"
+    if not effects:
+        lead = "I can't tell: no effect of the catalogue explains the difference"
+        return f"{lead} ({left})" if remainder.significant else lead
+    physics = [_cause(e, ranges) for e in effects if e.kind == "physics"]
+    faults = [_cause(e, ranges) for e in effects if e.kind != "physics"]
+    parts = []
+    if physics:
+        parts.append(f"from {' and '.join(physics)}, which the model leaves out")
+    if faults:
+        fault = "a fault" if len(faults) == 1 else "faults"
+        parts.append(f"from {' and '.join(faults)}, {fault} of the recording")
+    text = f"{verdict.capitalize()}: the difference comes {', and '.join(parts)}"
+    return f"{text}; something else is left ({left}) and gets no name" if remainder.significant else text
+
+
+def _cause(effect: EffectReport, ranges: Ranges) -> str:
+    """The effect, what cannot be excluded instead of it, and when it shows if that is part of the time."""
+    names = [effect.title, *(catalogue()[a].title for a in effect.alternatives)]
+    stretches = _stretches(effect, ranges)
+    doubt = "this recording cannot tell them apart" if effect.alternatives else ""
+    seen = f"seen {stretches}" if stretches else ""
+    said = "; ".join(filter(None, [seen, doubt]))
+    return f"{' or '.join(names)} ({said})" if said else names[0]
+
+
+def _stretches(effect: EffectReport, ranges: Ranges) -> str:
+    """Return ``between 25 and 65 s``, or nothing where that is most of the time or many stretches."""
+    first, last = ranges.get("time", (0.0, 0.0))
+    shows = sum(b - a for a, b in effect.when)
+    if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > _MOST * (last - first):
+        return ""
+    return "between " + ", ".join(f"{figure('time', a)} and {figure('time', b)} s" for a, b in effect.when)
+
+
+def _spot(
+    effects: Sequence[EffectReport],
+    fit: dict[str, OutputFit],
+    located: Sequence[Located],
+    remainder: Remainder,
+    ranges: Ranges,
+    even: Mapping[str, float],
+) -> str:
+    """Where they differ; nothing if an exact fault of the recording is all there is."""
+    exact = bool(effects) and not any(np.isfinite(e.share) for e in effects)
+    if not located or (exact and not remainder.significant):
+        return ""
+    return _to_both_sides(effects, fit, located, ranges) or _where(located, ranges, even)
+
+
+def _size(effects: Sequence[EffectReport], fit: dict[str, OutputFit]) -> str:
+    """The error before and after, beside the noise."""
+    if not effects or not fit:
+        return ""
+    lead = "with that corrected"
+    if any(np.isfinite(e.share) for e in effects):
+        o, f = max(fit.items(), key=lambda t: t[1].rms_before ** 2 - t[1].rms_after ** 2)
+        goes = "falls" if f.rms_after < f.rms_before else "goes"
+        return (
+            f"{lead}, the RMS error of {o.capitalize()} {goes} from {newtons(f.rms_before)} N to "
+            f"{newtons(f.rms_after)} N on held-out sweeps (noise {newtons(f.noise_floor)} N)"
+        )
+    sizes = ", ".join(
+        f"{o.capitalize()} {newtons(f.rms_after)} N (noise {newtons(f.noise_floor)} N)"
+        for o, f in fit.items()
+    )
+    return f"{lead}, the RMS difference is {sizes}"
+
+
+def _next(effects: Sequence[EffectReport], experiment: str) -> str:
+    if experiment:
+        return f"Next, {in_words(f'{experiment[:1].lower()}{experiment[1:]}')}"
+    if not effects:
+        return ""
+    return TRY_IT if any(e.kind == "physics" for e in effects) else _RECORD_ANEW
+
+
+def _to_both_sides(
+    effects: Sequence[EffectReport], fit: dict[str, OutputFit], located: Sequence[Located], ranges: Ranges
+) -> str:
+    """Say when the force differs, if one effect makes most of it and no mean of a stretch shows it.
+
+    A camber to both sides adds to the force and takes from it: what is then clearest is next to nothing.
+    """
+    main = max(effects, key=lambda e: e.share if np.isfinite(e.share) else 0.0, default=None)
+    if main is None or not main.share > _MOST or main.output not in fit:
+        return ""
+    means = [abs(f.mean) for f in located if f.output == main.output]
+    stretches = _stretches(main, ranges)
+    if not stretches or max(means, default=0.0) > _HARDLY * fit[main.output].rms_before:
+        return ""
+    return f"{main.output.capitalize()} differs most {stretches}, to both sides"
+
+
+def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, float]) -> str:
+    """Where recorded and simulated force differ most."""
+    along = [f for f in located if f.along_force] or list(located)
+    output = max(along, key=lambda f: abs(f.mean)).output
+    own = [f for f in along if f.output == output]
+    top = max(own, key=lambda f: abs(f.mean))
+    own = [f for f in own if f.mean * top.mean > 0.0 and abs(f.mean) > 0.4 * abs(top.mean)]
+    own = sorted(own, key=lambda f: -abs(f.mean))[:2]
+    spots = [place(f.axis, f.low, f.high, ranges) for f in own]
+    spots = [
+        s.removeprefix("at ") if i and spots[i - 1].startswith("at ") else s for i, s in enumerate(spots)
+    ]
+    times = spots[0] + ", " if own[0].axis == "time" and len(spots) > 1 else ""
+    rest = spots[1:] if times else spots
+    where = times + " and ".join(rest)
+    best = max(own, key=lambda f: abs(f.mean))
+    name = output.capitalize()
+    if output in even:
+        word = "lower" if even[output] < 0.0 else "higher"
+        most = f"most in newtons {where}: {newtons(abs(best.mean))} N"
+        return f"{name} is {abs(even[output]) * 100:.2g}% {word} than the model throughout ({most})"
+    if best.along_force and abs(best.share) > 0.002:
+        word = "lower" if best.mean < 0.0 else "higher"
+        size = abs(best.share) * 100
+        much = f"{size:.2g}%" if size < 99.5 else f"{newtons(abs(best.mean))} N"
+        return f"{where}, {name} is up to {much} {word} than the model"
+    return f"{where}, {name} differs from the model by {best.mean:+,.3g} N on average"
