@@ -15,6 +15,7 @@ import pandas as pd
 from doc_tables import markdown, write_between
 
 from tire_pipeline.concealed.real.published import published, published_text
+from tire_pipeline.concealed.score_words import in_words, outcome
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benchmarks" / "results"
@@ -45,18 +46,17 @@ def table(scores: pd.DataFrame) -> str:
     """Own scores with interval and goal, the baselines' values beside them."""
     own = scores[scores["method"] == OWN].set_index("name")
     others = scores[scores["method"] != OWN].pivot(index="name", columns="method", values="value")
-    head = ["score", "value", "95% interval", "n", "goal", "met", *others.columns]
+    head = ["score", "value", "95% interval", "cases", "goal", "result", *others.columns]
     rows = []
     for name, row in own.iterrows():
         goal = row["target"] if isinstance(row["target"], str) else ""
-        met = {"True": "yes", "False": "no"}.get(str(row["met"]), "")
         cells = [
-            name,
+            in_words(str(name)),
             f"{row['value']:.3f}",
             f"{row['low']:.3f} to {row['high']:.3f}",
             f"{row['n']:.0f}",
             goal,
-            met,
+            outcome(row.to_dict()),
             *(f"{value:.2f}" if pd.notna(value) else "" for value in others.loc[name]),
         ]
         rows.append(cells)
@@ -69,19 +69,18 @@ def real_table(scores: pd.DataFrame, made: dict) -> str:
     others = scores[(scores["method"] != OWN) & (scores["source"] == "all")]
     beside = others.pivot(index="name", columns="method", values="value")
     sources = list(made["by_source"])
-    head = ["score", "all", "95% interval", "n", "goal", "met", *sources, *beside.columns]
+    head = ["score", "all", "95% interval", "cases", "goal", "result", *sources, *beside.columns]
     rows = []
     for row in own[own["source"] == "all"].itertuples():
         parts = own[own["name"] == row.name].set_index("source")
-        aimed = isinstance(row.target, str)
         rows.append(
             [
-                row.name,
+                in_words(row.name),
                 _cell(row.value, 3),
                 f"{_cell(row.low, 3)} to {_cell(row.high, 3)}" if row.n else "",
                 f"{row.n:.0f}",
-                row.target if aimed else "",
-                {"True": "yes", "False": "no"}.get(str(row.met), "") if aimed else "",
+                row.target if isinstance(row.target, str) else "",
+                outcome(row._asdict()),
                 *(f"{_cell(parts.loc[s, 'value'], 3)} ({parts.loc[s, 'n']:.0f})" for s in sources),
                 *(_cell(value, 2) for value in beside.loc[row.name]),
             ]

@@ -9,6 +9,7 @@ from tire_pipeline.concealed import Answer, EffectTruth, score
 from tire_pipeline.concealed.measures import calibration_error, interval_iou
 from tire_pipeline.concealed.names import AMBIGUOUS_SETS
 from tire_pipeline.concealed.score import covers, exact_set, false_physics, recovered
+from tire_pipeline.concealed.score_words import in_words, outcome
 from tire_pipeline.errors import DomainError
 
 
@@ -239,3 +240,24 @@ def test_the_first_key_is_scored_beside_the_mended_one():
     result = score(reports, answers)
     assert value(result, "ambiguous covered")["value"] == 1.0
     assert value(result, "ambiguous covered, first key")["value"] == 0.5
+
+
+@pytest.mark.parametrize(
+    ("target", "n", "met", "said"),
+    [
+        (">= 0.95", 1, True, "too few cases"),
+        (">= 0.95", 72, True, "too few cases"),
+        (">= 0.95", 73, True, "met"),
+        ("<= 0.02", 187, False, "too few cases"),
+        ("<= 0.02", 189, False, "missed"),
+        ("<= 2.0", 80, True, "met"),
+        (None, 80, None, ""),
+    ],
+)
+def test_a_goal_needs_cases_enough_to_be_shown(target, n, met, said):
+    assert outcome({"target": target, "n": n, "met": met}) == said
+
+
+def test_every_score_has_a_name_in_the_fields_words():
+    result = score([], [])
+    assert [row["name"] for row in result["scores"] if in_words(row["name"]) == row["name"]] == []

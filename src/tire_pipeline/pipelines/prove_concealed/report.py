@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
-from tire_pipeline.reporting import Table, Text, render_page
+from tire_pipeline.concealed.score_words import in_words, outcome
+from tire_pipeline.drawing import MARKERS, colour_of, new_figure
+from tire_pipeline.reporting import Figure, Table, Text, render_page
 
 OWN = "explain_mismatch"
+Part = Text | Table | Figure
 
 
 def proof_page(
@@ -25,27 +29,24 @@ def proof_page(
     return render_page("Proof on concealed effects", [*simulated, *real])
 
 
-def _simulated(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -> list[Text | Table]:
+def _simulated(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -> list[Part]:
     own = scores[scores["method"] == OWN]
     lines = [
         f"{details[OWN]['n']} recordings by a rig simulator that is no Magic Formula, with an "
         f"effect concealed in most. {_goals(own)}",
         f"The answers were sealed before anything was explained: SHA-256 {details['sha256']}.",
     ]
-    parts: list[Text | Table] = [
-        Text(lines, emphasis=True),
-        Table(own.drop(columns="method"), "With 95% intervals.", heading=OWN),
-        _beside(scores, "Beside the baselines"),
-    ]
+    parts: list[Part] = [Text(lines, emphasis=True), *_drawn(scores, "Simulated recordings")]
+    parts += [_table(own, "All scores"), _beside(scores, "Beside the baselines")]
     parts += _groups(details[OWN], "")
     if len(misses):
         parts.append(
-            Table(misses.astype(str), "What was not answered rightly.", heading="Every miss", most_rows=400)
+            Table(misses.astype(str), "Cases with a wrong answer.", heading="Every miss", most_rows=400)
         )
     return parts
 
 
-def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -> list[Text | Table]:
+def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -> list[Part]:
     heading, made = "On real recordings", details["made"]
     if not len(scores):
         missing = "The real recordings are not there, and no proof on them has been published yet."
@@ -65,19 +66,19 @@ def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -
         f"was explained: SHA-256 {made['sha256']}. They are made from {made['sealed_sweeps']} sweeps. None "
         f"is of the {made['development_sweeps']} others, of the same tires, that thresholds may be set with.",
     ]
-    parts: list[Text | Table] = [Text(lines, heading=heading)]
+    parts: list[Part] = [
+        Text(lines, heading=heading),
+        *_drawn(scores[scores["source"] == "all"], "Real recordings"),
+    ]
     for source in own["source"].unique():
-        table = own[own["source"] == source].drop(columns=["method", "source"])
-        parts.append(
-            Table(table, "With 95% intervals.", heading=f"Real recordings: {_SOURCES.get(source, source)}")
-        )
+        parts.append(_table(own[own["source"] == source], f"Real recordings: {_SOURCES.get(source, source)}"))
     parts.append(_beside(scores[scores["source"] == "all"], "Real recordings: beside the baselines"))
     parts += _groups(details, "Real recordings: ")
     if len(misses):
         parts.append(
             Table(
                 misses.astype(str),
-                "What was not answered rightly, or made held-out sweeps worse.",
+                "Cases with a wrong answer, or with a larger error on held-out sweeps.",
                 heading="Real recordings: every miss",
                 most_rows=400,
             )
@@ -94,18 +95,76 @@ _SOURCES = {
 
 
 def _goals(own: pd.DataFrame) -> str:
-    aimed = own[own["target"].notna()] if "target" in own else own.head(0)
-    met = int(aimed["met"].fillna(False).astype(bool).sum())
-    return f"{met} of {len(aimed)} goals are met."
+    results = [outcome(row) for row in own.to_dict("records") if "target" in row]
+    met, few = results.count("met"), results.count("too few cases")
+    aimed = len([result for result in results if result])
+    told = f"{met} of {aimed} goals are met"
+    return f"{told}; {few} {'has' if few == 1 else 'have'} too few cases to tell." if few else f"{told}."
+
+
+def _table(own: pd.DataFrame, heading: str) -> Table:
+    """All scores of the explanation; a value without cases is a dash."""
+    table = pd.DataFrame(
+        {
+            "score": own["name"].map(in_words),
+            **{name: own[name] for name in ("value", "low", "high", "n", "target") if name in own},
+            "result": [outcome(row) if "target" in row else "" for row in own.to_dict("records")],
+        }
+    )
+    names = {"low": "95% from", "high": "to", "n": "cases", "target": "goal"}
+    table["target"] = [_sign(goal) if isinstance(goal, str) else "" for goal in own["target"]]
+    table = table.round(3)
+    return Table(
+        table.rename(columns=names),
+        "Shares, unless the score says otherwise. Too few cases: not even a perfect score would show that "
+        "the goal is met (95%).",
+        heading=heading,
+    )
+
+
+def _drawn(scores: pd.DataFrame, what: str) -> list[Part]:
+    """Every score that has a goal: ours with its interval, the baselines, and the goal."""
+    aimed = scores[
+        scores["target"].map(lambda goal: isinstance(goal, str)) & scores["value"].between(0.0, 1.0)
+    ]
+    own = aimed[aimed["method"] == OWN].set_index("name")
+    names = list(own.index)
+    if not names:
+        return []
+    y = np.arange(len(names))
+    figure, axis = new_figure(width=9.0, height=1.3 + 0.42 * len(names))
+    others = [method for method in dict.fromkeys(aimed["method"]) if method != OWN]
+    for k, method in enumerate(others, start=1):
+        values = aimed[aimed["method"] == method].set_index("name")["value"].reindex(names)
+        look: dict[str, Any] = {"color": colour_of(k), "markerfacecolor": "none", "markersize": 5, "lw": 0}
+        axis.plot(values, y, marker=MARKERS[k], label=method.replace("_", " "), **look)
+    ends = np.clip([own["value"] - own["low"], own["high"] - own["value"]], 0.0, None)
+    axis.errorbar(own["value"], y, xerr=ends, fmt="o", color=colour_of(0), label="ours, 95% interval")
+    bounds = [float(goal.split()[1]) for goal in own["target"]]
+    axis.plot(bounds, y, marker="|", markersize=20, color="black", lw=0, label="goal")
+    labels = [f"{in_words(name)} ({_sign(own.loc[name, 'target'])})" for name in names]
+    axis.set_yticks(y, labels, fontsize=8)
+    axis.invert_yaxis()
+    axis.set_xlim(-0.03, 1.03)
+    axis.set_xlabel("share of the cases, or overlap")
+    figure.legend(loc="outside upper center", ncols=5, fontsize=8)
+    return [Figure(figure, f"{what}: our score beside the baselines. The black bar is the goal.")]
+
+
+def _sign(goal: str) -> str:
+    """The goal with signs as in print."""
+    return goal.replace(">=", "≥").replace("<=", "≤")
 
 
 def _beside(scores: pd.DataFrame, heading: str) -> Table:
     wide = scores.pivot_table(index="name", columns="method", values="value", sort=False).reset_index()
-    return Table(wide, "The same cases, the same scorer.", heading=heading)
+    wide["name"] = wide["name"].map(in_words)
+    caption = "All methods on the same cases, scored alike. A dash: the method gives no such answer."
+    return Table(wide.rename(columns={"name": "score"}), caption, heading=heading)
 
 
-def _groups(details: dict[str, Any], before: str) -> list[Table]:
-    out = []
+def _groups(details: dict[str, Any], before: str) -> list[Part]:
+    out: list[Part] = []
     for key, words in (("by_strength", "By strength of the effect"), ("by_effect", "By effect")):
         table = pd.DataFrame(details.get(key, [])).dropna(axis="columns", how="all")
         if len(table):
