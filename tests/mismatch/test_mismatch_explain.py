@@ -128,7 +128,7 @@ def test_what_differs_to_both_sides_is_not_said_by_a_small_mean(pressed, when, m
     effect = replace(pressed.effects[0], when=when, share=0.9)
     at = Located("fy", "slip_angle", 0.05, 0.1, mean * pressed.fit["fy"].rms_before, 0.01, 0.04, True)
     text = summary("explained", [effect], pressed.fit, [at], pressed.remainder, "", {"time": (0.0, 100.0)})
-    said = "Fy differs most between 10 and 20 s, to both sides." in text
+    said = "Fy differs most between 10 and 20 s, to both sides" in text
     assert said == (when == [(10.0, 20.0)] and mean < 0.2)
     assert ("is up to" in text) != said
 
