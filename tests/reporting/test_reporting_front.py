@@ -50,3 +50,17 @@ def test_every_link_leads_to_a_file_even_with_hostile_names(tmp_path):
     assert "<script>" not in page
     assert "<b> tire" not in page
     assert "http" not in page
+
+
+def test_it_begins_with_the_first_sentence_of_each_report_and_the_curves(tmp_path):
+    lead = '<title>x</title><div class="main"><p>From 297 N to 69 N &lt;&amp;.</p><p>More.</p></div>'
+    (tmp_path / "report.html").write_text(lead)
+    (tmp_path / "mismatch.html").write_text("<title>x</title><p>no main message</p>")
+    newest = tmp_path / "force_curves.png" / "2026-01-02"
+    newest.mkdir(parents=True)
+    (newest / "force_curves.png").write_bytes(b"")
+    page = front_page(tmp_path)
+    assert page.index("From 297 N to 69 N &lt;&amp;.") < page.index("Tables (CSV)")
+    assert "More." not in page
+    assert "no main message" not in page
+    assert '<img src="force_curves.png/2026-01-02/force_curves.png"' in page

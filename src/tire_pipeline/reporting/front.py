@@ -7,10 +7,16 @@ import html
 import re
 from pathlib import Path
 
-from tire_pipeline.reporting.page import Links, Text, render_page
+from tire_pipeline.reporting.page import Links, Picture, Text, render_page
 
 FRONT = "index.html"
 _TITLE = re.compile(r"<title>(.*?)</title>", re.S | re.I)
+_LEAD = re.compile(r'<div class="main">\s*<p[^>]*>(.*?)</p>', re.S)
+LEADS = (
+    ("report.html", "Evaluation on tires that the target measured, too"),
+    ("translated_files.html", "Your files, translated"),
+    ("mismatch.html", "Your recordings"),
+)
 
 REPORTS = (
     (
@@ -86,18 +92,45 @@ def front_page(folder: Path) -> str:
     str
         A page that opens without a network; titles and names of files are escaped.
     """
-    parts: list[Text | Links] = [
+    parts: list[Text | Links | Picture] = [
         Text(
             [
                 "Tire property files (.tir): who measured them, what their numbers become as another would "
                 "have measured, and why a recording differs from the simulation."
             ]
-        )
+        ),
+        *_what_matters(folder),
     ]
     for heading, reports in REPORTS:
         items = [item for report in reports for item in _items(folder, *report)]
         parts.append(Links(items, heading=heading))
     return render_page("Tire pipeline: all reports", parts, footer="Made anew after every run.")
+
+
+def _what_matters(folder: Path) -> list[Text | Links | Picture]:
+    """The first sentence of each report, and how the curves were moved."""
+    said = [(name, text) for name, _ in LEADS if (text := _lead(folder / name))]
+    parts: list[Text | Links | Picture] = []
+    if said:
+        links = [(name, dict(LEADS)[name], text) for name, text in said]
+        parts.append(Links(links, heading="What came out"))
+    curves = _newest(folder / "force_curves.png")
+    if curves is not None:
+        caption = (
+            "Lateral force over slip angle: thin as each source measured, dashed as translated, thick as the "
+            "target measured. Dashed lines should lie on the thick one."
+        )
+        parts.append(Picture(curves.relative_to(folder).as_posix(), caption))
+    return parts
+
+
+def _lead(page: Path) -> str:
+    """The first paragraph of a page's main message."""
+    if not page.is_file():
+        return ""
+    with page.open(encoding="utf-8", errors="replace") as file:
+        found = _LEAD.search(file.read(40_000))
+    return html.unescape(found[1]).strip() if found else ""
 
 
 def _items(folder: Path, pattern: str, name: str, command: str) -> list[tuple[str, str, str]]:

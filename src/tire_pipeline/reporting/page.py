@@ -126,13 +126,38 @@ class Links:
         return [(quote(path), name, text) for path, name, text in self.items]
 
 
-def render_page(title: str, parts: Sequence[Text | Table | Figure | Links], *, footer: str = "") -> str:
+@dataclass(frozen=True)
+class Picture:
+    """A picture that lies beside the page.
+
+    Attributes
+    ----------
+    path : str
+        Relative to the page.
+    caption : str
+    heading : str
+    """
+
+    path: str
+    caption: str = ""
+    heading: str = ""
+    kind: str = field(default="picture", init=False)
+
+    @property
+    def escaped(self) -> str:
+        """The path as it stands in an address."""
+        return quote(self.path)
+
+
+def render_page(
+    title: str, parts: Sequence[Text | Table | Figure | Links | Picture], *, footer: str = ""
+) -> str:
     """One HTML page without any outside reference.
 
     Parameters
     ----------
     title : str
-    parts : sequence of Text, Table, Figure and Links
+    parts : sequence of Text, Table, Figure, Links and Picture
     footer : str
         For example which run made the page.
 

@@ -29,6 +29,16 @@ _TABLES = [
     ("index.html", "All reports", ""),
 ]
 
+_METRICS = {
+    "forces": "lateral force",
+    "cornering_stiffness": "cornering stiffness",
+    "peak_friction": "peak friction",
+    "forces_camber": "lateral force with camber",
+    "fx": "longitudinal force",
+    "mz": "aligning moment",
+}
+_CLASSIFIERS = {"ann": "neural network", "random_forest": "random forest", "naive_bayes": "naive Bayes"}
+
 
 def force_figure(translated_table: pd.DataFrame, references: pd.DataFrame, best: dict[str, Any]) -> MplFigure:
     """Lateral force of up to four tires: as measured, as the best translated, and as the target measured."""
@@ -139,7 +149,11 @@ def _classifier(table: pd.DataFrame, scores: pd.DataFrame, per_class: pd.DataFra
         f"Always naming the largest category would be right for {guess:.1%}."
     )
     words = {"random": "random", "by_tire": "by physical tire"}
-    shown = scores.assign(split=scores["split"].map(words))
+    shown = scores.assign(
+        split=scores["split"].map(words), classifier=scores["classifier"].replace(_CLASSIFIERS)
+    ).rename(columns={"accuracy_std": "± accuracy", "f1": "F1", "f1_std": "± F1", "smote": "SMOTE"})
+    for name in ("accuracy", "± accuracy", "F1", "± F1"):
+        shown[name] = shown[name].round(3)
     caption = "Accuracy and weighted F1, mean and spread of several trainings."
     detail = per_class.assign(split=per_class["split"].map(words))
     return [
@@ -154,7 +168,7 @@ def _translation(summary: pd.DataFrame, target: str, best: dict[str, Any]) -> li
         return []
     caption = (
         "RMS error to the target's measurement, divided by that of the untranslated files: 1 is doing "
-        "nothing. `floor` is the target measuring a second time, `oracle` a constant shift of the force "
+        "nothing. Floor: the target measuring a second time. Oracle: a constant shift of the force "
         f"coefficients of each category, taken from the truth. Improved: share of files that the "
         f"{best['name']} brought nearer. The first three metrics are the thesis'."
     )
@@ -165,4 +179,5 @@ def _translation(summary: pd.DataFrame, target: str, best: dict[str, Any]) -> li
     written = rows[rows["translator"] == best["name"]].set_index(["set", "metric"])
     order = [name for name in dict.fromkeys(rows["translator"]) if name not in (best["name"], FLOOR)]
     shown = wide[[best["name"], FLOOR, *order]].assign(improved=written["improved"], files=written["files"])
-    return [Table(shown.reset_index(), caption, heading=f"Translation to {target}")]
+    shown = shown.reset_index().replace({"metric": _METRICS})
+    return [Table(shown, caption, heading=f"Translation to {target}")]
