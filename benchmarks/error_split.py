@@ -79,7 +79,7 @@ def put_right(judge: Judge, translator: MixedModel, judged: np.ndarray) -> dict[
     own = Prediction(**{name: getattr(found, name)[judged] for name in vars(found)})
     wanted = {
         "as it is": own.target,
-        "mean bias of each actor right": own.target + learned(judge, gap, None, judged),
+        "mean bias of each organisation right": own.target + learned(judge, gap, None, judged),
         "bias right as far as the file's curves and metadata tell it": own.target
         + learned(judge, gap, known, judged),
     }

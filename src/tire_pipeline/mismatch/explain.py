@@ -142,7 +142,7 @@ def _report(prepared: Prepared, search: Search, recording: pd.DataFrame) -> Mism
     located = [] if silent else locate(data, before, search.noise, search.block)
     if verdict == "unexplained" and not experiments:
         experiments.append(
-            "Record the same sweeps again, and once more with one channel changed at a time: what repeats is "
+            "Record the same sweeps again, and then with one channel changed at a time: what repeats is "
             "the tire or the rig, and what follows a channel has found its cause."
         )
     question = prepared.question

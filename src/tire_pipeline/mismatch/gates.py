@@ -373,8 +373,9 @@ def _joint(
 def _least(search: Search, system: System, fit: Fit, rest: dict[str, Array]) -> float:
     """Return the least objective that a system gives to a set, from where another system put it.
 
-    By one Gauss-Newton step. A step that promises much is gone and looked at: along a valley (the reference
-    of a temperature without its channel and a friction factor) the straight line promises what is not there.
+    By one Gauss-Newton step. If the predicted decrease is large, evaluate the step instead of trusting the
+    linearisation: along a valley (the reference of a temperature without its channel, and a friction factor)
+    the linearisation predicts a decrease that is not there.
     """
     info, score, here = system.reduce(system.sums(rest, fit.columns if fit.labels else None))
     if score.size == 0:

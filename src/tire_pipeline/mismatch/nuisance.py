@@ -230,7 +230,10 @@ def _shifts(data: Data, name: str, at: dict[str, Array]) -> Array:
 
 
 def largest_force(data: Data, name: str) -> float:
-    """Return the largest simulated force, N: 99.5% quantile, of the other output if this one rests."""
+    """Return the largest simulated force (99.5% quantile), N.
+
+    If this force is near zero, a fraction of the other one.
+    """
     sizes = {n: float(np.quantile(np.abs(data.base[n]), 0.995)) for n in data.outputs}
     top = max(*sizes.values(), 1e-09)
     return sizes[name] if sizes[name] > 0.3 * top else 0.3 * top

@@ -88,7 +88,7 @@ def _agreement(fit: dict[str, OutputFit]) -> str:
 
 
 def _verdict(verdict: str, effects: Sequence[EffectReport], remainder: Remainder, ranges: Ranges) -> str:
-    """The verdict, the causes, and what is left without a name."""
+    """The verdict, the causes, and the unexplained residual."""
     sizes = ", ".join(f"{o.capitalize()} {newtons(s)} N" for o, s in remainder.size.items())
     left = f"{sizes} RMS above noise"
     if remainder.located:

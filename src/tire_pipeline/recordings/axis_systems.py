@@ -156,7 +156,7 @@ def _moments_to_contact(
             if moment == "mz":
                 notes.append(
                     f"mz is about the wheel centre: {why} is not there, so its part in mz, radius "
-                    "x fx x sin(camber), is left out (nil in free rolling but for rolling drag)"
+                    "x fx x sin(camber), is left out (zero in free rolling but for rolling drag)"
                 )
                 continue
             notes.append(f"{moment} is about the wheel centre and stays so: {why} is not there")

@@ -141,5 +141,5 @@ def _lateral_speed(
     return (
         smoother.smooth(value),
         one_step * np.sqrt(steps),
-        "lateral speed integrated between stretches of straight running; road bank is taken as nil",
+        "lateral speed integrated between stretches of straight running; road bank is taken as zero",
     )

@@ -21,7 +21,7 @@ def dedupe_and_filter(
     minimum_per_category: int = 20,
     features: Sequence[str] = (),
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Drop doubles, files with features without a value, and small categories (thesis, section 4.1).
+    """Drop duplicates, files with features without a value, and small categories (thesis, section 4.1).
 
     In this order, each step on what the one before left: first files whose p, q, r, s coefficients, scale
     factors and ``FNOMIN`` are all equal to those of an earlier row (to the bit; a missing one equals a

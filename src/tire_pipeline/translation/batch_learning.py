@@ -25,7 +25,7 @@ from tire_pipeline.translation.own_spread import FREEDOM
 
 @dataclass(frozen=True)
 class TaughtCells:
-    """Files of one tire in one category, drawn together, as the mixed model takes them.
+    """Files of one tire in one category, averaged, as the mixed model takes them.
 
     Attributes
     ----------

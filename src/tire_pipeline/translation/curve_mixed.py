@@ -4,7 +4,7 @@ For every score: tire (metadata, size, class, what is its own) + category + cate
 protocol + category x kind of tire + category x class + tire in this category + noise. The target's
 measurement of a tire is then predicted from the source's measurement of it: the source's score, moved by the
 difference of the categories' effects, and drawn a little towards what the metadata lets expect, by as much as
-the source is noise or its own fit. Stiffness and shape of one output are drawn together, because their errors
+the source is noise or its own fit. Stiffness and shape of one output are combined, because their errors
 belong together (:mod:`.fit_links`).
 """
 

@@ -66,7 +66,7 @@ PARTS: dict[str, Part] = {
 
 @dataclass(frozen=True)
 class Cells:
-    """Files of one tire in one category, drawn together.
+    """Files of one tire in one category, averaged.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Weights of a fitted mixed model as differences between actors or protocols, with their intervals."""
+"""Weights of a fitted mixed model as differences between organisations or protocols, with their intervals."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How well a translator does on the tires that several actors measured, each left out in its turn."""
+"""How well a translator does on the tires that several organisations measured, each left out in its turn."""
 
 from __future__ import annotations
 

@@ -68,7 +68,7 @@ def predict_block(
     -------
     tuple of ndarray
         Shift, its variance, prediction, its variance, surprise, expectation, each (n, b): what they are for
-        each class, drawn together by the classes' probabilities.
+        each class, averaged by the classes' probabilities.
     """
     each = [
         _in_class(fitted, source, mine, theirs, trust, reading)

@@ -7,7 +7,7 @@ from tire_pipeline.reporting.translation_page import translation_page
 
 
 def draw_translation_page(measured: pd.DataFrame, bias: pd.DataFrame, beside_truth: pd.DataFrame) -> str:
-    """Every translator on the same hidden tires, and what is learned about the actors' bias."""
+    """Every translator on the same hidden tires, and what is learned about the organisations' bias."""
     return translation_page(measured, bias=bias, beside_truth=beside_truth)
 
 

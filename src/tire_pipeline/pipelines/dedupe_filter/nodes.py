@@ -1,4 +1,4 @@
-"""Drop what the thesis drops: doubles, files without values, small categories."""
+"""Drop what the thesis drops: duplicates, files without values, small categories."""
 
 from __future__ import annotations
 
@@ -61,9 +61,9 @@ def keep_usable(
     have = ", ".join(f"{name} ({count})" for name, count in counts.items()) or "none"
     if len(counts) < 2:
         raise DomainError(
-            f"two categories are needed to tell actors apart; what remains: {have}",
+            f"two categories are needed to tell organisations apart; what remains: {have}",
             where="dedupe_filter",
-            todo="add files of a second actor, or lower dedupe_filter.minimum_per_category",
+            todo="add files of a second organisation, or lower dedupe_filter.minimum_per_category",
         )
     if target_category not in counts:
         raise DomainError(

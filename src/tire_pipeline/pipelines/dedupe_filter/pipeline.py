@@ -1,4 +1,4 @@
-"""Table -> table without doubles, gaps and small categories."""
+"""Table -> table without duplicates, gaps and small categories."""
 
 from kedro.pipeline import Node, Pipeline
 
