@@ -47,9 +47,12 @@ def test_a_recording_gets_a_report_a_page_and_a_verdict(tmp_path):
     assert "1 could not be used" in done.stdout
     assert (data / "08_reporting/tables/mismatch_overview.csv").read_text() == overview
     assert "mismatch/good/recording.html" in (data / "08_reporting/index.html").read_text()
-    page = Path(data / "08_reporting/mismatch/good/recording.html").read_text()
+    place = data / "08_reporting/mismatch/good/recording.html"
+    page = place.read_text()
     assert "<svg" in page or "<img" in page
-    assert not re.search(r"""(src|href)\s*=\s*["'](?!#|data:)""", page.replace("xlink:href", "href"))
+    asked = re.findall(r"""(?:src|href)\s*=\s*["'](?!#|data:)([^"']+)""", page)
+    assert asked == ["../../mismatch.html"]
+    assert (place.parent / asked[0]).is_file()
 
 
 @pytest.fixture
@@ -76,7 +79,7 @@ def test_recordings_of_one_folder_are_explained_together_and_one_is_held_out(hal
     error = report["held_out"]["errors"]["fy"]
     assert 0.0 < error["rms_after"] < error["rms_before"]
     assert overview["held_out"].tolist() == ["tire/two.csv"]
-    assert "Tried on a recording that was held out" in pages["tire/together.html"]
+    assert "Tested on a held-out recording" in pages["tire/together.html"]
 
 
 @pytest.mark.skipif(not EXAMPLES.exists() and "CI" not in os.environ, reason="../shared is not here")
