@@ -26,8 +26,8 @@ class BatchMixedModel(MixedModel):
     """The mixed model, which learns from the files to translate what they say of whoever measured them.
 
     A file is translated by what files of *other* tires taught. No file of its own tire counts, and no
-    measurement of the target beyond the training files. So a file alone comes out as by ``mixed_model``. Files of
-    tires that nobody has seen before are needed for it; of whom they are must be known.
+    measurement of the target beyond the training files. So a file alone comes out as by ``mixed_model``.
+    Files of tires that nobody has seen before are needed for it; of whom they are must be known.
 
     Parameters
     ----------
