@@ -189,7 +189,7 @@ class SignpostHooks:
         ("translation_list", "page of the translated files"),
         ("translated_tir", "translated .tir files"),
         ("translation_files", "translated .tir files"),
-        ("mismatch_pages", "pages of the recordings"),
+        ("mismatch_overview_page", "page of the recordings"),
         ("proof_report", "page of the proof"),
         ("retraining_report", "page of the retraining"),
         ("translation_page", "page of the translators"),

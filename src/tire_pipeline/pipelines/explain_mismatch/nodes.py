@@ -20,6 +20,7 @@ from tire_pipeline.pipelines.parameters import Parameters
 from tire_pipeline.progress import track
 from tire_pipeline.recordings.groups import by_folder, matching
 
+_COLUMNS = ("recording", "verdict", "summary", "effects", "alternatives", "held_out", "problem")
 Pairs = Mapping[str, Callable[[], tuple[TireModel | None, pd.DataFrame]]]
 
 
@@ -107,7 +108,7 @@ def explain_all(
     reports : dict
         ``MismatchReport.to_dict()`` by recording, or ``folder/together``.
     overview : DataFrame
-        ``recording, verdict, effects, alternatives, held_out, problem``.
+        ``recording, verdict, summary, effects, alternatives, held_out, problem``.
     pages : dict of str to str
         One HTML page a report.
     corrected : dict of str to bytes
@@ -127,7 +128,7 @@ def explain_all(
     pages: dict[str, str] = {}
     corrected: dict[str, bytes] = {}
     for name, members in track(groups.items(), "explaining recordings", total=len(groups)):
-        row = dict.fromkeys(("recording", "verdict", "effects", "alternatives", "held_out", "problem"), "")
+        row = dict.fromkeys(_COLUMNS, "")
         row["recording"] = name
         rows.append(row)
         try:
@@ -138,6 +139,7 @@ def explain_all(
             continue
         reports[name] = report.to_dict()
         row["verdict"] = report.verdict
+        row["summary"] = report.summary
         row["effects"] = ", ".join(effect.name for effect in report.effects)
         row["alternatives"] = ", ".join(a for effect in report.effects for a in effect.alternatives)
         row["held_out"] = report.held_out.recording if report.held_out else ""

@@ -8,6 +8,9 @@ import pandas as pd
 
 from tire_pipeline.reporting import Links, Table, Text, render_page
 
+_FEW = 5
+"""Of so many recordings a run says what was found in each."""
+
 
 def draw_overview(overview: pd.DataFrame, pages: dict[str, str]) -> tuple[str, list[str]]:
     """Sum up all recordings of a run on one page.
@@ -15,7 +18,7 @@ def draw_overview(overview: pd.DataFrame, pages: dict[str, str]) -> tuple[str, l
     Parameters
     ----------
     overview : DataFrame
-        ``recording, verdict, effects, alternatives, held_out, problem``.
+        ``recording, verdict, summary, effects, alternatives, held_out, problem``.
     pages : dict of str to str
         The recordings' pages by path.
 
@@ -32,17 +35,18 @@ def draw_overview(overview: pd.DataFrame, pages: dict[str, str]) -> tuple[str, l
     failed = int((shown["verdict"] == "").sum())
     if failed:
         said.append(f"{failed} could not be used")
-    outcome = [f"{len(shown)} recordings: {', '.join(said)}."]
+    recordings = "recording" if len(shown) == 1 else "recordings"
+    outcome = [f"{len(shown)} {recordings}: {', '.join(said)}."]
     links = []
     for row in shown.to_dict("records"):
         path = str(PurePosixPath(row["recording"]).with_suffix(".html"))
-        text = (
-            f"{row['verdict']}: {row['effects'] or 'no effect named'}" if row["verdict"] else row["problem"]
-        )
+        text = row["summary"] or row["problem"]
         links.append((f"mismatch/{path}" if path in pages else "", row["recording"], text))
+        if len(shown) <= _FEW:
+            outcome.append(f"{row['recording']}: {text}")
     table = shown[["recording", "verdict", "effects", "alternatives", "held_out", "problem"]]
     parts = [
-        Text(outcome, emphasis=True),
+        Text(outcome[:1], emphasis=True),
         Links(links, heading="Recordings"),
         Table(
             table.rename(columns={"held_out": "held out"}),
