@@ -19,6 +19,10 @@ from tire_pipeline.mismatch.open_questions import Question
 from tire_pipeline.mismatch.simulate import Change, plain_forces, simulate, simulate_moments
 from tire_pipeline.mismatch.smoothing import denoise
 
+Array = np.ndarray
+_SAME_NOISE = 3.0
+"""Noise of one sensor differs by less than this factor between recordings: drives of one car by up to 2.4."""
+
 _POINTS = ("slip_angle", "slip_ratio", "camber", "normal_load")
 
 
@@ -45,8 +49,8 @@ class CorrectedModel:
         Force -> the range in which it is recorded, as recorded.
     question : Question, optional
         What has to be settled before a file may be written from it.
-    cleaned : tuple of str
-        Input channels that are cleaned of sensor noise before the effects are put in.
+    cleaned : dict of str to float
+        Input channel that is cleaned of sensor noise before the effects are put in -> RMS of that noise, SI.
     """
 
     tire: Any
@@ -58,12 +62,12 @@ class CorrectedModel:
     factors: Mapping[str, float] = field(default_factory=dict)
     limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     question: Question | None = None
-    cleaned: tuple[str, ...] = ()
+    cleaned: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def as_it_came(self) -> CorrectedModel:
         """The model with nothing put in and nothing repaired: ``predict`` gives ``tire.forces``."""
-        return replace(self, changes=(), factors={}, limits={}, cleaned=())
+        return replace(self, changes=(), factors={}, limits={}, cleaned={})
 
     def predict(self, recording: pd.DataFrame) -> pd.DataFrame:
         """Return the corrected forces at the samples of a recording.
@@ -100,6 +104,25 @@ class CorrectedModel:
             recorded[name] = np.clip(recorded[name], low, high)
         return pd.DataFrame(recorded, index=recording.index)
 
+    def cleaned_where_it_helps(self, recording: pd.DataFrame) -> CorrectedModel:
+        """Return the model with the noise of the recording that was explained, as it was recorded.
+
+        Without any cleaning if the forces of that recording are predicted no better with it.
+        """
+        if not (self.cleaned and self.changes and "time" in recording):
+            return self
+        plain = replace(self, cleaned={})
+        channels = plain._data(recording).channels
+        start = _pieces(recording["time"].to_numpy(dtype=float), len(recording))
+        noise = {n: _size(channels[n] - denoise(channels[n], start)) for n in self.cleaned}
+        clean = replace(self, cleaned=noise)
+        names = [o for o in self.outputs if o in recording]
+        left = [
+            sum(_size(recording[o] - frame[o]) ** 2 / max(_size(recording[o]) ** 2, 1e-300) for o in names)
+            for frame in (clean.predict(recording), plain.predict(recording))
+        ]
+        return clean if left[0] < left[1] else plain
+
     def _data(self, recording: pd.DataFrame) -> Data:
         n = len(recording)
         if "normal_load" not in recording:
@@ -110,16 +133,12 @@ class CorrectedModel:
             if c in INPUTS
         }
         time = recording["time"].to_numpy(dtype=float) if "time" in recording else None
-        start = np.zeros(n, bool)
-        start[:1] = True
-        if time is not None and n > 1:
-            steps = np.diff(time)
-            start[1:] = (steps > 3.5 * np.median(steps)) | (steps <= 0.0)
+        start = _pieces(time, n)
         for name in ("slip_angle", "slip_ratio", "camber"):
             channels.setdefault(name, np.zeros(n))
         if time is not None and self.changes:
-            for name in self.cleaned:
-                channels[name] = denoise(channels[name], start)
+            for name, noise in self.cleaned.items():
+                channels[name] = _without_noise(channels[name], start, noise)
         beside = None
         if self.stands_in:
             needed = [f"simulated_{o}" for o in self.outputs]
@@ -204,6 +223,30 @@ class CorrectedModel:
         if sidecar:
             write_sidecar(written, sidecar)
         return written
+
+
+def _without_noise(x: Array, start: Array, noise: float) -> Array:
+    """Return a channel without its sensor noise; as it is where far more than that would be taken off.
+
+    A sensor's noise is the same in every recording. What fluctuates more moves, which only forces could tell.
+    """
+    smooth = denoise(x, start)
+    return smooth if _size(x - smooth) < _SAME_NOISE * noise else x
+
+
+def _size(x: Array | pd.Series) -> float:
+    """Root mean square of what is finite."""
+    return float(np.sqrt(np.nanmean(np.square(np.asarray(x, float)))))
+
+
+def _pieces(time: Array | None, n: int) -> Array:
+    """Where uninterrupted pieces of a recording begin."""
+    start = np.zeros(n, bool)
+    start[:1] = True
+    if time is not None and n > 1:
+        steps = np.diff(time)
+        start[1:] = (steps > 3.5 * np.median(steps)) | (steps <= 0.0)
+    return start
 
 
 def force_limits(findings: Iterable[Finding], outputs: Iterable[str]) -> dict[str, tuple[float, float]]:

@@ -167,8 +167,8 @@ def _report(prepared: Prepared, search: Search, recording: pd.DataFrame) -> Mism
         factors=prepared.factors,
         limits=force_limits(prepared.findings, outputs),
         question=question,
-        cleaned=tuple(c.channel for c in prepared.cleaned if c.smoothed),
-    )
+        cleaned={c.channel: c.removed for c in prepared.cleaned if c.smoothed},
+    ).cleaned_where_it_helps(recording)
     fit = as_recorded({**fit, **prove_moments(search)}, search, corrected, recording)
     even = everywhere(data, before, located)
     told = (

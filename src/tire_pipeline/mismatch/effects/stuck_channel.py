@@ -26,7 +26,8 @@ _CHANNELS = (
 class StuckChannel(Effect):
     """A live channel repeats one value exactly for a long time.
 
-    Covers exact repeats of 25 samples and more. Not covered: a channel that is stuck but for its noise.
+    Covers exact repeats of 25 samples and more, far longer than any near them. Not covered: a channel that is
+    stuck but for its noise.
     """
 
     name = "stuck_channel"
@@ -77,6 +78,21 @@ def _stuck(x: Array, *, once: bool) -> tuple[Array | None, float]:
     for first, length in zip(starts[long], lengths[long], strict=True):
         if x[first] in (low, high) and not (once and (x == x[first]).sum() == length):
             continue
+        if length < _FAR_LONGER * _longest_beside(starts, lengths, first, length):
+            continue
         bad[first : first + length] = True
         value = float(x[first])
     return (bad, value) if bad.any() else (None, 0.0)
+
+
+_FAR_LONGER = 5
+_AROUND = 10
+"""A slow signal in few digits, at its crest or brought to a faster clock, repeats its values for ever longer
+and ever shorter; one that is stuck stands out from what lies so many times its length before and after."""
+
+
+def _longest_beside(starts: Array, lengths: Array, first: int, length: int) -> int:
+    """Return the longest other run in the stretches before and after a run."""
+    low, high = first - _AROUND * length, first + (1 + _AROUND) * length
+    near = (starts + lengths > low) & (starts < high) & (starts != first)
+    return int(lengths[near].max(initial=0))

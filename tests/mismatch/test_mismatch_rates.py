@@ -1,0 +1,196 @@
+"""One meaning of "mismatch" at every rate; no repair and no cleaning makes unseen sweeps worse."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+from mismatch_rates import (
+    RATES,
+    at_rate,
+    car_tire,
+    drives,
+    flat_belt,
+    forces,
+    free_drive,
+    points,
+    rms,
+    second_session,
+)
+
+from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.checks import prepare
+from tire_pipeline.mismatch.corrected import CorrectedModel
+
+HIDDEN = ("nothing", "pressure", "camber", "camber pressure")
+NOTHING_PUT_IN = (("force_gain", {"fy": 0.0, "fx": 0.0}),)
+
+
+def simulated(tire, rate, friction=1.0, seconds=75.0, seed=0):
+    """The small rig at another rate, with another friction: explained, and another run of it."""
+    parts = []
+    for run in (seed, seed + 100):
+        rng = np.random.default_rng(run)
+        t = np.arange(0.0, seconds, 1.0 / rate)
+        slip = 0.18 * np.sin(2.0 * np.pi * t / 7.5 + run)
+        load = np.array([3000.0, 5500.0, 1800.0, 4200.0])[(t // 15.0).astype(int) % 4]
+        fy = friction * tire.forces(slip_angle=slip / friction, normal_load=load).fy
+        channels = {"time": t, "slip_angle": slip + rng.normal(0.0, 1e-4, t.size)}
+        channels |= {"normal_load": load + rng.normal(0.0, 8.0, t.size)}
+        channels["fy"] = fy + rng.normal(0.0, 25.0, t.size)
+        parts.append(pd.DataFrame(channels))
+    return tire, *parts
+
+
+def sources(rate):
+    """Real recordings that are explained, and sweeps that are not."""
+    yield from (flat_belt(rate, hidden) for hidden in HIDDEN)
+    yield from (second_session(rate, fitted) for fitted in (0, 1))
+    yield free_drive(rate)
+
+
+def check_before(tire, given, report):
+    """The error before is that of ``tire.forces`` on the recorded rows; without effects the error after, too."""
+    for output, fit in report.fit.items():
+        if output not in ("fx", "fy"):
+            continue
+        plain = forces(tire, given, output)
+        assert fit.rms_before == pytest.approx(rms(given[output] - plain), rel=1e-9)
+        came = report.corrected.as_it_came.predict(given)[output]
+        np.testing.assert_allclose(came, plain, rtol=1e-9, atol=1e-9 * np.abs(plain).max())
+        if not report.effects:
+            now = report.corrected.predict(given)[output]
+            np.testing.assert_allclose(now, plain, rtol=1e-9, atol=1e-9 * np.abs(plain).max())
+            assert fit.rms_after == fit.rms_before
+
+
+def check_unseen(tire, given, unseen):
+    report = explain_mismatch(tire, given)
+    check_before(tire, given, report)
+    for output in set(report.fit) & {"fx", "fy"}:
+        assert report.fit[output].rms_after <= report.fit[output].rms_before
+        after = rms(unseen[output] - report.corrected.predict(unseen)[output])
+        assert after <= rms(unseen[output] - forces(tire, unseen, output)) * (1.0 + 1e-9), report
+    return report
+
+
+# No search: what is repaired and cleaned before
+
+
+@pytest.mark.parametrize("digits", [15, 3])
+@pytest.mark.parametrize("rate", RATES)
+def test_real_channels_are_neither_stuck_nor_clipped_nor_turned(rate, digits):
+    """At 500 Hz a speed in few digits was stuck for 645 samples; a drive's axes were the other ones."""
+    for tire, given, _ in sources(rate):
+        rounded = given.assign(**{n: _digits(given[n], digits) for n in given if n != "time"})
+        assert [(f.name, f.channel) for f in prepare(tire, rounded).findings] == []
+
+
+def _digits(x, digits):
+    scale = 10.0 ** (digits - 1 - np.floor(np.log10(np.maximum(np.abs(x), 1e-12))))
+    return np.round(x * scale) / scale if digits < 15 else x
+
+
+@pytest.mark.parametrize("channel", ["fy", "slip_angle", "normal_load", "speed"])
+@pytest.mark.parametrize("rate", [20, 100, 500])
+def test_a_real_channel_that_stuck_is_still_found(rate, channel):
+    tire, given, _ = flat_belt(rate)
+    rows = slice(int(0.4 * len(given)), int(0.5 * len(given)))
+    held = given[channel].to_numpy().copy()
+    held[rows] = held[rows.start]
+    (found,) = prepare(tire, given.assign(**{channel: held})).findings
+    assert (found.name, found.channel) == ("stuck_channel", channel)
+    assert found.bad[rows].all()
+
+
+WRONG = {
+    "fy": (-1.0, 1e-3, 1.0 / 4.4482216),
+    "slip_angle": (-1.0, 180.0 / np.pi),
+    "normal_load": (-1.0, 1e-3),
+}
+
+
+@pytest.mark.parametrize(("channel", "factor"), [(n, f) for n, factors in WRONG.items() for f in factors])
+@pytest.mark.parametrize("rate", RATES)
+def test_a_repair_brings_sweeps_that_it_was_not_made_for_nearer(rate, channel, factor):
+    """What is repaired may also be nothing; what is repaired leaves less of the force as it was recorded."""
+    for tire, given, unseen in sources(rate):
+        wrong = unseen.assign(**{channel: factor * unseen[channel]})
+        factors = prepare(tire, given.assign(**{channel: factor * given[channel]})).factors
+        repaired = wrong.assign(**{n: wrong[n] * f for n, f in factors.items()})
+        left = rms(wrong["fy"] - forces(tire, repaired) / factors.get("fy", 1.0))
+        assert left <= rms(wrong["fy"] - forces(tire, wrong))
+        if factor != -1.0:
+            assert factors[channel] == pytest.approx(1.0 / factor, rel=1e-6)
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_noise_of_one_drive_is_not_taken_off_where_the_slip_really_moves(rate):
+    """Cleaned like the second session, the free drive's slip was smoothed away: 0.2 N became 2 N at 5 Hz."""
+    tire = car_tire(rate)
+    session, free = (at_rate(drives(s)[0].frame, rate) for s in ("second", "free"))
+    cleaned = {c.channel: c.removed for c in prepare(tire, session).cleaned if c.smoothed}
+    assert "slip_angle" in cleaned
+    model = CorrectedModel(tire, NOTHING_PUT_IN, {}, ("fy",), cleaned=cleaned)
+    assert rms(free["fy"] - model.predict(free)["fy"]) < 1.02 * rms(free["fy"] - forces(tire, free))
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_cleaning_stays_only_where_it_leaves_less_of_the_recorded_force(rate):
+    for tire, given, _ in sources(rate):
+        cleaned = {c.channel: c.removed for c in prepare(tire, given).cleaned if c.smoothed}
+        model = CorrectedModel(tire, NOTHING_PUT_IN, {}, ("fy",), cleaned=cleaned)
+        kept = model.cleaned_where_it_helps(given)
+        assert set(kept.cleaned) in (set(), set(cleaned))
+        left = rms(given["fy"] - kept.predict(given)["fy"])
+        assert left <= rms(given["fy"] - replace(kept, cleaned={}).predict(given)["fy"])
+
+
+# With the search: a fixed slice, all of it in `long`
+
+
+@pytest.mark.parametrize("rate", [2, 5, 20])
+@pytest.mark.parametrize("friction", [1.0, 0.85])
+def test_a_rig_at_any_rate_in_short(tire, rate, friction):
+    report = check_unseen(*simulated(tire, rate, friction))
+    assert {e.name for e in report.effects} <= ({"friction_scale"} if friction < 1.0 else set())
+
+
+@pytest.mark.parametrize(
+    "take",
+    [
+        lambda: flat_belt(2),
+        lambda: flat_belt(5),
+        lambda: flat_belt(5, "camber pressure"),
+        lambda: free_drive(2),
+    ],
+)
+def test_real_recordings_in_short(take):
+    check_unseen(*take())
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("friction", [1.0, 0.85])
+@pytest.mark.parametrize("rate", RATES)
+def test_a_rig_at_any_rate(tire, rate, friction):
+    for seed in range(5):
+        check_unseen(*simulated(tire, rate, friction, 150.0, seed))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("hidden", HIDDEN)
+@pytest.mark.parametrize("rate", RATES)
+def test_the_flat_belt_at_any_rate(rate, hidden):
+    check_unseen(*flat_belt(rate, hidden))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("take", [lambda r: second_session(r, 0), lambda r: second_session(r, 1), free_drive])
+@pytest.mark.parametrize("rate", RATES)
+def test_drives_at_any_rate(rate, take):
+    check_unseen(*take(rate))
+
+
+@pytest.mark.slow
+def test_points_without_time():
+    check_unseen(*points())
