@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
@@ -15,7 +15,8 @@ _LEVEL = 0.05
 _LEAST_FORCE = 0.1
 """A share of the force is given where the force is above this part of the largest one."""
 _EVEN = 0.7
-"""What is off throughout by this part of the largest stretch is not in one stretch."""
+"""One share of the force that is this part of the squared difference is off throughout, in no stretch."""
+_BINS = 16
 AXES = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure", "tread_temperature")
 
 
@@ -36,6 +37,9 @@ class Located:
         The same over the mean size of the simulated force; NaN where that is below a tenth of the largest.
     p_value : float
         Largest statistic over all axes, stretches and scales under flips of whole sweeps.
+    own : float
+        Part of the mean that is not there wherever the first axis of this output is the same: next to nothing
+        for a channel that merely came along.
     """
 
     output: str
@@ -46,6 +50,7 @@ class Located:
     share: float
     p_value: float
     along_force: bool
+    own: float = 1.0
 
 
 def locate(
@@ -118,6 +123,7 @@ def _axes(
     statistics[:, ~enough] = 0.0
     top = statistics.max(axis=1)
     found = []
+    rows = []
     for axis in dict.fromkeys(t[0] for t in tests):
         own = [i for i, t in enumerate(tests) if t[0] == axis]
         chance = {i: float((1 + (top[1:] >= statistics[0, i]).sum()) / signs.shape[0]) for i in own}
@@ -129,7 +135,28 @@ def _axes(
         mean = float(plain[mask].mean())
         share = mean / _force(data, output, mask)
         found.append(Located(output, axis, low, high, mean, share, chance[best], along))
-    return found
+        rows.append(mask)
+    if not found:
+        return found
+    first = max(found, key=lambda f: abs(f.mean))
+    rest = plain - _profile(_values(data, first.axis), plain)
+    return [
+        f if f is first else replace(f, own=float(rest[r].mean()) / f.mean)
+        for f, r in zip(found, rows, strict=True)
+    ]
+
+
+def _values(data: Data, axis: str) -> Array:
+    """An axis at each sample."""
+    return data.time if axis == "time" and data.time is not None else data.smooth(axis)
+
+
+def _profile(values: Array, x: Array) -> Array:
+    """Mean over all samples with nearly the same value of an axis."""
+    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, _BINS + 1)[1:-1]))
+    number = np.searchsorted(edges, values)
+    size = np.maximum(np.bincount(number), 1)
+    return np.asarray((np.bincount(number, x) / size)[number])
 
 
 def _force(data: Data, output: str, rows: Array) -> float:
@@ -140,7 +167,7 @@ def _force(data: Data, output: str, rows: Array) -> float:
 
 
 def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -> dict[str, float]:
-    """Return the share of the force by which an output is off throughout, if no stretch is off by much more.
+    """Return the share of the force by which an output is off throughout, if that is most of the mismatch.
 
     Parameters
     ----------
@@ -157,12 +184,11 @@ def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -
     out = {}
     for o, r in residual.items():
         rows = np.abs(data.base[o]) > _LEAST_FORCE * float(np.quantile(np.abs(data.base[o]), 0.99))
-        shares = [f.share for f in located if f.output == o and f.along_force and np.isfinite(f.share)]
-        if not rows.any() or not shares:
+        if not rows.any() or not any(f.output == o and f.along_force for f in located):
             continue
-        direction = np.sign(data.base[o][rows])
-        whole = float((r[rows] * direction).mean() / np.abs(data.base[o][rows]).mean())
-        if abs(whole) > _EVEN * max(map(abs, shares)):
+        force = data.base[o]
+        whole = float((r[rows] * np.sign(force[rows])).mean() / np.abs(force[rows]).mean())
+        if np.sum((r - whole * force) ** 2) < (1.0 - _EVEN) * np.sum(r**2):
             out[o] = whole
     return out
 

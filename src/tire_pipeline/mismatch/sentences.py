@@ -193,7 +193,7 @@ def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, float]
     output = max(along, key=lambda f: abs(f.mean)).output
     own = [f for f in along if f.output == output]
     top = max(own, key=lambda f: abs(f.mean))
-    own = [f for f in own if f.mean * top.mean > 0.0 and abs(f.mean) > 0.4 * abs(top.mean)]
+    own = [f for f in own if f.mean * top.mean > 0.0 and min(f.own, 1.0) * abs(f.mean) > 0.4 * abs(top.mean)]
     own = sorted(own, key=lambda f: -abs(f.mean))[:2]
     spots = [place(f.axis, f.low, f.high, ranges) for f in own]
     spots = [
