@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from tire_pipeline.magic_formula.fitting import typical
-from tire_pipeline.magic_formula.fitting.solve import Bounds, Problem, minimum
+from tire_pipeline.magic_formula.fitting.solve import Bounds, Problem, minimum, quick
 
 SLACK = 0.045
 """A fit may leave this much more than the least, where a minimum of its own is more like a tire."""
@@ -16,8 +16,14 @@ _DRAWN = 0.02
 """A pull may add this much to a minimum."""
 _ROBUST_WIDTH = 2.0
 """Residuals beyond this many robust standard deviations count less and less."""
-_ROUNDS = ((240, 4, 15, 1e-4), (1500, 2, 60, 1e-5), (10**9, 1, 60, 1e-7))
-"""Of a search: points at most, fits that go on, steps, tolerance."""
+_ROUNDS = ((240, 60, 1e-5), (1500, 60, 1e-6), (10**9, 30, 1e-7))
+"""Of a search: points at most, steps, tolerance."""
+_GO_ON = 3
+"""Minima that go on to more points."""
+_SAME = 0.003
+"""Share of the misfit within which two searches have found the same."""
+_OFTEN = 4
+"""Times that the least has to come out for no more starts to be tried."""
 _PULLS = (
     *((hold, 1.0) for hold in (1000.0, 100.0, 10.0, 3.0)),
     *((share, share) for share in (1.0, 0.3, 0.1, 0.03, 0.01)),
@@ -38,28 +44,52 @@ class StageFit:
     misfit: float
 
 
-def least(problem: Problem, bounds: Bounds, starts: Sequence[np.ndarray]) -> np.ndarray:
+def least(
+    problem: Problem,
+    bounds: Bounds,
+    starts: Sequence[np.ndarray],
+    turned: Callable[[np.ndarray], bool] = lambda values: False,
+) -> np.ndarray:
     """Return the values that leave the least RMS.
 
-    All starts run on few points, the best of them on more, and the best of these on all.
+    Starts run on few points until the least has come out often enough, the best minima go on to more points,
+    and the best of these to all.
 
     Parameters
     ----------
     problem : Problem
     bounds : pair of ndarray
     starts : sequence of ndarray
+        The first is the one to trust; all at the end that are no more than seeds are tried.
+    turned : callable
+        Whether values are of no tire, whatever they leave.
 
     Returns
     -------
     ndarray
     """
     floor = _FLOOR * float(np.abs(problem.measured).max())
-    found = list(starts)
-    for points, kept, steps, tolerance in _ROUNDS:
+    found: list[np.ndarray] = list(starts)
+    for number, (points, steps, tolerance) in enumerate(_ROUNDS):
         part = problem.thinned(max(points, 10 * len(problem.names))).drawn(floor)
-        found = [minimum(part, bounds, x, steps=steps, tolerance=tolerance) for x in found]
-        found = sorted(found, key=part.misfit)[:kept]
+        ends: list[np.ndarray] = []
+        left: list[float] = []
+        for start in found:
+            ends.append(quick(part, bounds, start, steps=steps, tolerance=tolerance))
+            left.append(part.misfit(ends[-1]) if not turned(ends[-1]) else np.inf)
+            if number == 0 and _often(left):
+                break
+        kept: list[int] = []
+        for i in np.argsort(left):
+            if all(left[i] > (1.0 + _SAME) * left[j] for j in kept):
+                kept.append(int(i))
+        found = [ends[i] for i in kept[: max(_GO_ON - number, 1)]]
     return min([*found, *starts], key=problem.misfit)
+
+
+def _often(left: Sequence[float]) -> bool:
+    """Return whether the least of the misfits so far has come out often enough."""
+    return bool(np.sum(np.asarray(left) <= (1.0 + _SAME) * min(left)) >= _OFTEN and np.isfinite(min(left)))
 
 
 def most_typical(

@@ -17,6 +17,8 @@ from tire_pipeline.magic_formula.numpy_form import OUTPUTS
 
 _NO_SIGNS = np.ones(2 + len(OUTPUTS))
 Bounds = tuple[np.ndarray, np.ndarray]
+_WITHIN = 0.999
+"""How near to its bounds a coefficient may start, over half of their range: on them it would not move."""
 
 
 @dataclass(frozen=True)
@@ -117,6 +119,55 @@ def minimum(
         gtol=1e-12,
     )
     return np.asarray(found.x)
+
+
+def quick(
+    problem: Problem, bounds: Bounds, start: np.ndarray, *, steps: int = 60, tolerance: float = 1e-7
+) -> np.ndarray:
+    """Return the values with the least squares of residuals and pull, from one start.
+
+    Coefficients follow a sine between their bounds, so that a search without bounds (Levenberg and Marquardt's
+    in MINPACK) serves: a step costs a fifth of that of a search that knows bounds.
+
+    Parameters
+    ----------
+    problem : Problem
+    bounds : pair of ndarray
+    start : ndarray
+    steps : int
+        Evaluations.
+    tolerance : float
+
+    Returns
+    -------
+    ndarray
+    """
+    low, high = bounds
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    most = 1e3 * float(np.abs(problem.measured).max())
+    pulled = problem.pull.jacobian()
+
+    def both(angles: np.ndarray) -> np.ndarray:
+        values = middle + half * np.sin(angles)
+        found = np.append(problem.residuals(values), problem.pull.residuals(values))
+        return np.nan_to_num(found, copy=False, nan=most, posinf=most, neginf=-most)
+
+    def slopes(angles: np.ndarray) -> np.ndarray:
+        found = np.vstack([problem.jacobian(middle + half * np.sin(angles)), pulled])
+        found *= half * np.cos(angles)
+        return np.nan_to_num(found, copy=False, nan=0.0, posinf=0.0, neginf=0.0)
+
+    found = scipy.optimize.least_squares(
+        both,
+        np.arcsin(np.clip((start - middle) / half, -_WITHIN, _WITHIN)),
+        slopes,
+        method="lm",
+        x_scale="jac",
+        max_nfev=steps,
+        ftol=tolerance,
+        xtol=tolerance,
+    )
+    return np.asarray(middle + half * np.sin(found.x))
 
 
 def _loss(name: str, rows: int) -> Any:
