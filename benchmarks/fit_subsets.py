@@ -50,13 +50,14 @@ RESULTS = Path(__file__).parent / "results" / "fit_subsets.csv"
 STARTS = 30
 ROUNDS = ((350, 30, 60), (1500, 5, 60), (10**9, 1, 20))
 """Of the least: rows at most, searches that go on, evaluations of the derivatives."""
-SOURCES = ("calspan", "calspan", "calspan", "calspan", "tydex", "calspan", "calspan", "rig", "calspan", "file")
+SOURCES = (*["calspan"] * 3, "rig", "tydex", *["calspan"] * 3, "file", "tydex")
 """What the subsets are of, in turn."""
 VERSIONS = ("5.2", "6.1", "6.2")
 NOISE = 0.01
 """Of computed forces, over the largest."""
 LEVELS = np.array([800.0, 1350.0, 1900.0, 2450.0])
 """Between the five loads of the flat belt, N."""
+_STIFFNESS = "cornering_stiffness"
 REACH = np.linspace(0.5, 1.5, 11)
 """Loads, over the one of a single-load fit, at which its cornering stiffness has to be plausible."""
 
@@ -213,7 +214,9 @@ def rows_of(table: pd.DataFrame, model: TireModel) -> list[np.ndarray]:
     """Return the inputs of the formula at a table's rows."""
     points, _ = given.columns(table)
     points["speed"] = given.filled(points["speed"], model.value("LONGVL"))
-    points["pressure"] = given.filled(points["pressure"], model.value("NOMPRES") if model.family == 6 else 0.0)
+    points["pressure"] = given.filled(
+        points["pressure"], model.value("NOMPRES") if model.family == 6 else 0.0
+    )
     return [np.ascontiguousarray(points[name]) for name in given.INPUTS]
 
 
@@ -286,10 +289,10 @@ def all_loads() -> TireModel:
 
 
 def stiffness(fit: FitResult, part: Subset) -> dict[str, Any]:
-    """Return the least and largest cornering stiffness from 0.5 to 1.5 of one load, over that of all loads."""
+    """Return the range of the cornering stiffness from 0.5 to 1.5 of one load, over that of all loads."""
     load = float(part.rows["normal_load"].median()) * REACH
     found, true = (
-        np.asarray(m.forces(normal_load=load, limits="ignore", outputs=("cornering_stiffness",)).cornering_stiffness)
+        np.asarray(m.forces(normal_load=load, limits="ignore", outputs=(_STIFFNESS,)).cornering_stiffness)
         for m in (fit.model, all_loads())
     )
     return {"stiffness_low": float((found / true).min()), "stiffness_high": float((found / true).max())}
@@ -320,8 +323,8 @@ def measured(number: int) -> Iterator[dict[str, Any]]:
 
 
 COLUMNS = (
-    "seed source subset version force rows coefficients largest fit least ratio over_52 left_out left_out_least "
-    "stiffness_low stiffness_high poor seconds code date"
+    "seed source subset version force rows coefficients largest fit least ratio over_52 left_out "
+    "left_out_least stiffness_low stiffness_high poor seconds code date"
 ).split()
 
 

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
+from itertools import groupby
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
 from tire_pipeline.magic_formula.fitting import given
+from tire_pipeline.magic_formula.fitting.joint import fit_together
 from tire_pipeline.magic_formula.fitting.result import FitResult
 from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome, fit_stage
 from tire_pipeline.magic_formula.fitting.stages import STAGES, Stage
@@ -126,35 +129,74 @@ def _stages(
     report: _Report,
     simpler: TireModel | None,
 ) -> TireModel:
-    """Go through the stages, each on top of those before."""
-    for stage in STAGES:
-        names = stage.over(model.family)
-        if stage.output not in forces:
-            report.leave(f"no {stage.output} measured", names)
-            continue
-        chosen = given.choose(stage, points, forces[stage.output])
-        if chosen.size < given.FEWEST_POINTS:
-            why = "no" if chosen.size == 0 else f"only {chosen.size} points of"
-            report.leave(f"{why} {_POINTS_OF[stage.points]}", names)
-            continue
-        chosen = _thinned(chosen)
-        ranges = {name: x[chosen] for name, x in points.items()}
-        if stage.braking_alone:
-            chosen = np.union1d(chosen, given.braking_alone(points, forces[stage.output], chosen.size))
-        here = {name: x[chosen] for name, x in points.items()}
-        if stage.points in ("lateral", "longitudinal"):
-            here["slip_ratio" if stage.points == "lateral" else "slip_angle"] *= 0.0
-        measured = forces[stage.output][chosen]
-        seeds, bar = [], np.inf
-        if simpler is not None:
-            found = simpler.forces(**here, limits="ignore", outputs=(stage.output,))
-            bar = 1.01 * float(np.sqrt(np.mean((getattr(found, stage.output) - measured) ** 2)))
-            seeds = [_camber_shift_moved(simpler)]
-        outcome = fit_stage(stage, names, model, here, measured, ranges, options, seeds, bar)
-        kept = {n: v for group in outcome.kept.values() for n, v in group.items() if v != 0.0}
-        model = model.replace(**outcome.values, **kept)
-        report.add(stage, outcome, measured.size)
+    """Go through the outputs, each on top of those before: stage by stage, then all stages together."""
+    for output, stages in groupby(STAGES, key=lambda stage: stage.output):
+        done: list[tuple[Stage, Outcome]] = []
+        rows: list[int] = []
+        for stage in stages:
+            names = stage.over(model.family)
+            if output not in forces:
+                report.leave(f"no {output} measured", names)
+                continue
+            chosen = given.choose(stage, points, forces[output])
+            if chosen.size < given.FEWEST_POINTS:
+                why = "no" if chosen.size == 0 else f"only {chosen.size} points of"
+                report.leave(f"{why} {_POINTS_OF[stage.points]}", names)
+                continue
+            outcome = _one_stage(stage, names, _thinned(chosen), model, points, forces, options, simpler)
+            model = _with(model, outcome)
+            done.append((stage, outcome))
+            rows.append(outcome.problem.measured.size)
+        outcomes = [outcome for _, outcome in done]
+        if len(done) > 1:
+            chosen = _thinned(np.flatnonzero(np.isfinite(forces[output])))
+            here = {name: x[chosen] for name, x in points.items()}
+            measured = forces[output][chosen]
+            seeds, bar = _seeds(simpler, output, here, measured)
+            outcomes = fit_together(outcomes, model, here, measured, options, seeds, bar)
+        for (stage, _), outcome, number in zip(done, outcomes, rows, strict=True):
+            model = _with(model, outcome)
+            report.add(stage, outcome, number)
     return model
+
+
+def _one_stage(
+    stage: Stage,
+    names: Sequence[str],
+    chosen: np.ndarray,
+    model: TireModel,
+    points: Mapping[str, np.ndarray],
+    forces: Mapping[str, np.ndarray],
+    options: Options,
+    simpler: TireModel | None,
+) -> Outcome:
+    """Fit a stage to its rows."""
+    ranges = {name: x[chosen] for name, x in points.items()}
+    if stage.braking_alone:
+        chosen = np.union1d(chosen, given.braking_alone(points, forces[stage.output], chosen.size))
+    here = {name: x[chosen] for name, x in points.items()}
+    if stage.points in ("lateral", "longitudinal"):
+        here["slip_ratio" if stage.points == "lateral" else "slip_angle"] *= 0.0
+    measured = forces[stage.output][chosen]
+    seeds, bar = _seeds(simpler, stage.output, here, measured)
+    return fit_stage(stage, names, model, here, measured, ranges, options, seeds, bar)
+
+
+def _seeds(
+    simpler: TireModel | None, output: str, here: Mapping[str, Any], measured: np.ndarray
+) -> tuple[list[TireModel], float]:
+    """Return a simpler formula's model to start from, and the RMS that it leaves, with a little more."""
+    if simpler is None:
+        return [], np.inf
+    found = simpler.forces(**here, limits="ignore", outputs=(output,))
+    left = float(np.sqrt(np.mean((getattr(found, output) - measured) ** 2)))
+    return [_camber_shift_moved(simpler)], 1.01 * left
+
+
+def _with(model: TireModel, outcome: Outcome) -> TireModel:
+    """Return the model with what a stage found."""
+    kept = {n: v for group in outcome.kept.values() for n, v in group.items() if v != 0.0}
+    return model.replace(**outcome.values, **kept)
 
 
 def _as_52(

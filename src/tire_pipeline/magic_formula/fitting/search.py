@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,7 +48,6 @@ def least(
     problem: Problem,
     bounds: Bounds,
     starts: Sequence[np.ndarray],
-    turned: Callable[[np.ndarray], bool] = lambda values: False,
 ) -> np.ndarray:
     """Return the values that leave the least RMS.
 
@@ -60,9 +59,7 @@ def least(
     problem : Problem
     bounds : pair of ndarray
     starts : sequence of ndarray
-        The first is the one to trust; all at the end that are no more than seeds are tried.
-    turned : callable
-        Whether values are of no tire, whatever they leave.
+        In the order in which they are tried.
 
     Returns
     -------
@@ -76,7 +73,7 @@ def least(
         left: list[float] = []
         for start in found:
             ends.append(quick(part, bounds, start, steps=steps, tolerance=tolerance))
-            left.append(part.misfit(ends[-1]) if not turned(ends[-1]) else np.inf)
+            left.append(part.left(ends[-1]))
             if number == 0 and _often(left):
                 break
         kept: list[int] = []
@@ -84,7 +81,7 @@ def least(
             if all(left[i] > (1.0 + _SAME) * left[j] for j in kept):
                 kept.append(int(i))
         found = [ends[i] for i in kept[: max(_GO_ON - number, 1)]]
-    return min([*found, *starts], key=problem.misfit)
+    return min([*found, *starts], key=problem.left)
 
 
 def _often(left: Sequence[float]) -> bool:
@@ -143,7 +140,7 @@ def most_typical(
             values = solved(thin, pull, own, 1e-5)
             if thin.misfit(values) <= rough:
                 values = solved(problem, pull, values, 1e-7)
-                if problem.misfit(values) <= limit:
+                if problem.left(values) <= limit:
                     found.append(values)
                     break
     weight = np.where(held, _PULLS[0][0], 1.0) / problem.pull.spread
@@ -209,6 +206,18 @@ def judged(problem: Problem, bounds: Bounds, values: np.ndarray, loss: str) -> S
         [n for n, share in zip(problem.names, shares, strict=True) if share > _OPEN],
         [n for n, is_bound in zip(problem.names, bound, strict=True) if is_bound],
         problem.misfit(values),
+    )
+
+
+def part_of(whole: StageFit, names: Sequence[str], some: Sequence[str]) -> StageFit:
+    """Return what a fit says of some of its coefficients."""
+    rows = [list(names).index(name) for name in some]
+    return StageFit(
+        whole.values[rows],
+        whole.errors[rows],
+        [name for name in whole.open if name in some],
+        [name for name in whole.at_bound if name in some],
+        whole.misfit,
     )
 
 

@@ -17,6 +17,10 @@ from tire_pipeline.magic_formula.numpy_form import OUTPUTS
 
 _NO_SIGNS = np.ones(2 + len(OUTPUTS))
 Bounds = tuple[np.ndarray, np.ndarray]
+_STIFFNESS = {"fy": ("PKY1", "cornering_stiffness"), "fx": ("PKX1", "slip_stiffness")}
+"""Output -> the level of its slip stiffness, and the output that is this stiffness."""
+_FEW = 100
+"""Points at which the sign of a slip stiffness is looked at."""
 _WITHIN = 0.999
 """How near to its bounds a coefficient may start, over half of their range: on them it would not move."""
 
@@ -53,6 +57,20 @@ class Problem:
     def misfit(self, values: np.ndarray) -> float:
         """Return the RMS of the residuals."""
         return float(np.sqrt(np.mean(self.residuals(values) ** 2)))
+
+    def left(self, values: np.ndarray) -> float:
+        """Return the misfit; a slip stiffness that changes its sign over the points is no tire's: infinity."""
+        return np.inf if self._turns(values) else self.misfit(values)
+
+    def _turns(self, values: np.ndarray) -> bool:
+        """Whether the slip stiffness has another sign than its level at some of the points."""
+        level, stiffness = _STIFFNESS.get(self.output, ("", ""))
+        if level not in self.names:
+            return False
+        step = -(-self.measured.size // _FEW)
+        rows = [x[None, ::step] for x in self.points]
+        found = engine.run(self.filled(values)[None, :], self.family, rows, _NO_SIGNS, (stiffness,), 0.0)
+        return bool((found * values[list(self.names).index(level)] <= 0.0).any())
 
     def drawn(self, strength: float | np.ndarray) -> Problem:
         """Return the same problem with another strength of the pull."""
@@ -126,8 +144,8 @@ def quick(
 ) -> np.ndarray:
     """Return the values with the least squares of residuals and pull, from one start.
 
-    Coefficients follow a sine between their bounds, so that a search without bounds (Levenberg and Marquardt's
-    in MINPACK) serves: a step costs a fifth of that of a search that knows bounds.
+    Coefficients follow a sine between their bounds, so that a search without bounds serves (Levenberg and
+    Marquardt's in MINPACK): a step costs a fifth of that of a search that knows bounds.
 
     Parameters
     ----------

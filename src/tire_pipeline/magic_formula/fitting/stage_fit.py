@@ -61,12 +61,16 @@ class Outcome:
         Reason -> coefficients that keep a value, and the value.
     released : mapping of str to list of str
         Reason -> coefficients that the recording's ranges cannot tell, but that the rows cannot do without.
+    problem, bounds : Problem, pair of ndarray
+        What was solved.
     """
 
     values: Mapping[str, float]
     fit: StageFit
     kept: Mapping[str, Mapping[str, float]]
     released: Mapping[str, Sequence[str]]
+    problem: Problem
+    bounds: Bounds
 
 
 def fit_stage(
@@ -164,4 +168,6 @@ def fit_stage(
         judged(problem, bounds, values, options.loss),
         kept,
         {reason: group for reason, group in released.items() if group},
+        problem,
+        bounds,
     )

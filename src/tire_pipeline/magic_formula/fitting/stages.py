@@ -227,11 +227,26 @@ STAGES: tuple[Stage, ...] = (
         ("PHY3",),
     ),
     Stage(
+        "Fy at combined slip",
+        "fy",
+        "combined",
+        _names("RBY1 RBY2 RBY3 RCY1 REY1 REY2 RHY1 RHY2 RVY1 RVY2 RVY3 RVY4 RVY5 RVY6"),
+        ("RBY4",),
+        braking_alone=True,
+    ),
+    Stage(
         "Fx at pure slip",
         "fx",
         "longitudinal",
         _names("PCX1 PDX1 PDX2 PDX3 PEX1 PEX2 PEX3 PEX4 PKX1 PKX2 PKX3 PHX1 PHX2 PVX1 PVX2"),
         _names("PPX1 PPX2 PPX3 PPX4"),
+    ),
+    Stage(
+        "Fx at combined slip",
+        "fx",
+        "combined",
+        _names("RBX1 RBX2 RCX1 REX1 REX2 RHX1"),
+        ("RBX3",),
     ),
     Stage(
         "Mz at pure slip",
@@ -243,21 +258,6 @@ STAGES: tuple[Stage, ...] = (
         ),
         _names("QDZ10 QDZ11 PPZ1 PPZ2"),
     ),
-    Stage(
-        "Fx at combined slip",
-        "fx",
-        "combined",
-        _names("RBX1 RBX2 RCX1 REX1 REX2 RHX1"),
-        ("RBX3",),
-    ),
-    Stage(
-        "Fy at combined slip",
-        "fy",
-        "combined",
-        _names("RBY1 RBY2 RBY3 RCY1 REY1 REY2 RHY1 RHY2 RVY1 RVY2 RVY3 RVY4 RVY5 RVY6"),
-        ("RBY4",),
-        braking_alone=True,
-    ),
     Stage("Mz at combined slip", "mz", "combined", _names("SSZ1 SSZ2 SSZ3 SSZ4")),
     Stage(
         "Mx",
@@ -268,4 +268,4 @@ STAGES: tuple[Stage, ...] = (
     ),
     Stage("My", "my", "all", _names("QSY1 QSY2 QSY3 QSY4"), _names("QSY5 QSY6 QSY7 QSY8")),
 )
-"""In the order in which a fit goes through them."""
+"""In the order in which a fit goes through them: output by output, moments after forces."""
