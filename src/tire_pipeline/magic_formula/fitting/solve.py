@@ -59,7 +59,7 @@ class Problem:
         return float(np.sqrt(np.mean(self.residuals(values) ** 2)))
 
     def left(self, values: np.ndarray) -> float:
-        """Return the misfit; a slip stiffness that changes its sign over the points is no tire's: infinity."""
+        """Return the misfit, or infinity if the slip stiffness changes its sign over the points."""
         return np.inf if self._turns(values) else self.misfit(values)
 
     def _turns(self, values: np.ndarray) -> bool:
