@@ -68,6 +68,7 @@ def fit_clean(world: World, plan: Plan, *, noise: float, rng: np.random.Generato
         unloaded_radius=round(world.constants.radius, 4),
         starts=2,
         loss="linear",
+        together=False,  # a seed keeps its case
     )
     tire = fitted.model.replace(LONGVL=plan.speed)
     return tire, rms(residual(tire, frame))

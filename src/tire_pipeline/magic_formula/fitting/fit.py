@@ -40,6 +40,7 @@ def fit_magic_formula(
     starts: int = 40,
     loss: str = "soft_l1",
     seed: int = 0,
+    together: bool = True,
 ) -> FitResult:
     """Fit a Magic Formula tire model to measurements.
 
@@ -64,6 +65,9 @@ def fit_magic_formula(
         A robust loss of :func:`scipy.optimize.least_squares`, or "linear".
     seed : int
         For the starting points.
+    together : bool
+        Whether all points of an output are fitted at once where its stages, one on top of the other, leave
+        clearly more than that would.
 
     Returns
     -------
@@ -93,7 +97,7 @@ def fit_magic_formula(
     points["pressure"] = given.filled(points["pressure"], base.get("NOMPRES", 0.0))
     model = TireModel.from_coefficients(base, version)
     report = _Report(notes, start is not None)
-    options = Options(starts, loss, start is not None, np.random.default_rng(seed))
+    options = Options(starts, loss, start is not None, np.random.default_rng(seed), together)
     with threadpool_limits(1):  # many small problems: threads in each only get in each other's way
         simpler = None
         if model.family == 6 and start is None:
@@ -148,7 +152,7 @@ def _stages(
             done.append((stage, outcome))
             rows.append(outcome.problem.measured.size)
         outcomes = [outcome for _, outcome in done]
-        if len(done) > 1:
+        if len(done) > 1 and options.together:
             chosen = _thinned(np.flatnonzero(np.isfinite(forces[output])))
             here = {name: x[chosen] for name, x in points.items()}
             measured = forces[output][chosen]

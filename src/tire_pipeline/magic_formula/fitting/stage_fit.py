@@ -40,12 +40,15 @@ class Options:
     from_start : bool
         Whether the model holds the values of a tire that the fit starts from.
     rng : Generator
+    together : bool
+        Whether the stages of an output are fitted at once in the end.
     """
 
     starts: int
     loss: str
     from_start: bool
     rng: np.random.Generator
+    together: bool
 
 
 @dataclass(frozen=True)
