@@ -1,0 +1,83 @@
+"""Fits to a dozen subsets of real sweeps beside the least that 30 random starts reach.
+
+`benchmarks/fit_subsets.py` draws the subsets, and measures a hundred of them.
+"""
+
+import importlib.util
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tire_pipeline.magic_formula.fitting import fit_magic_formula
+
+FILE = Path(__file__).resolve().parents[2] / "benchmarks" / "fit_subsets.py"
+
+
+@pytest.fixture(scope="module")
+def subsets():
+    spec = importlib.util.spec_from_file_location("fit_subsets", FILE)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    if not (module.SHARED / "recordings" / "calspan").is_dir() and not os.environ.get("CI"):
+        pytest.skip(f"no recordings in {module.SHARED}")
+    return module
+
+
+def kept(part, forces):
+    """The inputs and some of the outputs."""
+    inputs = [
+        n
+        for n in ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
+        if n in part.rows
+    ]
+    return part.rows[[*inputs, *forces]]
+
+
+def ratios(module, part, fit, forces) -> dict[str, float]:
+    """RMS of the fit over the least, by force."""
+    rows = {f: module.judged(fit, f, part, np.random.default_rng(part.seed))[0] for f in forces}
+    return {f: row["fit"] / row["least"] for f, row in rows.items()}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("number", "forces"),
+    [
+        (2, ("fy", "mz")),
+        (3, ("fx", "fy")),
+        (4, ("fy",)),  # 45 points are few for the 24 coefficients of Mz, and are not fitted to the least
+        (5, ("fy",)),
+        (9, ("fy", "mz")),
+        (12, ("fy",)),
+        (18, ("fx", "fy")),
+        (21, ("fy",)),
+        (27, ("fy",)),
+    ],
+)
+def test_no_random_start_leaves_clearly_less(subsets, number, forces):
+    part = subsets.subset(number)
+    fit = fit_magic_formula(kept(part, forces))
+    found = ratios(subsets, part, fit, forces)
+    assert max(found.values()) <= 1.05, (part.what, found)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [1, 10, 22])
+def test_a_richer_formula_leaves_no_more(subsets, number):
+    part = subsets.subset(number)
+    rows = kept(part, ("fy",))
+    simple, rich = (fit_magic_formula(rows, version) for version in ("5.2", "6.1"))
+    assert rich.relative_rms["fy"] <= 1.02 * simple.relative_rms["fy"]
+    assert ratios(subsets, part, rich, ("fy",))["fy"] <= 1.05
+
+
+@pytest.mark.parametrize("number", [16, 27, 32, 35])
+def test_one_load_gives_a_cornering_stiffness_of_a_tire_around_it(subsets, number):
+    part = subsets.subset(number)
+    assert part.one_load
+    found = subsets.stiffness(fit_magic_formula(kept(part, ("fy",))), part)
+    assert 0.6 < found["stiffness_low"] <= found["stiffness_high"] < 1.5
