@@ -126,6 +126,10 @@ class Links:
         return [(quote(path), name, text) for path, name, text in self.items]
 
 
+HOME = Links([("index.html", "All reports", "")])
+"""The way back to the front page, for pages that lie beside it."""
+
+
 @dataclass(frozen=True)
 class Picture:
     """A picture that lies beside the page.

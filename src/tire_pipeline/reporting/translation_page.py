@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure as MplFigure
 
 from tire_pipeline.drawing import MARKERS, colour_of, new_figure
-from tire_pipeline.reporting.page import Figure, Table, Text, render_page
+from tire_pipeline.reporting.page import HOME, Figure, Table, Text, render_page
 
 RATIOS = {
     "ratio_forces": "forces",
@@ -120,7 +120,7 @@ def translation_page(
                 _largest(bias), "Largest first, 90% intervals.", heading="Bias between pairs of organisations"
             )
         )
-    return render_page("How well the translators do", parts, footer=note)
+    return render_page("How well the translators do", [*parts, HOME], footer=note)
 
 
 def _summary(hidden: pd.DataFrame) -> list[str]:

@@ -6,7 +6,7 @@ from pathlib import PurePosixPath
 
 import pandas as pd
 
-from tire_pipeline.reporting import Links, Table, Text, render_page
+from tire_pipeline.reporting import HOME, Links, Table, Text, render_page
 
 _FEW = 5
 """Of so many recordings a run says what was found in each."""
@@ -55,5 +55,6 @@ def draw_overview(overview: pd.DataFrame, pages: dict[str, str]) -> tuple[str, l
             heading="In one table",
             most_rows=1000,
         ),
+        HOME,
     ]
     return render_page("Recordings against their simulations", parts), outcome

@@ -9,7 +9,7 @@ import pandas as pd
 
 from tire_pipeline.concealed.score_words import in_words, outcome
 from tire_pipeline.drawing import MARKERS, colour_of, new_figure
-from tire_pipeline.reporting import Figure, Table, Text, render_page
+from tire_pipeline.reporting import HOME, Figure, Table, Text, render_page
 
 OWN = "explain_mismatch"
 Part = Text | Table | Figure
@@ -26,7 +26,7 @@ def proof_page(
     """Both halves: scores with intervals beside the baselines, by strength, and every miss."""
     simulated = _simulated(scores, misses, details)
     real = _real(real_scores, real_misses, real_details)
-    return render_page("Proof on concealed effects", [*simulated, *real])
+    return render_page("Proof on concealed effects", [*simulated, *real, HOME])
 
 
 def _simulated(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -> list[Part]:

@@ -1,0 +1,110 @@
+"""The pages of a run in a real browser: from the front page to a recording and back; light, dark, print."""
+
+from __future__ import annotations
+
+import json
+
+import pandas as pd
+import pytest
+from viz_browser import ROOT, browser, needs_browser
+
+from tire_pipeline.mismatch import explain_recordings
+from tire_pipeline.pipelines.explain_mismatch.overview import draw_overview
+from tire_pipeline.pipelines.prove_concealed.report import proof_page
+from tire_pipeline.recordings import read_recording
+from tire_pipeline.reporting import front_page
+from tire_pipeline.reporting.translation_page import translation_page
+from tire_pipeline.tir import read_tir
+
+pytestmark = pytest.mark.slow
+RESULTS = ROOT / "benchmarks" / "results"
+
+
+@pytest.fixture(scope="module")
+def reports(tmp_path_factory):
+    """A folder of reports, made from what the project ships."""
+    needs_browser()
+    folder = tmp_path_factory.mktemp("pages") / "08_reporting"
+    (folder / "mismatch" / "rig").mkdir(parents=True)
+    run = read_recording(ROOT / "examples" / "rig_run.csv", axes="ISO")
+    report = explain_recordings(read_tir(ROOT / "examples" / "tire.tir"), {"rig/run.csv": run})
+    report.to_html(folder / "mismatch" / "rig" / "run.html", home="../../mismatch.html")
+    row = {"recording": "rig/run.csv", "verdict": report.verdict, "summary": report.summary}
+    row |= {"effects": "inflation_pressure", "alternatives": "", "held_out": "", "problem": ""}
+    overview, _ = draw_overview(pd.DataFrame([row]), {"rig/run.html": ""})
+    (folder / "mismatch.html").write_text(overview)
+    scores, misses = (pd.read_csv(RESULTS / f"proof_{name}.csv") for name in ("scores", "misses"))
+    details = {"sha256": "0", "explain_mismatch": {"n": 800}}
+    real = scores.assign(source="all", n=1)
+    made = {"cases": 1, "by_source": {"dart": 1}, "seed": 1, "code": "0", "date": "today", "sha256": "0"}
+    made |= {"sealed_sweeps": 1, "development_sweeps": 1}
+    page = proof_page(scores, misses, details, real, misses.head(0), {"published": False, "made": made})
+    (folder / "proof.html").write_text(page)
+    (folder / "translation.html").write_text(translation_page(pd.read_csv(RESULTS / "translation.csv")))
+    (folder / "index.html").write_text(front_page(folder))
+    return folder
+
+
+@pytest.fixture
+def driver(tmp_path):
+    with browser(tmp_path) as opened:
+        yield opened
+        assert [entry for entry in opened.get_log("browser") if entry["level"] == "SEVERE"] == []
+        messages = [json.loads(entry["message"])["message"] for entry in opened.get_log("performance")]
+        asked = [
+            m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"
+        ]
+        assert [address for address in asked if address.startswith(("http", "ws"))] == []
+
+
+def _text(driver) -> str:
+    return driver.find_element("css selector", "body").text
+
+
+def _click(driver, words: str) -> None:
+    driver.find_element("link text", words).click()
+
+
+def test_from_the_front_page_to_a_recording_and_back(reports, driver):
+    driver.get((reports / "index.html").as_uri())
+    assert "1 recording: 1 explained." in _text(driver)
+    _click(driver, "Your recordings")
+    assert "Explained: the difference comes from inflation pressure" in _text(driver)
+    _click(driver, "rig/run.csv")
+    head = driver.find_element("css selector", ".main").text
+    assert head.startswith("Explained: the difference comes from inflation pressure")
+    assert "Next, test the corrected model" in head
+    assert "ISO axes, as stated; slip_angle: SA converted from deg to rad" in _text(driver)
+    for column in ("RMS before", "RMS after", "Held-out condition", "Ruled out above", "Log evidence"):
+        assert column in _text(driver)
+    assert len(driver.find_elements("css selector", "svg.figure")) == 2
+    _click(driver, "All recordings")
+    _click(driver, "All reports")
+    assert driver.title == "Tire pipeline: all reports"
+
+
+def test_the_proof_says_too_few_cases_and_the_translators_page_begins_with_a_sentence(reports, driver):
+    driver.get((reports / "proof.html").as_uri())
+    text = _text(driver)
+    assert "10 of 10 goals are met" in text
+    assert "10 have too few cases to tell" in text
+    assert "IoU" not in text
+    assert driver.find_element("css selector", "svg").location["y"] < 400  # the picture comes first
+    _click(driver, "All reports")
+    _click(driver, "How well every translator does")
+    assert "leaves" in driver.find_element("css selector", ".main p").text
+
+
+@pytest.mark.parametrize("name", ["index.html", "mismatch.html", "mismatch/rig/run.html", "proof.html"])
+def test_every_page_is_dark_where_that_is_asked_for_and_white_on_paper(reports, driver, name):
+    def paper(media: str, scheme: str) -> str:
+        features = [{"name": "prefers-color-scheme", "value": scheme}]
+        driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media, "features": features})
+        return driver.execute_script("return getComputedStyle(document.body).backgroundColor")
+
+    driver.get((reports / name).as_uri())
+    assert paper("screen", "light") == "rgb(255, 255, 255)"
+    assert paper("screen", "dark") == "rgb(22, 24, 26)"
+    assert paper("print", "dark") == "rgb(255, 255, 255)"
+    wide = driver.execute_script("return document.documentElement.scrollWidth <= window.innerWidth")
+    assert wide
