@@ -93,7 +93,7 @@ def rivals(search: Search, index: int) -> list[Rival]:
     empty = objective(system, rest)
     own = gain_of(search, fit.judged_by(system), empty)
     out = []
-    untold = {name: settings.SHAPE_SHARE * own for name in best if _untold(data, fit.names[index], name)}
+    untold = {name: share * own for name in best if (share := _untold(data, fit.names[index], name))}
     for rank, (name, (_, v)) in enumerate(sorted(best.items(), key=lambda t: t[1][0])):
         if name not in untold and (rank >= _NEAREST or best[name][0] > _FAR):
             continue
@@ -113,10 +113,16 @@ def alternatives(near: list[Rival]) -> tuple[str, ...]:
     return tuple(r.name for r in sorted(near, key=lambda r: r.lost) if r.possible)[:_MOST]
 
 
-def _untold(data: Data, name: str, other: str) -> bool:
-    """Whether the channel that tells two effects apart stands still or is not recorded."""
+def _untold(data: Data, name: str, other: str) -> float:
+    """Share of the evidence between two effects that counts for nothing, by the channel that tells them apart.
+
+    None of it if the channel varies. If it stands still, what their forms get wrong. If it was not recorded,
+    one of them follows a channel that is imagined.
+    """
     channel = catalogue()[name].told_by.get(other) or catalogue()[other].told_by.get(name)
-    return channel is not None and not data.varies(channel)
+    if channel is None or data.varies(channel):
+        return 0.0
+    return settings.SHAPE_SHARE if channel in data.present else settings.IMAGINED_SHARE
 
 
 def _apart(
