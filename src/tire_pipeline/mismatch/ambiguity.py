@@ -114,7 +114,7 @@ def alternatives(near: list[Rival]) -> tuple[str, ...]:
 
 
 def _untold(data: Data, name: str, other: str) -> float:
-    """Share of the evidence between two effects that counts for nothing, by the channel that tells them apart.
+    """Share of the evidence between two effects that counts for nothing, by the channel that would tell.
 
     None of it if the channel varies. If it stands still, what their forms get wrong. If it was not recorded,
     one of them follows a channel that is imagined.
