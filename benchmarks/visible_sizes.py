@@ -1,15 +1,21 @@
-"""Whether what the report says could have been seen is seen: effects of that size put in, and counted.
+"""Whether what the report says could have been seen is seen, and whether its intervals hold the truth.
 
-python benchmarks/visible_sizes.py --sizes                 # the sizes alone, beside a likelihood-ratio test
-python benchmarks/visible_sizes.py --minutes 60            # put them in; goes on where it stopped
-python benchmarks/visible_sizes.py --table                 # rates of what was counted
+python benchmarks/visible_sizes.py --put-in --minutes 60   # effects of that size, found or not; resumes
+python benchmarks/visible_sizes.py --sizes                 # sizes beside a likelihood-ratio test; resumes
+python benchmarks/visible_sizes.py --table                 # rates of both, written beside the rows
 
-Recordings in which nothing is missing: of the rig simulator (fresh seeds), and real ones (development sweeps,
-``concealed/real``). Each parameter of each effect is put in at the size that the report of that recording
-says would be named in 95% of cases, with a sign that is drawn, and at twice that size. Named: the name or one
-of its alternatives. The 95% interval of each parameter of an effect that is named alone is asked whether it
-holds the truth (what was not put in is 0). Results: ``benchmarks/results/visible_sizes.csv``, each row with
-the hash of the engine that made it.
+Recordings in which nothing is missing: of the rig simulator (fresh seeds), and real ones (development
+sweeps, ``concealed/real``) with the model fitted to the recording. The effects of a recording are taken in an
+order that is drawn, and the recordings in turn, so that wherever the run stops the rows are a fair sample.
+
+``--put-in``: one parameter of an effect is put in by its mechanism at the size that the report of that
+recording says would be named in 95% of cases, with a sign that is drawn. Found: the name or one of its
+alternatives. The 95% interval of each parameter of an effect that is named alone is asked whether it holds
+the truth (what was not put in is 0). ``--sizes``: the size beside that at which a likelihood-ratio test that
+knows form and noise sees it in 95%, and the estimate beside its standard error where the truth is 0.
+
+Rows: ``benchmarks/results/visible_found.csv`` and ``visible_sizes.csv``, each with the hash of the engine
+that made it and its date; rates: ``visible_sizes.txt``.
 """
 
 from __future__ import annotations
@@ -19,7 +25,7 @@ import csv
 import hashlib
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
@@ -28,7 +34,7 @@ import numpy as np
 import pandas as pd
 
 import tire_pipeline.mismatch
-from tire_pipeline.concealed import Case, make_case
+from tire_pipeline.concealed import Case, CaseSettings, make_case
 from tire_pipeline.concealed.real import RealPlan, make_real_case
 from tire_pipeline.errors import DomainError, RecordingError
 from tire_pipeline.mismatch import explain_mismatch
@@ -41,19 +47,22 @@ from tire_pipeline.mismatch.trial import put_in
 from tire_pipeline.mismatch.visible import Sight, one_sided, sights
 
 RECORDINGS = Path(__file__).resolve().parents[2] / "shared" / "recordings"
-RESULTS = Path(__file__).parent / "results" / "visible_sizes.csv"
+RESULTS = Path(__file__).parent / "results"
+FOUND, SIZES, TABLE = (
+    RESULTS / name for name in ("visible_found.csv", "visible_sizes.csv", "visible_sizes.txt")
+)
 SEEDS = {
-    "simulated": range(62_400, 62_408),
-    "calspan": range(62_500, 62_504),
-    "dart": range(62_600, 62_603),
-    "tydex": range(62_700, 62_702),
+    "simulated": range(62_400, 62_412),
+    "calspan": range(62_500, 62_506),
+    "dart": range(62_600, 62_606),
+    "tydex": range(62_700, 62_703),
 }
-FACTORS = (1.0, 2.0)
-COLUMNS = (
-    "source seed effect parameter factor size error told found first verdict names inside asked why seconds "
-    "code date"
-).split()
+ROWS = (1000, 3500)
+"""Of a simulated recording: an explanation of a longer one takes ten times as long."""
 Z = 1.959964
+KEY = "source seed effect parameter".split()
+OF_FOUND = "rows size error told found first verdict names inside asked z why seconds".split()
+OF_SIZES = "rows misfit seen told value error".split()
 
 
 @cache
@@ -67,174 +76,237 @@ def code() -> str:
 
 
 def case_of(source: str, seed: int) -> Case:
-    """Return a recording in which nothing is missing."""
+    """Return a recording in which nothing is missing; a simulated one is short."""
     if source == "simulated":
-        return make_case(seed, "nothing")[0]
+        return make_case(seed, "nothing", CaseSettings(rows=ROWS))[0]
     return make_real_case(RealPlan(seed=seed, source=source, kind="nothing"), RECORDINGS, "development")[0]
 
 
-def searched(case: Case) -> Search:
-    """Search a recording as it is."""
-    search = searching.begin(thinned(prepare(case.tire, case.recording).data))
-    search_all(search)
-    return search
+def turns(sources: list[str]) -> Iterator[tuple[str, int]]:
+    """Yield sources and seeds, one of each source in turn."""
+    for k in range(max(len(SEEDS[source]) for source in sources)):
+        yield from ((source, SEEDS[source][k]) for source in sources if k < len(SEEDS[source]))
 
 
-def each() -> Iterator[tuple[str, int, Case, Search]]:
-    """Yield all recordings in which nothing is named as they are, one of each source in turn."""
-    for k in range(max(map(len, SEEDS.values()))):
-        for source, seeds in SEEDS.items():
-            if k >= len(seeds):
-                continue
-            try:
-                case = case_of(source, seeds[k])
-                search = searched(case)
-            except (DomainError, RecordingError) as error:
-                print(f"{source} {seeds[k]}: {error}", flush=True)
-                continue
-            if search.fit.names:
-                print(
-                    f"{source} {seeds[k]}: {'+'.join(search.fit.names)} is named with nothing put in",
-                    flush=True,
-                )
-                continue
-            yield source, seeds[k], case, search
+@cache
+def searched(source: str, seed: int) -> tuple[Case, Search] | None:
+    """Return a recording and its search as it is; None where something is named with nothing put in."""
+    try:
+        case = case_of(source, seed)
+        search = searching.begin(thinned(prepare(case.tire, case.recording).data))
+        search_all(search)
+    except (DomainError, RecordingError) as error:
+        print(f"{source} {seed}: {error}", flush=True)
+        return None
+    if search.fit.names:
+        print(f"{source} {seed}: {'+'.join(search.fit.names)} is named with nothing put in", flush=True)
+        return None
+    return case, search
 
 
-def sizes() -> None:
-    """Print the sizes beside those of a likelihood-ratio test."""
-    ratios = []
-    for source, seed, _, search in each():
-        begun = time.process_time()
-        found = list(sights(search))
-        seconds = time.process_time() - begun
-        print(f"{source} {seed}: {search.data.size} rows, {seconds:.1f} s, misfit {search.misfit}")
-        for s in found:
-            ratios.append(
-                {
-                    "source": source,
-                    "effect": s.variant.name,
-                    "parameter": s.parameter.name,
-                    "ratio": s.seen / s.told,
-                }
-            )
-            label = f"  {s.variant.name:20s} {s.parameter.name:20s}"
-            sizes = f"{s.seen:10.4g} {s.told:10.4g} {s.seen / s.told:6.2f}"
-            print(label, sizes, f"out {s.ruled_out:.4g} ({s.value / s.error:.1f} sigma)")
-    table = pd.DataFrame(ratios)
-    table = table[np.isfinite(table["ratio"])]
-    print(table.groupby("effect")["ratio"].agg(["median", "max", "size"]).round(2).to_string())
-    print("median over the catalogue", round(table.groupby("effect")["ratio"].median().median(), 2))
+@cache
+def drawn(source: str, seed: int) -> list[Sight]:
+    """Return what can be seen in a recording, in an order that is drawn."""
+    known = searched(source, seed)
+    if known is None:
+        return []
+    found = [s for s in sights(known[1]) if np.isfinite(s.seen)]
+    return [found[k] for k in np.random.default_rng(seed).permutation(len(found))]
 
 
-def try_one(case: Case, search: Search, sight: Sight, factor: float, seed: int) -> dict[str, object]:
+def try_one(case: Case, search: Search, sight: Sight, seed: int) -> dict[str, object]:
     """Put one effect in and explain."""
-    rng = np.random.default_rng(
-        [seed, *sight.variant.name.encode(), *sight.parameter.name.encode(), int(10 * factor)]
-    )
-    sign = 1.0 if one_sided(sight.parameter) else float(rng.choice([-1.0, 1.0]))
-    truth = sight.values(search.data, sign * factor * sight.seen)
+    rng = np.random.default_rng([seed, *sight.variant.name.encode(), *sight.parameter.name.encode()])
+    size = sight.seen * (1.0 if one_sided(sight.parameter) else float(rng.choice([-1.0, 1.0])))
+    truth = sight.values(search.data, size)
     recording = put_in(case.tire, case.recording, sight.variant.name, truth)
-    begun = time.perf_counter()
+    begun = time.process_time()
     report = explain_mismatch(case.tire, recording)
-    sets = [{e.name, *e.alternatives} for e in report.effects]
     right = [e for e in report.effects if e.name == sight.variant.name]
-    inside = asked = 0
-    for e in right:
-        for name, (value, error, _) in e.parameters.items():
-            if error > 0.0 and name not in sight.form and len(report.effects) == 1:
-                asked += 1
-                inside += abs(value - truth.get(name, 0.0)) <= Z * error
-    why = next((c["why"] for c in report.candidates if c["name"] == sight.variant.name), "")
+    z = {}
+    if len(report.effects) == 1:
+        for e in right:
+            for name, (value, error, _) in e.parameters.items():
+                if error > 0.0 and name not in sight.form:
+                    z[name] = (value - truth.get(name, 0.0)) / error
     return {
-        "size": sign * factor * sight.seen,
+        "rows": search.data.size,
+        "size": size,
         "error": sight.error,
         "told": sight.told,
-        "found": int(any(sight.variant.name in s for s in sets)),
+        "found": int(any(sight.variant.name in (e.name, *e.alternatives) for e in report.effects)),
         "first": int(bool(right)),
         "verdict": report.verdict,
         "names": "; ".join("/".join([e.name, *e.alternatives]) for e in report.effects),
-        "inside": inside,
-        "asked": asked,
-        "why": why,
-        "seconds": round(time.perf_counter() - begun, 1),
+        "inside": sum(abs(x) <= Z for x in z.values()),
+        "asked": len(z),
+        "z": "; ".join(f"{name} {x:.2f}" for name, x in z.items()),
+        "why": next((c["why"] for c in report.candidates if c["name"] == sight.variant.name), ""),
+        "seconds": round(time.process_time() - begun, 1),
     }
 
 
-def count(minutes: float) -> None:
-    """Put in and count, until the time is over."""
-    end = time.monotonic() + 60.0 * minutes
-    done = set()
-    if RESULTS.exists():
-        past = pd.read_csv(RESULTS, dtype=str)
-        done = {
-            tuple(row)
-            for row in past.loc[
-                past["code"] == code(), ["source", "seed", "effect", "parameter", "factor"]
-            ].to_numpy()
-        }
-    new = not RESULTS.exists()
-    with RESULTS.open("a", newline="", encoding="utf-8") as file:
-        out = csv.DictWriter(file, COLUMNS)
+def append(path: Path, columns: list[str], rows: list[dict[str, object]]) -> None:
+    """Add rows to a table."""
+    new = not path.exists()
+    with path.open("a", newline="", encoding="utf-8") as file:
+        out = csv.DictWriter(file, [*KEY, *columns, "code", "date"])
         if new:
             out.writeheader()
-        for source, seed, case, search in each():
-            for sight in sights(search):
-                if not np.isfinite(sight.seen):
-                    continue
-                for factor in FACTORS:
-                    key = (source, str(seed), sight.variant.name, sight.parameter.name, str(factor))
-                    if key in done:
-                        continue
-                    row = try_one(case, search, sight, factor, seed)
-                    row |= dict(zip(("source", "seed", "effect", "parameter", "factor"), key, strict=True))
-                    out.writerow(row | {"code": code(), "date": datetime.now(UTC).date().isoformat()})
-                    file.flush()
-                    if time.monotonic() > end:
-                        return
+        today = datetime.now(UTC).date().isoformat()
+        out.writerows(row | {"code": code(), "date": today} for row in rows)
+
+
+def done(path: Path, columns: list[str]) -> set[tuple[str, ...]]:
+    """Return what this engine has done before."""
+    if not path.exists():
+        return set()
+    past = pd.read_csv(path, dtype=str)
+    return {tuple(row) for row in past.loc[past["code"] == code(), columns].to_numpy()}
+
+
+def count_found(sources: list[str], over: Callable[[], bool]) -> None:
+    """Put effects in and count, one of each recording in turn, until the time is over."""
+    past, k, more = done(FOUND, KEY), 0, True
+    while more:
+        more = False
+        for source, seed in turns(sources):
+            if over():
+                return
+            known, found = searched(source, seed), drawn(source, seed)
+            if known is None or k >= len(found):
+                continue
+            more, sight = True, found[k]
+            key = (source, str(seed), sight.variant.name, sight.parameter.name)
+            if key not in past:
+                row = dict(zip(KEY, key, strict=True)) | try_one(*known, sight, seed)
+                append(FOUND, OF_FOUND, [row])
+                print(*key, row["found"], row["names"], row["z"], row["seconds"], flush=True)
+        k += 1
+
+
+def count_sizes(sources: list[str], over: Callable[[], bool]) -> None:
+    """Compare sizes with those of a likelihood-ratio test, until the time is over.
+
+    Nothing is missing, and next to nothing is ever named: the search itself is left out.
+    """
+    past = done(SIZES, KEY[:2])
+    for source, seed in turns(sources):
+        if (source, str(seed)) in past:
+            continue
+        if over():
+            return
+        try:
+            case = case_of(source, seed)
+            search = searching.begin(thinned(prepare(case.tire, case.recording).data))
+        except (DomainError, RecordingError) as error:
+            print(f"{source} {seed}: {error}", flush=True)
+            continue
+        rows: list[dict[str, object]] = []
+        for s in sights(search):
+            key = dict(zip(KEY, (source, seed, s.variant.name, s.parameter.name), strict=True))
+            figures = (search.data.size, search.misfit, s.seen, s.told, s.value, s.error)
+            rows.append(key | dict(zip(OF_SIZES, figures, strict=True)))
+        append(SIZES, OF_SIZES, rows)
+        print(source, seed, search.data.size, len(rows), flush=True)
+
+
+def newest(path: Path) -> pd.DataFrame:
+    """Return the rows of the engine that made the last one."""
+    rows = pd.read_csv(path)
+    return rows[rows["code"] == rows["code"].iloc[-1]].copy()
+
+
+def about(rows: pd.DataFrame) -> str:
+    """Say which engine, dates and seeds some rows are of."""
+    seeds = "; ".join(
+        f"{source} {part['seed'].min()} to {part['seed'].max()} ({part['seed'].nunique()} recordings)"
+        for source, part in rows.groupby("source")
+    )
+    return f"engine {rows['code'].iloc[0]}, {rows['date'].min()} to {rows['date'].max()}, seeds {seeds}"
+
+
+def found_rates() -> list[str]:
+    """Return the rates of what was put in, as lines."""
+    rows = newest(FOUND)
+    out = [f"Put in at the size `seen` ({about(rows)})"]
+    columns = {"found": "mean", "first": "mean", "inside": "sum", "asked": "sum", "size": "size"}
+    for by in ("source", "effect"):
+        part = rows.groupby(by).agg(columns).rename(columns={"size": "cases"}).round(2)
+        out += ["", part.to_string()]
+    share, n = rows["found"].mean(), len(rows)
+    spread = Z * np.sqrt(max(share * (1.0 - share), 1.0 / n) / n)
+    out += ["", f"found {share:.3f} +- {spread:.3f} of {n}; goal 0.90 to 1.00"]
+    for name, part in (("simulated", rows[rows["source"] == "simulated"]), ("all", rows)):
+        held, asked = int(part["inside"].sum()), int(part["asked"].sum())
+        if asked:
+            out.append(
+                f"intervals hold the truth ({name}): {held} of {asked}, {held / asked:.3f}; goal 0.90 to 0.98"
+            )
+    return out
+
+
+def size_rates() -> list[str]:
+    """Return the sizes beside those of a likelihood-ratio test, as lines."""
+    rows = newest(SIZES)
+    rows["ratio"] = rows["seen"] / rows["told"]
+    rows["held"] = (rows["value"].abs() <= Z * rows["error"]).where(np.isfinite(rows["error"]))
+    seen = rows[np.isfinite(rows["seen"]) & np.isfinite(rows["told"])]
+    hidden = rows[~np.isfinite(rows["seen"]) & np.isfinite(rows["told"])]
+    out = [f"`seen` over the size of a likelihood-ratio test ({about(rows)})"]
+    for by in ("source", "effect"):
+        out += ["", seen.groupby(by)["ratio"].agg(["median", "max", "size"]).round(2).to_string()]
+    by_effect = seen.groupby("effect")["ratio"].median()
+    out += [
+        "",
+        f"median over the catalogue {by_effect.median():.2f}, goal 1.5; largest median of an effect "
+        f"{by_effect.max():.2f} ({by_effect.idxmax()}), largest of all {seen['ratio'].max():.2f}, goal 3",
+        f"above 3: {int((seen['ratio'] > 3.0).sum())} of {len(seen)}; the test would see it, and the report "
+        f"says that no size would be named: {len(hidden)}",
+    ]
+    clean = rows[(rows["source"] == "simulated") & rows["held"].notna()]
+    held = clean.groupby("effect")["held"].agg(["mean", "size"]).astype(float).round(2)
+    out += [
+        "",
+        "Where the truth is 0, the 95% interval beside all else holds it (simulated):",
+        held.to_string(),
+    ]
+    if len(clean):
+        out.append(f"all: {clean['held'].astype(float).mean():.3f} of {len(clean)}")
+    return out
 
 
 def table() -> None:
-    """Print the rates of the newest engine's rows."""
-    rows = pd.read_csv(RESULTS)
-    rows = rows[rows["code"] == rows["code"].iloc[-1]]
-    rows["ratio"] = rows["size"].abs() / rows["factor"] / rows["told"]
-    for by in ("source", "effect"):
-        print(
-            rows.groupby([by, "factor"])
-            .agg(
-                found=("found", "mean"),
-                first=("first", "mean"),
-                inside=("inside", "sum"),
-                asked=("asked", "sum"),
-                ratio=("ratio", "median"),
-                n=("found", "size"),
-            )
-            .round(2)
-            .to_string()
-        )
-    for factor, part in rows.groupby("factor"):
-        held = f"{part['inside'].sum()} of {part['asked'].sum()}"
-        print(f"factor {factor}: found {part['found'].mean():.3f} of {len(part)}; intervals {held}")
-    by_effect = rows.groupby("effect")["ratio"].median()
-    middle, most = by_effect.median(), by_effect.max()
-    print(f"size over that of the likelihood-ratio test: median {middle:.2f}, most {most:.2f}")
+    """Print and write the rates of the newest engine's rows."""
+    parts = [rates() for path, rates in ((FOUND, found_rates), (SIZES, size_rates)) if path.exists()]
+    text = "\n\n\n".join("\n".join(part) for part in parts) + "\n"
+    TABLE.write_text(text, encoding="utf-8")
+    print(text)
 
 
 def main() -> None:
     """Run what is asked for."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--put-in", action="store_true")
     parser.add_argument("--sizes", action="store_true")
     parser.add_argument("--table", action="store_true")
     parser.add_argument("--minutes", type=float, default=30.0)
+    parser.add_argument("--source", choices=SEEDS, action="append")
     asked = parser.parse_args()
     warnings.simplefilter("ignore")
+    end, sources = time.monotonic() + 60.0 * asked.minutes, asked.source or list(SEEDS)
+
+    def over() -> bool:
+        return time.monotonic() > end
+
+    if asked.sizes:
+        count_sizes(sources, over)
+    if asked.put_in:
+        count_found(sources, over)
     if asked.table:
         table()
-    elif asked.sizes:
-        sizes()
-    else:
-        count(asked.minutes)
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ from tire_pipeline.mismatch.corrected import CorrectedModel, force_limits
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
+from tire_pipeline.mismatch.intervals import standard_errors
 from tire_pipeline.mismatch.locate import AXES, everywhere, locate, when, where
 from tire_pipeline.mismatch.proof import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.refit import Fit, residual
@@ -227,11 +228,8 @@ def _found(search: Search, index: int, left: Remainder, data: Data) -> tuple[Eff
     part = {o: whole[o] - without[o] for o in data.outputs}
     output = max(data.outputs, key=lambda o: float(np.mean(part[o] ** 2)))
     units = {p.name: p.unit for p in effect.parameters}
-    errors = {
-        n: float(np.sqrt(max(search.fit.covariance[k, k], 0.0) * search.inflation))
-        for k, (i, n) in enumerate(search.fit.labels)
-        if i == index
-    }
+    known = zip(search.fit.labels, standard_errors(search, search.fit), strict=True)
+    errors = {n: float(error) for (i, n), error in known if i == index}
     parameters = {
         n: (float(v), errors.get(n, 0.0), units[n]) for n, v in values.items() if n in search.fit.free[index]
     }

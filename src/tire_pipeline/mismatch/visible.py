@@ -15,12 +15,13 @@ import numpy as np
 from scipy.special import ndtri
 
 from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.candidates import Variant
+from tire_pipeline.mismatch.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Parameter
 from tire_pipeline.mismatch.gates import asked_for, floors_of, mismatch_of, of_coefficients
 from tire_pipeline.mismatch.gram import System
-from tire_pipeline.mismatch.refit import finish, residual
+from tire_pipeline.mismatch.intervals import roomy, standard_errors
+from tire_pipeline.mismatch.refit import finish, inverse, residual
 from tire_pipeline.mismatch.report import Visible
 from tire_pipeline.mismatch.simulate import Change, simulate
 from tire_pipeline.mismatch.state import Search
@@ -32,6 +33,8 @@ _RULED_OUT = float(ndtri(0.975))
 _ROUNDS = 4
 _CLOSE = 0.05
 _MOST_FORMS = 3
+_SHOWN = 0.1
+"""Part of the mean energy of a sweep from which the gates say that an effect shows in it."""
 _SMALL, _SIZES, _HALVINGS = 1e-4, 97, 40
 _OF_THE_FORM = frozenset("reference lag moment radius fades linear".split())
 """Parameters that say which form an effect has, not how large it is."""
@@ -56,7 +59,7 @@ class Sight:
         The size that a likelihood-ratio test sees in 95% which knows the form and the covariance of noise,
         misfit and coefficients, at the level ``FALSE`` over all of the catalogue; none that no tire has.
     value, error : float
-        Estimate and standard error beside what is named.
+        Estimate beside what is named, and its standard error with the room that an interval asks for.
     """
 
     variant: Variant
@@ -132,6 +135,8 @@ class _Scene:
         self.floors = floors_of(search, search.fit)
         self.total = mismatch_of(residual(search.data, []), self.floors)
         self.count = len({v.name for v in search.variants})
+        self.roomy = roomy(search)
+        self.alike: list[dict[str, Array]] | None = None
 
     def sight(self, variant: Variant, parameter: Parameter) -> Sight | None:
         """Return what shows of one parameter, or None if nothing does.
@@ -150,10 +155,11 @@ class _Scene:
             power = sum(float(np.sum((c / self.search.noise[o].sigma) ** 2)) for o, c in column.items())
             if not info > 1e-10 * power:
                 return None
-            error = float(np.sqrt(self.search.inflation / info))
+            error = self._error(info)
             seen = self._possible(out, self._seen(variant.name, column, error))
             told = self._possible(out, self._told(error))
-            out = Sight(variant, parameter, seen, told, score / info, error)
+            wide = self._profiled(self.roomy, column)[0]
+            out = Sight(variant, parameter, seen, told, score / info, max(error, self._error(wide)))
             if abs(seen - size) < _CLOSE * size or (seen > most and size == most):
                 break
             size = min(seen, most)
@@ -176,6 +182,9 @@ class _Scene:
         left = np.array([info[-1, -1], score[-1]]) - info[-1, :-1] @ head
         return float(left[0]), float(left[1])
 
+    def _error(self, info: float) -> float:
+        return float(np.sqrt(self.search.inflation / max(info, 1e-300)))
+
     def _told(self, error: float) -> float:
         """Return the size that a test sees which knows form and noise."""
         return (_SEEN - float(ndtri(0.5 * FALSE / max(self.count, 1)))) * error
@@ -184,25 +193,54 @@ class _Scene:
         """Return the size that passes the gates of evidence and of share."""
         power = sum(float(np.mean(c**2)) / self.floors[o] ** 2 for o, c in column.items())
         cross = sum(float(np.mean(self.rest[o] * c)) / self.floors[o] ** 2 for o, c in column.items())
-        price, aside = self.search.price, abs(cross) / power
-        loose_error = np.inf
-        if not of_coefficients(name):
-            loose_error = float(
-                np.sqrt(self.search.inflation / max(self._profiled(self.search.loose, column)[0], 1e-300))
-            )
-        size = 0.0
+        price, aside, part = self.search.price, abs(cross) / power, self._part_of_sweeps(column)
+        size, by_loose = 0.0, 0.0
         for _ in range(2):  # what is asked for depends on the share
             share = power * size**2 / (self.total + power * size**2)
             nats, loose, least = asked_for(self.search, name, share)
-            size = (np.sqrt(2.0 * (nats + price)) + _SEEN) * error
-            if np.isfinite(loose_error):
-                size = max(size, (np.sqrt(2.0 * (loose + price)) + _SEEN) * loose_error)
+            least *= part
+            size = _sure_at(nats + price) * error
+            if not by_loose and not of_coefficients(name):
+                by_loose = self._by_loose(column, loose, error, size)
+            size = max(size, by_loose)
             by_share = aside + np.sqrt(aside**2 + least / (1.0 - least) * self.total / power)
             if not self.changes:  # alone, and sure, it need not be a share of noise and misfit
-                sure = (np.sqrt(2.0 * (settings.REMAINDER_NATS + price)) + _SEEN) * error
-                by_share = min(by_share, max(sure, 2.0 * aside))
+                by_share = min(by_share, max(_sure_at(settings.REMAINDER_NATS + price) * error, 2.0 * aside))
             size = max(size, by_share)
         return float(size)
+
+    def _by_loose(self, column: dict[str, Array], nats: float, error: float, enough: float) -> float:
+        """Return the size that coefficients nearly free do not explain, if more than a size is needed.
+
+        Or, where nothing is named, the size at which it is likelier by ``LEAST_GAIN_ALONE`` than every effect
+        that coefficients explain.
+        """
+        price, info = self.search.price, self._profiled(self.search.loose, column)[0]
+        size = _sure_at(nats + price) * self._error(info)
+        if self.changes or size <= enough:
+            return size
+        own = 1.0 - self._alike(column)
+        gain = max(settings.LEAST_GAIN_ALONE + price, settings.LEAST_GAIN_ALONE / max(own, 1e-6))
+        return min(size, _sure_at(gain) * error)
+
+    def _alike(self, column: dict[str, Array]) -> float:
+        """Return the largest part of a column's information that one effect of the coefficients takes up."""
+        if self.alike is None:
+            forms = [v for v in self.search.variants if of_coefficients(v.name)]
+            self.alike = [screening_columns(self.data, self.changes, v) for v in forms]
+        system, parts = self.search.system, [0.0]
+        for form in self.alike:
+            joined = {o: np.column_stack([form[o], c]) for o, c in column.items()}
+            info, _, _ = system.reduce(system.sums(self.rest, joined))
+            own, cross = inverse(info[:-1, :-1]), info[:-1, -1]
+            parts.append(float(cross @ own @ cross / max(info[-1, -1], 1e-300)))
+        return min(max(parts), 1.0)
+
+    def _part_of_sweeps(self, column: dict[str, Array]) -> float:
+        """Return the part of the samples that lie in sweeps in which a column shows."""
+        energy = sum((c / self.search.noise[o].sigma) ** 2 for o, c in column.items())
+        sums = np.bincount(self.search.block, energy, self.search.system.count)
+        return float(np.mean(sums[self.search.block] > _SHOWN * np.mean(sums)))
 
     def _possible(self, sight: Sight, size: float) -> float:
         """Return the smallest size from this one on that a tire or a rig can have, or infinity."""
@@ -224,6 +262,11 @@ class _Scene:
 
     def _outside(self, sight: Sight, size: float) -> bool:
         return sight.variant.effect.outside(self.data, sight.values(self.data, size))
+
+
+def _sure_at(nats: float) -> float:
+    """Return the standard errors of a size that is worth some nats in 95% of repetitions."""
+    return float(np.sqrt(2.0 * nats)) + _SEEN
 
 
 def visible(search: Search, *, unexplained: bool) -> list[Visible]:
@@ -255,11 +298,10 @@ def visible(search: Search, *, unexplained: bool) -> list[Visible]:
 def _named(name: str, values: dict[str, float], search: Search, index: int) -> list[Visible]:
     """Rows of an effect that is named."""
     effect, rows = catalogue()[name], []
-    for k, (i, parameter) in enumerate(search.fit.labels):
+    for (i, parameter), error in zip(search.fit.labels, standard_errors(search, search.fit), strict=True):
         if i != index:
             continue
         unit = effect.parameter(parameter).unit
-        error = float(np.sqrt(max(search.fit.covariance[k, k], 0.0) * search.inflation))
         value = f"{amount(values[parameter], unit)} ± {amount(_RULED_OUT * error, unit)}"
         text = f"{effect.title}: named, {parameter} {value}"
         rows.append(Visible(name, parameter, unit, np.nan, np.nan, text))
