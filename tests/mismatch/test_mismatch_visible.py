@@ -5,11 +5,16 @@ import math
 
 import numpy as np
 import pytest
+from mismatch_shared import shared
 
+from tire_pipeline.concealed.real import RealPlan, make_real_case
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch import search as searching
+from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.checks import prepare
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.intervals import standard_errors
+from tire_pipeline.mismatch.refit import refit
 from tire_pipeline.mismatch.restart import search_all
 from tire_pipeline.mismatch.trial import put_in
 from tire_pipeline.mismatch.visible import one_sided, sights
@@ -68,23 +73,51 @@ def test_nothing_is_ruled_out_while_something_has_no_name(tire, record):
     assert all(math.isnan(row.ruled_out) for row in report.visible)
 
 
-@pytest.mark.long
-def test_what_is_said_to_be_seen_is_named(tire, record):
-    """Each effect of the size that is said to be named in 95% of repetitions, put in by its mechanism."""
-    recording = record(25)
+def _named_at_their_sizes(tire, recording, seed):
+    """(effect, parameter) -> whether it is named, put in by its mechanism at the size that is seen."""
     search, found = _sizes(tire, recording)
-    rng = np.random.default_rng(25)
+    rng = np.random.default_rng(seed)
     named = {}
     for (name, parameter), sight in found.items():
         if not np.isfinite(sight.seen):
             continue
         sign = 1.0 if one_sided(sight.parameter) else rng.choice([-1.0, 1.0])
-        report = explain_mismatch(
-            tire, put_in(tire, recording, name, sight.values(search.data, sign * sight.seen))
-        )
+        values = sight.values(search.data, sign * sight.seen)
+        report = explain_mismatch(tire, put_in(tire, recording, name, values))
         named[name, parameter] = any(name in (e.name, *e.alternatives) for e in report.effects)
+    return named
+
+
+@pytest.mark.long
+def test_what_is_said_to_be_seen_is_named(tire, record):
+    named = _named_at_their_sizes(tire, record(25), 25)
     assert len(named) >= 15
     assert np.mean(list(named.values())) >= 0.9, [k for k, ok in named.items() if not ok]
+
+
+@pytest.mark.xfail(
+    reason="13 of 16: the size leaves out what held-out sweeps ask for, here four", strict=True
+)
+def test_what_is_said_to_be_seen_in_real_points_is_named():
+    """A slice of ``benchmarks/visible_sizes.py``: points of the TYDEX file, the formula fitted to them."""
+    plan = RealPlan(seed=62_700, source="tydex", kind="nothing")
+    case, _ = make_real_case(plan, shared("recordings"), "development")
+    named = _named_at_their_sizes(case.tire, case.recording, plan.seed)
+    assert len(named) >= 12
+    assert np.mean(list(named.values())) >= 0.9, [k for k, ok in named.items() if not ok]
+
+
+def test_an_interval_leaves_the_coefficients_more_room_than_the_search(tire, record):
+    """It matters for what coefficients can do, and for nothing else."""
+    search = searching.begin(prepare(tire, record(27)).data)
+    times = {}
+    for name, parameter in (("friction_scale", "friction"), ("time_delay", "delay")):
+        variant = next(v for v in search.variants if v.name == name)
+        fit = refit(search.system, [Variant(name, variant.start, (parameter,))])
+        own = np.sqrt(np.diag(fit.covariance) * search.inflation)
+        times[name] = float((standard_errors(search, fit) / own)[0])
+    assert 1.2 < times["friction_scale"] <= 2.0
+    assert times["time_delay"] == pytest.approx(1.0, abs=0.05)
 
 
 def test_no_size_is_below_what_a_tire_can_have(tire, record):

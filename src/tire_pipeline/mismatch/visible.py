@@ -19,7 +19,7 @@ from tire_pipeline.mismatch.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Parameter
 from tire_pipeline.mismatch.gates import asked_for, floors_of, mismatch_of, of_coefficients
-from tire_pipeline.mismatch.gram import System
+from tire_pipeline.mismatch.gram import Sums, System
 from tire_pipeline.mismatch.intervals import roomy, standard_errors
 from tire_pipeline.mismatch.refit import finish, inverse, residual
 from tire_pipeline.mismatch.report import Visible
@@ -56,8 +56,9 @@ class Sight:
     seen : float
         Smallest size that is named in 95% of repetitions; infinite if none within the bounds is.
     told : float
-        The size that a likelihood-ratio test sees in 95% which knows the form and the covariance of noise,
-        misfit and coefficients, at the level ``FALSE`` over all of the catalogue; none that no tire has.
+        The size that a likelihood-ratio test sees in 95% of the same repetitions which knows the form and the
+        covariance of noise, misfit and coefficients, at the level ``FALSE`` over all of the catalogue; none
+        that no tire has.
     value, error : float
         Estimate beside what is named, and its standard error with the room that an interval asks for.
     """
@@ -151,15 +152,17 @@ class _Scene:
             while not any(np.any(c) for c in column.values()) and size < most:
                 size = min(4.0 * size, most)  # a lag of less than a sample does nothing
                 column = self._column(out, size, before)
-            info, score = self._profiled(self.search.system, column)
+            sums = self._sums(column)
+            info, score = self._profiled(self.search.system, sums)
             power = sum(float(np.sum((c / self.search.noise[o].sigma) ** 2)) for o, c in column.items())
             if not info > 1e-10 * power:
                 return None
             error = self._error(info)
-            seen = self._possible(out, self._seen(variant.name, column, error))
-            told = self._possible(out, self._told(error))
-            wide = self._profiled(self.roomy, column)[0]
-            out = Sight(variant, parameter, seen, told, score / info, max(error, self._error(wide)))
+            spread = max(error, self._error(self._profiled(self.roomy, sums)[0]))
+            loose = self._error(self._profiled(self.search.loose, sums)[0])
+            seen = self._possible(out, self._seen(variant.name, column, (error, spread, loose)))
+            told = self._possible(out, self._told(error, spread))
+            out = Sight(variant, parameter, seen, told, score / info, spread)
             if abs(seen - size) < _CLOSE * size or (seen > most and size == most):
                 break
             size = min(seen, most)
@@ -173,11 +176,15 @@ class _Scene:
         changes: list[Change] = [*self.changes, (sight.variant.name, sight.values(self.data, size))]
         return simulate(self.data, changes)
 
-    def _profiled(self, system: System, column: dict[str, Array]) -> tuple[float, float]:
-        """Return information and score of a column beside nuisance and the named effects."""
+    def _sums(self, column: dict[str, Array]) -> Sums:
+        """Return the sums of a column and the named effects: the same whatever room nuisance has."""
         one = {o: c[:, None] for o, c in column.items()}
         joined = one if self.own is None else {o: np.hstack([self.own[o], one[o]]) for o in one}
-        info, score, _ = system.reduce(system.sums(self.rest, joined))
+        return self.search.system.sums(self.rest, joined)
+
+    def _profiled(self, system: System, sums: Sums) -> tuple[float, float]:
+        """Return information and score of a column beside nuisance and the named effects."""
+        info, score, _ = system.reduce(sums)
         head = np.linalg.lstsq(info[:-1, :-1], np.column_stack([info[:-1, -1], score[:-1]]), rcond=1e-12)[0]
         left = np.array([info[-1, -1], score[-1]]) - info[-1, :-1] @ head
         return float(left[0]), float(left[1])
@@ -185,12 +192,17 @@ class _Scene:
     def _error(self, info: float) -> float:
         return float(np.sqrt(self.search.inflation / max(info, 1e-300)))
 
-    def _told(self, error: float) -> float:
+    def _told(self, error: float, spread: float) -> float:
         """Return the size that a test sees which knows form and noise."""
-        return (_SEEN - float(ndtri(0.5 * FALSE / max(self.count, 1)))) * error
+        return _SEEN * spread - float(ndtri(0.5 * FALSE / max(self.count, 1))) * error
 
-    def _seen(self, name: str, column: dict[str, Array], error: float) -> float:
-        """Return the size that passes the gates of evidence and of share."""
+    def _seen(self, name: str, column: dict[str, Array], errors: tuple[float, float, float]) -> float:
+        """Return the size that passes the gates of evidence and of share.
+
+        Evidence goes by the first of three errors, the engine's own, or by the third, with coefficients
+        nearly free; but repetitions differ by the second, the interval's.
+        """
+        error, spread, _ = errors
         power = sum(float(np.mean(c**2)) / self.floors[o] ** 2 for o, c in column.items())
         cross = sum(float(np.mean(self.rest[o] * c)) / self.floors[o] ** 2 for o, c in column.items())
         price, aside, part = self.search.price, abs(cross) / power, self._part_of_sweeps(column)
@@ -199,29 +211,32 @@ class _Scene:
             share = power * size**2 / (self.total + power * size**2)
             nats, loose, least = asked_for(self.search, name, share)
             least *= part
-            size = _sure_at(nats + price) * error
+            size = _sure_at(nats + price, error, spread)
             if not by_loose and not of_coefficients(name):
-                by_loose = self._by_loose(column, loose, error, size)
+                by_loose = self._by_loose(column, loose, errors, size)
             size = max(size, by_loose)
             by_share = aside + np.sqrt(aside**2 + least / (1.0 - least) * self.total / power)
             if not self.changes:  # alone, and sure, it need not be a share of noise and misfit
-                by_share = min(by_share, max(_sure_at(settings.REMAINDER_NATS + price) * error, 2.0 * aside))
+                sure = _sure_at(settings.REMAINDER_NATS + price, error, spread)
+                by_share = min(by_share, max(sure, 2.0 * aside))
             size = max(size, by_share)
         return float(size)
 
-    def _by_loose(self, column: dict[str, Array], nats: float, error: float, enough: float) -> float:
+    def _by_loose(
+        self, column: dict[str, Array], nats: float, errors: tuple[float, float, float], enough: float
+    ) -> float:
         """Return the size that coefficients nearly free do not explain, if more than a size is needed.
 
         Or, where nothing is named, the size at which it is likelier by ``LEAST_GAIN_ALONE`` than every effect
         that coefficients explain.
         """
-        price, info = self.search.price, self._profiled(self.search.loose, column)[0]
-        size = _sure_at(nats + price) * self._error(info)
+        (error, spread, loose), price = errors, self.search.price
+        size = _sure_at(nats + price, loose, max(loose, spread))
         if self.changes or size <= enough:
             return size
         own = 1.0 - self._alike(column)
         gain = max(settings.LEAST_GAIN_ALONE + price, settings.LEAST_GAIN_ALONE / max(own, 1e-6))
-        return min(size, _sure_at(gain) * error)
+        return min(size, _sure_at(gain, error, spread))
 
     def _alike(self, column: dict[str, Array]) -> float:
         """Return the largest part of a column's information that one effect of the coefficients takes up."""
@@ -264,9 +279,9 @@ class _Scene:
         return sight.variant.effect.outside(self.data, sight.values(self.data, size))
 
 
-def _sure_at(nats: float) -> float:
-    """Return the standard errors of a size that is worth some nats in 95% of repetitions."""
-    return float(np.sqrt(2.0 * nats)) + _SEEN
+def _sure_at(nats: float, error: float, spread: float) -> float:
+    """Return the size that is worth some nats in 95% of repetitions, which differ by ``spread``."""
+    return float(np.sqrt(2.0 * nats)) * error + _SEEN * spread
 
 
 def visible(search: Search, *, unexplained: bool) -> list[Visible]:
