@@ -375,7 +375,7 @@ def main() -> None:
     with threadpool_limits(1):
         run(asked.subsets)
     if asked.table:
-        print(summary(pd.read_csv(RESULTS)))
+        print(summary(pd.read_csv(RESULTS, dtype={"version": str})))
 
 
 if __name__ == "__main__":
