@@ -22,7 +22,7 @@ from bench_translation import load_fleet
 
 from tire_pipeline.translation.base import make_translator
 from tire_pipeline.translation.bias_band import bias_band
-from tire_pipeline.translation.curve_space import PARTS, UNIT
+from tire_pipeline.translation.curves.space import PARTS, UNIT
 from tire_pipeline.translation.effects import KEY_PARTS
 
 RESULTS = Path(__file__).parent / "results" / "bias_bands.csv"

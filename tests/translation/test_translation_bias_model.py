@@ -6,8 +6,8 @@ import pytest
 
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.representations.coefficients import DATASETS
-from tire_pipeline.translation import pure_slip
-from tire_pipeline.translation.curve_features import GROUPS, encode
+from tire_pipeline.translation.curves import pure_slip
+from tire_pipeline.translation.curves.features import GROUPS, encode
 from tire_pipeline.translation.decode import Wish, decode
 from tire_pipeline.translation.mixed_effects import Design, _Marginal, fit_mixed_effects, posterior_weights
 from tire_pipeline.translation.physics import violations

@@ -17,8 +17,8 @@ from tire_pipeline.translation.base import make_translator, translator_from_stat
 from tire_pipeline.translation.bias_band import bias_band
 from tire_pipeline.translation.bias_report import at_each_load, bias_report
 from tire_pipeline.translation.caution import DOUBTFUL, expected_gain, pooled_doubt
-from tire_pipeline.translation.curve_features import LOADS
 from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel, PairedMixedModel
+from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.cycle_consistent import CycleConsistent
 from tire_pipeline.translation.greedy_forest import GreedyForest
 from tire_pipeline.translation.leave_one_out import leave_one_tire_out

@@ -52,7 +52,7 @@ def translated_page(
     report : DataFrame
         ``TranslationResult.report`` with ``supplier``, how the supplier of each file is known.
     curves : mapping
-        From :func:`tire_pipeline.translation.file_curves.file_curves`.
+        From :func:`tire_pipeline.translation.curves.of_files.file_curves`.
     coefficients : DataFrame
         ``file, coefficient, from, to``.
     own : set of str

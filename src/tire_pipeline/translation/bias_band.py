@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tire_pipeline.translation.curve_mixed import CurveMixedModel, Prediction
-from tire_pipeline.translation.curve_space import PARTS, UNIT
+from tire_pipeline.translation.curves.space import PARTS, UNIT
 from tire_pipeline.translation.effects import KEY_PARTS, QUANTILE
 
 CERTAINTY = 0.90

@@ -19,7 +19,7 @@ import pandas as pd
 
 from tire_pipeline.translation.class_question import per_tire
 from tire_pipeline.translation.class_search import with_classes
-from tire_pipeline.translation.curve_space import CurveSpace
+from tire_pipeline.translation.curves.space import CurveSpace
 from tire_pipeline.translation.fit_links import FitLinks, linked_blocks
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.mixed_effects import Fitted

@@ -10,7 +10,7 @@ import pandas as pd
 from tire_pipeline.translation.class_question import Question
 from tire_pipeline.translation.class_search import find_classes, with_classes
 from tire_pipeline.translation.curve_mixed import CurveMixedModel, design_blocks
-from tire_pipeline.translation.curve_space import PARTS, Cells, CurveSpace, fit_curve_space
+from tire_pipeline.translation.curves.space import PARTS, Cells, CurveSpace, fit_curve_space
 from tire_pipeline.translation.fit_links import Deviations, FitLinks, find_links, linked_blocks
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.mixed_effects import Design, Fitted, fit_mixed_effects

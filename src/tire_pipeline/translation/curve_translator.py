@@ -21,11 +21,11 @@ from tire_pipeline.translation.caution import (
     pooled_doubt,
     without_failed_fits,
 )
-from tire_pipeline.translation.curve_bands import curve_bands, stiffness_band
-from tire_pipeline.translation.curve_features import LOADS, encode
 from tire_pipeline.translation.curve_mixed import CurveMixedModel, Prediction
 from tire_pipeline.translation.curve_mixed_fit import Prepared, fit_curve_mixed_model
-from tire_pipeline.translation.curve_space import UNIT
+from tire_pipeline.translation.curves.bands import curve_bands, stiffness_band
+from tire_pipeline.translation.curves.features import LOADS, encode
+from tire_pipeline.translation.curves.space import UNIT
 from tire_pipeline.translation.decode import Wish, decode
 from tire_pipeline.translation.distance import TrainingReach
 from tire_pipeline.translation.effects import protocol_changes

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.curve_features import GROUPS, Group
+from tire_pipeline.translation.curves.features import GROUPS, Group
+from tire_pipeline.translation.curves.pure_slip import columns
 from tire_pipeline.translation.physics import curvature_excess
-from tire_pipeline.translation.pure_slip import columns
 
 _STEPS = 6
 _PULL = 0.003  # weight of "stay at the source's coefficients" against one feature, both in their spreads

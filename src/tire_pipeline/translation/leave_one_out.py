@@ -12,7 +12,7 @@ from tire_pipeline.translation.batch_learning import TaughtCells, learn_from
 from tire_pipeline.translation.caution import cautious
 from tire_pipeline.translation.curve_mixed import CurveMixedModel
 from tire_pipeline.translation.curve_mixed_fit import Prepared, fit_curve_mixed_model, prepare
-from tire_pipeline.translation.curve_space import PARTS
+from tire_pipeline.translation.curves.space import PARTS
 from tire_pipeline.translation.mixed_effects import Design, posterior_weights
 
 

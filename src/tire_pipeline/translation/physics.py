@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.pure_slip import (
+from tire_pipeline.translation.curves.pure_slip import (
     Columns,
     Points,
     columns,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.translation.curve_features import CAMBER, GROUPS, LOADS
+from tire_pipeline.translation.curves.features import CAMBER, GROUPS, LOADS
 
 _LEAST = 0.005  # a change of half a percent is worth a word
 _CURVES = {"cornering stiffness": ("lateral", 0), "lateral grip": ("lateral", 1)}
@@ -28,7 +28,7 @@ def describe_changes(
     Parameters
     ----------
     before, after : dict of ndarray
-        Features by group (:func:`.curve_features.encode`) of the source and of the translated files.
+        Features by group (:func:`.curves.features.encode`) of the source and of the translated files.
     source : ndarray of str, shape (n,)
         Source categories.
     target : str

@@ -25,7 +25,7 @@ from tire_pipeline.progress import track
 from tire_pipeline.tir import tir_bytes
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.translation import translator_from_state
-from tire_pipeline.translation.file_curves import file_curves
+from tire_pipeline.translation.curves.of_files import file_curves
 from tire_pipeline.translation.of_models import at_own_load
 from tire_pipeline.translation.result import UNKNOWN, TranslationResult
 
@@ -134,7 +134,7 @@ def translate_all(
     protocols : DataFrame
         Categories that changed how they measure.
     curves : dict
-        Of every file, for the page (:func:`.translation.file_curves.file_curves`).
+        Of every file, for the page (:func:`.translation.curves.of_files.file_curves`).
     """
     fitted: Any = translator_from_state(translator)
     fitted.farthest = parameters.farthest

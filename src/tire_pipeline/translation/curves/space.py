@@ -18,7 +18,7 @@ from scipy.linalg import eigh
 from sklearn.covariance import MinCovDet
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.translation.curve_features import GROUPS, LOADS, encode
+from tire_pipeline.translation.curves.features import GROUPS, LOADS, encode
 from tire_pipeline.translation.metadata import Metadata
 
 UNIT = {"lateral": 0.01, "camber": 0.01, "longitudinal": 0.01, "aligning": 0.002}

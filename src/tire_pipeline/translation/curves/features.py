@@ -18,7 +18,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.representations.coefficients import ALIGNING, LATERAL, LONGITUDINAL
-from tire_pipeline.translation.pure_slip import (
+from tire_pipeline.translation.curves.pure_slip import (
     Columns,
     Points,
     aligning_torque,

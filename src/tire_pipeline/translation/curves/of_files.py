@@ -10,8 +10,8 @@ import numpy as np
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
-from tire_pipeline.translation.curve_bands import SLIPS
-from tire_pipeline.translation.curve_features import LOADS
+from tire_pipeline.translation.curves.bands import SLIPS
+from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.result import Band, TranslationResult
 
 OUTPUTS = ("fy", "fx", "mz")

@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.curve_features import LOADS, REDUCED, encode
-from tire_pipeline.translation.curve_space import PARTS, UNIT, CurveSpace
-from tire_pipeline.translation.pure_slip import (
+from tire_pipeline.translation.curves.features import LOADS, REDUCED, encode
+from tire_pipeline.translation.curves.pure_slip import (
     Points,
     aligning_torque,
     columns,
     lateral_force,
     longitudinal_force,
 )
+from tire_pipeline.translation.curves.space import PARTS, UNIT, CurveSpace
 from tire_pipeline.translation.result import Band
 
 SLIPS = np.linspace(-0.2, 0.2, 41)

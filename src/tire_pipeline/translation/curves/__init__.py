@@ -1,0 +1,1 @@
+"""Tires as their force curves: pure-slip forces, features, scores, and bands."""
