@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from tire_pipeline.translation.fit_links import Deviations, FitLinks, find_links, linked_blocks
-from tire_pipeline.translation.mixed_effects import Fitted
-from tire_pipeline.translation.score_prediction import Reading, predict_block
+from tire_pipeline.translation.population.fit_links import Deviations, FitLinks, find_links, linked_blocks
+from tire_pipeline.translation.population.mixed_effects import Fitted
+from tire_pipeline.translation.population.score_prediction import Reading, predict_block
 
 SLICES = {
     "cornering stiffness": slice(0, 1),

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from tire_pipeline.translation.own_spread import Residuals, own_spread, shared_cells
-from tire_pipeline.translation.tire_kinds import TireKinds, with_kinds
+from tire_pipeline.translation.population.category_spread import Residuals, own_spread, shared_cells
+from tire_pipeline.translation.population.kinds import TireKinds, with_kinds
 
 SPREAD = np.array([1.0, 0.7, 1.3])
 ALONE = np.array([0.05, 0.05, 1.0])

@@ -9,8 +9,13 @@ from tire_pipeline.representations.coefficients import DATASETS
 from tire_pipeline.translation.curves import pure_slip
 from tire_pipeline.translation.curves.features import GROUPS, encode
 from tire_pipeline.translation.decode import Wish, decode
-from tire_pipeline.translation.mixed_effects import Design, _Marginal, fit_mixed_effects, posterior_weights
 from tire_pipeline.translation.physics import violations
+from tire_pipeline.translation.population.mixed_effects import (
+    Design,
+    _Marginal,
+    fit_mixed_effects,
+    posterior_weights,
+)
 
 FULL = DATASETS["full"]
 # ruff: noqa: E501

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tire_pipeline.translation.class_question import Question
-from tire_pipeline.translation.class_search import _climb, find_classes, with_classes
-from tire_pipeline.translation.class_starts import starts
-from tire_pipeline.translation.mixed_effects import Design, _Marginal, posterior_weights
-from tire_pipeline.translation.tire_classes import TireClasses, fit_shares, log_density
+from tire_pipeline.translation.population.class_question import Question
+from tire_pipeline.translation.population.class_search import _climb, find_classes, with_classes
+from tire_pipeline.translation.population.class_starts import starts
+from tire_pipeline.translation.population.classes import TireClasses, fit_shares, log_density
+from tire_pipeline.translation.population.mixed_effects import Design, _Marginal, posterior_weights
 
 VARIANCES = {
     "level": 100.0,

@@ -6,9 +6,9 @@ import pytest
 
 from tire_pipeline.pipelines.translate.page import translate_page
 from tire_pipeline.pipelines.translate.parameters import TranslateParameters
-from tire_pipeline.translation import protocol_search
-from tire_pipeline.translation.protocol_search import Dated, find_changes
-from tire_pipeline.translation.protocols import Change, Protocols, days_of
+from tire_pipeline.translation.population import protocol_search
+from tire_pipeline.translation.population.protocol_search import Dated, find_changes
+from tire_pipeline.translation.population.protocols import Change, Protocols, days_of
 
 PARTS = {"friction": slice(0, 2), "shape": slice(2, 5)}
 FIRST = np.datetime64("2011-01-01")

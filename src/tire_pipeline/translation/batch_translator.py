@@ -9,11 +9,11 @@ from typing import Any, ClassVar, Self
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.batch_learning import TaughtCells, learn_from
 from tire_pipeline.translation.caution import cautious, without_failed_fits
-from tire_pipeline.translation.curve_mixed import Prediction
-from tire_pipeline.translation.curve_mixed_fit import Prepared, prepare
 from tire_pipeline.translation.curve_translator import MixedModel
+from tire_pipeline.translation.population.fit import Prepared, prepare
+from tire_pipeline.translation.population.model import Prediction
+from tire_pipeline.translation.population.update import TaughtCells, learn_from
 
 FOLDS = 5
 """Parts into which the tires of a batch are laid; a part is translated by what the others taught."""

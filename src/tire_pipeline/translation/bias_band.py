@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tire_pipeline.translation.curve_mixed import CurveMixedModel, Prediction
 from tire_pipeline.translation.curves.space import PARTS, UNIT
 from tire_pipeline.translation.effects import KEY_PARTS, QUANTILE
+from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 
 CERTAINTY = 0.90
 """With which a band holds the bias: that of ``QUANTILE``."""

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 from scipy.stats import norm
 
-from tire_pipeline.translation.curve_mixed import CurveMixedModel, Prediction
 from tire_pipeline.translation.curves.space import PARTS
+from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 
 DOUBTFUL = 0.2
 """Doubt beyond which a category's bias is not told from chance and its files are left alone, see

@@ -21,8 +21,6 @@ from tire_pipeline.translation.caution import (
     pooled_doubt,
     without_failed_fits,
 )
-from tire_pipeline.translation.curve_mixed import CurveMixedModel, Prediction
-from tire_pipeline.translation.curve_mixed_fit import Prepared, fit_curve_mixed_model
 from tire_pipeline.translation.curves.bands import curve_bands, stiffness_band
 from tire_pipeline.translation.curves.features import LOADS, encode
 from tire_pipeline.translation.curves.space import UNIT
@@ -30,6 +28,8 @@ from tire_pipeline.translation.decode import Wish, decode
 from tire_pipeline.translation.distance import TrainingReach
 from tire_pipeline.translation.effects import protocol_changes
 from tire_pipeline.translation.physics import SYMMETRY, symmetric, violations
+from tire_pipeline.translation.population.fit import Prepared, fit_curve_mixed_model
+from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.result import (
     LEFT_ALONE,
     REFUSED,
@@ -104,7 +104,7 @@ class MixedModel:
         training, target, seed
             As for every translator.
         made : Prepared, optional
-            What :func:`.curve_mixed_fit.prepare` gave for ``training``, if it is there already.
+            What :func:`.population.fit.prepare` gave for ``training``, if it is there already.
 
         Raises
         ------

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from scipy.spatial import cKDTree
 
-from tire_pipeline.translation.curve_mixed import CurveMixedModel, Prediction
+from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 
 _EDGE = 0.995  # share of the training data inside the edge
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.curve_mixed import CurveMixedModel, columns_of
 from tire_pipeline.translation.curves.space import PARTS, UNIT
+from tire_pipeline.translation.population.model import CurveMixedModel, columns_of
 
 QUANTILE = 1.6449 * 1.2
 """Standard deviations to either side of a bias: those that hold 90% of a Gaussian, and 20% more, since the

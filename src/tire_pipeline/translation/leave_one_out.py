@@ -8,12 +8,12 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.translation.batch_learning import TaughtCells, learn_from
 from tire_pipeline.translation.caution import cautious
-from tire_pipeline.translation.curve_mixed import CurveMixedModel
-from tire_pipeline.translation.curve_mixed_fit import Prepared, fit_curve_mixed_model, prepare
 from tire_pipeline.translation.curves.space import PARTS
-from tire_pipeline.translation.mixed_effects import Design, posterior_weights
+from tire_pipeline.translation.population.fit import Prepared, fit_curve_mixed_model, prepare
+from tire_pipeline.translation.population.mixed_effects import Design, posterior_weights
+from tire_pipeline.translation.population.model import CurveMixedModel
+from tire_pipeline.translation.population.update import TaughtCells, learn_from
 
 
 def leave_one_tire_out(
@@ -39,7 +39,7 @@ def leave_one_tire_out(
     model : CurveMixedModel, optional
         Already fitted to ``training`` with the same ``pairs``: saves fitting it again.
     made : Prepared, optional
-        What :func:`.curve_mixed_fit.prepare` gave for the same.
+        What :func:`.population.fit.prepare` gave for the same.
     batch : DataFrame, optional
         Source files that are to be translated, and teach as in :mod:`.batch_translator`: tells whether to
         let them. Files of tires that are in ``training`` do not.

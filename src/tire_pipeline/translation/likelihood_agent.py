@@ -14,8 +14,6 @@ from torch import nn
 
 from tire_pipeline.translation.caution import failed_fits
 from tire_pipeline.translation.curiosity import Curiosity
-from tire_pipeline.translation.curve_mixed import Prediction
-from tire_pipeline.translation.curve_mixed_fit import Prepared
 from tire_pipeline.translation.curve_translator import FARTHEST, MixedModel
 from tire_pipeline.translation.likelihood_environment import (
     REACH,
@@ -24,6 +22,8 @@ from tire_pipeline.translation.likelihood_environment import (
     observe,
     situation_of,
 )
+from tire_pipeline.translation.population.fit import Prepared
+from tire_pipeline.translation.population.model import Prediction
 
 TIRES = 64
 ROLL_OUT = 48

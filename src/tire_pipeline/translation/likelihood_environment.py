@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 from stable_baselines3.common.vec_env import VecEnv
 
-from tire_pipeline.translation.curve_mixed import CurveMixedModel
+from tire_pipeline.translation.population.model import CurveMixedModel
 
 STEPS = 3
 """Moves in an episode."""

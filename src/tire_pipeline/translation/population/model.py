@@ -17,16 +17,16 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.class_question import per_tire
-from tire_pipeline.translation.class_search import with_classes
 from tire_pipeline.translation.curves.space import CurveSpace
-from tire_pipeline.translation.fit_links import FitLinks, linked_blocks
 from tire_pipeline.translation.metadata import Metadata
-from tire_pipeline.translation.mixed_effects import Fitted
-from tire_pipeline.translation.protocols import NO_CHANGE, Protocols
-from tire_pipeline.translation.score_prediction import Reading, predict_block
-from tire_pipeline.translation.tire_classes import TireClasses
-from tire_pipeline.translation.tire_kinds import TireKinds, with_kinds
+from tire_pipeline.translation.population.class_question import per_tire
+from tire_pipeline.translation.population.class_search import with_classes
+from tire_pipeline.translation.population.classes import TireClasses
+from tire_pipeline.translation.population.fit_links import FitLinks, linked_blocks
+from tire_pipeline.translation.population.kinds import TireKinds, with_kinds
+from tire_pipeline.translation.population.mixed_effects import Fitted
+from tire_pipeline.translation.population.protocols import NO_CHANGE, Protocols
+from tire_pipeline.translation.population.score_prediction import Reading, predict_block
 
 
 @dataclass(frozen=True)
@@ -137,7 +137,7 @@ class CurveMixedModel:
     def _own(self, source: np.ndarray, place: np.ndarray, here: list[np.ndarray]) -> list[np.ndarray]:
         """What is a tire's own in the scores of its kind, for each class (n, q), from its scores (n, p).
 
-        Where the category's spread is 1, as in :func:`.curve_mixed_fit.prepare`: it is the tire's, whoever
+        Where the category's spread is 1, as in :func:`.fit.prepare`: it is the tire's, whoever
         measures.
         """
         if self.kinds is None:
@@ -319,7 +319,7 @@ def design_blocks(
     """Lay out the regressors of n tires as if ``category`` had measured them, by block, each (n, columns).
 
     ``protocol`` (n, changes) is what :class:`.protocols.Protocols` gives; it is left out if it has no column.
-    :func:`.class_search.with_classes` and :func:`.tire_kinds.with_kinds` add theirs.
+    :func:`.class_search.with_classes` and :func:`.kinds.with_kinds` add theirs.
     """
     x = metadata.regressors(table)
     actor = (category[:, None] == np.array(categories)[None, :]).astype(float)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tire_pipeline.translation.mixed_effects import Fitted
+from tire_pipeline.translation.population.mixed_effects import Fitted
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,9 @@ import numpy as np
 from sklearn.cluster import KMeans
 from sklearn.mixture import GaussianMixture
 
-from tire_pipeline.translation.class_question import Question, per_tire
-from tire_pipeline.translation.mixed_effects import posterior_weights
-from tire_pipeline.translation.tire_classes import fit_shares, log_shares
+from tire_pipeline.translation.population.class_question import Question, per_tire
+from tire_pipeline.translation.population.classes import fit_shares, log_shares
+from tire_pipeline.translation.population.mixed_effects import posterior_weights
 
 _TRIES = 2  # of each clustering, of which the best counts
 _TIRES_A_GROUP = 10  # fewer tires of a category tell no groups within it

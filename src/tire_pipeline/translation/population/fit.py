@@ -7,18 +7,23 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.class_question import Question
-from tire_pipeline.translation.class_search import find_classes, with_classes
-from tire_pipeline.translation.curve_mixed import CurveMixedModel, design_blocks
 from tire_pipeline.translation.curves.space import PARTS, Cells, CurveSpace, fit_curve_space
-from tire_pipeline.translation.fit_links import Deviations, FitLinks, find_links, linked_blocks
 from tire_pipeline.translation.metadata import Metadata
-from tire_pipeline.translation.mixed_effects import Design, Fitted, fit_mixed_effects
-from tire_pipeline.translation.own_spread import FEWEST_SHARED, Residuals, own_spread, shared_cells
-from tire_pipeline.translation.protocol_search import Dated, find_changes
-from tire_pipeline.translation.protocols import NO_CHANGE, Protocols, days_of
-from tire_pipeline.translation.tire_classes import TireClasses
-from tire_pipeline.translation.tire_kinds import TIRE_BLOCKS, TireKinds, tire_regressors, with_kinds
+from tire_pipeline.translation.population.category_spread import (
+    FEWEST_SHARED,
+    Residuals,
+    own_spread,
+    shared_cells,
+)
+from tire_pipeline.translation.population.class_question import Question
+from tire_pipeline.translation.population.class_search import find_classes, with_classes
+from tire_pipeline.translation.population.classes import TireClasses
+from tire_pipeline.translation.population.fit_links import Deviations, FitLinks, find_links, linked_blocks
+from tire_pipeline.translation.population.kinds import TIRE_BLOCKS, TireKinds, tire_regressors, with_kinds
+from tire_pipeline.translation.population.mixed_effects import Design, Fitted, fit_mixed_effects
+from tire_pipeline.translation.population.model import CurveMixedModel, design_blocks
+from tire_pipeline.translation.population.protocol_search import Dated, find_changes
+from tire_pipeline.translation.population.protocols import NO_CHANGE, Protocols, days_of
 
 GUESS = {
     "level": 100.0,
@@ -43,7 +48,7 @@ _OTHER_SHARE = 0.5
 SPREAD_WIDTH = {"stiffness": 0.02}
 """How far categories may differ in how they spread what is a tire's own, by part: standard deviation of a
 logarithm. A fit draws shapes as it likes; what a rig does to a stiff tire more than to a soft one is what its
-kind tells (:mod:`.tire_kinds`), and a few dozen tires tell a spread to 10% only."""
+kind tells (:mod:`.kinds`), and a few dozen tires tell a spread to 10% only."""
 
 _OTHER_WIDTH = 0.2
 

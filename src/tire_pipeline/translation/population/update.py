@@ -16,11 +16,11 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.class_question import per_tire
-from tire_pipeline.translation.curve_mixed import CurveMixedModel
-from tire_pipeline.translation.curve_mixed_fit import Prepared, own_and_links
-from tire_pipeline.translation.mixed_effects import Fitted
-from tire_pipeline.translation.own_spread import FREEDOM
+from tire_pipeline.translation.population.category_spread import FREEDOM
+from tire_pipeline.translation.population.class_question import per_tire
+from tire_pipeline.translation.population.fit import Prepared, own_and_links
+from tire_pipeline.translation.population.mixed_effects import Fitted
+from tire_pipeline.translation.population.model import CurveMixedModel
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
-from tire_pipeline.translation.class_question import Question, per_tire
-from tire_pipeline.translation.class_starts import starts
-from tire_pipeline.translation.mixed_effects import Design, Fitted, posterior_weights
-from tire_pipeline.translation.tire_classes import TireClasses, fit_shares, log_density, log_shares
+from tire_pipeline.translation.population.class_question import Question, per_tire
+from tire_pipeline.translation.population.class_starts import starts
+from tire_pipeline.translation.population.classes import TireClasses, fit_shares, log_density, log_shares
+from tire_pipeline.translation.population.mixed_effects import Design, Fitted, posterior_weights
 
 COUNTS = (1, 2, 3, 4)
 """Numbers of classes that are tried. More of them were found on tuning fleets where there are four, and then
