@@ -8,8 +8,8 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.representations.coefficients import DATASETS
 from tire_pipeline.translation.curves import pure_slip
 from tire_pipeline.translation.curves.features import GROUPS, encode
-from tire_pipeline.translation.decode import Wish, decode
-from tire_pipeline.translation.physics import violations
+from tire_pipeline.translation.decode.least_change import Wish, decode
+from tire_pipeline.translation.decode.physics import violations
 from tire_pipeline.translation.population.mixed_effects import (
     Design,
     _Marginal,

@@ -20,10 +20,10 @@ from tire_pipeline.translation.caution import DOUBTFUL, expected_gain, pooled_do
 from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel, PairedMixedModel
 from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.cycle_consistent import CycleConsistent
+from tire_pipeline.translation.decode.physics import SYMMETRY, violations
 from tire_pipeline.translation.greedy_forest import GreedyForest
 from tire_pipeline.translation.leave_one_out import leave_one_tire_out
 from tire_pipeline.translation.likelihood_agent import CuriousAgent, LikelihoodAgent
-from tire_pipeline.translation.physics import SYMMETRY, violations
 from tire_pipeline.translation.result import (
     LEFT_ALONE,
     REFUSED,

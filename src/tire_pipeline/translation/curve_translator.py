@@ -24,10 +24,10 @@ from tire_pipeline.translation.caution import (
 from tire_pipeline.translation.curves.bands import curve_bands, stiffness_band
 from tire_pipeline.translation.curves.features import LOADS, encode
 from tire_pipeline.translation.curves.space import UNIT
-from tire_pipeline.translation.decode import Wish, decode
+from tire_pipeline.translation.decode.least_change import Wish, decode
+from tire_pipeline.translation.decode.physics import SYMMETRY, symmetric, violations
 from tire_pipeline.translation.distance import TrainingReach
 from tire_pipeline.translation.effects import protocol_changes
-from tire_pipeline.translation.physics import SYMMETRY, symmetric, violations
 from tire_pipeline.translation.population.fit import Prepared, fit_curve_mixed_model
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.result import (

@@ -9,7 +9,7 @@ import pandas as pd
 
 from tire_pipeline.translation.curves.features import GROUPS, Group
 from tire_pipeline.translation.curves.pure_slip import columns
-from tire_pipeline.translation.physics import curvature_excess
+from tire_pipeline.translation.decode.physics import curvature_excess
 
 _STEPS = 6
 _PULL = 0.003  # weight of "stay at the source's coefficients" against one feature, both in their spreads
