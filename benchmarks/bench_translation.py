@@ -39,7 +39,7 @@ from tire_pipeline.translation.curves.pure_slip import (
     longitudinal_force,
 )
 from tire_pipeline.translation.curves.space import fit_curve_space
-from tire_pipeline.translation.leave_one_out import leave_one_tire_out
+from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
 from tire_pipeline.translation.population.fit import Prepared, prepare
 from tire_pipeline.translation.result import TRANSLATED, TranslationResult
 

@@ -21,9 +21,9 @@ import pandas as pd
 from bench_translation import load_fleet
 
 from tire_pipeline.translation.base import make_translator
-from tire_pipeline.translation.bias_band import bias_band
 from tire_pipeline.translation.curves.space import PARTS, UNIT
-from tire_pipeline.translation.effects import KEY_PARTS
+from tire_pipeline.translation.judge.bias_band import bias_band
+from tire_pipeline.translation.judge.effects import KEY_PARTS
 
 RESULTS = Path(__file__).parent / "results" / "bias_bands.csv"
 KEYS = ["bias_size", "seed", "translator"]

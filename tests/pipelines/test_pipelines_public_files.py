@@ -17,7 +17,7 @@ import pandas as pd
 import pytest
 from conftest_kedro import ROOT, kedro
 
-from tire_pipeline.translation.effects import KEY_PARTS
+from tire_pipeline.translation.judge.effects import KEY_PARTS
 
 pytestmark = pytest.mark.slow
 PUBLIC = sorted((ROOT.parent / "shared" / "tir").glob("*.tir"))

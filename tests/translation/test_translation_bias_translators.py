@@ -14,15 +14,15 @@ from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
 from tire_pipeline.translation.base import make_translator, translator_from_state
-from tire_pipeline.translation.bias_band import bias_band
 from tire_pipeline.translation.bias_report import at_each_load, bias_report
-from tire_pipeline.translation.caution import DOUBTFUL, expected_gain, pooled_doubt
 from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel, PairedMixedModel
 from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.cycle_consistent import CycleConsistent
 from tire_pipeline.translation.decode.physics import SYMMETRY, violations
 from tire_pipeline.translation.greedy_forest import GreedyForest
-from tire_pipeline.translation.leave_one_out import leave_one_tire_out
+from tire_pipeline.translation.judge.bias_band import bias_band
+from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
+from tire_pipeline.translation.judge.shrinkage import DOUBTFUL, expected_gain, pooled_doubt
 from tire_pipeline.translation.likelihood_agent import CuriousAgent, LikelihoodAgent
 from tire_pipeline.translation.result import (
     LEFT_ALONE,

@@ -9,8 +9,8 @@ from typing import Any, ClassVar, Self
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.caution import cautious, without_failed_fits
 from tire_pipeline.translation.curve_translator import MixedModel
+from tire_pipeline.translation.judge.shrinkage import cautious, without_failed_fits
 from tire_pipeline.translation.population.fit import Prepared, prepare
 from tire_pipeline.translation.population.model import Prediction
 from tire_pipeline.translation.population.update import TaughtCells, learn_from

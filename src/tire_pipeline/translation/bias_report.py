@@ -11,7 +11,7 @@ import pandas as pd
 from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel
 from tire_pipeline.translation.curves.features import GROUPS, LOADS
 from tire_pipeline.translation.curves.space import PARTS, UNIT
-from tire_pipeline.translation.effects import KEY_PARTS, QUANTILE, difference, mean_of_loads
+from tire_pipeline.translation.judge.effects import KEY_PARTS, QUANTILE, difference, mean_of_loads
 from tire_pipeline.translation.population.model import CurveMixedModel, columns_of
 
 _MOST_TIRES = 25

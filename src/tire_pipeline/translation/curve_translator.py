@@ -12,8 +12,15 @@ from threadpoolctl import threadpool_limits
 from tire_pipeline.errors import DomainError
 from tire_pipeline.representations.coefficients import DATASETS
 from tire_pipeline.translation.base import check_target
-from tire_pipeline.translation.bias_band import CERTAINTY, bias_band
-from tire_pipeline.translation.caution import (
+from tire_pipeline.translation.curves.bands import curve_bands, stiffness_band
+from tire_pipeline.translation.curves.features import LOADS, encode
+from tire_pipeline.translation.curves.space import UNIT
+from tire_pipeline.translation.decode.least_change import Wish, decode
+from tire_pipeline.translation.decode.physics import SYMMETRY, symmetric, violations
+from tire_pipeline.translation.judge.bias_band import CERTAINTY, bias_band
+from tire_pipeline.translation.judge.effects import protocol_changes
+from tire_pipeline.translation.judge.reach import TrainingReach
+from tire_pipeline.translation.judge.shrinkage import (
     DOUBTFUL,
     cautious,
     expected_gain,
@@ -21,13 +28,7 @@ from tire_pipeline.translation.caution import (
     pooled_doubt,
     without_failed_fits,
 )
-from tire_pipeline.translation.curves.bands import curve_bands, stiffness_band
-from tire_pipeline.translation.curves.features import LOADS, encode
-from tire_pipeline.translation.curves.space import UNIT
-from tire_pipeline.translation.decode.least_change import Wish, decode
-from tire_pipeline.translation.decode.physics import SYMMETRY, symmetric, violations
-from tire_pipeline.translation.distance import TrainingReach
-from tire_pipeline.translation.effects import protocol_changes
+from tire_pipeline.translation.judge.words import describe_changes
 from tire_pipeline.translation.population.fit import Prepared, fit_curve_mixed_model
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.result import (
@@ -40,7 +41,6 @@ from tire_pipeline.translation.result import (
     TranslationResult,
     moved_coefficients,
 )
-from tire_pipeline.translation.words import describe_changes
 
 COEFFICIENTS = DATASETS["full"]
 """The p and q coefficients: what a translation may change."""

@@ -12,9 +12,9 @@ import torch
 from stable_baselines3 import PPO
 from torch import nn
 
-from tire_pipeline.translation.caution import failed_fits
 from tire_pipeline.translation.curiosity import Curiosity
 from tire_pipeline.translation.curve_translator import FARTHEST, MixedModel
+from tire_pipeline.translation.judge.shrinkage import failed_fits
 from tire_pipeline.translation.likelihood_environment import (
     REACH,
     STEPS,

@@ -74,8 +74,8 @@ class TranslationResult:
     method : str
         The translator's name.
     protocols : DataFrame
-        Categories that changed how they measure, see :func:`.effects.protocol_changes`; empty if none did. A
-        target that did is given by its newest protocol.
+        Categories that changed how they measure, see :func:`.judge.effects.protocol_changes`; empty if none
+        did. A target that did is given by its newest protocol.
     stiffness : Band, optional
         Of the cornering stiffness (N/rad, positive), with the one slip 0.
     """

@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.translation.caution import cautious
 from tire_pipeline.translation.curves.space import PARTS
+from tire_pipeline.translation.judge.shrinkage import cautious
 from tire_pipeline.translation.population.fit import Prepared, fit_curve_mixed_model, prepare
 from tire_pipeline.translation.population.mixed_effects import Design, posterior_weights
 from tire_pipeline.translation.population.model import CurveMixedModel

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tire_pipeline.translation.curves.space import PARTS, UNIT
-from tire_pipeline.translation.effects import KEY_PARTS, QUANTILE
+from tire_pipeline.translation.judge.effects import KEY_PARTS, QUANTILE
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 
 CERTAINTY = 0.90
