@@ -3,8 +3,8 @@
 import numpy as np
 from gymnasium.utils.env_checker import check_env
 
-from tire_pipeline.translation.curiosity import Curiosity
-from tire_pipeline.translation.likelihood_environment import (
+from tire_pipeline.translation.predict.curiosity import Curiosity
+from tire_pipeline.translation.predict.likelihood_environment import (
     REACH,
     STEPS,
     BatchLikelihoodEnvironment,

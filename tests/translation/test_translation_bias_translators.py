@@ -17,13 +17,13 @@ from tire_pipeline.translation.base import make_translator, translator_from_stat
 from tire_pipeline.translation.bias_report import at_each_load, bias_report
 from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel, PairedMixedModel
 from tire_pipeline.translation.curves.features import LOADS
-from tire_pipeline.translation.cycle_consistent import CycleConsistent
 from tire_pipeline.translation.decode.physics import SYMMETRY, violations
 from tire_pipeline.translation.greedy_forest import GreedyForest
 from tire_pipeline.translation.judge.bias_band import bias_band
 from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
 from tire_pipeline.translation.judge.shrinkage import DOUBTFUL, expected_gain, pooled_doubt
-from tire_pipeline.translation.likelihood_agent import CuriousAgent, LikelihoodAgent
+from tire_pipeline.translation.predict.cycle import CycleConsistent
+from tire_pipeline.translation.predict.policy import CuriousAgent, LikelihoodAgent
 from tire_pipeline.translation.result import (
     LEFT_ALONE,
     REFUSED,

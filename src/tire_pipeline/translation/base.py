@@ -15,12 +15,12 @@ TRANSLATORS: dict[str, tuple[str, str]] = {
     "no_change": ("tire_pipeline.translation.no_change", "NoChange"),
     "mixed_model": ("tire_pipeline.translation.curve_translator", "MixedModel"),
     "greedy_forest": ("tire_pipeline.translation.greedy_forest", "GreedyForest"),
-    "likelihood_agent": ("tire_pipeline.translation.likelihood_agent", "LikelihoodAgent"),
-    "curious_agent": ("tire_pipeline.translation.likelihood_agent", "CuriousAgent"),
-    "cycle_consistent": ("tire_pipeline.translation.cycle_consistent", "CycleConsistent"),
+    "likelihood_agent": ("tire_pipeline.translation.predict.policy", "LikelihoodAgent"),
+    "curious_agent": ("tire_pipeline.translation.predict.policy", "CuriousAgent"),
+    "cycle_consistent": ("tire_pipeline.translation.predict.cycle", "CycleConsistent"),
     "paired_mixed_model": ("tire_pipeline.translation.curve_translator", "PairedMixedModel"),
-    "batch_mixed_model": ("tire_pipeline.translation.batch_translator", "BatchMixedModel"),
-    "paired_batch_mixed_model": ("tire_pipeline.translation.batch_translator", "PairedBatchMixedModel"),
+    "batch_mixed_model": ("tire_pipeline.translation.predict.batch", "BatchMixedModel"),
+    "paired_batch_mixed_model": ("tire_pipeline.translation.predict.batch", "PairedBatchMixedModel"),
 }
 """Name of a translator -> module and class; imported only when asked for.
 

@@ -65,7 +65,7 @@ class TranslationResult:
         ``expected_rms_ratio`` (expected RMS error of the curves over that of the unchanged file),
         ``harm_probability``, ``bias_band`` (of the supplier's bias for this tire, 90%, in words),
         ``taught`` (by how many files of other tires that were translated with it, see
-        :mod:`.batch_translator`), ``protocol`` (under which of its category's protocols the file was
+        :mod:`.predict.batch`), ``protocol`` (under which of its category's protocols the file was
         measured, if that changed) and ``changes`` (what moved and why, in words).
     bands : dict of str to Band
         ``fy``, ``fx``, ``mz``; empty if the translator gives none.

@@ -41,7 +41,7 @@ def leave_one_tire_out(
     made : Prepared, optional
         What :func:`.population.fit.prepare` gave for the same.
     batch : DataFrame, optional
-        Source files that are to be translated, and teach as in :mod:`.batch_translator`: tells whether to
+        Source files that are to be translated, and teach as in :mod:`.predict.batch`: tells whether to
         let them. Files of tires that are in ``training`` do not.
 
     Returns

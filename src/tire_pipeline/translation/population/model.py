@@ -52,7 +52,7 @@ class Prediction:
     classes : ndarray, shape (n, k)
         Probability of each class of tire.
     taught : ndarray, shape (n,)
-        By how many files of other tires in the same batch: 0 but for :mod:`.batch_translator`.
+        By how many files of other tires in the same batch: 0 but for :mod:`.predict.batch`.
     """
 
     source: np.ndarray

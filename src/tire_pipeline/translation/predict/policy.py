@@ -12,18 +12,18 @@ import torch
 from stable_baselines3 import PPO
 from torch import nn
 
-from tire_pipeline.translation.curiosity import Curiosity
 from tire_pipeline.translation.curve_translator import FARTHEST, MixedModel
 from tire_pipeline.translation.judge.shrinkage import failed_fits
-from tire_pipeline.translation.likelihood_environment import (
+from tire_pipeline.translation.population.fit import Prepared
+from tire_pipeline.translation.population.model import Prediction
+from tire_pipeline.translation.predict.curiosity import Curiosity
+from tire_pipeline.translation.predict.likelihood_environment import (
     REACH,
     STEPS,
     BatchLikelihoodEnvironment,
     observe,
     situation_of,
 )
-from tire_pipeline.translation.population.fit import Prepared
-from tire_pipeline.translation.population.model import Prediction
 
 TIRES = 64
 ROLL_OUT = 48
