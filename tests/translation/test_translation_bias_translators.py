@@ -18,7 +18,6 @@ from tire_pipeline.translation.bias_report import at_each_load, bias_report
 from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel, PairedMixedModel
 from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.decode.physics import SYMMETRY, violations
-from tire_pipeline.translation.greedy_forest import GreedyForest
 from tire_pipeline.translation.judge.bias_band import bias_band
 from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
 from tire_pipeline.translation.judge.shrinkage import DOUBTFUL, expected_gain, pooled_doubt
@@ -33,6 +32,7 @@ from tire_pipeline.translation.result import (
     comment_lines,
     write_translated,
 )
+from tire_pipeline.translation.simple.greedy_forest import GreedyForest
 
 
 def _table(files):

@@ -12,9 +12,9 @@ from tire_pipeline.errors import DomainError
 
 TRANSLATORS: dict[str, tuple[str, str]] = {
     "agent": ("tire_pipeline.translation.thesis.translator", "AgentTranslator"),
-    "no_change": ("tire_pipeline.translation.no_change", "NoChange"),
+    "no_change": ("tire_pipeline.translation.simple.no_change", "NoChange"),
     "mixed_model": ("tire_pipeline.translation.curve_translator", "MixedModel"),
-    "greedy_forest": ("tire_pipeline.translation.greedy_forest", "GreedyForest"),
+    "greedy_forest": ("tire_pipeline.translation.simple.greedy_forest", "GreedyForest"),
     "likelihood_agent": ("tire_pipeline.translation.predict.policy", "LikelihoodAgent"),
     "curious_agent": ("tire_pipeline.translation.predict.policy", "CuriousAgent"),
     "cycle_consistent": ("tire_pipeline.translation.predict.cycle", "CycleConsistent"),

@@ -1,0 +1,1 @@
+"""Translators without a model of the bias: what the others are measured against."""
