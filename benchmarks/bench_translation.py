@@ -30,7 +30,6 @@ from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
 from tire_pipeline.translation.base import make_translator
-from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel, PairedMixedModel
 from tire_pipeline.translation.curves.pure_slip import (
     Points,
     aligning_torque,
@@ -42,6 +41,7 @@ from tire_pipeline.translation.curves.space import fit_curve_space
 from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
 from tire_pipeline.translation.population.fit import Prepared, prepare
 from tire_pipeline.translation.result import TRANSLATED, TranslationResult
+from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel, PairedMixedModel
 
 RESULTS = Path(__file__).parent / "results" / "translation.csv"
 ALWAYS = ("no_change", "greedy_forest", *MIXED)

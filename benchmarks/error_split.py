@@ -23,8 +23,8 @@ from joblib import Parallel, delayed
 from sklearn.linear_model import RidgeCV
 
 from tire_pipeline.evaluation import curves_of, evaluate_translations
-from tire_pipeline.translation.curve_translator import MixedModel, PairedMixedModel
 from tire_pipeline.translation.population.model import Prediction
+from tire_pipeline.translation.translator import MixedModel, PairedMixedModel
 
 PAGE = Path(__file__).parent.parent / "docs" / "explanation" / "translation_results.md"
 BEGIN = "<!-- from error_split.py -->"

@@ -13,13 +13,13 @@ from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
 from tire_pipeline.translation.base import make_translator, translator_from_state
-from tire_pipeline.translation.curve_translator import COEFFICIENTS
 from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
 from tire_pipeline.translation.population.fit import prepare
 from tire_pipeline.translation.population.mixed_effects import posterior_weights
 from tire_pipeline.translation.population.update import TaughtCells, _updated, learn_from
 from tire_pipeline.translation.predict.batch import BatchMixedModel, PairedBatchMixedModel
 from tire_pipeline.translation.result import comment_lines
+from tire_pipeline.translation.translator import COEFFICIENTS
 
 
 def _table(files):

@@ -15,7 +15,6 @@ from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
 from tire_pipeline.translation.base import make_translator, translator_from_state
 from tire_pipeline.translation.bias_report import at_each_load, bias_report
-from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel, PairedMixedModel
 from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.decode.physics import SYMMETRY, violations
 from tire_pipeline.translation.judge.bias_band import bias_band
@@ -33,6 +32,7 @@ from tire_pipeline.translation.result import (
     write_translated,
 )
 from tire_pipeline.translation.simple.greedy_forest import GreedyForest
+from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel, PairedMixedModel
 
 
 def _table(files):

@@ -13,12 +13,12 @@ from tire_pipeline.errors import DomainError
 TRANSLATORS: dict[str, tuple[str, str]] = {
     "agent": ("tire_pipeline.translation.thesis.translator", "AgentTranslator"),
     "no_change": ("tire_pipeline.translation.simple.no_change", "NoChange"),
-    "mixed_model": ("tire_pipeline.translation.curve_translator", "MixedModel"),
+    "mixed_model": ("tire_pipeline.translation.translator", "MixedModel"),
     "greedy_forest": ("tire_pipeline.translation.simple.greedy_forest", "GreedyForest"),
     "likelihood_agent": ("tire_pipeline.translation.predict.policy", "LikelihoodAgent"),
     "curious_agent": ("tire_pipeline.translation.predict.policy", "CuriousAgent"),
     "cycle_consistent": ("tire_pipeline.translation.predict.cycle", "CycleConsistent"),
-    "paired_mixed_model": ("tire_pipeline.translation.curve_translator", "PairedMixedModel"),
+    "paired_mixed_model": ("tire_pipeline.translation.translator", "PairedMixedModel"),
     "batch_mixed_model": ("tire_pipeline.translation.predict.batch", "BatchMixedModel"),
     "paired_batch_mixed_model": ("tire_pipeline.translation.predict.batch", "PairedBatchMixedModel"),
 }

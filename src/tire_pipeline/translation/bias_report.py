@@ -8,11 +8,11 @@ from itertools import combinations
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.curve_translator import COEFFICIENTS, MixedModel
 from tire_pipeline.translation.curves.features import GROUPS, LOADS
 from tire_pipeline.translation.curves.space import PARTS, UNIT
 from tire_pipeline.translation.judge.effects import KEY_PARTS, QUANTILE, difference, mean_of_loads
 from tire_pipeline.translation.population.model import CurveMixedModel, columns_of
+from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel
 
 _MOST_TIRES = 25
 

@@ -13,8 +13,8 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.representations.coefficients import DATASETS
 from tire_pipeline.tire_table import from_models, normalize_table
-from tire_pipeline.translation.curve_translator import FARTHEST
 from tire_pipeline.translation.result import EDGE, TRANSLATED, TranslationResult, comment_lines
+from tire_pipeline.translation.translator import FARTHEST
 
 COEFFICIENTS = DATASETS["full"]
 

@@ -7,8 +7,8 @@ from typing import Literal
 from pydantic import Field, field_validator
 
 from tire_pipeline.pipelines.parameters import Parameters
-from tire_pipeline.translation.curve_translator import FARTHEST
 from tire_pipeline.translation.result import EDGE
+from tire_pipeline.translation.translator import FARTHEST
 
 
 class TranslateParameters(Parameters):

@@ -9,11 +9,11 @@ from typing import Any, ClassVar, Self
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.curve_translator import MixedModel
 from tire_pipeline.translation.judge.shrinkage import cautious, without_failed_fits
 from tire_pipeline.translation.population.fit import Prepared, prepare
 from tire_pipeline.translation.population.model import Prediction
 from tire_pipeline.translation.population.update import TaughtCells, learn_from
+from tire_pipeline.translation.translator import MixedModel
 
 FOLDS = 5
 """Parts into which the tires of a batch are laid; a part is translated by what the others taught."""
@@ -32,7 +32,7 @@ class BatchMixedModel(MixedModel):
     Parameters
     ----------
     pairs, trust, gate, farthest
-        As in :class:`.curve_translator.MixedModel`. With pairs, tires of the batch that several categories
+        As in :class:`.translator.MixedModel`. With pairs, tires of the batch that several categories
         measured (same ``tire_id``) link these, too.
 
     Notes
@@ -46,7 +46,7 @@ class BatchMixedModel(MixedModel):
     def fit(
         self, training: pd.DataFrame, *, target: str, seed: int = 0, made: Prepared | None = None
     ) -> Self:
-        """Learn as :class:`.curve_translator.MixedModel` does, and keep what it takes to learn on."""
+        """Learn as :class:`.translator.MixedModel` does, and keep what it takes to learn on."""
         training = training.reset_index(drop=True)
         made = made or prepare(training, pairs=self.pairs)
         super().fit(training, target=target, seed=seed, made=made)

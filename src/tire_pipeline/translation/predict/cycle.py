@@ -15,10 +15,10 @@ import pandas as pd
 import torch
 from torch import nn
 
-from tire_pipeline.translation.curve_translator import MixedModel
 from tire_pipeline.translation.population.fit import Prepared
 from tire_pipeline.translation.population.model import Prediction
 from tire_pipeline.translation.predict.likelihood_environment import Situation, situation_of
+from tire_pipeline.translation.translator import MixedModel
 
 ROUNDS = 1500
 BATCH = 128

@@ -12,7 +12,6 @@ import torch
 from stable_baselines3 import PPO
 from torch import nn
 
-from tire_pipeline.translation.curve_translator import FARTHEST, MixedModel
 from tire_pipeline.translation.judge.shrinkage import failed_fits
 from tire_pipeline.translation.population.fit import Prepared
 from tire_pipeline.translation.population.model import Prediction
@@ -24,6 +23,7 @@ from tire_pipeline.translation.predict.likelihood_environment import (
     observe,
     situation_of,
 )
+from tire_pipeline.translation.translator import FARTHEST, MixedModel
 
 TIRES = 64
 ROLL_OUT = 48
@@ -38,7 +38,7 @@ class LikelihoodAgent(MixedModel):
     updates : int
         Roll-outs of 64 tires and 48 steps that it learns from.
     gate, farthest
-        As in :class:`.curve_translator.MixedModel`; the agent by itself never refuses.
+        As in :class:`.translator.MixedModel`; the agent by itself never refuses.
     """
 
     name: ClassVar[str] = "likelihood_agent"
