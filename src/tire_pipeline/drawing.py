@@ -12,6 +12,9 @@ from markupsafe import Markup
 from matplotlib import rc_context
 from matplotlib.figure import Figure as MplFigure
 from matplotlib.figure import FigureBase
+from matplotlib.text import Text
+
+from tire_pipeline.safe_page import visible
 
 F = TypeVar("F", bound=FigureBase)
 
@@ -29,6 +32,10 @@ STYLE: Any = {
     "svg.hashsalt": "tire-pipeline",
     "figure.constrained_layout.use": True,
 }
+
+_STYLE_ELEMENT = re.compile(
+    r'<style type="text/css">\*\{stroke-linejoin: round; stroke-linecap: butt\}</style>\s*'
+)
 
 
 def colour_of(index: int) -> str:
@@ -61,9 +68,24 @@ def new_figure(
     >>> _ = axes.plot([0, 1], [0, 1])
     """
     with rc_context(STYLE):
-        figure = MplFigure(figsize=(width, height))
+        figure = _Figure(figsize=(width, height))
         axes = figure.subplots(rows, columns, **options)
     return figure, axes
+
+
+class _Figure(MplFigure):
+    """A figure in which a dollar is a dollar: names of files and categories are no formulas."""
+
+    def draw(self, renderer: Any) -> None:
+        powers: set[Text] = set()
+        for axis in (each for axes in self.axes for each in (axes.xaxis, axes.yaxis)):
+            labels = axis.get_majorticklabels()  # brings them up to date, too
+            if axis.get_scale() != "linear":
+                powers.update(labels, axis.get_minorticklabels())
+        for text in self.findobj(Text):
+            if text not in powers:
+                text.set_parse_math(False)
+        super().draw(renderer)
 
 
 def inline_svg(figure: MplFigure) -> Markup:
@@ -71,12 +93,32 @@ def inline_svg(figure: MplFigure) -> Markup:
     buffer = io.StringIO()
     with rc_context(STYLE):
         figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
-    text = buffer.getvalue()
-    svg = text[text.index("<svg") :]
     svg = re.sub(
-        r'(<svg[^>]*?) width="[^"]*" height="[^"]*"|(<svg[^>]*?) height="[^"]*"', r"\1\2", svg, count=1
+        r'(<svg[^>]*?) width="[^"]*" height="[^"]*"|(<svg[^>]*?) height="[^"]*"',
+        r"\1\2",
+        buffer.getvalue(),
+        count=1,
     )
-    return Markup(svg)
+    return svg_element(svg)
+
+
+def svg_element(file: str) -> Markup:
+    """What Matplotlib wrote as an SVG file, as an element of a page that allows no styles but its own.
+
+    Parameters
+    ----------
+    file : str
+        Names in it (labels, legends) come out visible, see :func:`tire_pipeline.safe_page.visible`.
+
+    Returns
+    -------
+    Markup
+        Without the file's one ``<style>``; the root has what it says.
+    """
+    svg, count = _STYLE_ELEMENT.subn("", visible(file[file.index("<svg") :]))
+    if count != 1:
+        raise ValueError(f"Matplotlib wrote {count} other <style> elements than are known")
+    return Markup(svg.replace("<svg", '<svg stroke-linejoin="round" stroke-linecap="butt"', 1))
 
 
 def page_style() -> str:

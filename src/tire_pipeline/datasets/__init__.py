@@ -1,6 +1,7 @@
 """Kedro datasets: tire property files and recordings, folders of them, model states, pages."""
 
 from tire_pipeline.datasets.computed_folder import ComputedFolderDataset
+from tire_pipeline.datasets.csv_table import CsvTableDataset
 from tire_pipeline.datasets.folder import FolderDataset
 from tire_pipeline.datasets.html_page import HtmlPageDataset
 from tire_pipeline.datasets.ingest_store import IngestStoreDataset
@@ -14,6 +15,7 @@ from tire_pipeline.datasets.tir_folder import TirFolderDataset
 
 __all__ = [
     "ComputedFolderDataset",
+    "CsvTableDataset",
     "FolderDataset",
     "HtmlPageDataset",
     "IngestStoreDataset",

@@ -15,6 +15,8 @@ from tire_pipeline.atomic import write_bytes
 from tire_pipeline.errors import DomainError
 from tire_pipeline.lineage.descriptions import described
 from tire_pipeline.lineage.first_screen import prepared
+from tire_pipeline.lineage.page_policy import with_policy
+from tire_pipeline.reporting.embedded import data_element
 
 _FETCH = """
 (function () {
@@ -30,13 +32,15 @@ _FETCH = """
 """
 
 
-def one_page(build: Path) -> str:
+def one_page(build: Path, project: Path | None = None) -> str:
     """One self-contained page from a ``kedro viz build``.
 
     Parameters
     ----------
     build : Path
         The folder that ``kedro viz build`` wrote.
+    project : Path, optional
+        Show the descriptions of its datasets and nodes.
 
     Raises
     ------
@@ -54,7 +58,6 @@ def one_page(build: Path) -> str:
         for path in sorted((build / "api").rglob("*"))
         if path.is_file()
     }
-    data = json.dumps(api, separators=(",", ":")).replace("</", "<\\/")
     html = re.sub(r'<link rel="shortcut icon"[^>]*>', "", html)
     html = re.sub(
         r'<link rel="stylesheet"[^>]*href="\./([^"]+)"[^>]*>',
@@ -66,8 +69,11 @@ def one_page(build: Path) -> str:
         lambda found: f'<script type="module">{_inside(build / found[1])}</script>',
         html,
     )
-    head = f'<script type="application/json" id="api">{data}</script><script>{_FETCH}</script>'
-    return html.replace("<head>", f"<head>\n{head}", 1)
+    html = html.replace("<head>", f"<head>\n<script>{_FETCH}</script>", 1)
+    if project is not None:
+        html = described(html, project)
+    html = with_policy(html, served=False)
+    return html.replace("<head>", f"<head>\n{data_element('api', api)}", 1)  # last: no script of it may run
 
 
 def _inside(script: Path) -> str:
@@ -82,7 +88,7 @@ def main() -> None:
     parser.add_argument("page", type=Path)
     parser.add_argument("--project", type=Path, default=Path.cwd())
     arguments = parser.parse_args()
-    page = described(one_page(arguments.build), arguments.project.resolve())
+    page = one_page(arguments.build, arguments.project.resolve())
     write_bytes(arguments.page, page.encode())
     print(f"lineage: {arguments.page}")
 

@@ -11,6 +11,7 @@ from packaging.version import parse
 
 from tire_pipeline.lineage.descriptions import described
 from tire_pipeline.lineage.first_screen import prepared
+from tire_pipeline.lineage.page_policy import with_policy
 
 
 def main() -> None:
@@ -32,7 +33,8 @@ def main() -> None:
         shutil.copytree(apps._HTML_DIR, pages)
         index = pages / "index.html"
         html = prepared(index.read_text(encoding="utf-8"))
-        index.write_text(described(html, arguments.project.resolve(), arguments.env), encoding="utf-8")
+        html = described(html, arguments.project.resolve(), arguments.env)
+        index.write_text(with_policy(html, served=True), encoding="utf-8")
         (pages / "telemetry.html").write_text("</head>")  # never, whatever the folder's consent says
         apps._HTML_DIR = pages
         version.get_latest_version = lambda: parse(kedro_viz.__version__)  # it would ask pypi.org

@@ -11,7 +11,7 @@ import numpy as np
 from markupsafe import Markup
 from matplotlib.figure import Figure, FigureBase
 
-from tire_pipeline.drawing import captioned
+from tire_pipeline.drawing import captioned, svg_element
 from tire_pipeline.mismatch.report import MismatchReport
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
@@ -34,10 +34,8 @@ def svg(figure: Any) -> Markup:
     buffer = io.StringIO()
     with matplotlib.rc_context(_STYLE):
         figure.savefig(buffer, format="svg", metadata={"Date": None})
-    text = buffer.getvalue()
-    text = text[text.index("<svg") :]
-    text = re.sub(r'width="[^"]+pt" height="[^"]+pt"', 'class="figure"', text, count=1)
-    return Markup(text)
+    text = re.sub(r'width="[^"]+pt" height="[^"]+pt"', 'class="figure"', buffer.getvalue(), count=1)
+    return svg_element(text)
 
 
 def time_line(report: MismatchReport, output: str, figure: FigureBase | None = None) -> FigureBase:

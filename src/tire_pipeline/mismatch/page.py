@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
+from importlib.resources import files
 from pathlib import PurePath
 from typing import Any
 
-import jinja2
 from markupsafe import Markup
 
 from tire_pipeline.drawing import page_style
@@ -14,6 +14,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.figures import drawings
 from tire_pipeline.mismatch.report import EffectReport, MismatchReport, Visible
 from tire_pipeline.mismatch.words import amount, condition, gaussian, in_words, interval
+from tire_pipeline.safe_page import page_environment, policy
 
 _TOO_LITTLE = {"does not pay for itself": "too little evidence for its parameters"}
 
@@ -27,13 +28,9 @@ def render(report: MismatchReport, *, home: str = "") -> str:
     home : str
         Address of the page that links to this one.
     """
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("tire_pipeline.mismatch"),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined,
-    )
+    environment = page_environment("tire_pipeline.mismatch")
+    own = files("tire_pipeline.mismatch").joinpath("templates", "report.css").read_text("utf-8")
+    style = page_style() + own
     environment.filters |= {"number": number, "percent": percent, "condition": condition}
     errors = [(o, f) for o, f in report.fit.items() if math.isfinite(f.rms_before)]
     seen, silent = _visible(report.visible)
@@ -43,7 +40,8 @@ def render(report: MismatchReport, *, home: str = "") -> str:
         title=f"{name}: {report.verdict}",
         name=name,
         home=home,
-        style=Markup(page_style()),
+        style=Markup(style),
+        policy=policy(style=style, figures=True),
         drawings=drawings(report),
         errors=errors,
         conditions=any(f.held_out_condition for _, f in errors),

@@ -1,11 +1,9 @@
-"""Data inside a page: compressed, as text that can end no element; and what is allowed to run there."""
+"""Data inside a page: compressed, as text that can end no element."""
 
 from __future__ import annotations
 
 import base64
-import hashlib
 import json
-import unicodedata
 import zlib
 from typing import Any
 
@@ -50,34 +48,9 @@ def quantised(curves: np.ndarray, scale: np.ndarray) -> bytes:
     return flat.T.tobytes()
 
 
-def visible(text: object) -> str:
-    """Give a text from a file as it can be shown: control and direction characters by their code points."""
-    return "".join(
-        f"⟨U+{ord(each):04X}⟩" if unicodedata.category(each) in _UNSEEN and each != "\n" else each
-        for each in str(text)
-    )
-
-
-_UNSEEN = ("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp")
-
-
 def data_element(name: str, value: Any) -> str:
     """JSON as the content of ``<script type="application/json">``: no ``<``, ``>`` or ``&`` stands in it."""
     text = json.dumps(value, separators=(",", ":"), allow_nan=False)
     for each in "<>&":
         text = text.replace(each, f"\\u{ord(each):04x}")
     return f'<script type="application/json" id="{name}">{text}</script>'
-
-
-def source_hash(text: str) -> str:
-    """Hash of a script or style as a content security policy names it."""
-    digest = hashlib.sha256(text.encode("utf-8")).digest()
-    return f"'sha256-{base64.b64encode(digest).decode('ascii')}'"
-
-
-def policy(script: str, style: str) -> str:
-    """Allow one script and one style, and nothing else from anywhere."""
-    return (
-        f"default-src 'none'; script-src {source_hash(script)}; style-src {source_hash(style)}; "
-        "base-uri 'none'; form-action 'none'"
-    )

@@ -1,4 +1,4 @@
-"""Self-contained pages from a title and a list of parts; all text is escaped."""
+"""Self-contained pages from a title and a list of parts; all text is escaped, and none of it runs."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from urllib.parse import quote
 
-import jinja2
 import pandas as pd
 from markupsafe import Markup
 from matplotlib.figure import Figure as MplFigure
 
 from tire_pipeline.drawing import inline_svg, page_style
+from tire_pipeline.safe_page import page_environment, policy
 
 
 @dataclass(frozen=True)
@@ -174,15 +174,18 @@ def render_page(
     >>> "&lt;b&gt;" in render_page("<b>", [Text(["plain"])])
     True
     """
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("tire_pipeline.reporting"),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined,
-    )
-    return environment.get_template("page.html").render(
-        title=title, parts=parts, footer=footer, style=Markup(page_style())
+    style = page_style()
+    kinds = {part.kind for part in parts}
+    return (
+        page_environment("tire_pipeline.reporting")
+        .get_template("page.html")
+        .render(
+            title=title,
+            parts=parts,
+            footer=footer,
+            style=Markup(style),
+            policy=policy(style=style, figures="figure" in kinds, pictures="picture" in kinds),
+        )
     )
 
 

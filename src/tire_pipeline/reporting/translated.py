@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from importlib.resources import files as package_files
 from typing import Any
 
-import jinja2
 import numpy as np
 import pandas as pd
 from markupsafe import Markup
@@ -17,12 +16,11 @@ from tire_pipeline.reporting.embedded import (
     data_element,
     packed_bytes,
     packed_json,
-    policy,
     quantised,
-    visible,
 )
 from tire_pipeline.reporting.page import Table
 from tire_pipeline.reporting.translated_rows import COLUMNS, by_supplier, rows_of
+from tire_pipeline.safe_page import page_environment, policy, visible
 
 TOGETHER = 40
 """Files whose curves are compressed together, and opened together when one of them is clicked."""
@@ -80,19 +78,13 @@ def translated_page(
         "parts": _parts(order, curves, coefficients),
     }
     script, style = _text("translated.js"), page_style() + _text("translated.css")
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("tire_pipeline.reporting"),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined,
-    )
+    environment = page_environment("tire_pipeline.reporting")
     return environment.get_template("translated.html").render(
-        title=visible(title),
-        lines=[visible(line) for line in lines],
+        title=title,
+        lines=lines,
         suppliers=by_supplier(rows),
         tables=tables,
-        policy=policy(script, style),
+        policy=policy(style=style, scripts=[script]),
         style=Markup(style),
         script=Markup(script),
         data=Markup(data_element("data", data)),

@@ -1,0 +1,23 @@
+"""CSV tables that a person may open in a spreadsheet, whatever their texts are."""
+
+from __future__ import annotations
+
+import pandas as pd
+from kedro_datasets.pandas import CSVDataset
+
+from tire_pipeline.safe_csv import original_table, safe_table
+
+
+class CsvTableDataset(CSVDataset):
+    """``pandas.CSVDataset`` whose texts begin no formula in a spreadsheet; a load gives them as they were.
+
+    See :mod:`tire_pipeline.safe_csv`.
+    """
+
+    def load(self) -> pd.DataFrame:
+        """The table as it was saved."""
+        return original_table(super().load())
+
+    def save(self, data: pd.DataFrame) -> None:
+        """Write the table."""
+        super().save(safe_table(data))

@@ -1,0 +1,96 @@
+"""Pages show what stands in files and run nothing of it: all is escaped, under a policy of what may run."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import re
+import unicodedata
+from collections.abc import Iterable
+from typing import Any
+
+import jinja2
+
+_UNSEEN = ("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp")
+_PERHAPS_UNSEEN = re.compile(r"[^\n\x20-\x7e]")
+
+
+def visible(text: object) -> str:
+    r"""Give a text from a file as it can be shown: control and direction characters by their code points.
+
+    Examples
+    --------
+    >>> visible("a\u202erit.")
+    'a⟨U+202E⟩rit.'
+    """
+    return _PERHAPS_UNSEEN.sub(
+        lambda found: f"⟨U+{ord(found[0]):04X}⟩" if unicodedata.category(found[0]) in _UNSEEN else found[0],
+        str(text),
+    )
+
+
+def page_environment(package: str) -> jinja2.Environment:
+    """Templates of a package: what they show is escaped, and made visible first.
+
+    Parameters
+    ----------
+    package : str
+        Its folder ``templates`` holds them. What is not text from outside must be ``Markup``.
+
+    Returns
+    -------
+    jinja2.Environment
+    """
+    return jinja2.Environment(
+        loader=jinja2.PackageLoader(package),
+        autoescape=True,
+        finalize=_finalised,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+
+
+def _finalised(value: Any) -> Any:
+    return value if not isinstance(value, str) or hasattr(value, "__html__") else visible(value)
+
+
+def source_hash(text: str) -> str:
+    """Hash of a script or style as a content security policy names it."""
+    digest = hashlib.sha256(text.encode("utf-8")).digest()
+    return f"'sha256-{base64.b64encode(digest).decode('ascii')}'"
+
+
+def policy(
+    *, style: str, scripts: Iterable[str] = (), figures: bool = False, pictures: bool = False
+) -> str:
+    """Allow a page its own style and scripts, and nothing else from anywhere.
+
+    Parameters
+    ----------
+    style : str
+        What stands in its ``<style>``.
+    scripts : iterable of str
+        What stands in each of its ``<script>`` elements that run.
+    figures : bool
+        It shows figures of Matplotlib, which writes ``style`` attributes.
+    pictures : bool
+        It shows pictures that lie beside it.
+
+    Returns
+    -------
+    str
+        For ``<meta http-equiv="Content-Security-Policy">``.
+    """
+    runs = " ".join(map(source_hash, scripts))
+    return "; ".join(
+        [
+            "default-src 'none'",
+            *([f"script-src {runs}"] if runs else []),
+            f"style-src {source_hash(style)}",
+            *(["style-src-attr 'unsafe-inline'"] if figures else []),
+            "img-src 'self' file: data:" if pictures else "img-src data:",
+            "base-uri 'none'",
+            "form-action 'none'",
+        ]
+    )
