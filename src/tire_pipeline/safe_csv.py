@@ -1,4 +1,4 @@
-"""CSV tables that a spreadsheet opens as text: no cell of them begins a formula, and every character shows."""
+"""CSV tables that a spreadsheet opens as text: no cell begins a formula, and every character shows."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _ESCAPED = re.compile(r"⟨U\+([0-9A-F]{4,6})⟩")
 
 
 def safe_text(text: str) -> str:
-    r"""Give a cell as it is written: ``'`` before what would begin a formula, unseen characters by their codes.
+    r"""Give a cell as it is written: ``'`` before what begins a formula, unseen characters by their codes.
 
     Examples
     --------

@@ -1,12 +1,14 @@
 """Pages hold everything they need, and nothing of what they show can act."""
 
+import html
 import re
 
 import pandas as pd
 
 from tire_pipeline.reporting import Figure, Table, Text, inline_svg, new_figure, render_page
+from tire_pipeline.safe_page import source_hash
 
-HOSTILE = "<script>alert('x')</script>\"&"
+HOSTILE = "<script>alert('x')</script>\"&\u202e$\\frac$"
 
 
 def _page() -> str:
@@ -41,3 +43,32 @@ def test_numbers_are_rounded_and_long_tables_counted():
     page = render_page("t", [Table(pd.DataFrame({"x": [1.23456] * 5}), most_rows=2)])
     assert page.count("1.23<") == 2
     assert "3 further rows" in page
+
+
+def test_the_policy_names_the_one_style_and_allows_attributes_only_beside_figures():
+    page = _page()
+    policy = html.unescape(re.search(r'Content-Security-Policy" content="([^"]+)"', page)[1])
+    (style,) = re.findall(r"<style[^>]*>(.*?)</style>", page, re.S)
+    assert f"style-src {source_hash(style)};" in policy
+    assert policy.startswith("default-src 'none'; ")
+    assert "script-src" not in policy
+    assert "style-src-attr 'unsafe-inline'" in policy
+    plain = render_page("t", [Text(["no figure"])])
+    assert "unsafe-inline" not in plain
+    assert not re.search(r"\sstyle\s*=", plain)
+
+
+def test_direction_characters_are_shown_and_a_dollar_is_a_dollar():
+    page = _page()
+    assert "\u202e" not in page
+    assert page.count("⟨U+202E⟩$\\frac$") == page.count("alert(")
+
+
+def test_a_logarithmic_axis_keeps_its_powers_beside_names_with_dollars():
+    figure, axes = new_figure()
+    axes.plot([0, 1], [1, 1000])
+    axes.set_yscale("log")
+    axes.set_xticks([0, 1], ["$\\frac$", "a$b"])
+    svg = inline_svg(figure)
+    assert ">$\\frac$</text>" in svg
+    assert ">$\\mathdefault" not in svg

@@ -19,6 +19,8 @@ FILES_TO_EVALUATION = ["files", "features", "classifier", "translators", "evalua
 FILES_TO_TRANSLATION = ["files", "translators", "translation"]
 RECORDINGS_TO_PROOF = ["recordings", "mismatch", "proof"]
 STORIES = (FILES_TO_EVALUATION, FILES_TO_TRANSLATION, RECORDINGS_TO_PROOF)
+_RUN_A_SCRIPT = """const made = document.createElement('script');
+    made.textContent = 'window.ran = 1'; document.body.append(made); return window.ran === undefined"""
 SCREENSHOTS = ROOT / "data" / "08_reporting" / "screenshots"
 
 
@@ -59,6 +61,11 @@ def _asked_elsewhere(driver) -> list[str]:
     asked = [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
     network = [address for address in asked if address.startswith(("http", "ws"))]
     return [address for address in network if not address.startswith("http://127.0.0.1:")]
+
+
+def _refused(driver) -> list[str]:
+    """What the content security policy has stopped."""
+    return [e["message"] for e in driver.get_log("browser") if "Content Security Policy" in e["message"]]
 
 
 def _assert_story(driver) -> None:
@@ -126,6 +133,8 @@ def test_first_screen_then_a_pipeline_then_a_preview(project, tmp_path):
         _open_preview(driver)
         _keep(driver, "viz_preview.png")
         assert _asked_elsewhere(driver) == []
+        assert _refused(driver) == []
+        assert driver.execute_script(_RUN_A_SCRIPT)
 
 
 def test_the_build_opens_without_a_server(project, tmp_path):
@@ -150,6 +159,8 @@ def test_the_build_opens_without_a_server(project, tmp_path):
         _open_preview(driver)
         _keep(driver, "viz_one_page.png")
         assert _asked_elsewhere(driver) == []
+        assert _refused(driver) == []
+        assert driver.execute_script(_RUN_A_SCRIPT)
 
 
 def test_every_dataset_and_node_of_the_story_has_a_description():

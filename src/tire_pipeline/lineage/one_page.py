@@ -69,11 +69,12 @@ def one_page(build: Path, project: Path | None = None) -> str:
         lambda found: f'<script type="module">{_inside(build / found[1])}</script>',
         html,
     )
-    html = html.replace("<head>", f"<head>\n<script>{_FETCH}</script>", 1)
+    fetch = f"<script>{_FETCH}</script>"
+    html = html.replace("<head>", f"<head>\n{fetch}", 1)
     if project is not None:
         html = described(html, project)
     html = with_policy(html, served=False)
-    return html.replace("<head>", f"<head>\n{data_element('api', api)}", 1)  # last: no script of it may run
+    return html.replace(fetch, data_element("api", api) + fetch, 1)  # last: no script of it may run
 
 
 def _inside(script: Path) -> str:
