@@ -61,9 +61,7 @@ def source_hash(text: str) -> str:
     return f"'sha256-{base64.b64encode(digest).decode('ascii')}'"
 
 
-def policy(
-    *, style: str, scripts: Iterable[str] = (), figures: bool = False, pictures: bool = False
-) -> str:
+def policy(*, style: str, scripts: Iterable[str] = (), figures: bool = False, pictures: bool = False) -> str:
     """Allow a page its own style and scripts, and nothing else from anywhere.
 
     Parameters

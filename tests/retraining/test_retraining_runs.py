@@ -139,7 +139,8 @@ def test_files_that_arrive_before_and_during_a_run(tmp_path):
     assert first in before.models
     page = (folder / "data/08_reporting/retraining.html").read_text()
     assert "unchanged" in page
-    assert "http" not in page
+    assert "http:" not in page
+    assert "https:" not in page
 
 
 def test_a_killed_run_loses_nothing_and_the_next_ends_right(tmp_path):

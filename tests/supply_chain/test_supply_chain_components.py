@@ -8,9 +8,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-from cyclonedx.schema import SchemaVersion
-from cyclonedx.validation.json import JsonStrictValidator
-
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -23,9 +20,9 @@ def test_the_list_of_components_fits_the_schema_and_names_every_pinned_version(t
         [sys.executable, *command[1:]], cwd=ROOT, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
-    text = (tmp_path / "tire-pipeline.cdx.json").read_text(encoding="utf-8")
-    assert JsonStrictValidator(SchemaVersion.V1_6).validate_str(text) is None
-    listed = json.loads(text)
+    assert "--validate" in command  # by cyclonedx-python-lib, against the schema
+    listed = json.loads((tmp_path / "tire-pipeline.cdx.json").read_text(encoding="utf-8"))
+    assert (listed["bomFormat"], listed["specVersion"]) == ("CycloneDX", "1.6")
     assert listed["metadata"]["component"]["name"] == "tire-pipeline"
     found = {f"{each['name']}=={each['version']}" for each in listed["components"]}
     assert found == set((ROOT / "requirements.lock").read_text(encoding="utf-8").split())
