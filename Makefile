@@ -55,6 +55,7 @@ audit:
 
 # The wheel, and the list of components that it was tested with, beside it.
 build: install sbom
+	@rm -rf build
 	$(BIN)/python -m pip wheel --quiet --disable-pip-version-check --no-deps --wheel-dir $(DIST) .
 
 # CycloneDX 1.6, checked against its schema.
