@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from tire_pipeline.recordings.channels import CANONICAL, FURTHER
-from tire_pipeline.recordings.units import UNITS, find_unit
+from tire_pipeline.recordings.conventions.channels import CANONICAL, FURTHER
+from tire_pipeline.recordings.conventions.units import UNITS, find_unit
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "recordings.md"
 MARK = "<!-- {}: made by tests/recordings/test_recordings_docs.py -->"

@@ -11,10 +11,10 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.canonical import RawChannel, RawRecording
-from tire_pipeline.recordings.channels import find_channel
-from tire_pipeline.recordings.names import split_unit
-from tire_pipeline.recordings.units import find_unit
+from tire_pipeline.recordings.conventions.canonical import RawChannel, RawRecording
+from tire_pipeline.recordings.conventions.channels import find_channel
+from tire_pipeline.recordings.conventions.names import split_unit
+from tire_pipeline.recordings.conventions.units import find_unit
 
 _HEAD_BYTES = (1 << 16, 1 << 20, 1 << 24)  # the next where no row of numbers is whole in the one before
 _MOST_PREAMBLE = 200

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.channels import CANONICAL, FURTHER
+from tire_pipeline.recordings.conventions.channels import CANONICAL, FURTHER
 
 LEAST_GAP = 1.0
 """Least time between two recordings that are joined, s."""

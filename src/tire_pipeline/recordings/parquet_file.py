@@ -10,7 +10,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.canonical import RawChannel, RawRecording
+from tire_pipeline.recordings.conventions.canonical import RawChannel, RawRecording
 from tire_pipeline.recordings.limits import check_expansion
 
 

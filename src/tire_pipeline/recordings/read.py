@@ -9,11 +9,11 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.canonical import RawRecording, canonical_frame
+from tire_pipeline.recordings.conventions.canonical import RawRecording, canonical_frame
+from tire_pipeline.recordings.conventions.names import split_unit
 from tire_pipeline.recordings.csv_file import read_csv
 from tire_pipeline.recordings.mat_file import read_mat
 from tire_pipeline.recordings.mdf_file import read_mdf
-from tire_pipeline.recordings.names import split_unit
 from tire_pipeline.recordings.parquet_file import read_parquet
 from tire_pipeline.recordings.tydex_file import read_tydex
 

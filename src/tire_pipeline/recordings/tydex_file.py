@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.canonical import RawChannel, RawRecording
-from tire_pipeline.recordings.units import find_unit
+from tire_pipeline.recordings.conventions.canonical import RawChannel, RawRecording
+from tire_pipeline.recordings.conventions.units import find_unit
 
 # Columns of the parameter sections: key 1-10, comment 11-40, unit 41-50, values of ten each.
 _KEY, _COMMENT, _UNIT, _WIDTH = 10, 40, 50, 10

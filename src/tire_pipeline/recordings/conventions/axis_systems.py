@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.units import find_unit
+from tire_pipeline.recordings.conventions.units import find_unit
 
 _COMPONENT = {"normal_load": "z", "fx": "x", "fy": "y", "mx": "x", "my": "y", "mz": "z"}
 

@@ -10,9 +10,9 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.axis_systems import to_iso_w
-from tire_pipeline.recordings.channels import CANONICAL, Channel, find_channel
-from tire_pipeline.recordings.units import find_unit
+from tire_pipeline.recordings.conventions.axis_systems import to_iso_w
+from tire_pipeline.recordings.conventions.channels import CANONICAL, Channel, find_channel
+from tire_pipeline.recordings.conventions.units import find_unit
 
 _SI = {c.name: c.unit for c in CANONICAL}
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from tire_pipeline.recordings.channels import find_channel
-from tire_pipeline.recordings.units import find_unit
+from tire_pipeline.recordings.conventions.channels import find_channel
+from tire_pipeline.recordings.conventions.units import find_unit
 
 _BRACKETS = re.compile(r"^(.*?)\s*[\[(]([^\[\]()]*)[\])]\s*$")
 _SLASH = re.compile(r"^(\w+)\s*/\s*(.+)$")
