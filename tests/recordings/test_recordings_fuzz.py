@@ -22,7 +22,7 @@ from scipy.io.matlab import matfile_version
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.progress import track
 from tire_pipeline.recordings import check_recording, read_recording
-from tire_pipeline.recordings.mat_elements import check_elements
+from tire_pipeline.recordings.readers.mat_elements import check_elements
 
 SUFFIX = {"TYDEX": ".tdx", "CSV": ".csv", "MDF4": ".mf4", "MAT": ".mat", "Parquet": ".parquet"}
 QUICK, LONG = 400, 100_000  # for each of the five formats

@@ -11,11 +11,11 @@ import pandas as pd
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.canonical import RawRecording, canonical_frame
 from tire_pipeline.recordings.conventions.names import split_unit
-from tire_pipeline.recordings.csv_file import read_csv
-from tire_pipeline.recordings.mat_file import read_mat
-from tire_pipeline.recordings.mdf_file import read_mdf
-from tire_pipeline.recordings.parquet_file import read_parquet
-from tire_pipeline.recordings.tydex_file import read_tydex
+from tire_pipeline.recordings.readers.csv_file import read_csv
+from tire_pipeline.recordings.readers.mat_file import read_mat
+from tire_pipeline.recordings.readers.mdf_file import read_mdf
+from tire_pipeline.recordings.readers.parquet_file import read_parquet
+from tire_pipeline.recordings.readers.tydex_file import read_tydex
 
 READERS: dict[str, Callable[[Path], RawRecording]] = {
     "TYDEX": read_tydex,

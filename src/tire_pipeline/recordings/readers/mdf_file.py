@@ -8,7 +8,7 @@ import numpy as np
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.canonical import RawChannel, RawRecording
-from tire_pipeline.recordings.mdf_blocks import check_blocks
+from tire_pipeline.recordings.readers.mdf_blocks import check_blocks
 
 # MDF 4.1: data types 0 to 5 are integers and floats, channel type 1 is of changing length.
 _LARGEST_NUMERIC_TYPE, _VARIABLE_LENGTH = 5, 1

@@ -11,8 +11,8 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.canonical import RawChannel, RawRecording
 from tire_pipeline.recordings.conventions.channels import find_channel
 from tire_pipeline.recordings.conventions.names import split_unit
-from tire_pipeline.recordings.limits import check_expansion
-from tire_pipeline.recordings.mat_elements import check_elements
+from tire_pipeline.recordings.readers.limits import check_expansion
+from tire_pipeline.recordings.readers.mat_elements import check_elements
 
 _LEVEL_5 = 1  # of scipy's numbers: 0 is MATLAB's version 4, 2 is HDF5
 _HDF5 = b"\x89HDF\r\n\x1a\n"

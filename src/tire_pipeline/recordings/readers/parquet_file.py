@@ -11,7 +11,7 @@ import pyarrow.parquet as pq
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.canonical import RawChannel, RawRecording
-from tire_pipeline.recordings.limits import check_expansion
+from tire_pipeline.recordings.readers.limits import check_expansion
 
 
 def read_parquet(path: Path) -> RawRecording:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.limits import check_expansion
+from tire_pipeline.recordings.readers.limits import check_expansion
 
 _HEADER = struct.Struct("<4sI2Q")
 _FIRST_BLOCK = 64

@@ -14,7 +14,7 @@ import zlib
 from pathlib import Path
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.limits import check_expansion
+from tire_pipeline.recordings.readers.limits import check_expansion
 
 _HEADER = 128
 _COMPRESSED, _MATRIX = 15, 14
