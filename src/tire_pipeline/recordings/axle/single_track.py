@@ -10,9 +10,9 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.body_motion import BodyMotion, evenly_spaced, from_pose
-from tire_pipeline.recordings.sensor_motion import from_sensors
-from tire_pipeline.recordings.vehicle import GRAVITY, Vehicle
+from tire_pipeline.recordings.axle.body_motion import BodyMotion, evenly_spaced, from_pose
+from tire_pipeline.recordings.axle.sensor_motion import from_sensors
+from tire_pipeline.recordings.axle.vehicle import GRAVITY, Vehicle
 
 Array = NDArray[np.float64]
 Axle = Literal["front", "rear"]

@@ -7,14 +7,14 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.body_motion import BRIDGED_SAMPLES, BodyMotion, evenly_spaced
-from tire_pipeline.recordings.smoothing import (
+from tire_pipeline.recordings.axle.body_motion import BRIDGED_SAMPLES, BodyMotion, evenly_spaced
+from tire_pipeline.recordings.axle.smoothing import (
     Smoother,
     make_smoother,
     reached_by_gap,
     white_noise_std,
 )
-from tire_pipeline.recordings.vehicle import Vehicle
+from tire_pipeline.recordings.axle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 _NEEDED = ("speed", "yaw_rate", "lateral_acceleration")

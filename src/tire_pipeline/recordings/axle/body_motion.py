@@ -9,13 +9,13 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.smoothing import (
+from tire_pipeline.recordings.axle.smoothing import (
     Smoother,
     make_smoother,
     reached_by_gap,
     white_noise_std,
 )
-from tire_pipeline.recordings.vehicle import Vehicle
+from tire_pipeline.recordings.axle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 # Missing samples in a row that are bridged by a straight line; longer ones are cut out.

@@ -9,7 +9,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.vehicle import Vehicle
+from tire_pipeline.recordings.axle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 _FRAME = 0.01  # s: the capture's own clock; the stamps are times of arrival
