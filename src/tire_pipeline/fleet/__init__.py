@@ -1,10 +1,10 @@
 """The demonstration fleet: physical tires, six manufacturers' rigs and fits, ``.tir`` texts, sealed truth."""
 
-from .make import Fleet, make_fleet
-from .plan import FEATURES
-from .settings import MANUFACTURERS, FleetSettings
-from .truth import Truth, true_curves
-from .write import read_truth_tables, write_fleet
+from tire_pipeline.fleet.make import Fleet, make_fleet
+from tire_pipeline.fleet.plan import FEATURES
+from tire_pipeline.fleet.settings import MANUFACTURERS, FleetSettings
+from tire_pipeline.fleet.truth import Truth, true_curves
+from tire_pipeline.fleet.write import read_truth_tables, write_fleet
 
 __all__ = [
     "FEATURES",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .regimes import COMMON, MANUFACTURER_FIELDS, REGIMES
+from tire_pipeline.fleet.regimes import COMMON, MANUFACTURER_FIELDS, REGIMES
 
 
 def regimes_markdown() -> str:

@@ -8,9 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.progress import track
-
-from .formula import (
+from tire_pipeline.fleet.formula import (
     ALIGNING,
     LATERAL,
     LONGITUDINAL,
@@ -19,9 +17,10 @@ from .formula import (
     lateral,
     longitudinal,
 )
-from .habits import Habit, fit_setup, nominal_loads
-from .levenberg import Problem, solve
-from .rig import Sweeps
+from tire_pipeline.fleet.habits import Habit, fit_setup, nominal_loads
+from tire_pipeline.fleet.levenberg import Problem, solve
+from tire_pipeline.fleet.rig import Sweeps
+from tire_pipeline.progress import track
 
 CHUNK = 48  # tires fitted together: keeps the derivatives in the processor's cache
 FORCE_SCALE = 0.01  # residuals are counted in hundredths of the rated load

@@ -5,15 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.fleet.fits import FitTask, fit_all
+from tire_pipeline.fleet.habits import habit_of
+from tire_pipeline.fleet.plan import Plan
+from tire_pipeline.fleet.regimes import Regime, regime_of
+from tire_pipeline.fleet.rig import Sweeps, draw_sessions, measure_lateral, measure_longitudinal
+from tire_pipeline.fleet.settings import FleetSettings
+from tire_pipeline.fleet.tires import thermal_parameters
 from tire_pipeline.progress import track
-
-from .fits import FitTask, fit_all
-from .habits import habit_of
-from .plan import Plan
-from .regimes import Regime, regime_of
-from .rig import Sweeps, draw_sessions, measure_lateral, measure_longitudinal
-from .settings import FleetSettings
-from .tires import thermal_parameters
 
 INTERACTION = {"additive": 0.0, "interacting": 0.75, "drifting": 0.0}
 

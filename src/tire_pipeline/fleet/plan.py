@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from .settings import (
+from tire_pipeline.fleet.settings import (
     FOUR_TIRE_CATEGORIES,
     MANUFACTURERS,
     FileCounts,
     FleetSettings,
     file_counts,
 )
-from .tires import draw_tires
+from tire_pipeline.fleet.tires import draw_tires
 
 # The 11 lateral coefficients without camber; see docs/explanation/fleet.md for why PEY3 is not among them.
 FEATURES: tuple[str, ...] = (

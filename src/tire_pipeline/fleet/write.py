@@ -12,8 +12,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
-
-from .make import Fleet
+from tire_pipeline.fleet.make import Fleet
 
 
 def write_fleet(fleet: Fleet, raw_folder: str | Path) -> dict[str, Path]:
