@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tire_pipeline.fleet.regimes import COMMON, MANUFACTURER_FIELDS, REGIMES
+from tire_pipeline.fleet.rig.regimes import COMMON, MANUFACTURER_FIELDS, REGIMES
 
 
 def regimes_markdown() -> str:

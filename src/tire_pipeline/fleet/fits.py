@@ -19,7 +19,7 @@ from tire_pipeline.fleet.formula import (
 )
 from tire_pipeline.fleet.habits import Habit, fit_setup, nominal_loads
 from tire_pipeline.fleet.levenberg import Problem, solve
-from tire_pipeline.fleet.rig import Sweeps
+from tire_pipeline.fleet.rig.sweeps import Sweeps
 from tire_pipeline.progress import track
 
 CHUNK = 48  # tires fitted together: keeps the derivatives in the processor's cache

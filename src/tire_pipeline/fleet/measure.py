@@ -8,8 +8,8 @@ import pandas as pd
 from tire_pipeline.fleet.fits import FitTask, fit_all
 from tire_pipeline.fleet.habits import habit_of
 from tire_pipeline.fleet.plan import Plan
-from tire_pipeline.fleet.regimes import Regime, regime_of
-from tire_pipeline.fleet.rig import Sweeps, draw_sessions, measure_lateral, measure_longitudinal
+from tire_pipeline.fleet.rig.regimes import Regime, regime_of
+from tire_pipeline.fleet.rig.sweeps import Sweeps, draw_sessions, measure_lateral, measure_longitudinal
 from tire_pipeline.fleet.settings import FleetSettings
 from tire_pipeline.fleet.tires import thermal_parameters
 from tire_pipeline.progress import track

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.fleet.regimes import Regime
+from tire_pipeline.fleet.rig.regimes import Regime
 
 
 def other_values(

@@ -61,7 +61,7 @@ def draw_tires(count: int, rng: np.random.Generator, first: int = 0) -> pd.DataF
     pandas.DataFrame
         One row a tire, indexed ``T0000`` on. Metadata columns (``UNLOADED_RADIUS`` m, ``WIDTH`` m,
         ``ASPECT_RATIO``, ``RIM_RADIUS`` m, ``RIM_WIDTH`` m, ``MASS`` kg, ``NOMPRES`` Pa,
-        ``load_index`` kg), ``compound``, and the parameters of :mod:`.true_forces`.
+        ``load_index`` kg), ``compound``, and the parameters of :mod:`.rig.true_forces`.
     """
     size = np.array(SIZES)[rng.integers(len(SIZES), size=count)]
     width, aspect = size[:, 0] / 1000.0, size[:, 1] / 100.0

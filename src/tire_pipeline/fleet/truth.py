@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.fleet.regimes import COMMON
-from tire_pipeline.fleet.true_forces import REFERENCE_TEMPERATURE, Contact, in_contact, lateral
+from tire_pipeline.fleet.rig.regimes import COMMON
+from tire_pipeline.fleet.rig.true_forces import REFERENCE_TEMPERATURE, Contact, in_contact, lateral
 
 CURVE_LOADS = (4000.0, 6000.0, 8000.0)
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.fleet.regimes import Regime
-from tire_pipeline.fleet.true_forces import Contact, TrueTires, in_contact, lateral, longitudinal
+from tire_pipeline.fleet.rig.regimes import Regime
+from tire_pipeline.fleet.rig.true_forces import Contact, TrueTires, in_contact, lateral, longitudinal
 
 SAMPLES = 48  # a direction of a sweep, before decimation
 DECIMATE = 2
