@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.optimize import least_squares
 
-from tire_pipeline.fleet.levenberg import Problem, solve
+from tire_pipeline.fleet.fits.levenberg import Problem, solve
 
 
 def _model(x: np.ndarray):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.fleet.fits import FitTask, fit_all
-from tire_pipeline.fleet.habits import habit_of
+from tire_pipeline.fleet.fits.fit import FitTask, fit_all
+from tire_pipeline.fleet.fits.habits import habit_of
 from tire_pipeline.fleet.plan import Plan
 from tire_pipeline.fleet.rig.regimes import Regime, regime_of
 from tire_pipeline.fleet.rig.sweeps import Sweeps, draw_sessions, measure_lateral, measure_longitudinal

@@ -25,7 +25,7 @@ def other_values(
     tires : pandas.DataFrame
         n physical tires.
     coefficients : pandas.DataFrame
-        n rows of :func:`.fits.fit_all`.
+        n rows of :func:`.fits.fit.fit_all`.
     regime : Regime
     condition : pandas.DataFrame
         n rows with ``pressure``.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tire_pipeline.fleet.formula import ALIGNING, LATERAL, LONGITUDINAL
+from tire_pipeline.fleet.fits.formula import ALIGNING, LATERAL, LONGITUDINAL
 
 _COMBINED_X = ["RBX1", "RBX2", "RCX1", "REX1", "REX2", "RHX1"]
 _COMBINED_Y = [

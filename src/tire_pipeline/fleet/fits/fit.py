@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.fleet.formula import (
+from tire_pipeline.fleet.fits.formula import (
     ALIGNING,
     LATERAL,
     LONGITUDINAL,
@@ -17,8 +17,8 @@ from tire_pipeline.fleet.formula import (
     lateral,
     longitudinal,
 )
-from tire_pipeline.fleet.habits import Habit, fit_setup, nominal_loads
-from tire_pipeline.fleet.levenberg import Problem, solve
+from tire_pipeline.fleet.fits.habits import Habit, fit_setup, nominal_loads
+from tire_pipeline.fleet.fits.levenberg import Problem, solve
 from tire_pipeline.fleet.rig.sweeps import Sweeps
 from tire_pipeline.progress import track
 

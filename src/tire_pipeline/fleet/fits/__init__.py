@@ -1,0 +1,1 @@
+"""From raw sweeps to coefficients, by each manufacturer's own fit."""
