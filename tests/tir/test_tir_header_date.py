@@ -5,7 +5,7 @@ import datetime as dt
 import pytest
 from tir_samples import PUBLIC, need_shared
 
-from tire_pipeline.fleet.tir_text import HANDS
+from tire_pipeline.fleet.files.tir_text import HANDS
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tir.header_date import measurement_date
 

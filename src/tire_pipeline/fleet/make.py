@@ -8,11 +8,11 @@ from dataclasses import asdict, dataclass
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.fleet.files.other_values import other_values
+from tire_pipeline.fleet.files.tir_text import Template, hand_of
 from tire_pipeline.fleet.measure import measure_all, regimes_of
-from tire_pipeline.fleet.other_values import other_values
 from tire_pipeline.fleet.plan import EVALUATION_SETS, Plan, make_plan
 from tire_pipeline.fleet.settings import FleetSettings
-from tire_pipeline.fleet.tir_text import Template, hand_of
 from tire_pipeline.fleet.truth import Truth, true_curves
 
 _FIRST_DAY = dt.date(2011, 1, 10)

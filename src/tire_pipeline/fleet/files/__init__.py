@@ -1,0 +1,1 @@
+"""What a manufacturer writes into a file, and how."""
