@@ -10,6 +10,7 @@ import pandas as pd
 from matplotlib.figure import Figure as MplFigure
 
 from tire_pipeline.reporting import MARKERS, colour_of, new_figure
+from tire_pipeline.thesis.agent_figures import AGENT_FIGURES
 from tire_pipeline.thesis.results import Results, in_words
 
 SPLITS = ("random", "by_tire")
@@ -23,8 +24,6 @@ BIN_FIGURES = {
 
 def all_figures(results: Results) -> dict[str, MplFigure]:
     """Draw every figure for which there are results."""
-    from tire_pipeline.thesis.agent_figures import AGENT_FIGURES
-
     made = {}
     for name, draw in {**CLASSIFIER_FIGURES, **AGENT_FIGURES}.items():
         figure = draw(results)

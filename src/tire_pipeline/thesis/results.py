@@ -9,8 +9,6 @@ from typing import Any
 
 import pandas as pd
 
-from tire_pipeline.reporting import inline_svg
-from tire_pipeline.safe_csv import safe_table
 from tire_pipeline.thesis.published import published_agents
 
 CELL = ["algorithm", "reward", "representation", "n_bins"]
@@ -125,14 +123,3 @@ def over_trainings(scores: pd.DataFrame, columns: Sequence[str] = ("accuracy", "
 def in_words(name: Any) -> str:
     """What the page calls it."""
     return WORDS.get(str(name), str(name))
-
-
-def result_files(results: Results) -> dict[str, str]:
-    """Give every table as CSV and every figure as SVG, by file name."""
-    from tire_pipeline.thesis.figures import all_figures
-
-    out = {f"{name}.csv": safe_table(frame).to_csv(index=False) for name, frame in results.frames.items()}
-    out["tables_5_10_to_5_21.csv"] = safe_table(results.beside).to_csv(index=False)
-    for name, figure in all_figures(results).items():
-        out[f"{name}.svg"] = '<?xml version="1.0" encoding="UTF-8"?>\n' + str(inline_svg(figure))
-    return out

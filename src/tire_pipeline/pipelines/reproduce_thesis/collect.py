@@ -10,7 +10,8 @@ import pandas as pd
 from tire_pipeline.pipelines.reproduce_thesis.experiments import together
 from tire_pipeline.pipelines.reproduce_thesis.parameters import ReproduceThesisParameters
 from tire_pipeline.thesis.page import thesis_page
-from tire_pipeline.thesis.results import Results, result_files
+from tire_pipeline.thesis.result_files import result_files
+from tire_pipeline.thesis.results import Results
 
 Folder = Mapping[str, Callable[[], bytes]]
 #: Order of the experiments among the inputs of ``collect``.

@@ -1,0 +1,17 @@
+"""The results of ``reproduce_thesis`` as files: every table as CSV, every figure as SVG."""
+
+from __future__ import annotations
+
+from tire_pipeline.reporting import inline_svg
+from tire_pipeline.safe_csv import safe_table
+from tire_pipeline.thesis.figures import all_figures
+from tire_pipeline.thesis.results import Results
+
+
+def result_files(results: Results) -> dict[str, str]:
+    """Give every table as CSV and every figure as SVG, by file name."""
+    out = {f"{name}.csv": safe_table(frame).to_csv(index=False) for name, frame in results.frames.items()}
+    out["tables_5_10_to_5_21.csv"] = safe_table(results.beside).to_csv(index=False)
+    for name, figure in all_figures(results).items():
+        out[f"{name}.svg"] = '<?xml version="1.0" encoding="UTF-8"?>\n' + str(inline_svg(figure))
+    return out
