@@ -44,6 +44,8 @@ from tire_pipeline.mismatch.state import Search, begin, beside, log_likelihood, 
 
 __all__ = ["Search", "begin", "gain_of", "objective", "prune", "run", "with_shapes"]
 
+_NO_BETTER = "sweeps that its fit has not seen are predicted no better with it"
+
 
 def run(search: Search) -> None:
     """Find the effects beside those that are in; the result is in ``search.fit`` and ``search.gates``."""
@@ -217,6 +219,10 @@ def _take(search: Search, fits: list[Fit]) -> bool:
         search.refused.update(reasons(search, gates))
         if not ok and len(gates) == 1 and gates[0].explains_most:
             search.nearly.add(fit.names[0])
+        if ok and makes_worse(search, fit):
+            search.log.append("held-out sweeps are predicted no better")
+            search.refused[fit.names[-1]] = _NO_BETTER
+            continue
         if ok:
             search.fit, search.gates = fit, gates
             search.doubted.pop(len(fit.names), None)
@@ -362,11 +368,11 @@ def _withdraw(search: Search) -> None:
             _drop(search, worst_one)
             _eliminate(search)
             continue
-        if makes_worse(search):
+        if makes_worse(search, search.fit):
             weakest = int(np.argmin([g.gain for g in search.gates]))
             name = search.fit.names[weakest]
             search.withdrawn.append(name)
-            search.refused[name] = "sweeps that its fit has not seen are predicted no better with it"
+            search.refused[name] = _NO_BETTER
             search.log.append(f"withdrawn {name}: held-out sweeps")
             _drop(search, weakest)
             _eliminate(search)
