@@ -112,6 +112,7 @@ class System:
         self.white = {o: noise[o].whiten(columns[o], data.start)[self._order] for o in data.outputs}
         self._gram = {o: self._by_block(w, w) for o, w in self.white.items()}
         self.scale = scale
+        self._begin()
         self._factor()
 
     def rescaled(self, scale: dict[str, Array]) -> System:
@@ -136,6 +137,7 @@ class System:
             bottom = np.concatenate([cross.transpose(0, 2, 1), own], axis=2)
             other._gram[o] = np.concatenate([top, bottom], axis=1)
         other.scale = {o: np.concatenate([self.scale[o], scale[o]]) for o in scale}
+        other._begin()
         other._factor()
         return other
 
@@ -146,20 +148,27 @@ class System:
             out[k] = a[piece].T @ b[piece]
         return out
 
+    def _begin(self) -> None:
+        """Sum over sweeps, and keep factors by scale: sizes are learnt by trying the same ones again."""
+        self._total = {o: g.sum(axis=0) for o, g in self._gram.items()}
+        self._factors: dict[tuple[str, bytes], Any] = {}
+
     def _factor(self) -> None:
         self._chol: dict[Any, Any] = {}
         self._without: dict[Any, Any] = {}
-        for o, g in self._gram.items():
+        for o, total in self._total.items():
             s = self.scale[o]
-            total = g.sum(axis=0) * s[:, None] * s[None, :]
-            self._chol[o] = scipy.linalg.cho_factor(total + np.eye(s.size))
+            key = (o, s.tobytes())
+            if key not in self._factors:
+                scaled = total * s[:, None] * s[None, :]
+                self._factors[key] = scipy.linalg.cho_factor(scaled + np.eye(s.size))
+            self._chol[o] = self._factors[key]
 
     def _leave_out(self, o: str) -> Array:
         """Inverse matrices with each sweep left out, shape (blocks, q, q)."""
         if o not in self._without:
             s = self.scale[o]
-            total = self._gram[o].sum(axis=0)
-            a = (total[None] - self._gram[o]) * s[None, :, None] * s[None, None, :] + np.eye(s.size)
+            a = (self._total[o][None] - self._gram[o]) * s[None, :, None] * s[None, None, :] + np.eye(s.size)
             self._without[o] = np.linalg.inv(a)
         return self._without[o]
 
