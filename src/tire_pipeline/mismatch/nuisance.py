@@ -324,7 +324,7 @@ def _gaussian_process(
 ) -> tuple[Array, Array, Array]:
     """Nystrom features of a squared-exponential kernel at inducing points spread over data and grid.
 
-    The misfit is small where the force itself is nil: at zero slip (and zero camber), at small load.
+    The misfit is small where the force itself is zero: at zero slip (and zero camber), at small load.
     A tire is its own mirror image but for ply steer and conicity, which the fit of a file takes up:
     the misfit of Fy changes its sign in the mirror, that of Fx does not, and what breaks this is
     ``ASYMMETRY_SHARE`` of it.

@@ -48,7 +48,7 @@ def denoise(x: Array, start: Array) -> Array:
 
 
 def _noise(x: Array, start: Array) -> tuple[float, float]:
-    """Size of the noise and its correlation from one sample to the next; nil for a set point."""
+    """Size of the noise and its correlation from one sample to the next; zero for a set point."""
     d = x[2:] - 2.0 * x[1:-1] + x[:-2]
     d = d[~(start[2:] | start[1:-1])]
     if d.size < 50 or np.mean(d == 0.0) > 0.3:

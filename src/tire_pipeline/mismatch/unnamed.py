@@ -131,7 +131,7 @@ def _beyond_place(data: Data, driver: Array, name: str) -> Array:
 
 
 def _from_rest(level: Array, gain: Array) -> Array:
-    """Follow a level with a lag, from nil at the first sample."""
+    """Follow a level with a lag, from zero at the first sample."""
     first = np.zeros(level.size, bool)
     first[0] = True
     begun = level.copy()

@@ -49,7 +49,7 @@ class CombinedSlip(Effect):
     def starts(self, data: object) -> list[dict[str, float]]:
         """From the file's own values, or typical ones where it has none.
 
-        Near nil the weighting does not answer to a coefficient at first order, and a fit would stay there.
+        Near zero the weighting does not answer to a coefficient at first order, and a fit would stay there.
         """
         c = data.tire_coefficients  # type: ignore[attr-defined]
         own = {n: float(c.get(n, 0.0)) for n in _NAMES}
