@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.mismatch.corrected import CorrectedModel
+from tire_pipeline.mismatch.corrected import CorrectedModel, rms
 from tire_pipeline.mismatch.refit import residual
 from tire_pipeline.mismatch.report import OutputFit
 from tire_pipeline.mismatch.search import Search
@@ -51,7 +51,7 @@ def as_recorded(
     if moments:
         there = simulate_moments(search.data, search.fit.changes, moments)
         here |= {o: search.data.channels[o] - there[o] for o in moments}
-    inside = {o: _size(r) for o, r in here.items()}
+    inside = {o: rms(r) for o, r in here.items()}
     return {o: _moved(f, o, before[o], after[o], inside[o], recording, same) for o, f in fit.items()}
 
 
@@ -63,16 +63,10 @@ def _errors(
     return {o: (recording[o] - predicted[o]).to_numpy(float) for o in outputs}
 
 
-def _size(x: Array) -> float:
-    """Root mean square of what is finite."""
-    x = x[np.isfinite(x)]
-    return float(np.sqrt(np.mean(x**2))) if x.size else float("nan")
-
-
 def _moved(
     f: OutputFit, output: str, before: Array, after: Array, inside: float, recording: pd.DataFrame, same: bool
 ) -> OutputFit:
-    first, last = _size(before), _size(after)
+    first, last = rms(before), rms(after)
     further = last**2 - inside**2
 
     def at_rows(value: float) -> float:
@@ -93,7 +87,7 @@ def _moved(
         else float("nan"),
     }
     if rows is not None and np.isfinite(f.rms_condition_before):
-        there = _size(before[rows])
+        there = rms(before[rows])
         changed["rms_condition_before"] = there
         if same:
             changed["rms_condition_after"] = there

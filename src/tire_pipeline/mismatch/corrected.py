@@ -114,11 +114,11 @@ class CorrectedModel:
         plain = replace(self, cleaned={})
         channels = plain._data(recording).channels
         start = _pieces(recording["time"].to_numpy(dtype=float), len(recording))
-        noise = {n: _size(channels[n] - denoise(channels[n], start)) for n in self.cleaned}
+        noise = {n: rms(channels[n] - denoise(channels[n], start)) for n in self.cleaned}
         clean = replace(self, cleaned=noise)
         names = [o for o in self.outputs if o in recording]
         left = [
-            sum(_size(recording[o] - frame[o]) ** 2 / max(_size(recording[o]) ** 2, 1e-300) for o in names)
+            sum(rms(recording[o] - frame[o]) ** 2 / max(rms(recording[o]) ** 2, 1e-300) for o in names)
             for frame in (clean.predict(recording), plain.predict(recording))
         ]
         return clean if left[0] < left[1] else plain
@@ -231,12 +231,14 @@ def _without_noise(x: Array, start: Array, noise: float) -> Array:
     A sensor's noise is the same in every recording. What fluctuates more moves, which only forces could tell.
     """
     smooth = denoise(x, start)
-    return smooth if _size(x - smooth) < _SAME_NOISE * noise else x
+    return smooth if rms(x - smooth) < _SAME_NOISE * noise else x
 
 
-def _size(x: Array | pd.Series) -> float:
-    """Root mean square of what is finite."""
-    return float(np.sqrt(np.nanmean(np.square(np.asarray(x, float)))))
+def rms(x: Array | pd.Series) -> float:
+    """Root mean square of what is finite; NaN where nothing is."""
+    values = np.asarray(x, float)
+    values = values[np.isfinite(values)]
+    return float(np.sqrt(np.mean(values**2))) if values.size else float("nan")
 
 
 def _pieces(time: Array | None, n: int) -> Array:

@@ -21,7 +21,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.intervals import standard_errors
 from tire_pipeline.mismatch.locate import AXES, everywhere, locate, when, where
-from tire_pipeline.mismatch.proof import prove, prove_moments, recorded_moments
+from tire_pipeline.mismatch.proof import prove, prove_moments, recorded_moments, shares_left
 from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.remainder import remainder
 from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFit, Remainder
@@ -100,8 +100,7 @@ def _search(search: Search, prepared: Prepared) -> None:
 def _removed(search: Search) -> float:
     """Share of the squared mismatch that the effects remove, of the force that has the least."""
     left = residual(search.data, search.fit.changes)
-    before = residual(search.data, [])
-    return min(1.0 - float(np.sum(left[o] ** 2) / np.sum(before[o] ** 2)) for o in search.data.outputs)
+    return 1.0 - max(shares_left(left, residual(search.data, [])).values())
 
 
 def _refit(search: Search, prepared: Prepared) -> None:

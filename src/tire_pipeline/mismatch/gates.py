@@ -111,7 +111,8 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
             less = _least(search, s, reduced, rest_without) - _least(search, s, fit, rest)
             gains.append(0.5 * less / search.inflation - search.price * count)
         held = residual(search.data, fit.others(i))
-        own_part = _shown(search, held, rest)
+        part = _part(held, rest)
+        own_part = _shown(search, part)
         removed = max(_removed(search, floors, r, rest, own_part[1]) for r in (rest_without, held))
         share = removed / total
         there = min(mismatch_of(r, floors) for r in (rest_without, held))
@@ -128,7 +129,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
                 blocks=search.system.count,
                 least_gain=_least_gain(fit.names, i, share),
                 least_share=least_share(fit.names, i, gains[0], there / total)
-                * float(np.mean(np.isin(search.block, own_part[1]))),
+                * part_of_samples(search, part),
                 least_loose=settings.LEAST_LOOSE,
             )
         )
@@ -288,18 +289,27 @@ def _removed(
 def share_of_sweeps(search: Search, fit: Fit, index: int) -> float:
     """Return the part of the samples that lie in sweeps in which an effect of a set shows."""
     rest, held = residual(search.data, fit.changes), residual(search.data, fit.others(index))
-    return float(np.mean(np.isin(search.block, _shown(search, held, rest)[1])))
+    return part_of_samples(search, _part(held, rest))
 
 
-def _shown(search: Search, held: dict[str, Array], rest: dict[str, Array]) -> tuple[Array, Array]:
-    """Return the energy of an effect at each sample, and the sweeps in which it shows.
+def part_of_samples(search: Search, part: dict[str, Array]) -> float:
+    """Return the part of the samples that lie in sweeps in which what an effect does (N) shows."""
+    return float(np.mean(np.isin(search.block, _shown(search, part)[1])))
 
-    By what it does in the fit, not by how well it does it: from what the set leaves without it, the others as
-    they stand, and with it.
+
+def _part(held: dict[str, Array], rest: dict[str, Array]) -> dict[str, Array]:
+    """What an effect does in the fit: what is left without it, the others as they stand, less the rest."""
+    return {o: held[o] - rest[o] for o in held}
+
+
+def _shown(search: Search, part: dict[str, Array]) -> tuple[Array, Array]:
+    """Return the energy of what an effect does at each sample, and the sweeps in which it shows.
+
+    By what it does, not by how well it does it.
     """
     energy = np.zeros(search.data.size)
     for o in search.data.outputs:
-        energy += ((held[o] - rest[o]) / search.noise[o].sigma) ** 2
+        energy += (part[o] / search.noise[o].sigma) ** 2
     sums = np.bincount(search.block, energy, search.system.count)
     return energy, np.flatnonzero(sums > 0.1 * np.mean(sums))
 

@@ -164,14 +164,15 @@ def makes_worse(search: Search, fit: Fit) -> bool:
     was weighed. One sweep at a time: without the highest load as a whole, what changes a pressure's effect
     with load is open, and a true pressure leaves four times as much there (calspan).
     """
-    return bool(fit.names) and _power(_left_out(search, fit), residual(search.data, [])) >= 1.0
+    if not fit.names:
+        return False
+    shares = shares_left(_left_out(search, fit), residual(search.data, []))
+    return float(np.mean(list(shares.values()))) >= 1.0
 
 
-def _power(after: dict[str, Array], before: dict[str, Array]) -> float:
-    """Mean square of what is left over that of the mismatch, mean over the outputs."""
-    return float(
-        np.mean([np.mean(after[o] ** 2) / max(float(np.mean(before[o] ** 2)), 1e-300) for o in after])
-    )
+def shares_left(after: dict[str, Array], before: dict[str, Array]) -> dict[str, float]:
+    """Mean square of what is left over that of the mismatch, by output."""
+    return {o: float(np.mean(after[o] ** 2) / max(float(np.mean(before[o] ** 2)), 1e-300)) for o in after}
 
 
 def held_out_condition(data: Data) -> tuple[str, Array | None]:

@@ -45,6 +45,7 @@ from tire_pipeline.mismatch.state import Search, begin, beside, log_likelihood, 
 __all__ = ["Search", "begin", "gain_of", "objective", "prune", "run", "with_shapes"]
 
 _NO_BETTER = "sweeps that its fit has not seen are predicted no better with it"
+_OF_SOME_LOADS = "loads that its fit has not seen are predicted no better with it"
 
 
 def run(search: Search) -> None:
@@ -361,21 +362,11 @@ def _withdraw(search: Search) -> None:
     while search.fit.names:
         worst_one = _of_some_loads(search)
         if worst_one is not None:
-            name = search.fit.names[worst_one]
-            search.withdrawn.append(name)
-            search.refused[name] = "loads that its fit has not seen are predicted no better with it"
-            search.log.append(f"withdrawn {name}: left-out loads")
-            _drop(search, worst_one)
-            _eliminate(search)
+            _take_back(search, worst_one, _OF_SOME_LOADS, "left-out loads")
             continue
         if makes_worse(search, search.fit):
             weakest = int(np.argmin([g.gain for g in search.gates]))
-            name = search.fit.names[weakest]
-            search.withdrawn.append(name)
-            search.refused[name] = _NO_BETTER
-            search.log.append(f"withdrawn {name}: held-out sweeps")
-            _drop(search, weakest)
-            _eliminate(search)
+            _take_back(search, weakest, _NO_BETTER, "held-out sweeps")
             continue
         found = search.doubts = doubts(search)
         worst = max(found, key=lambda d: d.size)
@@ -383,13 +374,18 @@ def _withdraw(search: Search) -> None:
             if worst.on_top < settings.LEAST_GAIN_MORE:
                 search.unnamed = ""
             return
-        name = search.fit.names[worst.index]
         search.unnamed = worst.label
-        search.withdrawn.append(name)
-        search.refused[name] = f"a form without a name does as well: {worst.label}"
-        search.log.append(f"withdrawn {name}: {worst.label}")
-        _drop(search, worst.index)
-        _eliminate(search)
+        _take_back(search, worst.index, f"a form without a name does as well: {worst.label}", worst.label)
+
+
+def _take_back(search: Search, index: int, why: str, label: str) -> None:
+    """Withdraw one name, and drop what no longer passes without it."""
+    name = search.fit.names[index]
+    search.withdrawn.append(name)
+    search.refused[name] = why
+    search.log.append(f"withdrawn {name}: {label}")
+    _drop(search, index)
+    _eliminate(search)
 
 
 def _of_some_loads(search: Search) -> int | None:

@@ -179,16 +179,19 @@ def rescale(search: Search) -> None:
     """Take the likeliest size of the flexible form for what the accepted effects leave."""
     base = search.system
     sums = base.sums(residual(search.data, search.fit.changes))
+    depends_on_path = any(size.path for size in search.sizes.values())
+    paths = settings.PATH_SHARES if depends_on_path else settings.PATH_SHARES[:1]
+    trials = []
+    for share in settings.MISFIT_SHARES:
+        for path in paths:
+            trial = base.rescaled(nuisance_scale(search.sizes, share, path))
+            trials.append((trial.reduce(sums)[2], trial.log_determinant(), share, path))
     for _ in range(2):  # the size depends on the inflation, and the other way round
-        best = (-np.inf, settings.MISFIT_SHARES[0], settings.PATH_SHARES[0])
-        for share in settings.MISFIT_SHARES:
-            for path in (
-                settings.PATH_SHARES if any(size.path for size in search.sizes.values()) else best[2:]
-            ):
-                trial = base.rescaled(nuisance_scale(search.sizes, share, path))
-                _, _, left = trial.reduce(sums)
-                value = -0.5 * left / search.inflation - 0.5 * trial.log_determinant()
-                best = max(best, (value, share, path))
+        weighed = [
+            (-0.5 * left / search.inflation - 0.5 * determinant, share, path)
+            for left, determinant, share, path in trials
+        ]
+        best = max([(-np.inf, settings.MISFIT_SHARES[0], paths[0]), *weighed])
         before = (search.misfit, search.path, search.inflation)
         _, search.misfit, search.path = best
         search.system = base.rescaled(nuisance_scale(search.sizes, *best[1:]))

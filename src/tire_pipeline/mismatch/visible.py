@@ -18,7 +18,7 @@ from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Parameter
-from tire_pipeline.mismatch.gates import asked_for, floors_of, mismatch_of, of_coefficients
+from tire_pipeline.mismatch.gates import asked_for, floors_of, mismatch_of, of_coefficients, part_of_samples
 from tire_pipeline.mismatch.gram import Sums, System
 from tire_pipeline.mismatch.intervals import roomy, standard_errors
 from tire_pipeline.mismatch.refit import finish, inverse, residual
@@ -33,8 +33,6 @@ _RULED_OUT = float(ndtri(0.975))
 _ROUNDS = 4
 _CLOSE = 0.05
 _MOST_FORMS = 3
-_SHOWN = 0.1
-"""Part of the mean energy of a sweep from which the gates say that an effect shows in it."""
 _SMALL, _SIZES, _HALVINGS = 1e-4, 97, 40
 _OF_THE_FORM = frozenset("reference lag moment radius fades linear".split())
 """Parameters that say which form an effect has, not how large it is."""
@@ -205,7 +203,7 @@ class _Scene:
         error, spread, _ = errors
         power = sum(float(np.mean(c**2)) / self.floors[o] ** 2 for o, c in column.items())
         cross = sum(float(np.mean(self.rest[o] * c)) / self.floors[o] ** 2 for o, c in column.items())
-        price, aside, part = self.search.price, abs(cross) / power, self._part_of_sweeps(column)
+        price, aside, part = self.search.price, abs(cross) / power, part_of_samples(self.search, column)
         size, by_loose = 0.0, 0.0
         for _ in range(2):  # what is asked for depends on the share
             share = power * size**2 / (self.total + power * size**2)
@@ -250,12 +248,6 @@ class _Scene:
             own, cross = inverse(info[:-1, :-1]), info[:-1, -1]
             parts.append(float(cross @ own @ cross / max(info[-1, -1], 1e-300)))
         return min(max(parts), 1.0)
-
-    def _part_of_sweeps(self, column: dict[str, Array]) -> float:
-        """Return the part of the samples that lie in sweeps in which a column shows."""
-        energy = sum((c / self.search.noise[o].sigma) ** 2 for o, c in column.items())
-        sums = np.bincount(self.search.block, energy, self.search.system.count)
-        return float(np.mean(sums[self.search.block] > _SHOWN * np.mean(sums)))
 
     def _possible(self, sight: Sight, size: float) -> float:
         """Return the smallest size from this one on that a tire or a rig can have, or infinity."""

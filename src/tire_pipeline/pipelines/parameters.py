@@ -1,8 +1,19 @@
 """What all parameter models share: unknown keys are errors, and values are not changed afterwards."""
 
 from difflib import get_close_matches
+from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, model_validator
+
+
+def _several(value: object) -> object:
+    if isinstance(value, str):
+        return [each.strip() for each in value.split(";") if each.strip()]
+    return value
+
+
+Several = Annotated[list[str], BeforeValidator(_several)]
+"""Names; on the command line one text, with semicolons between them."""
 
 
 class Parameters(BaseModel):

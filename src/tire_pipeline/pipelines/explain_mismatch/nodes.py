@@ -11,12 +11,12 @@ from pathlib import Path, PurePosixPath
 from typing import Any, Literal
 
 import pandas as pd
-from pydantic import Field, field_validator
+from pydantic import Field
 
 from tire_pipeline.errors import RecordingError, TirePipelineError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch import MismatchReport, explain_recordings
-from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.pipelines.parameters import Parameters, Several
 from tire_pipeline.progress import track
 from tire_pipeline.recordings.groups import by_folder, matching
 
@@ -69,16 +69,9 @@ class ExplainParameters(Parameters):
 
     together: bool = False
     hold_out: str = ""
-    only: list[str] = []
+    only: Several = []
     axes: Literal["ISO", "SAE"] | None = None
     recordings: list[RecordingRule] = []
-
-    @field_validator("only", mode="before")
-    @classmethod
-    def _several(cls, value: object) -> object:
-        if isinstance(value, str):
-            return [each.strip() for each in value.split(";") if each.strip()]
-        return value
 
     def how(self, name: str) -> dict[str, Any]:
         """What is stated of a recording; a later rule counts more than an earlier one."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Literal
 
-from pydantic import Field, field_validator
+from pydantic import Field
 
-from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.pipelines.parameters import Parameters, Several
 from tire_pipeline.translation.result import EDGE
 from tire_pipeline.translation.translator import FARTHEST
 
@@ -44,12 +44,5 @@ class TranslateParameters(Parameters):
     pairs: bool = True
     classify: bool = False
     farthest: float = Field(EDGE, gt=0, le=FARTHEST)
-    only: list[str] = []
+    only: Several = []
     trials: int = Field(0, ge=0)
-
-    @field_validator("only", mode="before")
-    @classmethod
-    def _several(cls, value: object) -> object:
-        if isinstance(value, str):
-            return [each.strip() for each in value.split(";") if each.strip()]
-        return value
