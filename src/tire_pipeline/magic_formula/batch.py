@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -13,22 +13,19 @@ from tire_pipeline.magic_formula.coefficients import (
     COEFFICIENT_NAMES,
     INDEX,
     family_of,
-    is_possible,
     missing_defaults,
     pack_mapping,
 )
 from tire_pipeline.magic_formula.forces import checked_outputs
 from tire_pipeline.magic_formula.inputs import as_float_arrays
 from tire_pipeline.magic_formula.numpy_form import OUTPUTS
-
-if TYPE_CHECKING:
-    from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.parameters import TireParameters
 
 _NEUTRAL = {version: pack_mapping({}, missing_defaults({}, version)) for version in ("5.2", "6.1")}
 _NO_SIGNS = np.ones(2 + len(OUTPUTS))
 
 
-def pack(model: TireModel) -> np.ndarray:
+def pack(model: TireParameters) -> np.ndarray:
     """Return a model's coefficients as a vector in the order of ``COEFFICIENT_NAMES`` (a copy)."""
     return model.packed.copy()
 
@@ -143,21 +140,3 @@ def forces_batch(
     largest = max(float(np.abs(arrays[name]).max(initial=0.0)) for name in ("slip_angle", "camber"))
     out = engine.run(matrix, family_of(version), points, _NO_SIGNS, wanted, largest)
     return {name: out[:, k] for k, name in enumerate(wanted)}
-
-
-def model_of(vector: np.ndarray, version: str, metadata: Mapping[str, object] | None = None) -> TireModel:
-    """Return the tire model of a packed vector: the opposite of :func:`pack`."""
-    from tire_pipeline.magic_formula.coefficients import EXTENSIONS_6, NAMES_BY_FAMILY
-    from tire_pipeline.magic_formula.model import TireModel
-
-    used = NAMES_BY_FAMILY[family_of(version)]
-    given = {name: float(vector[INDEX[name]]) for name in used}
-    neutral = missing_defaults({}, version)
-    coefficients = {  # what no model may state and only stands in is missing: a radius of NaN, PCX1 = 0
-        name: value
-        for name, value in given.items()
-        if is_possible(name, value) or not np.array_equal(value, neutral[name], equal_nan=True)
-    }
-    extensions = {name: float(vector[INDEX[name]]) for name in EXTENSIONS_6}
-    coefficients.update({name: value for name, value in extensions.items() if value != 0})
-    return TireModel.from_coefficients(coefficients, version, metadata)

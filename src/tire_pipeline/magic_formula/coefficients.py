@@ -148,6 +148,10 @@ RANGES: dict[str, tuple[str, str]] = {
 }
 """Input -> the two coefficients that give its valid range."""
 
+_SHAPES = [INDEX[name] for name in ("PCX1", "PCY1", "PKY4", "QCZ1", "RCX1", "RCY1", "RVY5", "QSX5")]
+_SHAPES += [INDEX[name] for name in ("QSX7", "QSX8", "LCX", "LCY")]
+_LARGEST_SHAPE = 1e3
+
 _NOT_ZERO = ("PCX1", "PCY1", "PKY2", "LFZO", "LCX", "LCY", "LMUY")
 _POSITIVE = ("FNOMIN", "UNLOADED_RADIUS")
 
@@ -232,6 +236,14 @@ def is_possible(name: str, value: float) -> bool:
     except TirValueError:
         return False
     return True
+
+
+def are_moderate(matrix: np.ndarray) -> bool:
+    """Return whether no shape factor of packed tires is beyond 1000.
+
+    Shape factors multiply angles inside sines and cosines; compiled code knows those only up to 1e5.
+    """
+    return bool(np.abs(matrix[:, _SHAPES]).max(initial=0.0) <= _LARGEST_SHAPE)
 
 
 def pack_mapping(coefficients: Mapping[str, float], defaulted: Mapping[str, float]) -> np.ndarray:

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from tire_pipeline.magic_formula.key_figures import slip_range, usual_loads
-
-if TYPE_CHECKING:
-    from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.model import TireModel
 
 _OVER = {"fy": "slip_angle", "fx": "slip_ratio", "mz": "slip_angle"}
 

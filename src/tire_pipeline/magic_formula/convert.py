@@ -2,34 +2,30 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tire_pipeline.errors import TirValueError, TirVersionError
 from tire_pipeline.magic_formula.coefficients import NAMES_BY_FAMILY, family_of, is_possible
-
-if TYPE_CHECKING:
-    from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.parameters import Tire, TireParameters
 
 _CAMBER_Y = {"PDY3": 2, "PEY4": 1, "PKY3": 1, "PHY3": 1, "PVY3": 1, "PVY4": 1}
 _CAMBER_Z = {"QBZ4": 1, "QBZ5": 1, "QDZ3": 1, "QDZ4": 2, "QDZ8": 1, "QDZ9": 1, "QEZ5": 1}
 _CAMBER_Z.update({"QHZ3": 1, "QHZ4": 1})
 
 
-def to_version(model: TireModel, version: str) -> TireModel:
+def to_version(model: Tire, version: str) -> Tire:
     """Return the tire as a model of another version.
 
     Parameters
     ----------
-    model : TireModel
+    model : TireParameters
     version : str
         5.0, 5.1, 5.2 and PAC2002 turn into one another, 6.1 and 6.2 too, and each of the former into the
         latter.
 
     Returns
     -------
-    TireModel
-        From 5.2 to 6.1, forces and moments stay as they are at every point; :func:`conversion_notes` says
-        what does not, and what other software would see.
+    TireParameters
+        Of the class that came in. From 5.2 to 6.1, forces and moments stay as they are at every point;
+        :func:`conversion_notes` says what does not, and what other software would see.
 
     Raises
     ------
@@ -58,7 +54,7 @@ def to_version(model: TireModel, version: str) -> TireModel:
     return _renamed(model, version, _as_61(model))
 
 
-def conversion_notes(model: TireModel, version: str) -> list[str]:
+def conversion_notes(model: TireParameters, version: str) -> list[str]:
     """Return what :func:`to_version` cannot keep, one plain sentence each; empty if all is kept."""
     if model.family == family_of(version):
         return []
@@ -78,10 +74,8 @@ def conversion_notes(model: TireModel, version: str) -> list[str]:
     return notes
 
 
-def _renamed(model: TireModel, version: str, coefficients: dict[str, float]) -> TireModel:
-    from tire_pipeline.magic_formula.model import TireModel
-
-    return TireModel(
+def _renamed(model: Tire, version: str, coefficients: dict[str, float]) -> Tire:
+    return type(model)(
         version=version,
         coefficients=coefficients,
         metadata=dict(model.metadata),
@@ -90,7 +84,7 @@ def _renamed(model: TireModel, version: str, coefficients: dict[str, float]) -> 
     )
 
 
-def _as_61(model: TireModel) -> dict[str, float]:
+def _as_61(model: TireParameters) -> dict[str, float]:
     used = {name: model.value(name) for name in NAMES_BY_FAMILY[5]}
     used = {name: value for name, value in used.items() if is_possible(name, value)}
     if used["LMX"] == 0:

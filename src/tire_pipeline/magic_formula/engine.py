@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from tire_pipeline.magic_formula import numpy_form
-from tire_pipeline.magic_formula.coefficients import INDEX
+from tire_pipeline.magic_formula.coefficients import are_moderate
 from tire_pipeline.magic_formula.jit import HAVE_NUMBA
 from tire_pipeline.magic_formula.numpy_form import OUTPUTS
 
@@ -24,9 +24,6 @@ _THREAD_FROM = 30_000
 """Evaluations from which a second thread pays."""
 _LARGEST_ANGLE = 1e4
 """Angles beyond this (rad) go to NumPy, whose sine is right for any argument."""
-_LARGEST_SHAPE = 1e3
-_SHAPES = [INDEX[name] for name in ("PCX1", "PCY1", "PKY4", "QCZ1", "RCX1", "RCY1", "RVY5", "QSX5")]
-_SHAPES += [INDEX[name] for name in ("QSX7", "QSX8", "LCX", "LCY")]
 
 
 def run(
@@ -74,7 +71,7 @@ def run(
 
 def compiles(matrix: np.ndarray) -> bool:
     """Return whether compiled code is there and right for these coefficients."""
-    return HAVE_NUMBA and bool(np.abs(matrix[:, _SHAPES]).max(initial=0.0) <= _LARGEST_SHAPE)
+    return HAVE_NUMBA and are_moderate(matrix)
 
 
 def run_point(vector: np.ndarray, family: int, point: Sequence[float]) -> tuple[float, ...]:

@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.lib.stride_tricks import as_strided
@@ -15,10 +15,9 @@ from numpy.lib.stride_tricks import as_strided
 from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula import engine, inputs
 from tire_pipeline.magic_formula.axes import Signs, is_mirrored, signs_of
+from tire_pipeline.magic_formula.jit import HAVE_NUMBA
 from tire_pipeline.magic_formula.numpy_form import OUTPUTS
-
-if TYPE_CHECKING:
-    from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.parameters import TireParameters
 
 _BUFFER = 32768
 """Points at a time where the arguments have to be broadcast against each other."""
@@ -78,7 +77,7 @@ class TireForces:
 
 
 def tire_forces(
-    model: TireModel,
+    model: TireParameters,
     *,
     normal_load: Any,
     slip_angle: Any = 0.0,
@@ -102,7 +101,8 @@ def tire_forces(
         pressure = model.value("NOMPRES")
     point = (slip_angle, slip_ratio, camber, normal_load, speed, pressure)
     if (
-        model.simple
+        HAVE_NUMBA
+        and model.moderate
         and not model.lacks_radius
         and axes == "ISO"
         and side is None
@@ -133,7 +133,7 @@ def tire_forces(
 
 
 def _one_point(
-    model: TireModel,
+    model: TireParameters,
     point: tuple[Any, ...],
     turn_slip: Any,
     limits: str,
@@ -156,7 +156,7 @@ def _one_point(
     return TireForces(**{name: values[OUTPUTS.index(name)] for name in checked_outputs(outputs)})
 
 
-def _warn_of_radius(model: TireModel, wanted: Sequence[str], turning: bool) -> None:
+def _warn_of_radius(model: TireParameters, wanted: Sequence[str], turning: bool) -> None:
     lost = [name for name in wanted if turning or _needs_radius(model, name)]
     if not lost:
         return
@@ -169,7 +169,7 @@ def _warn_of_radius(model: TireModel, wanted: Sequence[str], turning: bool) -> N
     )
 
 
-def _needs_radius(model: TireModel, name: str) -> bool:
+def _needs_radius(model: TireParameters, name: str) -> bool:
     carcass = _BY_CARCASS.get(name) if model.family == 6 else None
     return name in NEEDS_RADIUS and not (carcass and model.value(carcass) != 0)
 
@@ -184,7 +184,7 @@ def _sign_vector(signs: Signs) -> np.ndarray:
 
 
 def _evaluate(
-    model: TireModel,
+    model: TireParameters,
     arrays: list[np.ndarray],
     shape: tuple[int, ...],
     signs: np.ndarray,

@@ -12,7 +12,7 @@ from tire_pipeline.magic_formula.ops import (
 from tire_pipeline.magic_formula.unpacking import unpack
 
 BLOCK = 64
-STAMP = "e9b824e641dbc5b9"
+STAMP = "a834fe8ade3b00eb"
 OVER = {
     "fx": (
         "FNOMIN",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -14,16 +14,14 @@ from tire_pipeline.magic_formula.coefficients import INDEX, Coefficients
 from tire_pipeline.magic_formula.inputs import as_float_arrays
 from tire_pipeline.magic_formula.jit import HAVE_NUMBA
 from tire_pipeline.magic_formula.numpy_form import SATURATION, relative_pressure
+from tire_pipeline.magic_formula.parameters import TireParameters
 from tire_pipeline.magic_formula.shapes import clamp
-
-if TYPE_CHECKING:
-    from tire_pipeline.magic_formula.model import TireModel
 
 _CHUNK = 4096
 
 
 def jacobian(
-    model: TireModel,
+    model: TireParameters,
     names: Sequence[str],
     *,
     normal_load: Any,
@@ -39,7 +37,7 @@ def jacobian(
 
     Parameters
     ----------
-    model : TireModel
+    model : TireParameters
     names : sequence of str
         Coefficients, by ``.tir`` name; a column of zeros for one that the output does not depend on.
     normal_load, slip_angle, slip_ratio, camber, speed, pressure : float or array_like

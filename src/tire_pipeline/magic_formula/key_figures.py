@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.forces import tire_forces
+from tire_pipeline.magic_formula.parameters import TireParameters
 
 LARGEST_SLIP_ANGLE = np.deg2rad(15.0)
 LARGEST_SLIP_RATIO = 0.3
@@ -35,14 +35,14 @@ class KeyFigure:
     unit: str
 
 
-def key_figures(model: TireModel, normal_load: float | None = None) -> list[KeyFigure]:
+def key_figures(model: TireParameters, normal_load: float | None = None) -> list[KeyFigure]:
     """Return the numbers by which engineers know a tire.
 
     At pure slip, without camber, at the nominal pressure.
 
     Parameters
     ----------
-    model : TireModel
+    model : TireParameters
     normal_load : float, optional
         N; ``FNOMIN`` if left out.
 
@@ -64,7 +64,7 @@ def key_figures(model: TireModel, normal_load: float | None = None) -> list[KeyF
     load = model.value("FNOMIN") if normal_load is None else float(normal_load)
     side = forces_over(model, "slip_angle", load)
     ahead = forces_over(model, "slip_ratio", load)
-    still = model.forces(normal_load=load, limits="ignore")
+    still = tire_forces(model, normal_load=load, limits="ignore")
     angle, force = np.degrees(side["slip"]), np.abs(side["fy"])
     ratio, pull = ahead["slip"], np.abs(ahead["fx"])
     torque = np.abs(side["mz"])
@@ -81,12 +81,12 @@ def key_figures(model: TireModel, normal_load: float | None = None) -> list[KeyF
     ]
 
 
-def forces_over(model: TireModel, slip: str, normal_load: float, **more: Any) -> dict[str, np.ndarray]:
+def forces_over(model: TireParameters, slip: str, normal_load: float, **more: Any) -> dict[str, np.ndarray]:
     """Return forces over one slip, the other one zero, within the range of the file.
 
     Parameters
     ----------
-    model : TireModel
+    model : TireParameters
     slip : {"slip_angle", "slip_ratio"}
     normal_load : float
         N.
@@ -100,18 +100,18 @@ def forces_over(model: TireModel, slip: str, normal_load: float, **more: Any) ->
     """
     x = slip_range(model, slip)
     points: dict[str, Any] = {slip: x, "normal_load": normal_load, **more}
-    found = model.forces(**points, limits="ignore", outputs=("fx", "fy", "mz"))
+    found = tire_forces(model, **points, limits="ignore", outputs=("fx", "fy", "mz"))
     return {"slip": x, "fx": found.fx, "fy": found.fy, "mz": found.mz}
 
 
-def slip_range(model: TireModel, slip: str) -> np.ndarray:
+def slip_range(model: TireParameters, slip: str) -> np.ndarray:
     """Return slips to look at: to 15 degrees or a ratio of 0.3, or to where the file's range ends."""
     most = LARGEST_SLIP_ANGLE if slip == "slip_angle" else LARGEST_SLIP_RATIO
     low, high = model.ranges[slip][2:] if slip in model.ranges else (-most, most)
     return np.linspace(max(low, -most), min(high, most), _POINTS)
 
 
-def usual_loads(models: Sequence[TireModel]) -> list[float]:
+def usual_loads(models: Sequence[TireParameters]) -> list[float]:
     """Return loads to look at, within all files' ranges (N).
 
     Half, one and one and a half nominal loads; where the range holds only one, its ends and middle.

@@ -1,79 +1,40 @@
-"""The tire model: coefficients of one Magic Formula version, and what is asked of them."""
+"""The tire model: a tire's coefficients, and what is asked of them."""
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula.coefficients import (
+    EXTENSIONS_6,
     INDEX,
-    RANGES,
-    check_values,
+    NAMES_BY_FAMILY,
     family_of,
+    is_possible,
     missing_defaults,
-    pack_mapping,
 )
 from tire_pipeline.magic_formula.convert import to_version
-from tire_pipeline.magic_formula.engine import compiles
 from tire_pipeline.magic_formula.forces import TireForces, tire_forces
+from tire_pipeline.magic_formula.jacobian import jacobian
+from tire_pipeline.magic_formula.key_figures import key_figures
 from tire_pipeline.magic_formula.nominal_load import nominal_load_changed
+from tire_pipeline.magic_formula.parameters import TireParameters
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class TireModel:
-    """A Magic Formula tire model.
+class TireModel(TireParameters):
+    """A Magic Formula tire model: its parameters are those of :class:`.parameters.TireParameters`.
 
-    Parameters
-    ----------
-    version : str
-        "5.0", "5.1", "5.2", "6.1", "6.2" or "PAC2002".
-    coefficients : mapping of str to float
-        By their ``.tir`` names in capitals, in SI units: p, q, r and s coefficients, scale factors,
-        ``FNOMIN``, ``UNLOADED_RADIUS``, ``LONGVL``, ``NOMPRES``, ranges (``ALPMIN``, ``FZMAX``, ...).
-    defaulted : mapping of str to float
-        Coefficients that the source lacks, and the value that stands in.
-    metadata : mapping of str to object
-        What is not a coefficient, by "SECTION.KEY" in SI units: "DIMENSION.WIDTH", "MODEL.TYRESIDE", ...
-    source : object, optional
-        The file that it came from, as read.
-    path : str, optional
-        The path of that file.
-
-    Raises
-    ------
-    TirValueError
-        If a coefficient is not a finite number, or has a value that the equations divide by; it names the
-        key.
-    TirVersionError
-        If the version is not known.
+    Examples
+    --------
+    >>> tire = TireModel.from_coefficients({"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2})
+    >>> tire.value("PDY1"), tire.family
+    (1.0, 5)
     """
-
-    version: str
-    coefficients: Mapping[str, float]
-    defaulted: Mapping[str, float] = field(default_factory=dict)
-    metadata: Mapping[str, object] = field(default_factory=dict)
-    source: object | None = field(default=None, repr=False)
-    path: str | None = None
-
-    def __post_init__(self) -> None:
-        family_of(self.version)
-        check_values(self.coefficients, self.path)
-        values = {key: float(value) for key, value in self.coefficients.items()}
-        missing = missing_defaults(values, self.version)
-        missing.update({key: value for key, value in self.defaulted.items() if key not in values})
-        object.__setattr__(self, "coefficients", MappingProxyType(values))
-        object.__setattr__(self, "defaulted", MappingProxyType(missing))
-        object.__setattr__(self, "metadata", MappingProxyType(dict(self.metadata)))
 
     @classmethod
     def from_coefficients(
@@ -98,83 +59,11 @@ class TireModel:
         """
         return cls(version=version, coefficients=dict(coefficients), metadata=metadata or {})
 
-    def __deepcopy__(self, memo: dict[int, object]) -> TireModel:
-        return self  # nothing in it changes
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        parts = (dict(self.coefficients), dict(self.defaulted), dict(self.metadata))
-        return TireModel, (self.version, *parts, self.source, self.path)
-
-    def __repr__(self) -> str:
-        where = f"{self.path!r}, " if self.path else ""
-        return (
-            f"TireModel({where}version {self.version!r}, FNOMIN = {self.value('FNOMIN'):g} N, "
-            f"{len(self.coefficients)} coefficients, {len(self.defaulted)} missing)"
-        )
-
     def _repr_html_(self) -> str:
-        from tire_pipeline.magic_formula.key_figures import key_figures
         from tire_pipeline.notebook import card
 
         rows = [(figure.name, f"{figure.value:.4g}", figure.unit) for figure in key_figures(self)]
         return card(repr(self), "At the nominal load, without camber:", ("", "value", "unit"), rows)
-
-    @cached_property
-    def family(self) -> int:
-        """5 for the equations of MF 5.2, 6 for those of MF 6.1 and 6.2."""
-        return family_of(self.version)
-
-    @cached_property
-    def packed(self) -> np.ndarray:
-        """All coefficients as one read-only vector, in the order of ``COEFFICIENT_NAMES``."""
-        vector = pack_mapping(self.coefficients, self.defaulted)
-        vector.flags.writeable = False
-        return vector
-
-    @cached_property
-    def simple(self) -> bool:
-        """Whether compiled code is there for this model."""
-        return compiles(self.packed[None, :])
-
-    @cached_property
-    def lacks_radius(self) -> bool:
-        """Whether there is no ``UNLOADED_RADIUS``: moments are NaN then."""
-        return bool(np.isnan(self.packed[INDEX["UNLOADED_RADIUS"]]))
-
-    @cached_property
-    def ranges(self) -> dict[str, tuple[str, str, float, float]]:
-        """The ranges that the model is valid for: input -> names and values of its two ends."""
-        found = {}
-        for name, (low_key, high_key) in RANGES.items():
-            low = self.coefficients.get(low_key, -np.inf)
-            high = self.coefficients.get(high_key, np.inf)
-            if low < high and np.isfinite([low, high]).any() and (name != "pressure" or self.family == 6):
-                found[name] = (low_key, high_key, low, high)
-        return found
-
-    @cached_property
-    def range_list(self) -> list[tuple[int, float, float]]:
-        """The ranges by the place of the input among the arguments, for quick checks."""
-        order = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
-        return [(order.index(name), low, high) for name, (*_, low, high) in self.ranges.items()]
-
-    def value(self, name: str) -> float:
-        """Return a coefficient's value, or what stands in for it.
-
-        A coefficient of another version, which this one has no use for, has its neutral value, 0 or 1.
-
-        Raises
-        ------
-        TirValueError
-            If the model has no such coefficient.
-        """
-        if name in self.coefficients:
-            return self.coefficients[name]
-        if name in self.defaulted:
-            return self.defaulted[name]
-        if name in INDEX:
-            return float(self.packed[INDEX[name]])
-        raise TirValueError(f"the model has no coefficient {name}", key=name, path=self.path)
 
     def forces(
         self,
@@ -283,15 +172,6 @@ class TireModel:
 
         return captioned(*draw_models({self.path or "tire": self}, loads=loads, camber=camber))
 
-    def replace(self, **coefficients: float) -> TireModel:
-        """Return a model with some coefficients changed.
-
-        A coefficient that was defaulted and is set here is no longer defaulted.
-        """
-        changed = {**self.coefficients, **coefficients}
-        left = {k: v for k, v in self.defaulted.items() if k not in coefficients}
-        return dataclasses.replace(self, coefficients=changed, defaulted=left)
-
     def nominal_load_changed(self, new: float) -> TireModel:
         """Return the same tire with another nominal load; see :func:`.nominal_load.nominal_load_changed`."""
         return nominal_load_changed(self, new)
@@ -302,6 +182,19 @@ class TireModel:
 
     def jacobian(self, names: Sequence[str], **points: Any) -> dict[str, np.ndarray]:
         """Return the derivatives of forces with respect to coefficients; see :func:`.jacobian.jacobian`."""
-        from tire_pipeline.magic_formula.jacobian import jacobian
-
         return jacobian(self, names, **points)
+
+
+def model_of(vector: np.ndarray, version: str, metadata: Mapping[str, object] | None = None) -> TireModel:
+    """Return the tire model of a packed vector: the opposite of :func:`.batch.pack`."""
+    used = NAMES_BY_FAMILY[family_of(version)]
+    given = {name: float(vector[INDEX[name]]) for name in used}
+    neutral = missing_defaults({}, version)
+    coefficients = {  # what no model may state and only stands in is missing: a radius of NaN, PCX1 = 0
+        name: value
+        for name, value in given.items()
+        if is_possible(name, value) or not np.array_equal(value, neutral[name], equal_nan=True)
+    }
+    extensions = {name: float(vector[INDEX[name]]) for name in EXTENSIONS_6}
+    coefficients.update({name: value for name, value in extensions.items() if value != 0})
+    return TireModel.from_coefficients(coefficients, version, metadata)

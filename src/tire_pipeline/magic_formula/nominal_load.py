@@ -7,14 +7,12 @@ and dfz = r dfz' + (r - 1), a scale factor LFZO, which multiplies both nominal l
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from tire_pipeline.errors import TirValueError
-
-if TYPE_CHECKING:
-    from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.parameters import Tire
 
 POLYNOMIALS: tuple[tuple[str, ...], ...] = (
     ("PDX1", "PDX2"),
@@ -109,18 +107,19 @@ def changed_coefficients(coefficients: Mapping[str, Any], new: Any, family: int 
     return {name: value for name, value in changed.items() if name in coefficients or np.any(value != 0)}
 
 
-def nominal_load_changed(model: TireModel, new: float) -> TireModel:
+def nominal_load_changed(model: Tire, new: float) -> Tire:
     """Return the same tire with another nominal load: the same forces and moments at every load.
 
     Parameters
     ----------
-    model : TireModel
+    model : TireParameters
     new : float
         The new ``FNOMIN`` (N).
 
     Returns
     -------
-    TireModel
+    TireParameters
+        Of the class that came in.
 
     Raises
     ------

@@ -8,6 +8,7 @@ from tire_pipeline.magic_formula.coefficients import Coefficients
 from tire_pipeline.magic_formula.equations_52 import evaluate_52
 from tire_pipeline.magic_formula.equations_61 import NO_TURN_SLIP, evaluate_61, rolling_load_factor
 from tire_pipeline.magic_formula.shapes import clamp
+from tire_pipeline.magic_formula.turn_slip import zetas_of
 
 OUTPUTS = (
     "fx",
@@ -61,8 +62,6 @@ def _evaluate(vector, family, alpha, kappa, gamma, fz, speed, pressure, turn_sli
         dpi = relative_pressure(p, pressure)
         zetas = NO_TURN_SLIP
         if turn_slip is not None:
-            from tire_pipeline.magic_formula.turn_slip import zetas_of
-
             zetas = zetas_of(p, alpha, kappa, gamma, load, speed, dpi, turn_slip)
         by_load = rolling_load_factor(p, load, dpi)
         raw = evaluate_61(p, alpha, kappa, gamma, load, speed, dpi, by_load, zetas)

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tire_pipeline.drawing import colour_of, new_figure
+from tire_pipeline.magic_formula.forces import tire_forces
 from tire_pipeline.magic_formula.key_figures import forces_over, usual_loads
+from tire_pipeline.magic_formula.parameters import TireParameters
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from tire_pipeline.magic_formula.model import TireModel
 
 _LINES = ("-", "--", ":", "-.")
 _PANELS = (
@@ -24,13 +24,13 @@ _PANELS = (
 
 
 def draw_models(
-    models: Mapping[str, TireModel], *, loads: Sequence[float] | None = None, camber: float = 0.0
+    models: Mapping[str, TireParameters], *, loads: Sequence[float] | None = None, camber: float = 0.0
 ) -> tuple[Figure, str]:
     """Draw forces over slip at some loads, and cornering stiffness over load.
 
     Parameters
     ----------
-    models : mapping of str to TireModel
+    models : mapping of str to TireParameters
         Name in the legend -> model; up to four.
     loads : sequence of float, optional
         N; half, one and one and a half nominal loads if left out.
@@ -57,7 +57,7 @@ def draw_models(
 
 
 def _forces(
-    panel: Any, model: TireModel, force: str, slip: str, loads: Sequence[float], camber: float, line: str
+    panel: Any, model: TireParameters, force: str, slip: str, loads: Sequence[float], camber: float, line: str
 ) -> None:
     for i, load in enumerate(loads):
         found = forces_over(model, slip, load, camber=camber)
@@ -67,11 +67,13 @@ def _forces(
             panel.plot(x, y, line, color=colour_of(i), lw=1.4)
 
 
-def _stiffness(panel: Any, models: Mapping[str, TireModel], loads: Sequence[float], camber: float) -> None:
+def _stiffness(
+    panel: Any, models: Mapping[str, TireParameters], loads: Sequence[float], camber: float
+) -> None:
     for line, model in zip(_LINES, models.values(), strict=False):
         axis = np.linspace(0.1 * min(loads), 1.2 * max(loads), 200)
-        found = model.forces(
-            normal_load=axis, camber=camber, limits="ignore", outputs=("cornering_stiffness",)
+        found = tire_forces(
+            model, normal_load=axis, camber=camber, limits="ignore", outputs=("cornering_stiffness",)
         )
         stiffness = np.abs(found.cornering_stiffness) * np.pi / 180.0
         if stiffness.max() > 0.0:
@@ -89,7 +91,7 @@ def _say_if_empty(panel: Any) -> None:
         panel.text(0.5, 0.5, "the file does not give it", ha="center", va="center", transform=panel.transAxes)
 
 
-def _legends(panels: Any, models: Mapping[str, TireModel], loads: Sequence[float]) -> None:
+def _legends(panels: Any, models: Mapping[str, TireParameters], loads: Sequence[float]) -> None:
     from matplotlib.lines import Line2D
 
     colours = [Line2D([], [], color=colour_of(i), label=f"{load:,.0f} N") for i, load in enumerate(loads)]
@@ -102,7 +104,7 @@ def _legends(panels: Any, models: Mapping[str, TireModel], loads: Sequence[float
         panels[3].legend(handles=lines, fontsize=8, loc="lower right")
 
 
-def _caption(models: Mapping[str, TireModel], camber: float) -> str:
+def _caption(models: Mapping[str, TireParameters], camber: float) -> str:
     first = next(iter(models.values()))
     at = [f"camber {np.degrees(camber):.3g} deg"]
     if all(model.family == 6 for model in models.values()) and len(models) == 1:

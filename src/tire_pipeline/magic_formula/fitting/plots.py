@@ -10,11 +10,10 @@ import pandas as pd
 from tire_pipeline.drawing import colour_of, new_figure
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula.fitting.stages import PURE_SLIP_ANGLE, PURE_SLIP_RATIO
+from tire_pipeline.magic_formula.model import TireModel
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from tire_pipeline.magic_formula.model import TireModel
 
 _PANELS = {
     "fy": ("slip_angle", "slip angle (deg)", "Fy", "N"),
