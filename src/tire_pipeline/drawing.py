@@ -123,7 +123,7 @@ def svg_element(file: str) -> Markup:
 
 def page_style() -> str:
     """The style that all pages share: light and dark, and for print."""
-    return package_files("tire_pipeline").joinpath("page.css").read_text("utf-8")
+    return package_files("tire_pipeline").joinpath("templates", "page.css").read_text("utf-8")
 
 
 def captioned(figure: F, caption: str) -> F:

@@ -35,14 +35,15 @@ def page_environment(package: str) -> jinja2.Environment:
     Parameters
     ----------
     package : str
-        Its folder ``templates`` holds them. What is not text from outside must be ``Markup``.
+        Its folder ``templates`` holds them; ``base.html``, which they extend, lies in this package's. What is not
+        text from outside must be ``Markup``.
 
     Returns
     -------
     jinja2.Environment
     """
     return jinja2.Environment(
-        loader=jinja2.PackageLoader(package),
+        loader=jinja2.ChoiceLoader([jinja2.PackageLoader(package), jinja2.PackageLoader("tire_pipeline")]),
         autoescape=True,
         finalize=_finalised,
         trim_blocks=True,

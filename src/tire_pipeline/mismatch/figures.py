@@ -16,6 +16,8 @@ from tire_pipeline.mismatch.report import MismatchReport
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
 _FEW = 600
+_GAP = 5.0
+"""Usual steps without a sample after which a curve over time is broken."""
 _LEAST_SLIP = 0.002
 """Range of slip, rad or 1, from which a map over it says something."""
 _STYLE: Any = {
@@ -60,13 +62,20 @@ def time_line(report: MismatchReport, output: str, figure: FigureBase | None = N
         axes.axhspan(-floor, floor, color="#BBBBBB", alpha=0.6, lw=0, label="noise (1 sigma)")
         few = x.size < _FEW
         look: Any = {"lw": 0.9 if few else 0.5, "marker": "." if few else None, "rasterized": True}
-        axes.plot(x, s[f"before_{output}"], color=_BEFORE, label="before", **look)
+        axes.plot(*_broken(x, s[f"before_{output}"]), color=_BEFORE, label="before", **look)
         if report.corrected.changes:
-            axes.plot(x, s[f"after_{output}"], color=_AFTER, label="after", **look)
+            axes.plot(*_broken(x, s[f"after_{output}"]), color=_AFTER, label="after", **look)
         axes.set_xlabel("time (s)" if s["time"] is not None else "point")
         axes.set_ylabel(f"{output.capitalize()} recorded - simulated (N)")
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, 1.18), ncol=6, frameon=False)
     return figure
+
+
+def _broken(x: Any, y: Any) -> tuple[Any, Any]:
+    """Put NaN where the recording has a gap, so that no line runs over it."""
+    steps = np.diff(x)
+    gaps = 1 + np.flatnonzero(steps > _GAP * np.median(steps)) if steps.size else np.empty(0, int)
+    return np.insert(x.astype(float), gaps, np.nan), np.insert(y.astype(float), gaps, np.nan)
 
 
 def operating_map(report: MismatchReport, output: str, figure: FigureBase | None = None) -> FigureBase:
@@ -121,7 +130,7 @@ def overview(report: MismatchReport) -> Figure:
     """Draw the output that differs most: over slip and load, and over time."""
     output = _order(report)[0]
     mapped = np.ptp(_slip(report, output)) > _LEAST_SLIP
-    captions = [_MAP_CAPTION.format(output.capitalize())] if mapped else []
+    captions = [_map_caption(report, output)] if mapped else []
     captions.append(_time_caption(report, output))
     with matplotlib.rc_context(_STYLE):
         figure = Figure(figsize=(9.2, 3.2 * len(captions)), layout="constrained")
@@ -134,10 +143,13 @@ def overview(report: MismatchReport) -> Figure:
     return figure
 
 
-_MAP_CAPTION = (
-    "{} over slip and load: recorded minus simulated force, mean of each cell. Strong colour marks where "
-    "they differ; it should fade from before to after."
-)
+def _map_caption(report: MismatchReport, output: str) -> str:
+    which = "each point" if _slip(report, output).size < _FEW else "mean of each cell"
+    faded = "; it should fade from before to after" if report.corrected.changes else ""
+    return (
+        f"{output.capitalize()} over slip and load: recorded minus simulated force, {which}. Strong colour "
+        f"marks where they differ{faded}."
+    )
 
 
 def _order(report: MismatchReport) -> list[str]:
@@ -153,16 +165,20 @@ def drawings(report: MismatchReport) -> list[dict[str, Any]]:
     order = _order(report)
     out = []
     for o in order:
-        name = o.capitalize()
         if np.ptp(_slip(report, o)) > _LEAST_SLIP:
             out.append(
                 {
                     "svg": svg(operating_map(report, o)),
-                    "caption": _MAP_CAPTION.format(name),
+                    "caption": _map_caption(report, o),
                 }
             )
         out.append({"svg": svg(time_line(report, o)), "caption": _time_caption(report, o)})
     return out
+
+
+def _has_gaps(report: MismatchReport) -> bool:
+    time = report.series["time"]
+    return bool(_broken(time, time)[0].size > time.size)
 
 
 def _time_caption(report: MismatchReport, output: str) -> str:
@@ -171,4 +187,5 @@ def _time_caption(report: MismatchReport, output: str) -> str:
         return f"{name} over the points in their order."
     bars = any(effect.when for effect in report.effects if effect.output == output)
     said = " The bars at the top say when each effect is above the noise." if bars else ""
-    return f"{name} over time.{said} What lies within the grey band is noise."
+    broken = " Lines break where nothing was recorded." if _has_gaps(report) else ""
+    return f"{name} over time.{said}{broken} What lies within the grey band is noise."

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import PurePath
 from typing import Any
@@ -19,14 +20,14 @@ from tire_pipeline.safe_page import page_environment, policy
 _TOO_LITTLE = {"does not pay for itself": "too little evidence for its parameters"}
 
 
-def render(report: MismatchReport, *, home: str = "") -> str:
+def render(report: MismatchReport, *, pages: Sequence[tuple[str, str]] = ()) -> str:
     """Return the page.
 
     Parameters
     ----------
     report : MismatchReport
-    home : str
-        Address of the page that links to this one.
+    pages : sequence of (str, str)
+        Address and name of other pages, for links at the top.
     """
     environment = page_environment("tire_pipeline.mismatch")
     own = files("tire_pipeline.mismatch").joinpath("templates", "report.css").read_text("utf-8")
@@ -39,7 +40,8 @@ def render(report: MismatchReport, *, home: str = "") -> str:
         report=report,
         title=f"{name}: {report.verdict}",
         name=name,
-        home=home,
+        pages=pages,
+        footer="",
         style=Markup(style),
         policy=policy(style=style, figures=True),
         drawings=drawings(report),

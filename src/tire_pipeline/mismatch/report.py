@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -292,12 +292,23 @@ class MismatchReport:
         path.write_text(json.dumps(self.to_dict(), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
         return path
 
-    def to_html(self, path: str | Path, *, home: str = "") -> Path:
-        """Write the report as one HTML page that needs no network; ``home`` is a page to link back to."""
+    def to_html(self, path: str | Path, *, pages: Sequence[tuple[str, str]] = ()) -> Path:
+        """Write the report as one HTML page that needs no network.
+
+        Parameters
+        ----------
+        path : str or Path
+        pages : sequence of (str, str)
+            Address and name of other pages, for links at the top.
+
+        Returns
+        -------
+        Path
+        """
         from tire_pipeline.mismatch.page import render
 
         path = Path(path)
-        path.write_text(render(self, home=home), encoding="utf-8")
+        path.write_text(render(self, pages=pages), encoding="utf-8")
         return path
 
 

@@ -126,7 +126,7 @@ class Links:
         return [(quote(path), name, text) for path, name, text in self.items]
 
 
-HOME = Links([("index.html", "All reports", "")])
+HOME = (("index.html", "All reports"),)
 """The way back to the front page, for pages that lie beside it."""
 
 
@@ -154,7 +154,11 @@ class Picture:
 
 
 def render_page(
-    title: str, parts: Sequence[Text | Table | Figure | Links | Picture], *, footer: str = ""
+    title: str,
+    parts: Sequence[Text | Table | Figure | Links | Picture],
+    *,
+    pages: Sequence[tuple[str, str]] = (),
+    footer: str = "",
 ) -> str:
     """One HTML page without any outside reference.
 
@@ -162,6 +166,8 @@ def render_page(
     ----------
     title : str
     parts : sequence of Text, Table, Figure, Links and Picture
+    pages : sequence of (str, str)
+        Other pages for the top of this one: path relative to it, and what it is called.
     footer : str
         For example which run made the page.
 
@@ -182,6 +188,7 @@ def render_page(
         .render(
             title=title,
             parts=parts,
+            pages=[(quote(path), name) for path, name in pages],
             footer=footer,
             style=Markup(style),
             policy=policy(style=style, figures="figure" in kinds, pictures="picture" in kinds),

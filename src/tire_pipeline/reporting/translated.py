@@ -18,7 +18,7 @@ from tire_pipeline.reporting.embedded import (
     packed_json,
     quantised,
 )
-from tire_pipeline.reporting.page import Table
+from tire_pipeline.reporting.page import HOME, Table
 from tire_pipeline.reporting.translated_rows import COLUMNS, by_supplier, rows_of
 from tire_pipeline.safe_page import page_environment, policy, visible
 
@@ -81,6 +81,8 @@ def translated_page(
     environment = page_environment("tire_pipeline.reporting")
     return environment.get_template("translated.html").render(
         title=title,
+        pages=[*HOME, ("tables/translation_report.csv", "All files as a table (CSV)")],
+        footer="",
         lines=lines,
         suppliers=by_supplier(rows),
         tables=tables,

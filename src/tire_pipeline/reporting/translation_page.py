@@ -120,7 +120,7 @@ def translation_page(
                 _largest(bias), "Largest first, 90% intervals.", heading="Bias between pairs of organisations"
             )
         )
-    return render_page("How well the translators do", [*parts, HOME], footer=note)
+    return render_page("How well the translators do", parts, pages=HOME, footer=note)
 
 
 def _summary(hidden: pd.DataFrame) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from tire_pipeline.reporting import Table, Text, render_page
+from tire_pipeline.reporting import HOME, Table, Text, render_page
 from tire_pipeline.thesis.page_agents import agent_parts
 from tire_pipeline.thesis.page_classifiers import Part, classifier_parts
 from tire_pipeline.thesis.questions import answers
@@ -12,6 +12,7 @@ from tire_pipeline.thesis.results import BETTER, Results, over_seeds, over_train
 from tire_pipeline.thesis.words import number
 
 THESIS_FILES = 2061
+PAGES = (*HOME, ("report.html", "The translation, judged"))
 
 
 def thesis_page(results: Results) -> str:
@@ -29,7 +30,7 @@ def thesis_page(results: Results) -> str:
     parts: list[Part] = [Text(_main(results), emphasis=True), *_comparable(results), *answers(results)]
     parts += classifier_parts(results)
     parts += agent_parts(results)
-    return render_page("The thesis, table by table, beside our results", parts, footer=_footer(results))
+    return render_page("The thesis, table by table, beside our results", parts, pages=PAGES, footer=_footer(results))
 
 
 def _main(results: Results) -> list[str]:

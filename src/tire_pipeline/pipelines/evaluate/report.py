@@ -14,7 +14,7 @@ from tire_pipeline.pipelines.evaluate.judge import FLOOR
 from tire_pipeline.pipelines.evaluate.translate import NO_CHANGE
 from tire_pipeline.pipelines.train_agent.nodes import learning_figure
 from tire_pipeline.pipelines.train_classifier.nodes import confusion_figure
-from tire_pipeline.reporting import Figure, Links, Table, Text, colour_of, new_figure, render_page
+from tire_pipeline.reporting import HOME, Figure, Links, Table, Text, colour_of, new_figure, render_page
 
 _TABLES = [
     (
@@ -26,7 +26,6 @@ _TABLES = [
     ("tables/ingest_report.csv", "ingest_report.csv", "every file: read, or set aside with line and reason"),
     ("tables/filter_report.csv", "filter_report.csv", "what was dropped before training, and why"),
     ("tables/classifier_scores.csv", "classifier_scores.csv", "accuracy of every classifier on both splits"),
-    ("index.html", "All reports", ""),
 ]
 
 _METRICS = {
@@ -115,7 +114,7 @@ def build_report(
         ),
     ]
     parts.append(Links(_TABLES, heading="Tables"))
-    return render_page(f"Tires as {target_category} would have measured them", parts)
+    return render_page(f"Tires as {target_category} would have measured them", parts, pages=HOME)
 
 
 def _files(ingest: dict[str, Any], dropped: pd.DataFrame, table: pd.DataFrame) -> list[Text | Table]:

@@ -210,7 +210,9 @@ def _files(
     """The page, and the corrected .tir with its sidecar where there is something to correct."""
     with tempfile.TemporaryDirectory() as folder:
         page = Path(folder) / "page.html"
-        report.to_html(page, home=f"{'../' * len(place.parts)}mismatch.html")
+        up = "../" * len(place.parts)
+        pages = [(f"{up}index.html", "All reports"), (f"{up}mismatch.html", "All recordings")]
+        report.to_html(page, pages=pages)
         text = page.read_text(encoding="utf-8")
         files: dict[str, bytes] = {}
         physics = [effect for effect in report.effects if effect.kind == "physics"]

@@ -55,6 +55,5 @@ def draw_overview(overview: pd.DataFrame, pages: dict[str, str]) -> tuple[str, l
             heading="In one table",
             most_rows=1000,
         ),
-        HOME,
     ]
-    return render_page("Recordings against their simulations", parts), outcome
+    return render_page("Recordings against their simulations", parts, pages=HOME), outcome

@@ -26,7 +26,7 @@ def proof_page(
     """Both halves: scores with intervals beside the baselines, by strength, and every miss."""
     simulated = _simulated(scores, misses, details)
     real = _real(real_scores, real_misses, real_details)
-    return render_page("Proof on concealed effects", [*simulated, *real, HOME])
+    return render_page("Proof on concealed effects", [*simulated, *real], pages=HOME)
 
 
 def _simulated(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -> list[Part]:

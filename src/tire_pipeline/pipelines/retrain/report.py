@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from tire_pipeline.reporting import Table, Text, render_page
+from tire_pipeline.reporting import HOME, Table, Text, render_page
 from tire_pipeline.retraining import Shelf
 from tire_pipeline.retraining.drift import DRIFT
 from tire_pipeline.retraining.release import history_rows
@@ -60,4 +60,5 @@ def build_retraining_report(
             ),
             Table(history, heading="History"),
         ],
+        pages=HOME,
     )
