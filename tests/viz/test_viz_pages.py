@@ -28,7 +28,8 @@ def reports(tmp_path_factory):
     (folder / "mismatch" / "rig").mkdir(parents=True)
     run = read_recording(ROOT / "examples" / "rig_run.csv", axes="ISO")
     report = explain_recordings(read_tir(ROOT / "examples" / "tire.tir"), {"rig/run.csv": run})
-    report.to_html(folder / "mismatch" / "rig" / "run.html", pages=[("../../mismatch.html", "All recordings")])
+    above = [("../../mismatch.html", "All recordings")]
+    report.to_html(folder / "mismatch" / "rig" / "run.html", pages=above)
     row = {"recording": "rig/run.csv", "verdict": report.verdict, "summary": report.summary}
     row |= {"effects": "inflation_pressure", "alternatives": "", "held_out": "", "problem": ""}
     overview, _ = draw_overview(pd.DataFrame([row]), {"rig/run.html": ""})

@@ -30,7 +30,8 @@ def thesis_page(results: Results) -> str:
     parts: list[Part] = [Text(_main(results), emphasis=True), *_comparable(results), *answers(results)]
     parts += classifier_parts(results)
     parts += agent_parts(results)
-    return render_page("The thesis, table by table, beside our results", parts, pages=PAGES, footer=_footer(results))
+    title = "The thesis, table by table, beside our results"
+    return render_page(title, parts, pages=PAGES, footer=_footer(results))
 
 
 def _main(results: Results) -> list[str]:
