@@ -35,8 +35,8 @@ def page_environment(package: str) -> jinja2.Environment:
     Parameters
     ----------
     package : str
-        Its folder ``templates`` holds them; they may extend ``base.html`` of ``tire_pipeline/templates``. What
-        is not text from outside must be ``Markup``.
+        Its folder ``templates`` holds them; they may extend ``base.html`` of ``tire_pipeline/templates``.
+        What is not text from outside must be ``Markup``.
 
     Returns
     -------
