@@ -26,8 +26,9 @@ import numpy as np
 from magic_formula_tires import tire_52, tire_61
 from numba import njit
 
-from tire_pipeline.magic_formula import derive, equations_52, equations_61, gradients_52, gradients_61
+from tire_pipeline.magic_formula import derive, equations_52, equations_61
 from tire_pipeline.magic_formula.coefficients import Coefficients
+from tire_pipeline.magic_formula.gradients import gradients_of
 
 WANTED = ("fx", "fy", "mz")
 TIRES = {"5.2": tire_52(), "6.1": tire_61()}
@@ -149,7 +150,7 @@ def jacobian_cost(version, count=4000):
 
 def one_jacobian_cost(tire, output, count):
     given = points(count)
-    names = (gradients_52 if tire.family == 5 else gradients_61).OVER[output]
+    names = gradients_of(tire.family).OVER[output]
     space = {output: np.empty((len(names), count))}
     derivatives = best(lambda: tire.jacobian(names, **given, outputs=(output,), out=space))
     value = best(lambda: tire.forces(**given, outputs=(output,)))

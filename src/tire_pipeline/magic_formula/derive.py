@@ -1,4 +1,4 @@
-"""Writes ``gradients_52.py`` and ``gradients_61.py``: run ``python -m tire_pipeline.magic_formula.derive``.
+"""Writes the code of the derivatives from the equations; :mod:`.gradients` keeps it.
 
 The equations are traced once with symbols in place of numbers. Going backwards through what they did (reverse
 differentiation) gives the derivatives with respect to all coefficients for little more than the cost of the
@@ -8,6 +8,7 @@ value itself. The result is straight-line code that the interpreter runs on arra
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -304,22 +305,21 @@ def module_source(family: int) -> str:
         source, over = function_source(name, output)
         parts.append(f"{source}\n{kernel_source(name, len(over))}\n")
         lists.append(f'    "{name}": (\n' + "".join(f'        "{n}",\n' for n in over) + "    ),\n")
-    head = _HEAD.format(family=family, stamp=source_stamp())
+    head = _HEAD.format(family=family)
     return head + "OVER = {\n" + "".join(lists) + "}\n\n\n" + "\n".join(parts).rstrip() + "\n"
 
 
+@lru_cache(maxsize=1)
 def source_stamp() -> str:
     """Return a mark of the sources that the gradients are made from and compiled with."""
     folder = Path(__file__).parent
-    names = ("derive", "fast_math", "shapes", "coefficients", "equations_52", "equations_61", "ops", "jit")
+    equations = ("shapes", "coefficients", "equations_52", "equations_61")
+    names = ("derive", "fast_math", "ops", "jit", "unpacking", *equations)
     text = b"".join((folder / f"{name}.py").read_bytes() for name in names)
     return sha256(text).hexdigest()[:16]
 
 
-_HEAD = '''"""Gradients over coefficients, family {family}. Written by ``derive.py``: change that."""
-
-# ruff: noqa
-# fmt: off
+_HEAD = '''"""Gradients over coefficients, family {family}, written by derive.py."""
 
 import numpy as np
 
@@ -330,16 +330,4 @@ from tire_pipeline.magic_formula.ops import (
 from tire_pipeline.magic_formula.unpacking import unpack
 
 BLOCK = 64
-STAMP = "{stamp}"
 '''
-
-
-def main() -> None:
-    """Write both modules."""
-    folder = Path(__file__).parent
-    for family, name in ((5, "gradients_52"), (6, "gradients_61")):
-        (folder / f"{name}.py").write_text(module_source(family))
-
-
-if __name__ == "__main__":
-    main()

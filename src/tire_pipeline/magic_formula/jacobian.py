@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.errors import TirValueError
-from tire_pipeline.magic_formula import gradients_52, gradients_61
 from tire_pipeline.magic_formula.coefficients import INDEX, Coefficients
+from tire_pipeline.magic_formula.gradients import gradients_of
 from tire_pipeline.magic_formula.inputs import as_float_arrays
-from tire_pipeline.magic_formula.jit import HAVE_NUMBA
+from tire_pipeline.magic_formula.jit import HAVE_NUMBA, compiled
 from tire_pipeline.magic_formula.numpy_form import SATURATION, relative_pressure
 from tire_pipeline.magic_formula.parameters import TireParameters
 from tire_pipeline.magic_formula.shapes import clamp
@@ -102,7 +102,7 @@ def packed_jacobian(
     unknown = [name for name in names if name not in INDEX]
     if unknown:
         raise TirValueError(f"{unknown} are not coefficients", todo="use names of COEFFICIENT_NAMES")
-    module = gradients_52 if family == 5 else gradients_61
+    module = gradients_of(family)
     p: Any = Coefficients(*vector.tolist())
     alpha, kappa, gamma, fz, speed, pressure = points
     with np.errstate(all="ignore"):
@@ -120,7 +120,7 @@ def packed_jacobian(
         absent = [i for name, i in place.items() if name not in over]
         out = np.empty((len(names), len(fz))) if given is None else given[output]
         out[absent] = 0.0
-        _fill(module, output, np.asarray(vector), p, state, rows, out)
+        _fill(family, output, np.asarray(vector), p, state, rows, out)
         if not loaded.all():
             out[:, ~loaded] = 0.0
         found[output] = out
@@ -128,7 +128,7 @@ def packed_jacobian(
 
 
 def _fill(
-    module: Any,
+    family: int,
     output: str,
     vector: np.ndarray,
     p: Any,
@@ -137,9 +137,9 @@ def _fill(
     out: np.ndarray,
 ) -> None:
     if HAVE_NUMBA and max(np.abs(x).max(initial=0.0) for x in (state[0], state[2])) <= 1e4:
-        _compiled(module.__name__, output)(vector, *state, rows, out)
+        _compiled(family, output)(vector, *state, rows, out)
         return
-    gradient = getattr(module, output)
+    gradient = getattr(gradients_of(family), output)
     for start in range(0, out.shape[1], _CHUNK):
         part = slice(start, start + _CHUNK)
         with np.errstate(all="ignore"):
@@ -150,8 +150,8 @@ def _fill(
 
 
 @lru_cache(maxsize=10)
-def _compiled(module: str, output: str) -> Callable[..., None]:
-    from numba import njit, types
+def _compiled(family: int, output: str) -> Callable[..., None]:
+    from numba import types
 
     from tire_pipeline.magic_formula import fast_math
 
@@ -162,6 +162,4 @@ def _compiled(module: str, output: str) -> Callable[..., None]:
         types.Array(types.int64, 1, "C", readonly=True),
         types.Array(types.float64, 2, "C"),
     )
-    source = gradients_52 if module.endswith("52") else gradients_61
-    options: Any = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
-    return njit(signature, **options)(getattr(source, f"loop_{output}"))
+    return compiled(getattr(gradients_of(family), f"loop_{output}"), signature)

@@ -32,3 +32,14 @@ except ImportError:
 
 jitable = register_jitable(**OPTIONS)
 """Mark a function that the interpreter runs on arrays and the compiler runs on scalars."""
+
+
+def compiled(function: Callable[..., Any], signature: Any) -> Callable[..., Any]:
+    """Return a loop over points, compiled for a signature and kept on disk if there is a place for it."""
+    from numba import njit
+
+    options: Any = {"nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
+    try:
+        return njit(signature, cache=True, **options)(function)
+    except RuntimeError:  # there is no folder that can be written: this process compiles for itself
+        return njit(signature, **options)(function)

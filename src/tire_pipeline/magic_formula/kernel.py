@@ -22,6 +22,7 @@ from tire_pipeline.magic_formula.equations_61 import (
     evaluate_61,
     rolling_load_factor,
 )
+from tire_pipeline.magic_formula.jit import compiled
 from tire_pipeline.magic_formula.numpy_form import OUTPUTS, SATURATION
 from tire_pipeline.magic_formula.unpacking import unpack
 
@@ -68,9 +69,6 @@ def kernel_for(family: int, chosen: int) -> Callable[..., Any]:
     """
     build = _build_52 if family == 5 else _build_61
     return build(_stamp(), chosen >= 1, chosen >= 2)
-
-
-_COMPILE: Any = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
 
 
 @njit(error_model="numpy")
@@ -133,7 +131,7 @@ def _build_52(stamp: int, moments: bool, others: bool) -> Callable[..., Any]:
                     _keep(w, i, loaded, values, moments, others)
                 _give_out(w, t, start, m, signs, rows, out)
 
-    return njit(_SIGNATURE, **_COMPILE)(forces_52)
+    return compiled(forces_52, _SIGNATURE)
 
 
 def _build_61(stamp: int, moments: bool, others: bool) -> Callable[..., Any]:
@@ -173,7 +171,7 @@ def _build_61(stamp: int, moments: bool, others: bool) -> Callable[..., Any]:
                     _keep(w, i, loaded, values, moments, others)
                 _give_out(w, t, start, m, signs, rows, out)
 
-    return njit(_SIGNATURE, **_COMPILE)(forces_61)
+    return compiled(forces_61, _SIGNATURE)
 
 
 @lru_cache(maxsize=2)
@@ -201,7 +199,7 @@ def point_function(family: int) -> Callable[..., tuple[float, ...]]:
 
     numbers = [types.float64] * 6
     signature = types.UniTuple(types.float64, 12)(_VECTOR, *numbers)
-    return njit(signature, **_COMPILE)(point_52 if family == 5 else point_61)
+    return compiled(point_52 if family == 5 else point_61, signature)
 
 
 @njit(error_model="numpy", forceinline=True)
