@@ -41,7 +41,7 @@ from tire_pipeline.translation.curves.space import fit_curve_space
 from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
 from tire_pipeline.translation.population.fit import Prepared, prepare
 from tire_pipeline.translation.result import TRANSLATED, TranslationResult
-from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel, PairedMixedModel
+from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel
 
 RESULTS = Path(__file__).parent / "results" / "translation.csv"
 ALWAYS = ("no_change", "greedy_forest", *MIXED)
@@ -112,14 +112,12 @@ def without_gate(translator: MixedModel, inputs: pd.DataFrame, result: Translati
     table = result.table.copy()
     kept = (result.report["verdict"] != TRANSLATED).to_numpy()
     if kept.any():
-        gate, translator.gate = translator.gate, False
         names = list(COEFFICIENTS)
-        table.loc[kept, names] = translator.translate(inputs[kept])[names].to_numpy()
-        translator.gate = gate
+        table.loc[kept, names] = translator.with_verdict(gate=False).translate(inputs[kept])[names].to_numpy()
     return table
 
 
-def oracle(judge: Judge, translator: PairedMixedModel) -> pd.DataFrame:
+def oracle(judge: Judge, translator: MixedModel) -> pd.DataFrame:
     """Ridge of the hidden truth on the source's scores and metadata; tires left out in folds."""
     rows = judge.inputs
     found = translator.predict(rows)
@@ -134,7 +132,17 @@ def oracle(judge: Judge, translator: PairedMixedModel) -> pd.DataFrame:
         moved[own] = cross_val_predict(
             ridge, x, (target - found.source)[own], cv=folds, groups=judge.tire[own]
         )
-    return translator._decode(rows, replace(found, target=found.source + moved))
+    return translator.parts.decoder.decode(
+        translator.model, rows, replace(found, target=found.source + moved)
+    )
+
+
+def labelled(label: str) -> Any:
+    """The translator of a row of the results: a mixed model's label says its options."""
+    if label not in MIXED:
+        return make_translator(label)
+    options = {"pairs": label.startswith("paired"), "learn_from_batch": "batch" in label}
+    return make_translator("mixed_model", **options)
 
 
 def make_judged_fleet(kind: str, size: float, seed: int, sets: tuple[str, ...], tires: int = 100) -> Fleet:
@@ -190,7 +198,7 @@ def measure_fleet(
             if pairs not in prepared:
                 prepared[pairs] = prepare(training, pairs=pairs, space_and_cells=shared)
             options["made"] = prepared[pairs]
-        translator = make_translator(name).fit(training, target=target, seed=seed, **options)
+        translator = labelled(name).fit(training, target=target, seed=seed, **options)
         fitted = time.perf_counter() - started
         for where, judge in judges.items():
             started = time.perf_counter()

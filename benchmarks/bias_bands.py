@@ -18,9 +18,8 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from bench_translation import load_fleet
+from bench_translation import labelled, load_fleet
 
-from tire_pipeline.translation.base import make_translator
 from tire_pipeline.translation.curves.space import PARTS, UNIT
 from tire_pipeline.translation.judge.bias_band import bias_band
 from tire_pipeline.translation.judge.effects import KEY_PARTS
@@ -36,7 +35,7 @@ def measure(size: float, seed: int, names: list[str]) -> pd.DataFrame:
     actors = judge.inputs["category"].to_numpy(str)
     rows = []
     for name in names:
-        translator = make_translator(name).fit(training, target=target, seed=seed)
+        translator = labelled(name).fit(training, target=target, seed=seed)
         model = translator.model
         band = bias_band(model, translator.predict(judge.inputs))
         verdict = translator.translation(judge.inputs, bands=False).report["verdict"].to_numpy(str)

@@ -16,8 +16,8 @@ from tire_pipeline.evaluation.bias_truth import bias_beside_truth, measured_bias
 from tire_pipeline.fleet import FleetSettings, make_fleet
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tire_table import dedupe_and_filter, normalize_table
-from tire_pipeline.translation.base import make_translator
 from tire_pipeline.translation.bias_report import BiasReport, bias_report
+from tire_pipeline.translation.translator import MixedModel
 
 
 def inside_with_error(both: pd.DataFrame) -> float:
@@ -36,7 +36,7 @@ def one_fleet(seed: int, coefficients: bool) -> tuple[BiasReport, pd.DataFrame]:
     measured = measured_bias(
         normalize_table(read_all(sealed), 6000.0), np.array([2000.0, 4000.0, 6000.0, 8000.0])
     )
-    translator = make_translator("paired_mixed_model").fit(training, target=fleet.settings.target, seed=seed)
+    translator = MixedModel(pairs=True).fit(training, target=fleet.settings.target, seed=seed)
     report = bias_report(translator, training, coefficients=coefficients)
     both = bias_beside_truth(report.by_region, measured)
     print(

@@ -24,7 +24,7 @@ from sklearn.linear_model import RidgeCV
 
 from tire_pipeline.evaluation import curves_of, evaluate_translations
 from tire_pipeline.translation.population.model import Prediction
-from tire_pipeline.translation.translator import MixedModel, PairedMixedModel
+from tire_pipeline.translation.translator import MixedModel
 
 PAGE = Path(__file__).parent.parent / "docs" / "explanation" / "translation_results.md"
 BEGIN = "<!-- from error_split.py -->"
@@ -91,6 +91,11 @@ def put_right(judge: Judge, translator: MixedModel, judged: np.ndarray) -> dict[
     return {what: replace(own, target=scores) for what, scores in wanted.items()}
 
 
+def decoded(translator: MixedModel, rows: pd.DataFrame, found: Prediction) -> pd.DataFrame:
+    """Tires of the predicted scores, whatever the verdict."""
+    return translator.parts.decoder.decode(translator.model, rows, found)
+
+
 def split(kind: str, seed: int, tires: int) -> pd.DataFrame:
     """Errors as multiples of the floor's, one line for each thing that is put right."""
     fleet = make_judged_fleet(kind, 1.0, seed, ("tuning",), tires)
@@ -102,21 +107,21 @@ def split(kind: str, seed: int, tires: int) -> pd.DataFrame:
     )
     errors = Errors(Judge(rows, *(t.drop_duplicates("file") for t in (truth, second))))
     floor = errors.of(second)
-    translator = PairedMixedModel().fit(training, target=target, seed=seed)
+    translator = MixedModel(pairs=True).fit(training, target=target, seed=seed)
     found = {
-        what: errors.of(translator._decode(rows, one)) / floor
+        what: errors.of(decoded(translator, rows, one)) / floor
         for what, one in put_right(every, translator, judged).items()
     }
-    others = {"without pairs": MixedModel().fit(training, target=target, seed=seed)}
+    others = {"without pairs": MixedModel(pairs=False).fit(training, target=target, seed=seed)}
     measured = pd.concat([every.inputs, every.target.drop_duplicates("file")], ignore_index=True)
     tire = measured["file"].str.split("/").str[-1].to_numpy()
     for more in MORE_PAIRS:
         further = measured[np.isin(tire, names[JUDGED : JUDGED + more])]
         table = pd.concat([training, further], ignore_index=True)
         what = f"{fleet.settings.paired_tires + more} tires measured by all"
-        others[what] = PairedMixedModel().fit(table, target=target, seed=seed)
+        others[what] = MixedModel(pairs=True).fit(table, target=target, seed=seed)
     for what, other in others.items():
-        found[what] = errors.of(other._decode(rows, other.predict(rows))) / floor
+        found[what] = errors.of(decoded(other, rows, other.predict(rows))) / floor
     return pd.DataFrame.from_dict(found, orient="index", columns=METRICS)
 
 

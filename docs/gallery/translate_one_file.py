@@ -23,7 +23,7 @@ def as_table(files: dict[str, str]) -> pd.DataFrame:
 fleet = make_fleet(FleetSettings(seed=1, files=400, hidden_tires=4, tuning_tires=4))
 needed = make_representation("coefficients").feature_names
 training, _ = dedupe_and_filter(as_table(fleet.files), features=needed)
-translator = make_translator("paired_mixed_model").fit(training, target="D", seed=1)
+translator = make_translator("mixed_model").fit(training, target="D", seed=1)
 
 name = next(name for name in sorted(fleet.evaluation) if name.startswith("hidden/A/"))
 result = translator.translation(as_table({name: fleet.evaluation[name]}))

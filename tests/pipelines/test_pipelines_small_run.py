@@ -14,7 +14,7 @@ from conftest_kedro import kedro
 from tire_pipeline.tir import read_tir
 
 pytestmark = pytest.mark.slow
-TRANSLATORS = ("thesis' agent", "our agent", "paired mixed model")
+TRANSLATORS = ("thesis' agent", "our agent", "mixed model")
 
 
 def _latest(folder: Path, layer: str, name: str) -> Path:

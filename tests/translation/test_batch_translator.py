@@ -12,14 +12,13 @@ from tire_pipeline.pipelines.translate.parameters import TranslateParameters
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
-from tire_pipeline.translation.base import make_translator, translator_from_state
+from tire_pipeline.translation.base import translator_from_state
 from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
 from tire_pipeline.translation.population.fit import prepare
 from tire_pipeline.translation.population.mixed_effects import posterior_weights
-from tire_pipeline.translation.population.update import TaughtCells, _updated, learn_from
-from tire_pipeline.translation.predict.batch import BatchMixedModel, PairedBatchMixedModel
+from tire_pipeline.translation.population.update import TaughtCells, learn_from, updated_weights
 from tire_pipeline.translation.result import comment_lines
-from tire_pipeline.translation.translator import COEFFICIENTS
+from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel
 
 
 def _table(files):
@@ -56,12 +55,12 @@ def made(training):
 
 @pytest.fixture(scope="module")
 def mixed(training, made):
-    return BatchMixedModel().fit(training, target="D", seed=0, made=made[False])
+    return MixedModel(pairs=False, learn_from_batch=True).fit(training, target="D", seed=0, made=made[False])
 
 
 @pytest.fixture(scope="module")
 def paired(training, made):
-    return PairedBatchMixedModel().fit(training, target="D", seed=0, made=made[True])
+    return MixedModel(pairs=True, learn_from_batch=True).fit(training, target="D", seed=0, made=made[True])
 
 
 @pytest.fixture(scope="module")
@@ -78,16 +77,17 @@ def _error(translator, scores, truth):
     return (((scores - measured) / model.scale)[:, kept] ** 2).mean()
 
 
-@pytest.mark.parametrize(("name", "alone"), [("mixed", "mixed_model"), ("paired", "paired_mixed_model")])
-def test_what_the_batch_teaches_makes_translations_better(name, alone, request, training, made, batch, truth):
+@pytest.mark.parametrize("name", ["mixed", "paired"])
+def test_what_the_batch_teaches_makes_translations_better(name, request, training, made, batch, truth):
     translator = request.getfixturevalue(name)
-    plain = make_translator(alone).fit(training, target="D", made=made[name == "paired"])
+    pairs = name == "paired"
+    plain = MixedModel(pairs=pairs).fit(training, target="D", made=made[pairs])
     by_file, by_batch = (_error(translator, one.predict(batch).target, truth) for one in (plain, translator))
     assert by_batch < 0.97 * by_file
 
 
 def test_a_file_alone_is_translated_as_without_a_batch(paired, training, made, batch):
-    plain = make_translator("paired_mixed_model").fit(training, target="D", made=made[True])
+    plain = MixedModel(pairs=True).fit(training, target="D", made=made[True])
     rows = batch.iloc[[3]]
     pd.testing.assert_frame_equal(paired.translate(rows), plain.translate(rows), check_exact=True)
 
@@ -118,9 +118,13 @@ def test_who_teaches(paired, training, batch):
     rows.loc[0, "category_probability"] = 0.9
     rows.loc[1, "tire_id"] = training["tire_id"].iloc[0]
     rows.loc[2, ["PKY1", "PDY1"]] *= 4.0
-    teaches = paired._teaches(rows, paired.predict(rows))
-    assert not teaches[:3].any()
-    assert teaches[3:].mean() > 0.9
+    alone = batch.iloc[[-1]].assign(tire_id="another tire", category_probability=1.0)
+    for i in range(3):  # beside it lies one file only, which may not teach
+        beside = pd.concat([rows.iloc[[i]], alone], ignore_index=True)
+        assert (paired.predict(beside).taught == 0).all()
+    taught = paired.predict(rows).taught
+    others = [(rows["tire_id"] != tire).sum() for tire in rows["tire_id"]]
+    assert (taught > 0.7 * np.array(others)).all()
 
 
 def test_files_of_one_tire_in_one_category_are_one_cell(mixed, paired, batch):
@@ -139,7 +143,7 @@ def test_learning_is_what_a_fit_to_all_cells_gives(mixed, made, batch):
     model, k = mixed.model, 0
     one = model.fitted[k]
     variances = {**one.variances, "tire_category": 0.3}
-    start = posterior_weights(made[False].design, mixed.training.scores[:, k], variances)
+    start = posterior_weights(made[False].design, mixed.parts.batch.training.scores[:, k], variances)
     alike = replace(
         model,
         fitted=(start,) * model.scale.size,
@@ -148,7 +152,7 @@ def test_learning_is_what_a_fit_to_all_cells_gives(mixed, made, batch):
     )
     cells = TaughtCells.of_files(model, batch.head(20))
     cells = replace(cells, scores=np.tile(cells.design @ start.mean[:, None] + 0.1, model.scale.size))
-    learnt = _updated(alike, cells)[k]
+    learnt = updated_weights(alike, cells)[k]
     design = made[False].design
     ends = np.cumsum([block.shape[1] for block in design.blocks.values()])[:-1]
     more = dict(zip(design.blocks, np.split(cells.design, ends, axis=1), strict=True))
@@ -158,7 +162,7 @@ def test_learning_is_what_a_fit_to_all_cells_gives(mixed, made, batch):
         tire=np.zeros((len(design.files) + len(cells), 0)),
         files=np.concatenate([design.files, cells.files]),
     )
-    scores = np.concatenate([mixed.training.scores[:, k], cells.scores[:, k]])
+    scores = np.concatenate([mixed.parts.batch.training.scores[:, k], cells.scores[:, k]])
     at_once = posterior_weights(both, scores, variances)
     np.testing.assert_allclose(learnt.mean, at_once.mean, atol=1e-7)
     np.testing.assert_allclose(learnt.covariance, at_once.covariance, atol=1e-7)
@@ -166,7 +170,10 @@ def test_learning_is_what_a_fit_to_all_cells_gives(mixed, made, batch):
 
 def test_nothing_is_learnt_from_nothing(paired, batch):
     none = TaughtCells.of_files(paired.model, batch.head(2)).part(np.arange(0))
-    assert learn_from(paired.model, none, paired.training, paired.repeats) is paired.model
+    assert (
+        learn_from(paired.model, none, paired.parts.batch.training, paired.parts.batch.repeats)
+        is paired.model
+    )
 
 
 def test_the_same_after_a_round_trip_and_the_file_says_what_taught(paired, batch):
@@ -193,7 +200,7 @@ def test_leaving_one_tire_out_tells_whether_to_let_a_batch_teach(training, made,
 
 
 def test_the_page_says_that_the_files_taught():
-    parameters = TranslateParameters(translator="paired_batch_mixed_model")
+    parameters = TranslateParameters(learn_from_batch=True)
     curves = {"files": [], "normal_load": np.array([4000.0]), "slip": np.array([0.0])}
     tires = pd.DataFrame(columns=["file", "tire_id"])
     for taught, said in ((40, True), (0, False)):  # a file alone learns from no other

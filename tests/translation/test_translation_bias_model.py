@@ -8,7 +8,7 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.representations.coefficients import DATASETS
 from tire_pipeline.translation.curves import pure_slip
 from tire_pipeline.translation.curves.features import GROUPS, encode
-from tire_pipeline.translation.decode.least_change import Wish, decode
+from tire_pipeline.translation.decode.least_change import DecodeTarget, decode
 from tire_pipeline.translation.decode.physics import violations
 from tire_pipeline.translation.population.mixed_effects import (
     Design,
@@ -66,7 +66,7 @@ def _wish(table, wanted):
     spread = {name: max(0.1 * abs(float(values[name].iloc[0])), 1e-3) for name in FULL}
     far = {name: (-1e3, 1e3) for name in FULL}
     unit = {"lateral": 0.01, "camber": 0.01, "longitudinal": 0.01, "aligning": 0.002}
-    return Wish(wanted, unit, spread, values.iloc[0].to_dict(), far, {})
+    return DecodeTarget(wanted, unit, spread, values.iloc[0].to_dict(), far, {})
 
 
 def test_decoding_finds_a_tire_with_the_features_asked_for():

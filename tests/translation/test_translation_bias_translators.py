@@ -11,6 +11,7 @@ from tire_pipeline.evaluation import evaluate_translations
 from tire_pipeline.fleet import FleetSettings, make_fleet
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
+from tire_pipeline.state_files import pack_state, unpack_state
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
 from tire_pipeline.translation.base import make_translator, translator_from_state
@@ -18,10 +19,9 @@ from tire_pipeline.translation.bias_report import at_each_load, bias_report
 from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.decode.physics import SYMMETRY, violations
 from tire_pipeline.translation.judge.bias_band import bias_band
+from tire_pipeline.translation.judge.gain import MOST_HARM, expected_gain, pooled_harm
 from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
-from tire_pipeline.translation.judge.shrinkage import DOUBTFUL, expected_gain, pooled_doubt
-from tire_pipeline.translation.predict.cycle import CycleConsistent
-from tire_pipeline.translation.predict.policy import CuriousAgent, LikelihoodAgent
+from tire_pipeline.translation.learned import CuriousAgent, CycleConsistent, LikelihoodAgent
 from tire_pipeline.translation.result import (
     LEFT_ALONE,
     REFUSED,
@@ -32,7 +32,7 @@ from tire_pipeline.translation.result import (
     write_translated,
 )
 from tire_pipeline.translation.simple.greedy_forest import GreedyForest
-from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel, PairedMixedModel
+from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel
 
 
 def _table(files):
@@ -67,12 +67,12 @@ def truth(fleet, hidden):
 
 @pytest.fixture(scope="module")
 def mixed(training):
-    return MixedModel().fit(training, target="D", seed=0)
+    return MixedModel(pairs=False).fit(training, target="D", seed=0)
 
 
 @pytest.fixture(scope="module")
 def paired(training):
-    return PairedMixedModel().fit(training, target="D", seed=0)
+    return MixedModel(pairs=True).fit(training, target="D", seed=0)
 
 
 @pytest.mark.parametrize("name", ["mixed", "paired"])
@@ -92,7 +92,7 @@ def test_only_p_and_q_coefficients_change(paired, hidden):
 
 def test_the_same_after_a_round_trip(paired, hidden):
     first = paired.translate(hidden)
-    back = translator_from_state(paired.to_state()).translate(hidden)
+    back = translator_from_state(unpack_state(pack_state(paired.to_state()))).translate(hidden)
     pd.testing.assert_frame_equal(first, back, check_exact=True)
 
 
@@ -118,7 +118,11 @@ def test_shuffling_the_truth_changes_no_translated_file(fleet, mixed, hidden):
         own = {k: v for k, v in fleet.evaluation.items() if k.startswith("hidden")}
         again_hidden = normalize_table(_table(own), 6000.0)
         kept, _ = dedupe_and_filter(_table(fleet.files), features=LATERAL_WITHOUT_CAMBER)
-        again = MixedModel().fit(normalize_table(kept, 6000.0), target="D", seed=0).translate(again_hidden)
+        again = (
+            MixedModel(pairs=False)
+            .fit(normalize_table(kept, 6000.0), target="D", seed=0)
+            .translate(again_hidden)
+        )
     finally:
         fleet.truth.first.update(zip(keys, values, strict=True))
     assert before[list(COEFFICIENTS)].to_numpy().tobytes() == again[list(COEFFICIENTS)].to_numpy().tobytes()
@@ -157,10 +161,9 @@ def test_verdicts(paired, hidden):
 
 def test_a_category_whose_bias_may_be_chance_is_left_alone(paired, hidden):
     rows = hidden.head(10)
-    doubtful = translator_from_state(paired.to_state())
     first = str(rows["category"].iloc[0])
-    doubtful.doubt = np.where(np.array(doubtful.model.categories) == first, 0.3, 0.0)
-    result = doubtful.translation(rows, bands=False)
+    uncertain = paired.with_verdict(harm=np.where(np.array(paired.model.categories) == first, 0.3, 0.0))
+    result = uncertain.translation(rows, bands=False)
     own = (rows["category"].astype(str) == first).to_numpy()
     assert result.report.loc[own, "verdict"].isin([LEFT_ALONE, UNBIASED]).all()
     assert result.report.loc[own, "reason"].str.contains("told from chance|holds zero").all()
@@ -181,10 +184,9 @@ def test_nothing_beyond_the_asked_distance_is_translated(paired, hidden):
         write_translated(TireModel("5.2", {"FNOMIN": 6000.0}), usual, 0, COEFFICIENTS)
     _, comments = write_translated(TireModel("5.2", {"FNOMIN": 6000.0}), usual, 0, COEFFICIENTS, beyond=True)
     assert any("beyond its edge, 1; written because asked for" in line for line in comments)
-    careful = translator_from_state(paired.to_state())
-    careful.farthest = 1.0
-    careful = translator_from_state(careful.to_state())
+    careful = translator_from_state(paired.with_verdict(farthest=1.0).to_state())
     held = careful.translation(rows)
+    pd.testing.assert_frame_equal(held.report, paired.translation(rows, farthest=1.0).report)
     assert list(held.report["verdict"]) == [REFUSED, *usual.report["verdict"].iloc[1:]]
     assert f"distance {distance[0]:.2f}, the edge is 1" in held.report["reason"].iloc[0]
     pd.testing.assert_frame_equal(held.table.iloc[[0]], rows.iloc[[0]])
@@ -193,15 +195,15 @@ def test_nothing_beyond_the_asked_distance_is_translated(paired, hidden):
 def test_unbiased_is_only_whose_bands_hold_zero(paired, hidden):
     """The same verdict on the same files, with the bias taken out of the model, and with it in."""
     rows = hidden[hidden["category"].astype(str) != "D"]
-    doubtful = translator_from_state(paired.to_state())
-    doubtful.doubt = np.full(len(doubtful.model.categories), 0.3)
-    biased = doubtful.translation(rows, bands=False).report
-    band = bias_band(doubtful.model, doubtful.predict(rows))
+    uncertain = paired.with_verdict(harm=np.full(len(paired.model.categories), 0.3))
+    biased = uncertain.translation(rows, bands=False).report
+    band = bias_band(uncertain.model, uncertain.predict(rows))
     assert ((biased["verdict"] == UNBIASED) == band.holds_zero).all()
     assert (biased["verdict"] == LEFT_ALONE).any()
-    found = doubtful.predict(rows)
-    doubtful.predict = lambda _: replace(found, shift=np.zeros_like(found.shift))
-    without = doubtful.translation(rows, bands=False).report
+    found = uncertain.predict(rows)
+    moved = uncertain.parts.decoder.decode(uncertain.model, rows, found)
+    same = replace(found, shift=np.zeros_like(found.shift))
+    without = uncertain.parts.verdict.judge(uncertain.model, rows, moved, same)
     assert (without["verdict"] == UNBIASED).all()
     assert (
         without["reason"]
@@ -245,9 +247,9 @@ def test_all_categories_together_tell_a_bias_from_chance(own, left_alone):
     category = np.repeat(names, 2)
     sure = np.insert(own, 3, 0.5)  # the target's own files are not moved
     harm = np.stack([sure - 0.02, sure + 0.02], axis=1).ravel()
-    doubt = pooled_doubt(harm, category, names, "D")
-    assert doubt[3] == 0.0
-    assert list(np.delete(doubt, 3) > DOUBTFUL) == left_alone
+    pooled = pooled_harm(harm, category, names, "D")
+    assert pooled[3] == 0.0
+    assert list(np.delete(pooled, 3) > MOST_HARM) == left_alone
 
 
 def test_bands_hold_the_translated_curve(paired, hidden):
@@ -268,7 +270,7 @@ def test_what_moved_is_said_in_words_and_comments(paired, hidden, fleet):
     text = "\n".join(comments)
     for word in (
         "-> D",
-        "method: paired_mixed_model",
+        "method: mixed_model with pairs",
         "hash: ",
         "verdict: translated",
         hidden["file"].iloc[0],
@@ -313,7 +315,7 @@ def changed(training):
 
 @pytest.fixture(scope="module")
 def changing(changed):
-    return MixedModel().fit(changed, target="D", seed=0)
+    return MixedModel(pairs=False).fit(changed, target="D", seed=0)
 
 
 def test_no_change_of_protocol_where_there_is_none(mixed, paired, hidden):
@@ -354,7 +356,7 @@ def test_the_target_is_given_by_its_newest_protocol(changing, mixed, hidden):
 
 
 def test_tables_without_dates_are_translated_as_before_there_were_any(training, mixed, hidden):
-    again = MixedModel().fit(training.drop(columns="date"), target="D", seed=0)
+    again = MixedModel(pairs=False).fit(training.drop(columns="date"), target="D", seed=0)
     told = mixed.translate(hidden.head(3))
     pd.testing.assert_frame_equal(
         again.translate(hidden.head(3).drop(columns="date")), told.drop(columns="date")
@@ -420,6 +422,16 @@ def test_greedy_forest_raises_the_probability(training, hidden):
 def test_impossible_targets_are_named(name, training):
     with pytest.raises(DomainError, match="target category 'Z'"):
         make_translator(name).fit(training, target="Z", seed=0)
+
+
+@pytest.mark.parametrize(("name", "verdict"), [("no_change", LEFT_ALONE), ("greedy_forest", TRANSLATED)])
+def test_every_translator_gives_a_verdict(name, verdict, training, hidden, paired):
+    found = make_translator(name).fit(training, target="D", seed=0)
+    result = found.translation(hidden)
+    pd.testing.assert_frame_equal(result.table, found.translate(hidden))
+    assert (result.report["verdict"] == verdict).all()
+    assert result.report["expected_rms_ratio"].isna().all()
+    assert list(result.report) == list(paired.translation(hidden, bands=False).report)
 
 
 def test_doing_nothing_gives_a_copy(training, hidden):

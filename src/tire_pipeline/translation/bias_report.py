@@ -10,9 +10,10 @@ import pandas as pd
 
 from tire_pipeline.translation.curves.features import GROUPS, LOADS
 from tire_pipeline.translation.curves.space import PARTS, UNIT
+from tire_pipeline.translation.decode.decoder import COEFFICIENTS
 from tire_pipeline.translation.judge.effects import KEY_PARTS, QUANTILE, difference, mean_of_loads
 from tire_pipeline.translation.population.model import CurveMixedModel, columns_of
-from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel
+from tire_pipeline.translation.translator import CurveTranslator
 
 _MOST_TIRES = 25
 
@@ -42,12 +43,14 @@ class BiasReport:
     by_coefficient: pd.DataFrame
 
 
-def bias_report(translator: MixedModel, training: pd.DataFrame, *, coefficients: bool = True) -> BiasReport:
+def bias_report(
+    translator: CurveTranslator, training: pd.DataFrame, *, coefficients: bool = True
+) -> BiasReport:
     """Report the bias of every pair of actors.
 
     Parameters
     ----------
-    translator : MixedModel
+    translator : CurveTranslator
         Fitted; with pairs or without.
     training : DataFrame
         What it was fitted to.
@@ -128,14 +131,10 @@ def _slopes(model: CurveMixedModel, actor: str, reference: str) -> pd.DataFrame:
     return table.assign(clear=(table["low"] > 0.0) | (table["high"] < 0.0))
 
 
-def _moved(translator: MixedModel, training: pd.DataFrame, actor: str, reference: str) -> pd.DataFrame:
+def _moved(translator: CurveTranslator, training: pd.DataFrame, actor: str, reference: str) -> pd.DataFrame:
     tires = training.loc[training["category"] == reference].drop_duplicates("tire_id").head(_MOST_TIRES)
-    before_target, before_gate = translator.target, translator.gate
-    translator.target, translator.gate = actor, False
-    try:
-        translated = translator.translate(tires.reset_index(drop=True))
-    finally:
-        translator.target, translator.gate = before_target, before_gate
+    toward = translator.with_verdict(target=actor, gate=False)
+    translated = toward.translate(tires.reset_index(drop=True))
     change = translated[list(COEFFICIENTS)].to_numpy(float) - tires[list(COEFFICIENTS)].to_numpy(float)
     low, high = np.nanquantile(change, [0.05, 0.95], axis=0)
     return pd.DataFrame(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from copy import copy
 from typing import Any
 
 import numpy as np
@@ -11,16 +10,16 @@ import pandas as pd
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.representations.coefficients import DATASETS
 from tire_pipeline.tire_table import from_models, normalize_table
+from tire_pipeline.translation.base import Translator
+from tire_pipeline.translation.decode.decoder import COEFFICIENTS
+from tire_pipeline.translation.judge.verdict import FARTHEST
 from tire_pipeline.translation.result import EDGE, TRANSLATED, TranslationResult, comment_lines
-from tire_pipeline.translation.translator import FARTHEST
-
-COEFFICIENTS = DATASETS["full"]
+from tire_pipeline.translation.translator import CurveTranslator
 
 
 def translate_models(
-    translator: Any,
+    translator: Translator,
     models: Mapping[str, tuple[str, TireModel]],
     *,
     nominal_load: float,
@@ -53,10 +52,8 @@ def translate_models(
     DomainError
         A category is unknown to the translator, or the translator gives no verdicts.
     """
-    if not hasattr(translator, "translation"):
+    if not isinstance(translator, CurveTranslator):
         raise DomainError(f"the translator {translator.name} gives no verdicts", todo="use a mixed model")
-    if not hasattr(translator, "farthest"):
-        raise DomainError(f"the translator {translator.name} knows no edge of its data", todo="fit it again")
     known = categories_of(translator)
     for file, (category, _) in models.items():
         if known and category not in known:
@@ -65,12 +62,10 @@ def translate_models(
                 where=file,
                 todo=f"say who measured the tire: one of {', '.join(known)}",
             )
-    translator = copy(translator)
-    translator.farthest = min(farthest, FARTHEST)
-    translator.gate = True  # agents never refuse by themselves
+    gated = translator.with_verdict(farthest=min(farthest, FARTHEST), gate=True)  # agents never refuse
     own = from_models((file, category, model) for file, (category, model) in models.items())
     source = normalize_table(own, nominal_load).assign(category_probability=1.0)
-    result = translator.translation(source)
+    result = gated.translation(source)
     translated, comments = at_own_load(result, {file: model for file, (_, model) in models.items()}, own)
     return result, translated, comments
 

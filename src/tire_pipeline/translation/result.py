@@ -126,6 +126,50 @@ def moved_coefficients(
     return pd.concat(found, ignore_index=True) if found else pd.DataFrame()
 
 
+def without_estimate(
+    source: pd.DataFrame, table: pd.DataFrame, target: str, name: str, verdict: str = TRANSLATED
+) -> TranslationResult:
+    """Give the result of a translator that has no estimate of its own error.
+
+    Parameters
+    ----------
+    source, table : DataFrame
+        n tires before and after.
+    target : str
+    name : str
+        Of the translator.
+    verdict : str
+        Of every file: the translator refuses none.
+
+    Returns
+    -------
+    TranslationResult
+        Without bands.
+    """
+    names = tuple(n for n in table if n in source and table[n].dtype.kind == "f")
+    coefficients = moved_coefficients(source, table, names)
+    files = source["file"] if "file" in source else pd.Series(source.index.astype(str), index=source.index)
+    report = pd.DataFrame(
+        {
+            "file": files,
+            "source": source["category"].astype(str),
+            "source_probability": source.get("category_probability", 1.0),
+            "target": target,
+            "verdict": verdict,
+            "reason": f"{name} gives no estimate of its error",
+            "distance": np.nan,
+            "expected_rms_ratio": np.nan,
+            "harm_probability": np.nan,
+            "bias_band": "",
+            "taught": 0,
+            "protocol": "",
+            "changes": "",
+        },
+        index=source.index,
+    )
+    return TranslationResult(table, report, coefficients=coefficients, method=name)
+
+
 def translation_hash(row: Mapping[str, object], names: tuple[str, ...]) -> str:
     """Hash of a translated tire's coefficients: tells whether a file was changed after its translation."""
     values = np.array([float(row.get(name, np.nan)) for name in names])  # type: ignore[arg-type]

@@ -14,7 +14,6 @@ from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
 from tire_pipeline.progress import track
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.translation import translator_from_state
-from tire_pipeline.translation.result import TRANSLATED
 
 Files = Mapping[str, Callable[[], TireModel]]
 UNJUDGED = "own files"
@@ -133,9 +132,6 @@ def read_chosen(
 
 def translated_by(state: Mapping[str, Any], before: pd.DataFrame) -> pd.DataFrame:
     """Translate a table; with ``verdict`` and ``expected_rms_ratio`` if the translator gives them."""
-    fitted: Any = translator_from_state(state)
-    if not hasattr(fitted, "translation"):
-        return fitted.translate(before).assign(verdict=TRANSLATED, expected_rms_ratio=float("nan"))
-    result = fitted.translation(before, bands=False)
+    result = translator_from_state(state).translation(before, bands=False)
     said = result.report[["verdict", "expected_rms_ratio"]]
     return result.table.assign(**{name: said[name].to_numpy() for name in said})

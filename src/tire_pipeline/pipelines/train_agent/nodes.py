@@ -14,7 +14,8 @@ from tire_pipeline.pipelines.parameters import Parameters
 from tire_pipeline.reporting import colour_of, new_figure
 from tire_pipeline.representations import representation_from_state
 from tire_pipeline.tire_table import Binning
-from tire_pipeline.translation.predict.policy import UPDATES, LikelihoodAgent
+from tire_pipeline.translation.learned import LikelihoodAgent
+from tire_pipeline.translation.predict.policy import UPDATES
 from tire_pipeline.translation.thesis.translator import AgentTranslator
 
 

@@ -40,8 +40,7 @@ def fit_translator(
     DomainError
         If there is no file of the target, or none of any other category.
     """
-    gate = {"gate": True} if parameters.translator == "likelihood_agent" else {"pairs": parameters.pairs}
-    translator = make_translator(parameters.translator, farthest=parameters.farthest, **gate)
+    translator = make_translator(parameters.translator, **parameters.options)
     translator.fit(normalized_table, target=target_category, seed=seed)
     return {**translator.to_state(), "nominal_load": normalize.nominal_load}
 

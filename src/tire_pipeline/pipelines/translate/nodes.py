@@ -136,9 +136,8 @@ def translate_all(
     curves : dict
         Of every file, for the page (:func:`.translation.curves.of_files.file_curves`).
     """
-    fitted: Any = translator_from_state(translator)
-    fitted.farthest = parameters.farthest
-    result = _named_suppliers(fitted.translation(sources), sources)
+    fitted = translator_from_state(translator)
+    result = _named_suppliers(fitted.translation(sources, farthest=parameters.farthest), sources)
     own = from_models((file, "", model) for file, model in models.items())
     curves = file_curves(list(own["file"]), models, result)
     translated, comments = at_own_load(result, models, own)

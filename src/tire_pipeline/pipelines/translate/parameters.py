@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Any, Literal
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from tire_pipeline.pipelines.parameters import Parameters, Several
+from tire_pipeline.translation.base import RENAMED
+from tire_pipeline.translation.judge.verdict import FARTHEST
 from tire_pipeline.translation.result import EDGE
-from tire_pipeline.translation.translator import FARTHEST
 
 
 class TranslateParameters(Parameters):
@@ -17,10 +18,11 @@ class TranslateParameters(Parameters):
     Attributes
     ----------
     translator : str
-        Which of those that give bands and verdicts. The ``batch`` ones learn from the files to translate as
-        well.
+        Which of those that give bands and verdicts.
     pairs : bool
-        Whether to use tires measured by more than one organisation.
+        Whether to use tires measured by more than one organisation; the agent never does.
+    learn_from_batch : bool
+        Whether the mixed model learns from the files to translate as well.
     classify : bool
         Classify files whose folder is no known category. Otherwise, and where the classification is not
         sure, their supplier is unknown, and they are not translated.
@@ -34,15 +36,30 @@ class TranslateParameters(Parameters):
         Most files that are translated; 0 is all.
     """
 
-    translator: Literal[
-        "mixed_model",
-        "paired_mixed_model",
-        "batch_mixed_model",
-        "paired_batch_mixed_model",
-        "likelihood_agent",
-    ] = "paired_mixed_model"
+    translator: Literal["mixed_model", "likelihood_agent"] = "mixed_model"
     pairs: bool = True
+    learn_from_batch: bool = False
     classify: bool = False
     farthest: float = Field(EDGE, gt=0, le=FARTHEST)
     only: Several = []
     trials: int = Field(0, ge=0)
+
+    @field_validator("translator", mode="before")
+    @classmethod
+    def _present_name(cls, value: object) -> object:
+        """Say what a former name is called now."""
+        if value in RENAMED:
+            options = " ".join(f"translate.{k}={str(v).lower()}" for k, v in RENAMED[str(value)].items())
+            raise ValueError(f"{value!r} is now: translate.translator=mixed_model {options}")
+        return value
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """What the translator is made with."""
+        if self.translator == "likelihood_agent":
+            return {"gate": True, "farthest": self.farthest}
+        return {
+            "pairs": self.pairs,
+            "learn_from_batch": self.learn_from_batch,
+            "farthest": self.farthest,
+        }

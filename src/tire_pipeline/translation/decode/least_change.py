@@ -19,7 +19,7 @@ _POOR = 1.0  # root mean square in units, above which a second start is tried
 
 
 @dataclass(frozen=True)
-class Wish:
+class DecodeTarget:
     """What the coefficients of n tires shall give.
 
     Attributes
@@ -46,14 +46,14 @@ class Wish:
     locked: dict[str, np.ndarray]
 
 
-def decode(table: pd.DataFrame, wish: Wish) -> pd.DataFrame:
+def decode(table: pd.DataFrame, target: DecodeTarget) -> pd.DataFrame:
     """Change every tire's coefficients so that it has the features asked for.
 
     Parameters
     ----------
     table : DataFrame
         n source tires.
-    wish : Wish
+    target : DecodeTarget
 
     Returns
     -------
@@ -67,26 +67,26 @@ def decode(table: pd.DataFrame, wish: Wish) -> pd.DataFrame:
     """
     decoded = table.copy()
     for group in GROUPS:
-        if group.name in wish.features:
-            decoded[list(group.coefficients)] = _Solver(decoded, group, wish).solve()
+        if group.name in target.features:
+            decoded[list(group.coefficients)] = _Solver(decoded, group, target).solve()
     return decoded
 
 
 class _Solver:
     """Least squares of one output's features over its coefficients."""
 
-    def __init__(self, table: pd.DataFrame, group: Group, wish: Wish) -> None:
+    def __init__(self, table: pd.DataFrame, group: Group, target: DecodeTarget) -> None:
         self.group, self.names, self.curvature = group, group.coefficients, _CURVATURE[0]
         self.fixed = columns(table)
-        self.wanted, self.unit = wish.features[group.name], wish.unit[group.name]
-        self.spread = np.array([wish.spread[name] for name in self.names])
+        self.wanted, self.unit = target.features[group.name], target.unit[group.name]
+        self.spread = np.array([target.spread[name] for name in self.names])
         self.source = np.concatenate([self.fixed[name] for name in self.names], axis=1)
-        self.typical = np.array([wish.typical[name] for name in self.names])
-        limits = np.array([wish.bounds[name] for name in self.names])
+        self.typical = np.array([target.typical[name] for name in self.names])
+        limits = np.array([target.bounds[name] for name in self.names])
         self.low = np.minimum(limits[:, 0], self.source)
         self.high = np.maximum(limits[:, 1], self.source)
         for k, name in enumerate(self.names):
-            rows = wish.locked.get(name)
+            rows = target.locked.get(name)
             if rows is not None:
                 self.low[rows, k] = self.high[rows, k] = self.source[rows, k]
 

@@ -9,11 +9,11 @@ import pandas as pd
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.translation.curves.space import PARTS
-from tire_pipeline.translation.judge.shrinkage import cautious
 from tire_pipeline.translation.population.fit import Prepared, fit_curve_mixed_model, prepare
 from tire_pipeline.translation.population.mixed_effects import Design, posterior_weights
 from tire_pipeline.translation.population.model import CurveMixedModel
 from tire_pipeline.translation.population.update import TaughtCells, learn_from
+from tire_pipeline.translation.predict.shrinkage import shortened
 
 
 def leave_one_tire_out(
@@ -98,7 +98,7 @@ def _one(
         model = learn_from(model, cells, training.part(keep), made.cells.repeats / made.scale)
     left = made.rows.loc[~keep]
     sources = left.loc[left["category"] != target]
-    found = cautious(model, model.predict(sources, target))
+    found = shortened(model, model.predict(sources, target))
     measured = made.cells.scores[np.flatnonzero(~keep)[(left["category"] == target).to_numpy()]]
     error, unchanged = (_error(model, scores - measured) for scores in (found.target, found.source))
     return pd.DataFrame(

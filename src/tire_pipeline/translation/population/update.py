@@ -134,7 +134,7 @@ def learn_from(
     """
     if not len(cells):
         return model
-    first = replace(model, fitted=_updated(model, cells))
+    first = replace(model, fitted=updated_weights(model, cells))
     both = _joined(training, cells)
     weights = np.stack([one.mean[: both.design.shape[1]] for one in first.fitted], axis=1)
     gaps = both.scores - both.design @ weights
@@ -149,7 +149,7 @@ def learn_from(
         len(model.categories),
     )
     second = replace(model, spread=spread, alone=alone, links=links)
-    return replace(second, fitted=_updated(second, cells))
+    return replace(second, fitted=updated_weights(second, cells))
 
 
 def _joined(training: TaughtCells, cells: TaughtCells) -> TaughtCells:
@@ -157,7 +157,7 @@ def _joined(training: TaughtCells, cells: TaughtCells) -> TaughtCells:
     return TaughtCells(**{name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
 
 
-def _updated(model: CurveMixedModel, cells: TaughtCells) -> tuple[Fitted, ...]:
+def updated_weights(model: CurveMixedModel, cells: TaughtCells) -> tuple[Fitted, ...]:
     """Posterior of every score's weights given the cells; tire effects of the training tires left out."""
     order = np.argsort(cells.tire, kind="stable")
     groups = np.split(order, np.flatnonzero(np.diff(cells.tire[order])) + 1)
@@ -169,8 +169,8 @@ def _updated(model: CurveMixedModel, cells: TaughtCells) -> tuple[Fitted, ...]:
         reach = np.sqrt(one.variances["tire"]) * model.spread[cells.category, k]
         error = model.alone[cells.category, k] + one.variances["noise"] / cells.files
         expected = reach**2 + error + ((cells.design @ covariance) * cells.design).sum(axis=1)
-        doubt = np.sqrt(np.maximum((FREEDOM - 2.0 + gap**2 / expected) / (FREEDOM + 1.0), 1.0))
-        white = _whitened(np.column_stack([cells.design, gap]), groups, reach, error, doubt)
+        inflation = np.sqrt(np.maximum((FREEDOM - 2.0 + gap**2 / expected) / (FREEDOM + 1.0), 1.0))
+        white = _whitened(np.column_stack([cells.design, gap]), groups, reach, error, inflation)
         design, response = white[:, :-1], white[:, -1]
         posterior = np.linalg.inv(np.linalg.inv(covariance) + design.T @ design)
         posterior = 0.5 * (posterior + posterior.T)
@@ -179,12 +179,12 @@ def _updated(model: CurveMixedModel, cells: TaughtCells) -> tuple[Fitted, ...]:
 
 
 def _whitened(
-    rows: np.ndarray, groups: list[np.ndarray], reach: np.ndarray, error: np.ndarray, doubt: np.ndarray
+    rows: np.ndarray, groups: list[np.ndarray], reach: np.ndarray, error: np.ndarray, inflation: np.ndarray
 ) -> np.ndarray:
     """Rows divided by the root of their covariance: what is a tire's own is common to its cells."""
     out = np.empty_like(rows)
     for group in groups:
         covariance = np.outer(reach[group], reach[group]) + np.diag(error[group])
-        covariance = covariance * np.outer(doubt[group], doubt[group])
+        covariance = covariance * np.outer(inflation[group], inflation[group])
         out[group] = np.linalg.solve(np.linalg.cholesky(covariance), rows[group])
     return out

@@ -1,1 +1,1 @@
-"""Translators that predict the target's scores otherwise than the mixed model as it was fitted."""
+"""What the target would measure of a file, in scores: by the mixed model, a policy or networks."""

@@ -7,72 +7,55 @@ metadata, tell moved from measured. What is lost going there and back is charged
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
-from typing import Any, ClassVar, Self
+from dataclasses import dataclass, replace
+from typing import Any, Self
 
 import numpy as np
 import pandas as pd
 import torch
 from torch import nn
 
-from tire_pipeline.translation.population.fit import Prepared
-from tire_pipeline.translation.population.model import Prediction
+from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.likelihood_environment import Situation, situation_of
-from tire_pipeline.translation.translator import MixedModel
 
 ROUNDS = 1500
 BATCH = 128
 CYCLE, IDENTITY = 3.0, 0.1
 
 
-class CycleConsistent(MixedModel):
-    """Translates by adversarial networks in the scores' space, without pairs.
+@dataclass(frozen=True)
+class CyclePredictor:
+    """Adversarial networks in the scores' space, without pairs.
 
-    Parameters
+    Attributes
     ----------
     rounds : int
         Training rounds.
+    layers : tuple of ndarray
+        Weights and biases of the network to the target; empty until it is fitted.
     """
 
-    name: ClassVar[str] = "cycle_consistent"
+    rounds: int = ROUNDS
+    layers: tuple[np.ndarray, ...] = ()
 
-    def __init__(self, *, rounds: int = ROUNDS, gate: bool = False, pairs: bool = False) -> None:
-        super().__init__(pairs=pairs, trust=0.0, gate=gate)
-        self.rounds = int(rounds)
-
-    def fit(
-        self, training: pd.DataFrame, *, target: str, seed: int = 0, made: Prepared | None = None
-    ) -> Self:
-        """Fit the space of scores, then train the networks.
-
-        Raises
-        ------
-        DomainError
-            If the table has no tire of the target, or none of any other category.
-        """
-        super().fit(training, target=target, seed=seed, made=made)
+    def fit(self, model: CurveMixedModel, training: pd.DataFrame, target: str, seed: int) -> Self:
+        """Train the networks."""
         own = training["category"].astype(str) == target
-        there = _rows(self._situation(training.loc[own]))
-        here = _rows(self._situation(training.loc[~own]))
+        there = _rows(_situation(model, training.loc[own], target))
+        here = _rows(_situation(model, training.loc[~own], target))
         threads = torch.get_num_threads()
         torch.set_num_threads(1)
         try:
-            sizes = len(self.model.scale), len(self.model.categories)
-            self.layers = _train(here, there, *sizes, self.rounds, seed)
+            sizes = len(model.scale), len(model.categories)
+            layers = _train(here, there, *sizes, self.rounds, seed)
         finally:
             torch.set_num_threads(threads)
-        return self
+        return replace(self, layers=tuple(layers))
 
-    def _situation(self, table: pd.DataFrame) -> Situation:
-        """Scores about the middle of all training files rather than about the category's expectation."""
-        found = situation_of(self.model, table, self.target)
-        scores, _ = self.model.space.encode(table)
-        return replace(found, scores=np.clip(scores / found.unit, -8.0, 8.0))
-
-    def predict(self, source: pd.DataFrame) -> Prediction:
+    def predict(self, model: CurveMixedModel, source: pd.DataFrame, target: str) -> Prediction:
         """Let the first network move the scores."""
-        found = self.model.predict(source, self.target, trust=0.0)
-        situation = self._situation(source)
+        found = model.predict(source, target, trust=0.0)
+        situation = _situation(model, source, target)
         first, first_bias, last, last_bias = self.layers
         seen = np.concatenate([situation.scores, situation.context], axis=1)
         moved = (np.maximum(seen @ first + first_bias, 0.0) @ last + last_bias) * situation.unit
@@ -80,23 +63,22 @@ class CycleConsistent(MixedModel):
 
     def to_state(self) -> dict[str, Any]:
         """Give arrays, strings and numbers that bring it back."""
-        layers = {f"network_{k}": layer for k, layer in enumerate(self.layers)}
-        return {**super().to_state(), "option_rounds": self.rounds, **layers}
+        return {
+            "option_rounds": self.rounds,
+            **{f"network_{k}": layer for k, layer in enumerate(self.layers)},
+        }
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
         """Bring back what :meth:`to_state` gave."""
-        found = super().from_state(state)
-        found.layers = [np.asarray(state[f"network_{k}"]) for k in range(4)]
-        return found
+        return cls(int(state["option_rounds"]), tuple(np.asarray(state[f"network_{k}"]) for k in range(4)))
 
-    @classmethod
-    def _with_options(cls, state: Mapping[str, Any]) -> Self:
-        return cls(
-            rounds=int(state["option_rounds"]),
-            gate=bool(state["option_gate"]),
-            pairs=bool(state["option_pairs"]),
-        )
+
+def _situation(model: CurveMixedModel, table: pd.DataFrame, target: str) -> Situation:
+    """Scores about the middle of all training files rather than about the category's expectation."""
+    found = situation_of(model, table, target)
+    scores, _ = model.space.encode(table)
+    return replace(found, scores=np.clip(scores / found.unit, -8.0, 8.0))
 
 
 def _rows(situation: Situation) -> torch.Tensor:

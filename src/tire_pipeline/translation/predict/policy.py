@@ -1,10 +1,10 @@
-"""The agent: proximal policy optimisation on the log density ratio given the metadata."""
+"""Prediction by an agent: proximal policy optimisation on the log density ratio given the metadata."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
-from typing import Any, ClassVar, Self
+from dataclasses import dataclass, replace
+from typing import Any, Self
 
 import numpy as np
 import pandas as pd
@@ -12,9 +12,7 @@ import torch
 from stable_baselines3 import PPO
 from torch import nn
 
-from tire_pipeline.translation.judge.shrinkage import failed_fits
-from tire_pipeline.translation.population.fit import Prepared
-from tire_pipeline.translation.population.model import Prediction
+from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.curiosity import Curiosity
 from tire_pipeline.translation.predict.likelihood_environment import (
     REACH,
@@ -23,51 +21,38 @@ from tire_pipeline.translation.predict.likelihood_environment import (
     observe,
     situation_of,
 )
-from tire_pipeline.translation.translator import FARTHEST, MixedModel
+from tire_pipeline.translation.predict.shrinkage import without_failed_fits
 
 TIRES = 64
 ROLL_OUT = 48
 UPDATES = 100
 
 
-class LikelihoodAgent(MixedModel):
-    """Translates by a policy that was trained with stable-baselines3, without pairs.
+@dataclass(frozen=True)
+class PolicyPredictor:
+    """A policy that moves scores, trained with stable-baselines3, without pairs.
 
-    Parameters
+    Attributes
     ----------
     updates : int
         Roll-outs of 64 tires and 48 steps that it learns from.
-    gate, farthest
-        As in :class:`.translator.MixedModel`; the agent by itself never refuses.
+    curious : bool
+        With random network distillation: a bonus for states that it has seldom seen.
+    layers : tuple of ndarray
+        Weights and biases of both layers; empty until it is fitted.
+    learning : tuple of float
+        Rewards of the last episodes of the training.
     """
 
-    name: ClassVar[str] = "likelihood_agent"
-    curious: ClassVar[bool] = False
+    updates: int = UPDATES
+    curious: bool = False
+    layers: tuple[np.ndarray, ...] = ()
+    learning: tuple[float, ...] = ()
 
-    def __init__(
-        self,
-        *,
-        updates: int = UPDATES,
-        gate: bool = False,
-        pairs: bool = False,
-        farthest: float = FARTHEST,
-    ) -> None:
-        super().__init__(pairs=pairs, trust=0.0, gate=gate, farthest=farthest)
-        self.updates = int(updates)
-
-    def fit(
-        self, training: pd.DataFrame, *, target: str, seed: int = 0, made: Prepared | None = None
-    ) -> Self:
-        """Fit the densities, then train the policy.
-
-        Raises
-        ------
-        DomainError
-            If the table has no tire of the target, or none of any other category.
-        """
-        super().fit(training, target=target, seed=seed, made=made)
+    def fit(self, model: CurveMixedModel, training: pd.DataFrame, target: str, seed: int) -> Self:
+        """Train the policy."""
         sources = training.loc[training["category"].astype(str) != target].reset_index(drop=True)
-        situation = situation_of(self.model, sources, target)
+        situation = situation_of(model, sources, target)
         curiosity = Curiosity(situation.observation_size, seed) if self.curious else None
         threads = torch.get_num_threads()
         torch.set_num_threads(1)
@@ -79,7 +64,7 @@ class LikelihoodAgent(MixedModel):
                 n_steps=ROLL_OUT,
                 batch_size=512,
                 n_epochs=8,
-                learning_rate=lambda left: 1e-3 * max(left, 0.02),
+                learning_rate=_learning_rate,
                 gamma=1.0,
                 gae_lambda=0.9,
                 ent_coef=0.0,
@@ -90,55 +75,42 @@ class LikelihoodAgent(MixedModel):
             agent.learn(self.updates * TIRES * ROLL_OUT)
         finally:
             torch.set_num_threads(threads)
-        self.learning = [float(info["r"]) for info in agent.ep_info_buffer or []]
-        self.layers = _layers(agent)
-        return self
+        learning = tuple(float(info["r"]) for info in agent.ep_info_buffer or [])
+        return replace(self, layers=tuple(_layers(agent)), learning=learning)
 
     def act(self, seen: np.ndarray) -> np.ndarray:
         """Give the policy's mean action, (n, p), in [-1, 1]."""
         first, first_bias, last, last_bias = self.layers
         return np.clip(np.tanh(seen @ first + first_bias) @ last + last_bias, -1.0, 1.0)
 
-    def predict(self, source: pd.DataFrame) -> Prediction:
+    def predict(self, model: CurveMixedModel, source: pd.DataFrame, target: str) -> Prediction:
         """Let the agent move the scores."""
-        found = self.model.predict(source, self.target, trust=0.0)
-        situation = situation_of(self.model, source, self.target)
+        found = model.predict(source, target, trust=0.0)
+        situation = situation_of(model, source, target)
         rows = np.arange(len(source))
         moved = np.zeros_like(situation.scores)
         for _ in range(STEPS):
             moved = moved + REACH * self.act(observe(moved, situation, rows))
-        target = found.source + moved * situation.unit
-        place = self.model.space.slices["aligning torque"]
-        failed = failed_fits(self.model, found)
-        target[failed, place] = found.expected[failed, place]
-        return replace(found, shift=moved * situation.unit, target=target)
+        moved = moved * situation.unit
+        return without_failed_fits(model, replace(found, shift=moved, target=found.source + moved))
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays, strings and numbers that bring the trained agent back."""
+        """Give arrays, strings and numbers that bring the trained policy back."""
         return {
-            **super().to_state(),
             "option_updates": self.updates,
             **{f"policy_{k}": layer for k, layer in enumerate(self.layers)},
         }
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave; it translates the same and cannot learn on."""
-        agent = super().from_state(state)
-        agent.updates = int(state["option_updates"])
-        agent.layers = [np.asarray(state[f"policy_{k}"]) for k in range(4)]
-        return agent
-
-    @classmethod
-    def _with_options(cls, state: Mapping[str, Any]) -> Self:
-        return cls(gate=bool(state["option_gate"]), pairs=bool(state["option_pairs"]))
+        """Bring back what :meth:`to_state` gave; it moves the same and cannot learn on."""
+        layers = tuple(np.asarray(state[f"policy_{k}"]) for k in range(4))
+        return cls(int(state["option_updates"]), str(state["translator"]) == "curious_agent", layers)
 
 
-class CuriousAgent(LikelihoodAgent):
-    """The same with random network distillation: a bonus for states that it has seldom seen."""
-
-    name: ClassVar[str] = "curious_agent"
-    curious: ClassVar[bool] = True
+def _learning_rate(left: float) -> float:
+    """Falls from 0.001 with the share of the training that is left."""
+    return 1e-3 * max(left, 0.02)
 
 
 def _layers(agent: PPO) -> list[np.ndarray]:

@@ -12,6 +12,7 @@ from tire_pipeline.classifiers.base import Classifier, classifier_from_state, ma
 from tire_pipeline.errors import DomainError
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.translation.base import check_target
+from tire_pipeline.translation.result import TranslationResult, without_estimate
 
 BINS = 20
 MOST_STEPS = 60
@@ -75,6 +76,12 @@ class GreedyForest:
         translated = source.copy()
         translated[list(LATERAL_WITHOUT_CAMBER)] = values
         return translated
+
+    def translation(
+        self, source: pd.DataFrame, *, bands: bool = True, farthest: float | None = None
+    ) -> TranslationResult:
+        """Translate; without bands or estimates of the error."""
+        return without_estimate(source, self.translate(source), self.target, self.name)
 
     def to_state(self) -> dict[str, Any]:
         """Give arrays, strings and numbers that bring it back."""

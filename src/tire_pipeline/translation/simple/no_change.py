@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Self
 import pandas as pd
 
 from tire_pipeline.translation.base import check_target
+from tire_pipeline.translation.result import LEFT_ALONE, TranslationResult, without_estimate
 
 
 class NoChange:
@@ -24,6 +25,12 @@ class NoChange:
     def translate(self, source: pd.DataFrame) -> pd.DataFrame:
         """Give a copy."""
         return source.copy()
+
+    def translation(
+        self, source: pd.DataFrame, *, bands: bool = True, farthest: float | None = None
+    ) -> TranslationResult:
+        """Translate; without bands or estimates of the error."""
+        return without_estimate(source, self.translate(source), self.target, self.name, LEFT_ALONE)
 
     def to_state(self) -> dict[str, Any]:
         """Give the target."""

@@ -19,6 +19,7 @@ from tire_pipeline.representations import (
 from tire_pipeline.state_files import prefixed, without_prefix
 from tire_pipeline.tire_table.bins import Binning
 from tire_pipeline.translation.base import check_target
+from tire_pipeline.translation.result import TranslationResult, without_estimate
 from tire_pipeline.translation.thesis.policy import GreedyPolicy
 from tire_pipeline.translation.thesis.real_states import real_states
 from tire_pipeline.translation.thesis.roll_out import RollOut, roll_out
@@ -89,6 +90,7 @@ class AgentTranslator:
         self.learning_curve = pd.DataFrame(columns=["step", "reward", "length"])
         self._parts: tuple[Representation, Binning, CompiledForest, Rules] | None = None
         self.policy: GreedyPolicy | None = None
+        self.target = ""
 
     def fit(
         self,
@@ -146,6 +148,7 @@ class AgentTranslator:
             n_steps=self.n_steps,
             n_envs=self.n_envs,
         )
+        self.target = target
         self._parts = (representation, bins, classifier.forest, rules)
         self.policy, self.learning_curve = agent.policy, agent.learning_curve
         return self
@@ -154,6 +157,12 @@ class AgentTranslator:
         """Move every tire as the agent does, and decode where it ends up."""
         representation, features, _ = self._moved(source)
         return representation.decode(features, source)
+
+    def translation(
+        self, source: pd.DataFrame, *, bands: bool = True, farthest: float | None = None
+    ) -> TranslationResult:
+        """Translate; without bands or estimates of the error."""
+        return without_estimate(source, self.translate(source), self.target, self.name)
 
     def translate_curves(self, source: pd.DataFrame) -> np.ndarray:
         """Give the curves as the thesis decodes them, N, shape (n, 3, 100)."""
@@ -177,6 +186,7 @@ class AgentTranslator:
         assert self.policy is not None  # fit sets both
         return {
             "translator": self.name,
+            "target": self.target,
             "algorithm": self.algorithm,
             "reward": self.reward,
             **prefixed("representation", representation.to_state()),
@@ -201,6 +211,7 @@ class AgentTranslator:
             max_steps=rules.max_steps,
         )
         forest = CompiledForest.from_state(without_prefix("forest", state))
+        back.target = str(state.get("target", "the target"))  # states of 0.1 do not tell it
         back._parts = (representation, bins, forest, rules)
         back.policy = GreedyPolicy.from_state(without_prefix("policy", state))
         return back

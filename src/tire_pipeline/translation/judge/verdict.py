@@ -1,0 +1,214 @@
+"""The verdict on each file: what cannot be translated, what is not worth it, and why, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.translation.curves.features import encode
+from tire_pipeline.translation.decode.physics import violations
+from tire_pipeline.translation.judge.bias_band import CERTAINTY, bias_band
+from tire_pipeline.translation.judge.gain import MOST_HARM, expected_gain, pooled_harm
+from tire_pipeline.translation.judge.reach import TrainingReach
+from tire_pipeline.translation.judge.words import describe_changes
+from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
+from tire_pipeline.translation.result import LEFT_ALONE, REFUSED, TRANSLATED, UNBIASED, UNKNOWN
+
+FARTHEST = 3.0
+"""Files farther than this from the training data are refused; 1 is the edge of the training data. On tuning
+tires every refusal between 1.5 and 2.2 was wrong."""
+
+LEAST_GAIN = 0.05
+"""A file whose expected squared error would shrink by less than this share (2.5% in RMS) is left alone."""
+
+VERSIONS = ("5.0", "5.1", "5.2", "PAC2002")
+NEEDED = ("FNOMIN", "UNLOADED_RADIUS", "PCY1", "PDY1", "PKY1", "PKY2", "PKX1")
+"""What a file must state to be translated."""
+
+_OWN = "it is the target's own"
+_UNKNOWN = "no training file is of its supplier: give training files of it"
+_VERDICTS = {_OWN: UNBIASED, _UNKNOWN: UNKNOWN}
+
+
+@dataclass(frozen=True)
+class VerdictRules:
+    """Gives verdicts.
+
+    Attributes
+    ----------
+    target : str
+    reach : TrainingReach
+    harm : ndarray, shape (categories,)
+        Probability that translating a category's files makes their error larger.
+    gate : bool
+        Leave files alone for which little gain is expected, and refuse those far from the training data.
+    farthest : float
+        Distance to the training data beyond which a file is refused.
+    """
+
+    target: str
+    reach: TrainingReach
+    harm: np.ndarray
+    gate: bool
+    farthest: float
+
+    @classmethod
+    def fit(
+        cls,
+        model: CurveMixedModel,
+        training: pd.DataFrame,
+        found: Prediction,
+        target: str,
+        *,
+        gate: bool,
+        farthest: float,
+    ) -> Self:
+        """Learn from the training files and their prediction ``found``."""
+        harm = expected_gain(model, found)[1]
+        category = training["category"].to_numpy(dtype=str)
+        pooled = pooled_harm(harm, category, model.categories, target)
+        return cls(target, TrainingReach.fit(model, training, target), pooled, gate, farthest)
+
+    def near(self, model: CurveMixedModel, source: pd.DataFrame, found: Prediction) -> np.ndarray:
+        """Tell which files are near enough to the training data, (n,)."""
+        return self.reach.distance(model, source, found) <= self.farthest
+
+    def refusals(self, model: CurveMixedModel, source: pd.DataFrame) -> np.ndarray:
+        """Say why a file cannot be translated at all, "" if it can, (n,)."""
+        reason = np.full(len(source), "", dtype=object)
+        category = source["category"].astype(str).to_numpy()
+        lacking = source.reindex(columns=list(NEEDED)).isna()
+        for i in np.flatnonzero(lacking.any(axis=1).to_numpy()):
+            reason[i] = (
+                f"it does not state {', '.join(lacking.columns[lacking.iloc[i]])}: add what is missing"
+            )
+        if "version" in source:
+            other = ~source["version"].astype(str).isin(VERSIONS).to_numpy()
+            reason[other] = (
+                "its Magic Formula version is not 5.x: fit 5.2 to its forces first (fit_magic_formula)"
+            )
+        reason[category == self.target] = _OWN
+        reason[~np.isin(category, model.categories)] = _UNKNOWN
+        usable = np.flatnonzero(reason == "")
+        if usable.size:
+            features = encode(source.iloc[usable])
+            finite = np.all([np.isfinite(values).all(axis=1) for values in features.values()], axis=0)
+            reason[usable[~finite]] = "its curves are not finite"
+        return reason
+
+    def empty_report(self, model: CurveMixedModel, source: pd.DataFrame, refused: np.ndarray) -> pd.DataFrame:
+        """Lay out the report, one row a file; filled for those that are refused."""
+        probability = source.get("category_probability", 1.0)
+        return pd.DataFrame(
+            {
+                "file": source["file"] if "file" in source else source.index.astype(str),
+                "source": source["category"].astype(str),
+                "source_probability": probability,
+                "target": self.target,
+                "verdict": np.array([_VERDICTS.get(why, REFUSED) for why in refused], dtype=object),
+                "reason": refused,
+                "distance": np.nan,
+                "expected_rms_ratio": np.nan,
+                "harm_probability": np.nan,
+                "bias_band": pd.Series("", index=source.index, dtype=object),
+                "taught": 0,
+                "protocol": model.protocols.in_words(source),
+                "changes": pd.Series("", index=source.index, dtype=object),
+            },
+            index=source.index,
+        )
+
+    def judge(
+        self, model: CurveMixedModel, rows: pd.DataFrame, moved: pd.DataFrame, found: Prediction
+    ) -> pd.DataFrame:
+        """Verdict, reason, distance, expected ratio, probability of harm and words, one row a file.
+
+        Parameters
+        ----------
+        model : CurveMixedModel
+        rows, moved : DataFrame
+            n tires before and after.
+        found : Prediction
+            What they were moved by.
+        """
+        ratio, harm = expected_gain(model, found)
+        distance = self.reach.distance(model, rows, found)
+        band = bias_band(model, found)
+        broken = violations(moved)
+        impossible = (broken & ~violations(rows)).any(axis=1) | broken.drop(columns="curvature").any(axis=1)
+        actors = rows["category"].astype(str).to_numpy()
+        uncertain = np.isin(actors, np.array(model.categories)[self.harm > MOST_HARM])
+        verdict = np.full(len(rows), TRANSLATED, dtype=object)
+        reason = np.full(len(rows), "", dtype=object)
+        for i in range(len(rows)):
+            reason[i] = f"expected RMS error {np.sqrt(ratio[i]):.0%} of the unchanged file's"
+            if self.gate and distance[i] > self.farthest:
+                verdict[i], reason[i] = REFUSED, _too_far(self.target, distance[i])
+            elif impossible.iloc[i]:
+                verdict[i] = REFUSED
+                reason[i] = f"no physical tire found: {', '.join(broken.columns[broken.iloc[i]])}"
+            elif self.gate and (uncertain[i] or ratio[i] > 1.0 - LEAST_GAIN):
+                zero = bool(band.holds_zero[i])
+                verdict[i] = UNBIASED if zero else LEFT_ALONE
+                reason[i] = _why_alone(actors[i], self.target, bool(uncertain[i]), zero, ratio[i])
+        said = np.array(describe_changes(encode(rows), encode(moved), actors, self.target), dtype=object)
+        said[verdict != TRANSLATED] = ""
+        return pd.DataFrame(
+            {
+                "verdict": verdict,
+                "reason": reason,
+                "distance": distance,
+                "expected_rms_ratio": np.sqrt(ratio),
+                "harm_probability": harm,
+                "bias_band": [band.in_words(i) for i in range(len(rows))],
+                "taught": found.taught.astype(int),
+                "changes": said,
+            },
+            index=rows.index,
+        )
+
+    def to_state(self) -> dict[str, Any]:
+        """Give arrays, strings and numbers that bring it back."""
+        return {
+            "target": self.target,
+            "option_gate": self.gate,
+            "option_farthest": self.farthest,
+            "doubt": self.harm,
+            **self.reach.to_state(),
+        }
+
+    @classmethod
+    def from_state(cls, state: Mapping[str, Any]) -> Self:
+        """Bring back what :meth:`to_state` gave."""
+        return cls(
+            str(state["target"]),
+            TrainingReach.from_state(state),
+            np.asarray(state["doubt"]),
+            bool(state["option_gate"]),
+            float(state.get("option_farthest", FARTHEST)),
+        )
+
+
+def _too_far(target: str, distance: float) -> str:
+    said = f"this tire is outside of what {target} has measured: distance {distance:.2f}"
+    if distance > FARTHEST:
+        return f"{said}, do not trust a translation"
+    return f"{said}, the edge is 1; give training files of such tires, or ask with farthest={FARTHEST:g}"
+
+
+def _why_alone(actor: str, target: str, uncertain: bool, holds_zero: bool, ratio: float) -> str:
+    """Say why a file is not translated that could be."""
+    if holds_zero:
+        return (
+            f"the band of {actor}'s bias against {target} holds zero for such a tire in stiffness "
+            f"and friction ({CERTAINTY:.0%} each)"
+        )
+    if uncertain:
+        return f"{actor}'s bias against {target} cannot be told from chance"
+    return (
+        f"too little to gain for such a tire: expected RMS error {np.sqrt(ratio):.0%} of the unchanged file's"
+    )
