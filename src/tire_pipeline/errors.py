@@ -84,3 +84,13 @@ class DomainError(TirePipelineError, ValueError):
 
 class RecordingError(TirePipelineError, ValueError):
     """A recording cannot be read, or does not hold what is needed."""
+
+
+def chain(error: BaseException) -> list[BaseException]:
+    """The error and all that caused it, outermost first."""
+    found: list[BaseException] = []
+    current: BaseException | None = error
+    while current is not None and current not in found:
+        found.append(current)
+        current = current.__cause__ or current.__context__
+    return found

@@ -15,7 +15,7 @@ from pydantic import Field, ValidationError
 from tire_pipeline.atomic import check_before_replacing
 from tire_pipeline.datasets.text_folder import TextFolderDataset
 from tire_pipeline.errors import DomainError
-from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.parameters import Parameters
 from tire_pipeline.runs import Ticket, take_back, take_turn
 from tire_pipeline.runs.turn import EXPIRY_SECONDS
 

@@ -8,7 +8,7 @@ import re
 from kedro.io import DatasetError
 from kedro.validation import ParameterValidationError
 
-from tire_pipeline.errors import TirePipelineError
+from tire_pipeline.errors import TirePipelineError, chain
 
 _ADVICE = {
     errno.ENOSPC: "the disk is full: make room, then run again",
@@ -19,16 +19,6 @@ _ADVICE = {
 }
 
 _WITHOUT_LINK = re.compile(r"\s*For further information visit https?://\S+")
-
-
-def chain(error: BaseException) -> list[BaseException]:
-    """The error and all that caused it, outermost first."""
-    found: list[BaseException] = []
-    current: BaseException | None = error
-    while current is not None and current not in found:
-        found.append(current)
-        current = current.__cause__ or current.__context__
-    return found
 
 
 def one_line(error: BaseException) -> str | None:

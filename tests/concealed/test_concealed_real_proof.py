@@ -6,13 +6,13 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.concealed import EffectTruth
+from tire_pipeline.concealed import real_proof as real_nodes
+from tire_pipeline.concealed.proof import ProveConcealedParameters
 from tire_pipeline.concealed.real import RealAnswer
+from tire_pipeline.concealed.real.parameters import RealParameters
 from tire_pipeline.concealed.real.published import published_text
 from tire_pipeline.concealed.real.score import name_sets, score_real
-from tire_pipeline.pipelines.prove_concealed import real_nodes
-from tire_pipeline.pipelines.prove_concealed.nodes import ProveConcealedParameters
-from tire_pipeline.pipelines.prove_concealed.real_parameters import RealParameters
-from tire_pipeline.pipelines.prove_concealed.report import proof_page
+from tire_pipeline.reporting.proof_page import proof_page
 
 
 def answer(case_id: str, kind: str, *names: str, over_misfit: float = 3.0, source="calspan", **more):

@@ -14,7 +14,7 @@ from conftest_kedro import ROOT, kedro
 
 from tire_pipeline.datasets.recording_folder import RecordingFolderDataset
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.pipelines.explain_mismatch.nodes import ExplainParameters, explain_all
+from tire_pipeline.reporting.explained_recordings import ExplainParameters, explain_all
 
 pytestmark = pytest.mark.slow
 EXAMPLES = ROOT.parent / "shared" / "recordings" / "concealed_examples"

@@ -63,7 +63,7 @@ def test_a_constant_feature_is_no_drift():
 
 
 def test_the_page_of_a_first_run_says_that_there_is_nothing_to_compare():
-    from tire_pipeline.pipelines.retrain.report import build_retraining_report
+    from tire_pipeline.reporting.retraining_page import build_retraining_report
     from tire_pipeline.retraining import Release, Shelf
 
     files = pd.DataFrame({"file": ["A/1.tir"], "status": ["read"], "reason": [""]})

@@ -17,10 +17,10 @@ from tire_pipeline.datasets import RecordingFolderDataset, TextFolderDataset, Ti
 from tire_pipeline.errors import DomainError, RecordingError
 from tire_pipeline.file_names import name_on_disk, path_of, shown_name
 from tire_pipeline.folder_walk import walk
-from tire_pipeline.pipelines.ingest_tir.nodes import IngestParameters, read_files
 from tire_pipeline.retraining import Manifest, Store, difference, ingest, look_at, settled_difference
 from tire_pipeline.retraining.scan import fingerprint
 from tire_pipeline.tir import read_tir
+from tire_pipeline.tire_table.read_files import IngestParameters, read_files
 
 LATIN = os.fsdecode(b"M\xfcnchen.tir")
 root = pytest.mark.skipif(os.geteuid() != 0, reason="needs root to drop rights")

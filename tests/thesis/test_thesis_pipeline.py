@@ -9,7 +9,7 @@ import yaml
 from kedro.pipeline import Pipeline
 
 from tire_pipeline.pipelines.reproduce_thesis import chosen_grid, create_pipeline
-from tire_pipeline.pipelines.reproduce_thesis.parameters import GridParameters, ReproduceThesisParameters
+from tire_pipeline.thesis.parameters import GridParameters, ReproduceThesisParameters
 from tire_pipeline.translation.thesis.grid import CELLS
 
 ROOT = Path(__file__).resolve().parents[2]

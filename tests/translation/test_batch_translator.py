@@ -7,13 +7,13 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.fleet import FleetSettings, make_fleet
-from tire_pipeline.pipelines.translate.page import translate_page
-from tire_pipeline.pipelines.translate.parameters import TranslateParameters
+from tire_pipeline.reporting.translated_folder_page import translate_page
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
 from tire_pipeline.translation.base import translator_from_state
 from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
+from tire_pipeline.translation.parameters import TranslateParameters
 from tire_pipeline.translation.population.fit import prepare
 from tire_pipeline.translation.population.mixed_effects import posterior_weights
 from tire_pipeline.translation.population.update import TaughtCells, learn_from, updated_weights

@@ -4,8 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from tire_pipeline.pipelines.translate.page import translate_page
-from tire_pipeline.pipelines.translate.parameters import TranslateParameters
+from tire_pipeline.reporting.translated_folder_page import translate_page
+from tire_pipeline.translation.parameters import TranslateParameters
 from tire_pipeline.translation.population import protocol_search
 from tire_pipeline.translation.population.protocol_search import Dated, find_changes
 from tire_pipeline.translation.population.protocols import Change, Protocols, days_of

@@ -9,10 +9,10 @@ import pytest
 from viz_browser import ROOT, browser, needs_browser
 
 from tire_pipeline.mismatch import explain_recordings
-from tire_pipeline.pipelines.explain_mismatch.overview import draw_overview
-from tire_pipeline.pipelines.prove_concealed.report import proof_page
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.reporting import front_page
+from tire_pipeline.reporting.mismatch_overview import draw_overview
+from tire_pipeline.reporting.proof_page import proof_page
 from tire_pipeline.reporting.translation_page import translation_page
 from tire_pipeline.tir import read_tir
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -22,9 +22,9 @@ class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Com
     """Saves ``{name: function that gives bytes}``: each file whole, several at a time, resumable.
 
     A file that exists is right, because its name must say all that it depends on (seed, settings,
-    version of the code): put :func:`source_hash` into them. So a long computation that was interrupted, or
-    killed, goes on where it stopped. Files of other names are left alone on saving and on loading: only
-    those of the last save are loaded.
+    version of the code): put :func:`.code_hash.code_hash` into them. So a long computation that was
+    interrupted, or killed, goes on where it stopped. Files of other names are left alone on saving and on
+    loading: only those of the last save are loaded.
 
     Parameters
     ----------
@@ -101,30 +101,6 @@ def _share(text: str) -> slice:
             f"share={text!r} is no share", todo="give k/n with k from 1 to n, for example 3/400"
         )
     return slice(number - 1, None, count)
-
-
-def source_hash(*packages: str) -> str:
-    """A hash of the source of parts of this project: results of other code are not taken for this code's.
-
-    Parameters
-    ----------
-    *packages : str
-        Folders below ``tire_pipeline``.
-    """
-    import hashlib
-
-    root = Path(__file__).resolve().parents[1]
-    total = hashlib.sha256()
-    for path in _sources(root, packages):
-        total.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes())
-    return total.hexdigest()[:12]
-
-
-def _sources(root: Path, packages: tuple[str, ...]) -> Iterator[Path]:
-    for package in packages:
-        for path in sorted((root / package).rglob("*")):
-            if path.is_file() and path.suffix in (".py", ".json", ".html"):
-                yield path
 
 
 def _write(compute: Compute, path: Path) -> None:

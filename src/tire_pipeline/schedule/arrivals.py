@@ -9,8 +9,8 @@ from kedro.framework.session import KedroSession
 from kedro.framework.startup import bootstrap_project
 
 from tire_pipeline.datasets import FolderDataset, IngestStoreDataset
-from tire_pipeline.pipelines.retrain.nodes import RetrainParameters
 from tire_pipeline.retraining import Difference, settled_difference
+from tire_pipeline.retraining.candidate import RetrainParameters
 
 
 class Session(Protocol):

@@ -11,10 +11,10 @@ from kedro.framework.startup import bootstrap_project
 from pydantic import Field
 
 from tire_pipeline.classifiers.tuning import ANN_GRID
-from tire_pipeline.pipelines.prove_concealed.nodes import ProveConcealedParameters
-from tire_pipeline.pipelines.reproduce_thesis.parameters import GridParameters
+from tire_pipeline.concealed.proof import ProveConcealedParameters
 from tire_pipeline.run_errors import one_line
 from tire_pipeline.schedule.arrivals import new_files_of
+from tire_pipeline.thesis.parameters import GridParameters
 
 ROOT = Path(os.environ.get("TIRE_PIPELINE_ROOT", Path.cwd()))
 JOB = "retraining"

@@ -2,7 +2,7 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.pipelines.bin.nodes import bin_features, split_files
+from tire_pipeline.tire_table.binned_features import bin_features, split_files
 
 
 def create_pipeline(**_: object) -> Pipeline:

@@ -2,7 +2,7 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.pipelines.dedupe_filter.nodes import keep_usable
+from tire_pipeline.representations.usable_tires import keep_usable
 
 
 def create_pipeline(**_: object) -> Pipeline:

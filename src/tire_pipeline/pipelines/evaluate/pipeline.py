@@ -2,11 +2,11 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.pipelines.evaluate.best import choose_best, write_best
-from tire_pipeline.pipelines.evaluate.judge import judge
-from tire_pipeline.pipelines.evaluate.outcome import say_outcome
-from tire_pipeline.pipelines.evaluate.report import build_report, force_figure
-from tire_pipeline.pipelines.evaluate.translate import choose_sources, translate_files
+from tire_pipeline.evaluation.best_translator import choose_best, write_best
+from tire_pipeline.evaluation.judged import judge
+from tire_pipeline.evaluation.translated import choose_sources, translate_files
+from tire_pipeline.reporting.evaluation_outcome import say_outcome
+from tire_pipeline.reporting.evaluation_page import build_report, force_figure
 
 TRANSLATORS = ["agent", "our_agent", "translator"]
 

@@ -2,8 +2,8 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.pipelines.explain_mismatch.nodes import explain_all
-from tire_pipeline.pipelines.explain_mismatch.overview import draw_overview
+from tire_pipeline.reporting.explained_recordings import explain_all
+from tire_pipeline.reporting.mismatch_overview import draw_overview
 
 
 def create_pipeline(**_: object) -> Pipeline:

@@ -2,7 +2,7 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.pipelines.ingest_tir.nodes import read_files
+from tire_pipeline.tire_table.read_files import read_files
 
 
 def create_pipeline(**_: object) -> Pipeline:

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from tire_pipeline.fleet import FleetSettings, make_fleet
 from tire_pipeline.fleet.write import encoded, truth_files
-from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.parameters import Parameters
 
 
 class FleetParameters(Parameters):

@@ -2,7 +2,7 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.pipelines.normalize.nodes import to_one_nominal_load
+from tire_pipeline.tire_table.one_nominal_load import to_one_nominal_load
 
 
 def create_pipeline(**_: object) -> Pipeline:

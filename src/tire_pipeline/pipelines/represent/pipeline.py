@@ -2,7 +2,7 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.pipelines.represent.nodes import encode_tires
+from tire_pipeline.representations.encoded_tires import encode_tires
 
 
 def create_pipeline(**_: object) -> Pipeline:

@@ -11,7 +11,7 @@ from typing import Any
 from kedro.framework.hooks import hook_impl
 from kedro.framework.project import pipelines
 
-from tire_pipeline.pipelines.reproduce_thesis.parameters import GridParameters
+from tire_pipeline.thesis.parameters import GridParameters
 
 _CHOSEN = {"grid": GridParameters()}
 

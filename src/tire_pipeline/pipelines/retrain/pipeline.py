@@ -4,7 +4,8 @@ from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline.pipelines.dedupe_filter import create_pipeline as dedupe_filter
 from tire_pipeline.pipelines.normalize import create_pipeline as normalize
-from tire_pipeline.pipelines.retrain.nodes import (
+from tire_pipeline.reporting.retraining_page import build_retraining_report
+from tire_pipeline.retraining.candidate import (
     compare,
     decide,
     hold_out,
@@ -12,7 +13,6 @@ from tire_pipeline.pipelines.retrain.nodes import (
     read_new_files,
     train_candidate,
 )
-from tire_pipeline.pipelines.retrain.report import build_retraining_report
 
 _SHAPE = [
     "params:normalize",

@@ -2,8 +2,9 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.pipelines.train_agent.nodes import train_one_agent, train_our_agent
-from tire_pipeline.pipelines.translate.fit import fit_node
+from tire_pipeline.pipelines.translate.pipeline import fit_node
+from tire_pipeline.reporting.training_figures import learning_figure
+from tire_pipeline.translation.trained_agents import train_one_agent, train_our_agent
 
 
 def create_pipeline(**_: object) -> Pipeline:
@@ -21,8 +22,14 @@ def create_pipeline(**_: object) -> Pipeline:
                     "params:target_category",
                     "params:seed",
                 ],
-                outputs=["agent", "learning_curve", "learning_figure"],
+                outputs=["agent", "learning_curve"],
                 name="train_one_agent",
+            ),
+            Node(
+                learning_figure,
+                inputs="learning_curve",
+                outputs="learning_figure",
+                name="draw_learning_curve",
             ),
             Node(
                 train_our_agent,

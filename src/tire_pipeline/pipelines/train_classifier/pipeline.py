@@ -2,12 +2,8 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.pipelines.train_classifier.nodes import (
-    confusion_figure,
-    join_scores,
-    score_classifiers,
-    train_forest,
-)
+from tire_pipeline.classifiers.scores import join_scores, score_classifiers, train_forest
+from tire_pipeline.reporting.training_figures import confusion_figure
 
 
 def create_pipeline(**_: object) -> Pipeline:

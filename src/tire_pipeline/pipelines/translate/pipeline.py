@@ -2,9 +2,9 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.pipelines.translate.fit import fit_node
-from tire_pipeline.pipelines.translate.nodes import read_sources, translate_all
-from tire_pipeline.pipelines.translate.page import translate_page
+from tire_pipeline.reporting.translated_folder_page import translate_page
+from tire_pipeline.translation.fitted import fit_translator
+from tire_pipeline.translation.translated_folder import read_sources, translate_all
 
 
 def create_pipeline(**_: object) -> Pipeline:
@@ -59,4 +59,20 @@ def create_pipeline(**_: object) -> Pipeline:
                 name="draw_translated_files",
             ),
         ]
+    )
+
+
+def fit_node() -> Node:
+    """Give the node that both ``train_agent`` and ``translate`` run."""
+    return Node(
+        fit_translator,
+        inputs=[
+            "normalized_table",
+            "params:translate",
+            "params:normalize",
+            "params:target_category",
+            "params:seed",
+        ],
+        outputs="translator",
+        name="fit_translator",
     )

@@ -272,7 +272,8 @@ class CurveMixedModel:
         """Bring back what :meth:`to_state` gave."""
         names = [str(name) for name in state["variance_names"]]
         fitted = tuple(
-            Fitted(dict(zip(names, map(float, row), strict=True)), mean, covariance)
+            # columns lie as the fit leaves them: sums in another order differ in the last bit
+            Fitted(dict(zip(names, map(float, row), strict=True)), mean, np.asfortranarray(covariance))
             for row, mean, covariance in zip(
                 state["variances"], state["weights"], state["weight_covariances"], strict=True
             )

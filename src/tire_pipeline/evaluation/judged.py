@@ -6,11 +6,11 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.evaluation import curves_of, evaluate_translations
-from tire_pipeline.pipelines.evaluate.measured import Files, measured
-from tire_pipeline.pipelines.evaluate.translate import NO_CHANGE, UNJUDGED
-from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
+from tire_pipeline.evaluation.measured import Files, measured
+from tire_pipeline.evaluation.translated import NO_CHANGE, UNJUDGED
 from tire_pipeline.progress import track
 from tire_pipeline.representations.coefficients import DATASETS
+from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 
 ORACLE = "oracle"
 FLOOR = "floor"
@@ -55,38 +55,43 @@ def judge(
     for name, part in translated_table.groupby("set", sort=False):
         if name == UNJUDGED:
             continue
-        before = part[part["state"] == "before"].reset_index(drop=True)
-        tables = {
-            str(who): table.reset_index(drop=True)
-            for who, table in part[part["state"] == "after"].groupby("translator", sort=False)
-        }
-        first, second = (
-            measured(
-                evaluation_truth, f"{again}/{name}/{target_category}", before["tire"], normalize.nominal_load
-            )
-            for again in ("first", "second")
-        )
-        written = list(tables)
-        tables |= {NO_CHANGE: before, ORACLE: shifted_by_truth(before, first), FLOOR: second}
-        reference, unchanged = curves_of(first), curves_of(before)
-        for translator, table in track(tables.items(), f"judging set {name}", total=len(tables)):
-            after = unchanged if translator == NO_CHANGE else curves_of(table)
-            result = evaluate_translations(after, unchanged, reference)
-            errors = result.per_file.reset_index(drop=True)
-            rows = result.summary.reset_index(names="metric")
-            rms = [float(np.sqrt(errors[m].mean())) if m in errors else np.nan for m in rows["metric"]]
-            summaries.append(rows.assign(set=name, translator=translator, rms=rms))
-            if translator in written:
-                said = before[["set", "file", "category", "tire"]].assign(translator=translator)
-                per_file.append(pd.concat([said, errors], axis=1))
+        tires = part.loc[part["state"] == "before", "tire"].reset_index(drop=True)
+        folders = (f"{again}/{name}/{target_category}" for again in ("first", "second"))
+        load = normalize.nominal_load
+        first, second = (measured(evaluation_truth, folder, tires, load) for folder in folders)
+        errors, summary = _judge_set(str(name), part, first, second)
+        per_file += errors
+        summaries += summary
         references.append(first.drop_duplicates("tire").assign(set=name))
     if not summaries:
         return pd.DataFrame(columns=["set", "file"]), pd.DataFrame(columns=_COLUMNS), translated_table.head(0)
-    return (
-        pd.concat(per_file, ignore_index=True),
-        pd.concat(summaries, ignore_index=True)[_COLUMNS],
-        pd.concat(references, ignore_index=True),
-    )
+    found = [pd.concat(parts, ignore_index=True) for parts in (per_file, summaries, references)]
+    return found[0], found[1][_COLUMNS], found[2]
+
+
+def _judge_set(
+    name: str, part: pd.DataFrame, first: pd.DataFrame, second: pd.DataFrame
+) -> tuple[list[pd.DataFrame], list[pd.DataFrame]]:
+    """Errors by file and summaries of one set, by translator, from the target's two measurements."""
+    before = part[part["state"] == "before"].reset_index(drop=True)
+    written = {
+        str(who): table.reset_index(drop=True)
+        for who, table in part[part["state"] == "after"].groupby("translator", sort=False)
+    }
+    tables = written | {NO_CHANGE: before, ORACLE: shifted_by_truth(before, first), FLOOR: second}
+    reference, unchanged = curves_of(first), curves_of(before)
+    per_file, summaries = [], []
+    for translator, table in track(tables.items(), f"judging set {name}", total=len(tables)):
+        after = unchanged if translator == NO_CHANGE else curves_of(table)
+        result = evaluate_translations(after, unchanged, reference)
+        errors = result.per_file.reset_index(drop=True)
+        rows = result.summary.reset_index(names="metric")
+        rms = [float(np.sqrt(errors[m].mean())) if m in errors else np.nan for m in rows["metric"]]
+        summaries.append(rows.assign(set=name, translator=translator, rms=rms))
+        if translator in written:
+            said = before[["set", "file", "category", "tire"]].assign(translator=translator)
+            per_file.append(pd.concat([said, errors], axis=1))
+    return per_file, summaries
 
 
 def shifted_by_truth(before: pd.DataFrame, first: pd.DataFrame) -> pd.DataFrame:

@@ -10,17 +10,17 @@ from typing import Any
 
 import pandas as pd
 
+from tire_pipeline.classifiers.scores import split_rows
 from tire_pipeline.classifiers.tuning import (
     ANN_GRID,
     ann_combinations,
     random_combinations,
 )
-from tire_pipeline.datasets.computed_folder import source_hash
-from tire_pipeline.pipelines.reproduce_thesis import files
-from tire_pipeline.pipelines.reproduce_thesis.parameters import AnnParameters, ReproduceThesisParameters
-from tire_pipeline.pipelines.train_classifier.nodes import split_rows
+from tire_pipeline.code_hash import code_hash
 from tire_pipeline.thesis import classifier_experiments as experiments
+from tire_pipeline.thesis import files
 from tire_pipeline.thesis.classifier_experiments import FURTHER_CLASSIFIERS, SPLITS, THESIS_CLASSIFIERS
+from tire_pipeline.thesis.parameters import AnnParameters, ReproduceThesisParameters
 
 Folder = Mapping[str, Callable[[], bytes]]
 Work = dict[str, Callable[[], bytes]]
@@ -29,7 +29,7 @@ _JOBS = ["batch_size", "optimizer"]
 
 
 def _code() -> str:
-    return source_hash(*CODE) + files.key_of(getsource(experiments))
+    return code_hash(*CODE) + files.key_of(getsource(experiments))
 
 
 def _part(

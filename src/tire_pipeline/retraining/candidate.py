@@ -12,12 +12,10 @@ import numpy as np
 import pandas as pd
 from pydantic import Field
 
+from tire_pipeline.classifiers.parameters import TrainClassifierParameters
 from tire_pipeline.classifiers.random_forest import RandomForest
-from tire_pipeline.pipelines.bin.nodes import BinParameters
-from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
-from tire_pipeline.pipelines.parameters import Parameters
-from tire_pipeline.pipelines.represent.nodes import RepresentParameters, unfitted
-from tire_pipeline.pipelines.train_classifier.nodes import TrainClassifierParameters
+from tire_pipeline.parameters import Parameters
+from tire_pipeline.representations.encoded_tires import RepresentParameters, unfitted
 from tire_pipeline.retraining import (
     CategoryModel,
     Judged,
@@ -35,6 +33,8 @@ from tire_pipeline.retraining import (
 from tire_pipeline.retraining.compare import CANDIDATE, RELEASED, balanced_accuracy
 from tire_pipeline.retraining.release import UNCHANGED, check_split
 from tire_pipeline.retraining.scan import check_removed
+from tire_pipeline.tire_table.binned_features import BinParameters
+from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 
 
 class RetrainParameters(Parameters):

@@ -16,7 +16,7 @@ from pydantic import Field
 from tire_pipeline.errors import RecordingError, TirePipelineError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch import MismatchReport, explain_recordings
-from tire_pipeline.pipelines.parameters import Parameters, Several
+from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.progress import track
 from tire_pipeline.recordings.groups import by_folder, matching
 
@@ -116,35 +116,44 @@ def explain_all(
     recordings = _chosen(recordings, parameters)
     groups = by_folder(recordings) if parameters.together else {name: [name] for name in recordings}
     held_out = _held_out(groups, parameters)
-    reports: dict[str, Any] = {}
-    rows: list[dict[str, str]] = []
-    pages: dict[str, str] = {}
-    corrected: dict[str, bytes] = {}
+    reports, rows = dict[str, Any](), list[dict[str, str]]()
+    pages, corrected = dict[str, str](), dict[str, bytes]()
     for name, members in track(groups.items(), "explaining recordings", total=len(groups)):
-        row = dict.fromkeys(_COLUMNS, "")
-        row["recording"] = name
-        rows.append(row)
+        loaders = {each: partial(recordings[each], **parameters.how(each)) for each in members}
         try:
-            tire, runs = _read({each: partial(recordings[each], **parameters.how(each)) for each in members})
+            tire, runs = _read(loaders)
             report = explain_recordings(tire, runs, held_out=held_out.get(name))
         except TirePipelineError as error:
-            row["problem"] = str(error)
+            rows.append({**dict.fromkeys(_COLUMNS, ""), "recording": name, "problem": str(error)})
             continue
         reports[name] = report.to_dict()
-        row["verdict"] = report.verdict
-        row["summary"] = report.summary
-        row["effects"] = ", ".join(effect.name for effect in report.effects)
-        row["alternatives"] = ", ".join(a for effect in report.effects for a in effect.alternatives)
-        row["held_out"] = report.held_out.recording if report.held_out else ""
-        place = PurePosixPath(name)
-        pages[str(place.with_suffix(".html"))], files = _files(report, place, tire)
+        rows.append(_row(name, report))
+        page, files = _files(report, PurePosixPath(name), tire)
+        pages |= page
         corrected |= files
+    _check_any(reports, rows)
+    return reports, pd.DataFrame(rows), pages, corrected
+
+
+def _check_any(reports: Mapping[str, Any], rows: list[dict[str, str]]) -> None:
     if not reports:
         raise RecordingError(
             f"not one of {len(rows)} recordings could be explained; the first: {rows[0]['problem']}",
             todo="correct that, then run again",
         )
-    return reports, pd.DataFrame(rows), pages, corrected
+
+
+def _row(name: str, report: MismatchReport) -> dict[str, str]:
+    """One recording's row of the overview."""
+    return {
+        "recording": name,
+        "verdict": report.verdict,
+        "summary": report.summary,
+        "effects": ", ".join(effect.name for effect in report.effects),
+        "alternatives": ", ".join(a for effect in report.effects for a in effect.alternatives),
+        "held_out": report.held_out.recording if report.held_out else "",
+        "problem": "",
+    }
 
 
 def _chosen(recordings: Pairs, parameters: ExplainParameters) -> Pairs:
@@ -206,7 +215,7 @@ def _read(
 
 def _files(
     report: MismatchReport, place: PurePosixPath, tire: TireModel | None
-) -> tuple[str, dict[str, bytes]]:
+) -> tuple[dict[str, str], dict[str, bytes]]:
     """The page, and the corrected .tir with its sidecar where there is something to correct."""
     with tempfile.TemporaryDirectory() as folder:
         page = Path(folder) / "page.html"
@@ -221,4 +230,4 @@ def _files(
             target.parent.mkdir()
             report.corrected.to_tir(target)
             files = {str(place.parent / p.name): p.read_bytes() for p in target.parent.iterdir()}
-    return text, files
+    return {str(place.with_suffix(".html")): text}, files

@@ -11,11 +11,11 @@ from typing import Any, Literal
 import pandas as pd
 from pydantic import Field
 
+from tire_pipeline.code_hash import code_hash
 from tire_pipeline.concealed import Answer, Case, case_plan, held_out_errors, score, seal, unseal
-from tire_pipeline.datasets.computed_folder import source_hash
-from tire_pipeline.pipelines.parameters import Parameters
-from tire_pipeline.pipelines.prove_concealed import files
-from tire_pipeline.pipelines.prove_concealed.real_parameters import RealParameters
+from tire_pipeline.concealed import case_files as files
+from tire_pipeline.concealed.real.parameters import RealParameters
+from tire_pipeline.parameters import Parameters
 from tire_pipeline.progress import track
 from tire_pipeline.tir import read_tir
 
@@ -49,7 +49,7 @@ class ProveConcealedParameters(Parameters):
 
 def make_cases(parameters: ProveConcealedParameters) -> dict[str, Callable[[], bytes]]:
     """Say how each case is made; the dataset makes those that are not there."""
-    code = source_hash("concealed", "magic_formula")
+    code = code_hash("concealed", "magic_formula")
     return {
         f"{code}/{seed:010d}_{kind}.zip": partial(files.made_case, seed, kind)
         for seed, kind in case_plan(parameters.cases, parameters.seed)
@@ -78,7 +78,7 @@ def part_cases(
 
 def explain_cases(shown: Folder) -> dict[str, Callable[[], bytes]]:
     """Explain every case; neither answers nor held-out forces are at hand here."""
-    code = source_hash("mismatch", "magic_formula", "tir")
+    code = code_hash("mismatch", "magic_formula", "tir")
     return {f"{code}/{name}": partial(files.explained, read, METHOD) for name, read in shown.items()}
 
 
@@ -91,7 +91,7 @@ def explain_by_baselines(
 
 def explained_by(shown: Folder, methods: Sequence[str]) -> dict[str, Callable[[], bytes]]:
     """Say how each case is explained by each of these baselines."""
-    code = source_hash("concealed/baselines", "magic_formula", "tir")
+    code = code_hash("concealed/baselines", "magic_formula", "tir")
     return {
         f"{code}/{method}/{name}": partial(files.explained, read, method)
         for method in methods

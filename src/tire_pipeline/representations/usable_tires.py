@@ -6,8 +6,8 @@ import pandas as pd
 from pydantic import Field
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.pipelines.parameters import Parameters
-from tire_pipeline.pipelines.represent.nodes import RepresentParameters, needed_coefficients
+from tire_pipeline.parameters import Parameters
+from tire_pipeline.representations.encoded_tires import RepresentParameters, needed_coefficients
 from tire_pipeline.tire_table import dedupe_and_filter
 
 

@@ -30,30 +30,38 @@ def draw_overview(overview: pd.DataFrame, pages: dict[str, str]) -> tuple[str, l
         The last lines of a run.
     """
     shown = overview.fillna("").astype(str)
+    links = []
+    for row in shown.to_dict("records"):
+        path = str(PurePosixPath(row["recording"]).with_suffix(".html"))
+        text = row["summary"] or row["problem"]
+        links.append((f"mismatch/{path}" if path in pages else "", row["recording"], text))
+    outcome = [_counted(shown)]
+    if len(shown) <= _FEW:
+        outcome += [f"{recording}: {text}" for _, recording, text in links]
+    parts = [
+        Text(outcome[:1], emphasis=True),
+        Links(links, heading="Recordings"),
+        _in_one_table(shown),
+    ]
+    return render_page("Recordings against their simulations", parts, pages=HOME), outcome
+
+
+def _counted(shown: pd.DataFrame) -> str:
     counts = shown.loc[shown["verdict"] != "", "verdict"].value_counts()
     said = [f"{count} {verdict}" for verdict, count in counts.items()]
     failed = int((shown["verdict"] == "").sum())
     if failed:
         said.append(f"{failed} could not be used")
     recordings = "recording" if len(shown) == 1 else "recordings"
-    outcome = [f"{len(shown)} {recordings}: {', '.join(said)}."]
-    links = []
-    for row in shown.to_dict("records"):
-        path = str(PurePosixPath(row["recording"]).with_suffix(".html"))
-        text = row["summary"] or row["problem"]
-        links.append((f"mismatch/{path}" if path in pages else "", row["recording"], text))
-        if len(shown) <= _FEW:
-            outcome.append(f"{row['recording']}: {text}")
+    return f"{len(shown)} {recordings}: {', '.join(said)}."
+
+
+def _in_one_table(shown: pd.DataFrame) -> Table:
     table = shown[["recording", "verdict", "effects", "alternatives", "held_out", "problem"]]
-    parts = [
-        Text(outcome[:1], emphasis=True),
-        Links(links, heading="Recordings"),
-        Table(
-            table.rename(columns={"held_out": "held out"}),
-            "Effects are what the model left out, by their names; alternatives cannot be told from them by "
-            "these recordings.",
-            heading="In one table",
-            most_rows=1000,
-        ),
-    ]
-    return render_page("Recordings against their simulations", parts, pages=HOME), outcome
+    return Table(
+        table.rename(columns={"held_out": "held out"}),
+        "Effects are what the model left out, by their names; alternatives cannot be told from them by "
+        "these recordings.",
+        heading="In one table",
+        most_rows=1000,
+    )

@@ -11,16 +11,16 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.datasets.computed_folder import source_hash
+from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import DomainError
+from tire_pipeline.evaluation.measured import measured
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.pipelines.evaluate.measured import measured
-from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
-from tire_pipeline.pipelines.reproduce_thesis import files
-from tire_pipeline.pipelines.reproduce_thesis.parameters import ReproduceThesisParameters
 from tire_pipeline.progress import track
 from tire_pipeline.thesis import agents as thesis_agents
+from tire_pipeline.thesis import files
+from tire_pipeline.thesis.parameters import ReproduceThesisParameters
 from tire_pipeline.tire_table import from_models, normalize_table
+from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.translation.thesis.grid import Cell
 
 Models = Mapping[str, Callable[[], TireModel]]
@@ -83,7 +83,7 @@ def fitter(name: str) -> Callable[..., Work]:
         training = _training(normalized_table, splits)
         options = parameters.representation_options(name)
         kind = FORM_OF.get(name, name)
-        key = files.key_of(source_hash(*FITTING_CODE), training, name, options)
+        key = files.key_of(code_hash(*FITTING_CODE), training, name, options)
         return {
             f"{key}/seed_{seed}.npz": partial(files.represented, training, kind, seed, options)
             for seed in parameters.agents.seeds
@@ -105,7 +105,7 @@ def trainer(cell: Cell) -> Callable[..., Work]:
         """Train on the files of the random split's training part, as in the thesis."""
         training = _training(normalized_table, splits)
         options: dict[str, Any] = {"target": target_category, "total_steps": parameters.agents.total_steps}
-        data = files.key_of(source_hash(*TRAINING_CODE), training, asdict(cell), options)
+        data = files.key_of(code_hash(*TRAINING_CODE), training, asdict(cell), options)
         work: Work = {}
         for name, read in fitted.items():
             seed = seed_of(name)
@@ -138,7 +138,7 @@ def judge_of(cell: Cell) -> Callable[..., Work]:
     ) -> Work:
         """Compare with the target's measurements; nothing of it goes back to any agent."""
         references = references_of(evaluation_truth, "first", thesis_sources, normalize, target_category)
-        data = files.key_of(source_hash(*JUDGING_CODE), getsource(thesis_agents), thesis_sources, references)
+        data = files.key_of(code_hash(*JUDGING_CODE), getsource(thesis_agents), thesis_sources, references)
         work: Work = {}
         for name, read in trained.items():
             seed = seed_of(name)

@@ -11,14 +11,14 @@ import pandas as pd
 from tire_pipeline import __version__
 from tire_pipeline.errors import DomainError
 from tire_pipeline.evaluation import THESIS_METRICS, curves_of, evaluate_translations
+from tire_pipeline.evaluation.measured import measured
+from tire_pipeline.evaluation.parameters import EvaluateParameters
+from tire_pipeline.evaluation.translated import Files, read_chosen, translated_by, translators
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.pipelines.evaluate.measured import measured
-from tire_pipeline.pipelines.evaluate.parameters import EvaluateParameters
-from tire_pipeline.pipelines.evaluate.translate import Files, read_chosen, translated_by, translators
-from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
 from tire_pipeline.progress import track
 from tire_pipeline.tir import read_tir, tir_bytes
 from tire_pipeline.tire_table import from_models, normalize_table
+from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.translation.result import TRANSLATED
 
 TUNING = "tuning"
@@ -58,16 +58,12 @@ def choose_best(
         ``name``, ``tires`` (how many chose it, 0 without) and ``rms_ratio`` by translator.
     """
     states = translators(agent, our_agent, translator)
-    files = [
-        file for file in evaluation_sources if file.split("/")[0] == TUNING and not _of(file, target_category)
-    ]
-    tires = sorted({file.split("/")[-1] for file in files})
-    tires = [tire for tire in tires if f"{target_category}/{tire}" in tuning_truth]
-    tires = tires[: parameters.tires_to_choose_by]
+    tires, files = _tuning_files(
+        evaluation_sources, tuning_truth, target_category, parameters.tires_to_choose_by
+    )
     if not tires:
         return {"name": list(states)[-1], "tires": 0, "rms_ratio": {}}
-    models = {file: evaluation_sources[file]() for file in files if file.split("/")[-1] in tires}
-    own = from_models((file, file.split("/")[1], model) for file, model in models.items())
+    own = from_models((file, file.split("/")[1], evaluation_sources[file]()) for file in files)
     before = normalize_table(own, normalize.nominal_load)
     names = before["file"].str.split("/").str[-1].str[:-4]
     truth = measured(tuning_truth, target_category, names, normalize.nominal_load)
@@ -80,8 +76,12 @@ def choose_best(
     return {"name": min(ratios, key=lambda name: ratios[name]), "tires": len(tires), "rms_ratio": ratios}
 
 
-def _of(file: str, category: str) -> bool:
-    return file.split("/")[1] == category
+def _tuning_files(sources: Files, truth: Files, target: str, most: int) -> tuple[list[str], list[str]]:
+    """Up to ``most`` tuning tires that the target measured, and the other categories' files of them."""
+    files = [file for file in sources if file.split("/")[0] == TUNING and file.split("/")[1] != target]
+    tires = sorted({file.split("/")[-1] for file in files})
+    tires = [tire for tire in tires if f"{target}/{tire}" in truth][:most]
+    return tires, [file for file in files if file.split("/")[-1] in tires]
 
 
 def write_best(

@@ -7,7 +7,7 @@ from typing import Any, Literal
 import pandas as pd
 from pydantic import Field
 
-from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.parameters import Parameters
 from tire_pipeline.tire_table import Binning, split_table
 
 _NAMES = ["file", "category", "tire_id"]

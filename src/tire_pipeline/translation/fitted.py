@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import pandas as pd
-from kedro.pipeline import Node
 
-from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
-from tire_pipeline.pipelines.translate.parameters import TranslateParameters
+from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.translation import make_translator
+from tire_pipeline.translation.parameters import TranslateParameters
 
 
 def fit_translator(
@@ -43,19 +42,3 @@ def fit_translator(
     translator = make_translator(parameters.translator, **parameters.options)
     translator.fit(normalized_table, target=target_category, seed=seed)
     return {**translator.to_state(), "nominal_load": normalize.nominal_load}
-
-
-def fit_node() -> Node:
-    """Give the node that both ``train_agent`` and ``translate`` run."""
-    return Node(
-        fit_translator,
-        inputs=[
-            "normalized_table",
-            "params:translate",
-            "params:normalize",
-            "params:target_category",
-            "params:seed",
-        ],
-        outputs="translator",
-        name="fit_translator",
-    )

@@ -7,59 +7,15 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from joblib import Parallel, delayed
-from matplotlib.figure import Figure
-from pydantic import Field
 
 from tire_pipeline.classifiers.evaluate import Evaluation, evaluate_classifier
-from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.classifiers.parameters import TrainClassifierParameters
 from tire_pipeline.progress import track
-from tire_pipeline.reporting import new_figure
 
 SPLITS = ("random", "by_tire")
 NAMES = ("ann", "random_forest", "naive_bayes")
 PROCESSES = 2
 _NOT_FEATURES = ["file", "category", "tire_id"]
-
-
-class ForestParameters(Parameters):
-    """Size of the forest (thesis, Table 5.5)."""
-
-    trees: int = Field(30, ge=1, le=1000)
-    depth: int = Field(10, ge=1, le=100)
-
-
-class AnnParameters(Parameters):
-    """Training of the ANN (thesis, Table 5.4)."""
-
-    epochs: int = Field(300, ge=1)
-    batch_size: int = Field(32, ge=1)
-    learning_rate: float = Field(1e-3, gt=0)
-    weight_decay: float = Field(0.01, ge=0)
-
-
-class TrainClassifierParameters(Parameters):
-    """Parameters of ``train_classifier``.
-
-    Attributes
-    ----------
-    smote : bool
-        Balance the training set with SMOTE.
-    trainings : int
-        Figures are means over this many.
-    forest : ForestParameters
-    ann : AnnParameters
-    """
-
-    smote: bool = True
-    trainings: int = Field(10, ge=1)
-    forest: ForestParameters = ForestParameters()
-    ann: AnnParameters = AnnParameters()
-
-    def options(self, name: str) -> dict[str, Any]:
-        """Constructor arguments of one classifier."""
-        forest = {"n_trees": self.forest.trees, "max_depth": self.forest.depth}
-        own = {"random_forest": forest, "ann": self.ann.model_dump()}
-        return {"smote": self.smote, **own.get(name, {})}
 
 
 def split_rows(table: pd.DataFrame, splits: pd.DataFrame, split: str) -> tuple[np.ndarray, np.ndarray]:
@@ -151,27 +107,6 @@ def train_forest(
 def join_scores(features: pd.DataFrame, bins: pd.DataFrame) -> pd.DataFrame:
     """One table of scores."""
     return pd.concat([features, bins], ignore_index=True)
-
-
-def confusion_figure(confusion: pd.DataFrame) -> Figure:
-    """Confusion matrices side by side, as shares of each true category (thesis, Figure 5.3)."""
-    figure, axes = new_figure(1, len(SPLITS), width=4.6 * len(SPLITS), height=4.2)
-    words = {"random": "random split", "by_tire": "split by physical tire"}
-    for one, split in zip(np.asarray(axes), SPLITS, strict=True):
-        part = confusion[confusion["split"] == split]
-        shares = part.pivot(index="true", columns="predicted", values="share")
-        one.imshow(shares, vmin=0, vmax=1, cmap="Blues")
-        one.grid(False)
-        one.set_xticks(range(len(shares)), shares.columns)
-        one.set_yticks(range(len(shares)), shares.index)
-        one.set_xlabel("predicted category")
-        one.set_ylabel("true category")
-        one.set_title(words[split])
-        for row, values in enumerate(shares.to_numpy()):
-            for column, value in enumerate(values):
-                ink = "white" if value > 0.5 else "black"
-                one.text(column, row, f"{value:.2f}", ha="center", va="center", color=ink, fontsize=8)
-    return figure
 
 
 def _confusion(results: dict[str, Evaluation]) -> pd.DataFrame:

@@ -6,15 +6,15 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure as MplFigure
 
 from tire_pipeline.evaluation import curves_of
 from tire_pipeline.evaluation.curves import EvaluationGrid
-from tire_pipeline.pipelines.evaluate.judge import FLOOR
-from tire_pipeline.pipelines.evaluate.translate import NO_CHANGE
-from tire_pipeline.pipelines.train_agent.nodes import learning_figure
-from tire_pipeline.pipelines.train_classifier.nodes import confusion_figure
+from tire_pipeline.evaluation.judged import FLOOR
+from tire_pipeline.evaluation.translated import NO_CHANGE
 from tire_pipeline.reporting import HOME, Figure, Links, Table, Text, colour_of, new_figure, render_page
+from tire_pipeline.reporting.training_figures import confusion_figure, learning_figure
 
 _TABLES = [
     (
@@ -36,32 +36,20 @@ _METRICS = {
     "fx": "longitudinal force",
     "mz": "aligning moment",
 }
+_GRID = EvaluationGrid(loads=np.array([6000.0]))
 _CLASSIFIERS = {"ann": "neural network", "random_forest": "random forest", "naive_bayes": "naive Bayes"}
 
 
 def force_figure(translated_table: pd.DataFrame, references: pd.DataFrame, best: dict[str, Any]) -> MplFigure:
     """Lateral force of up to four tires: as measured, as the best translated, and as the target measured."""
-    shown = translated_table["translator"].isin([NO_CHANGE, best["name"]])
-    translated_table = translated_table[shown]
-    names = list(dict.fromkeys(translated_table["set"]))
-    part = translated_table[translated_table["set"] == names[0]] if names else translated_table
+    rows = translated_table[translated_table["translator"].isin([NO_CHANGE, best["name"]])]
+    names = list(dict.fromkeys(rows["set"]))
+    part = rows[rows["set"] == names[0]] if names else rows
     tires = list(dict.fromkeys(part["tire"]))[:4]
     figure, axes = new_figure(1, max(len(tires), 1), width=3.2 * max(len(tires), 1), height=3.4, sharey=True)
-    grid = EvaluationGrid(loads=np.array([6000.0]))
-    angles = np.degrees(grid.slip_angles)
     for one, tire in zip(np.atleast_1d(np.asarray(axes)), tires, strict=False):
-        own = part[part["tire"] == tire]
-        categories = sorted(own["category"].unique())
-        for row in own.to_dict("records"):
-            fy = curves_of(pd.DataFrame([row]), grid, lateral_only=True).fy[0, 0] / 1e3
-            colour = colour_of(categories.index(row["category"]))
-            after = row["state"] == "after"
-            label = f"{row['category']} translated" if after else f"{row['category']} as measured"
-            one.plot(angles, fy, color=colour, ls="--" if after else "-", lw=1.1, label=label)
         target = references[references["tire"] == tire] if len(references) else references
-        if len(target):
-            fy = curves_of(target.head(1), grid, lateral_only=True).fy[0, 0] / 1e3
-            one.plot(angles, fy, color="black", lw=2, label="target's measurement")
+        _draw_tire(one, part[part["tire"] == tire], target)
         one.set_title(str(tire))
         one.set_xlabel("slip angle / deg")
     first = np.atleast_1d(np.asarray(axes))[0]
@@ -69,6 +57,26 @@ def force_figure(translated_table: pd.DataFrame, references: pd.DataFrame, best:
     handles, labels = first.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=5, fontsize=8)
     return figure
+
+
+def _draw_tire(axes: Axes, own: pd.DataFrame, target: pd.DataFrame) -> None:
+    """Draw one tire's force curves: every source before and after, and the target's measurement."""
+    angles = np.degrees(_GRID.slip_angles)
+    categories = sorted(own["category"].unique())
+    for row in own.to_dict("records"):
+        after = row["state"] == "after"
+        label = f"{row['category']} translated" if after else f"{row['category']} as measured"
+        colour = colour_of(categories.index(row["category"]))
+        fy = _lateral_force(pd.DataFrame([row]))
+        axes.plot(angles, fy, color=colour, ls="--" if after else "-", lw=1.1, label=label)
+    if len(target):
+        fy = _lateral_force(target.head(1))
+        axes.plot(angles, fy, color="black", lw=2, label="target's measurement")
+
+
+def _lateral_force(row: pd.DataFrame) -> np.ndarray:
+    """Of one tire over the slip angles, kN."""
+    return np.asarray(curves_of(row, _GRID, lateral_only=True).fy[0, 0] / 1e3)
 
 
 def build_report(
@@ -95,13 +103,7 @@ def build_report(
     """
     parts = [
         Text(outcome, emphasis=True),
-        Figure(
-            force_figure(translated_table, references, best),
-            "Lateral force over slip angle at 6 kN: thin solid as each source measured, dashed as the "
-            f"{best['name']} translated, thick as {target_category} measured. Dashed lines should lie on the "
-            "thick one.",
-            heading="Force curves",
-        ),
+        _forces(translated_table, references, best, target_category),
         *_translation(evaluation_summary, target_category, best),
         *_files(ingest_summary, filter_report, tire_table),
         *_classifier(tire_table, classifier_scores, classifier_per_class),
@@ -115,6 +117,15 @@ def build_report(
     ]
     parts.append(Links(_TABLES, heading="Tables"))
     return render_page(f"Tires as {target_category} would have measured them", parts, pages=HOME)
+
+
+def _forces(table: pd.DataFrame, references: pd.DataFrame, best: dict[str, Any], target: str) -> Figure:
+    return Figure(
+        force_figure(table, references, best),
+        "Lateral force over slip angle at 6 kN: thin solid as each source measured, dashed as the "
+        f"{best['name']} translated, thick as {target} measured. Dashed lines should lie on the thick one.",
+        heading="Force curves",
+    )
 
 
 def _files(ingest: dict[str, Any], dropped: pd.DataFrame, table: pd.DataFrame) -> list[Text | Table]:

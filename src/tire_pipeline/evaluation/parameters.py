@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.parameters import Parameters
 
 
 class EvaluateParameters(Parameters):

@@ -8,11 +8,11 @@ from typing import Any
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.evaluation.parameters import EvaluateParameters
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.pipelines.evaluate.parameters import EvaluateParameters
-from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
 from tire_pipeline.progress import track
 from tire_pipeline.tire_table import from_models, normalize_table
+from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.translation import translator_from_state
 
 Files = Mapping[str, Callable[[], TireModel]]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas as pd
 from pydantic import Field
 
-from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.parameters import Parameters
 from tire_pipeline.tire_table import normalize_table
 
 

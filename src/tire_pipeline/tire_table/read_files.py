@@ -6,15 +6,13 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import pandas as pd
-from kedro.io import DatasetError
 from pydantic import Field
 
-from tire_pipeline.errors import DomainError, TirePipelineError
+from tire_pipeline.errors import DomainError, TirePipelineError, chain
 from tire_pipeline.file_names import printable
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.parameters import Parameters
 from tire_pipeline.progress import track
-from tire_pipeline.run_errors import chain
 from tire_pipeline.tire_table import from_models
 
 
@@ -80,8 +78,10 @@ def _read(
         rows.append(row)
         try:
             tire = load()
-        except (DatasetError, TirePipelineError, OSError) as error:
+        except Exception as error:  # a loader may wrap what went wrong
             cause = _cause(error)
+            if cause is None:
+                raise
             row |= {"status": "set aside", "reason": printable(str(cause))}
             row["line"] = getattr(cause, "line", None)
             continue
@@ -92,9 +92,10 @@ def _read(
         yield file, category, tire
 
 
-def _cause(error: BaseException) -> BaseException:
-    wanted = [each for each in chain(error) if isinstance(each, TirePipelineError | OSError)]
-    return wanted[0] if wanted else error
+def _cause(error: BaseException) -> BaseException | None:
+    """The first in the chain that is of the file, not of the program; None if there is none."""
+    wanted = (each for each in chain(error) if isinstance(each, TirePipelineError | OSError))
+    return next(wanted, None)
 
 
 def _summary(report: pd.DataFrame) -> dict[str, Any]:

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from tire_pipeline.pipelines.parameters import Parameters
+from tire_pipeline.parameters import Parameters
 
 
 class RealParameters(Parameters):

@@ -11,22 +11,22 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.errors import DomainError, TirePipelineError
-from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
-from tire_pipeline.pipelines.translate.parameters import TranslateParameters
-from tire_pipeline.pipelines.translate.suppliers import (
+from tire_pipeline.classifiers.suppliers import (
     BY_FOLDER,
     UNKNOWN_SUPPLIER,
     category_of,
     with_suppliers,
 )
+from tire_pipeline.errors import DomainError, TirePipelineError
+from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.tir import tir_bytes
 from tire_pipeline.tire_table import from_models, normalize_table
+from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.translation import translator_from_state
 from tire_pipeline.translation.curves.of_files import file_curves
 from tire_pipeline.translation.of_models import at_own_load
+from tire_pipeline.translation.parameters import TranslateParameters
 from tire_pipeline.translation.result import UNKNOWN, TranslationResult
 
 Files = Mapping[str, Callable[[], TireModel]]

@@ -1,4 +1,4 @@
-"""Parameters of ``translate``."""
+"""Parameters of ``translate`` and ``train_agent``."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from pydantic import Field, field_validator
 
-from tire_pipeline.pipelines.parameters import Parameters, Several
+from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.translation.base import RENAMED
 from tire_pipeline.translation.judge.verdict import FARTHEST
 from tire_pipeline.translation.result import EDGE
@@ -63,3 +63,26 @@ class TranslateParameters(Parameters):
             "learn_from_batch": self.learn_from_batch,
             "farthest": self.farthest,
         }
+
+
+class TrainAgentParameters(Parameters):
+    """Parameters of ``train_agent``.
+
+    Attributes
+    ----------
+    algorithm : {"PPO", "A2C"}
+    reward : {"reach_target_fast", "maximize_reward"}
+    environments, rollout_steps : int
+        Environments side by side, and their steps between two updates (thesis, Tables 2.3 and 2.4).
+    total_steps : int
+        Of all environments together.
+    likelihood_updates : int
+        Updates of our agent's policy.
+    """
+
+    algorithm: Literal["PPO", "A2C"] = "PPO"
+    reward: Literal["reach_target_fast", "maximize_reward"] = "reach_target_fast"
+    environments: int = Field(4, ge=1, le=256)
+    rollout_steps: int = Field(320, ge=2)
+    total_steps: int = Field(100_000, ge=1)
+    likelihood_updates: int = Field(100, ge=1)

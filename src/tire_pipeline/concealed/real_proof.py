@@ -11,14 +11,10 @@ from typing import Any
 
 import pandas as pd
 
+from tire_pipeline.code_hash import code_hash
+from tire_pipeline.concealed import case_files as files
 from tire_pipeline.concealed import unseal
-from tire_pipeline.concealed.real import RealAnswer, real_plan
-from tire_pipeline.concealed.real.published import published
-from tire_pipeline.concealed.real.score import score_real
-from tire_pipeline.concealed.real.sources import available, development_list, fingerprint
-from tire_pipeline.datasets.computed_folder import source_hash
-from tire_pipeline.pipelines.prove_concealed import files
-from tire_pipeline.pipelines.prove_concealed.nodes import (
+from tire_pipeline.concealed.proof import (
     METHOD,
     Folder,
     ProveConcealedParameters,
@@ -27,6 +23,10 @@ from tire_pipeline.pipelines.prove_concealed.nodes import (
     explained_by,
     part_cases,
 )
+from tire_pipeline.concealed.real import RealAnswer, real_plan
+from tire_pipeline.concealed.real.published import published
+from tire_pipeline.concealed.real.score import score_real
+from tire_pipeline.concealed.real.sources import available, development_list, fingerprint
 
 Work = dict[str, Callable[[], bytes]]
 
@@ -37,7 +37,7 @@ def make_real_cases(parameters: ProveConcealedParameters) -> Work:
     folder = Path(real.recordings)
     if not available(folder):
         return {}
-    code = f"{source_hash('concealed', 'magic_formula', 'recordings')}-{fingerprint(folder)}"
+    code = f"{code_hash('concealed', 'magic_formula', 'recordings')}-{fingerprint(folder)}"
     return {
         f"{code}/{plan.seed:010d}_{plan.source}-{plan.kind}.zip": partial(files.made_real_case, plan, folder)
         for plan in real_plan(real.cases, real.seed)
@@ -128,8 +128,8 @@ def _made_with(
         "seed": parameters.real.seed,
         "cases": len(answers),
         "by_source": dict(sorted(Counter(a.source for a in answers).items())),
-        "code": source_hash("mismatch", "magic_formula", "tir"),
-        "cases_code": source_hash("concealed", "magic_formula", "recordings"),
+        "code": code_hash("mismatch", "magic_formula", "tir"),
+        "cases_code": code_hash("concealed", "magic_formula", "recordings"),
         "date": datetime.now(UTC).date().isoformat(),
         "sha256": sealed["sha256"],
         "sealed_sweeps": len({sweep for a in answers for sweep in (*a.fit, *a.shown, *a.held_out)}),

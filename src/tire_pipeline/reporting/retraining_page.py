@@ -1,0 +1,70 @@
+"""The page of the last retraining."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pandas as pd
+
+from tire_pipeline.reporting import HOME, Table, Text, render_page
+from tire_pipeline.retraining import Shelf
+from tire_pipeline.retraining.drift import DRIFT
+from tire_pipeline.retraining.release import history_rows
+
+
+def build_retraining_report(
+    files: pd.DataFrame,
+    drift: pd.DataFrame,
+    comparison: pd.DataFrame,
+    outcome: dict[str, Any],
+    shelf: Shelf,
+) -> str:
+    """One page: what came, what drifted, how the candidate did, what was decided."""
+    return render_page(
+        "Retraining",
+        [
+            _decision(files, outcome, shelf),
+            Table(
+                comparison,
+                heading="Candidate and released model on the same held-out tires",
+                caption="Share of files whose category is recognized. Decided by the mean over categories; "
+                "no held-out tire was in the training of either model.",
+            ),
+            *_drift(drift),
+            Table(
+                files[files["status"] != "read"],
+                heading="Files that wait, cannot be read or are gone",
+                caption="A file that cannot be read is tried again when its content changes.",
+            ),
+            Table(pd.DataFrame(history_rows(shelf.release)), heading="History"),
+        ],
+        pages=HOME,
+    )
+
+
+def _decision(files: pd.DataFrame, outcome: dict[str, Any], shelf: Shelf) -> Text:
+    counts = files.groupby("status").size().to_dict()
+    came = ", ".join(f"{count} {status}" for status, count in counts.items()) or "no change"
+    return Text(
+        [
+            f"Candidate {outcome['event']}: {outcome['reason']}.",
+            f"Model in use: {shelf.release.current or 'none'}. Files since the last run: {came}.",
+        ],
+        emphasis=True,
+    )
+
+
+def _drift(drift: pd.DataFrame) -> list[Text | Table]:
+    moved = drift[drift["verdict"] == DRIFT]
+    seen = f"{len(moved)} of {len(drift)} comparisons show drift."
+    if drift.empty:
+        seen = "Nothing to compare: no incoming files, or none before them."
+    said = Text(
+        [
+            f"{seen} psi: population stability index; ks: Kolmogorov-Smirnov distance; p is adjusted "
+            "for the number of comparisons. Features are Magic Formula coefficients at one nominal "
+            "load unless another representation was chosen."
+        ],
+        heading="Drift of incoming files, per category",
+    )
+    return [said] if drift.empty else [said, Table(moved if len(moved) else drift.head(20))]

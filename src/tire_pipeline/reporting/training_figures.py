@@ -1,0 +1,42 @@
+"""Figures of trained classifiers and agents."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from tire_pipeline.classifiers.scores import SPLITS
+from tire_pipeline.drawing import colour_of, new_figure
+
+
+def confusion_figure(confusion: pd.DataFrame) -> Figure:
+    """Confusion matrices side by side, as shares of each true category (thesis, Figure 5.3)."""
+    figure, axes = new_figure(1, len(SPLITS), width=4.6 * len(SPLITS), height=4.2)
+    words = {"random": "random split", "by_tire": "split by physical tire"}
+    for one, split in zip(np.asarray(axes), SPLITS, strict=True):
+        part = confusion[confusion["split"] == split]
+        shares = part.pivot(index="true", columns="predicted", values="share")
+        one.imshow(shares, vmin=0, vmax=1, cmap="Blues")
+        one.grid(False)
+        one.set_xticks(range(len(shares)), shares.columns)
+        one.set_yticks(range(len(shares)), shares.index)
+        one.set_xlabel("predicted category")
+        one.set_ylabel("true category")
+        one.set_title(words[split])
+        for row, values in enumerate(shares.to_numpy()):
+            for column, value in enumerate(values):
+                ink = "white" if value > 0.5 else "black"
+                one.text(column, row, f"{value:.2f}", ha="center", va="center", color=ink, fontsize=8)
+    return figure
+
+
+def learning_figure(curve: pd.DataFrame) -> Figure:
+    """Mean episode reward over training steps (thesis, Figure 5.9)."""
+    figure, axes = new_figure()
+    window = max(1, len(curve) // 100)
+    smooth = curve["reward"].rolling(window, min_periods=1).mean()
+    axes.plot(curve["step"], smooth, color=colour_of(0))
+    axes.set_xlabel("training steps of all environments")
+    axes.set_ylabel(f"episode reward\n(mean of {window} episodes)")
+    return figure
