@@ -101,7 +101,7 @@ def build_report(
     str
         HTML without outside references.
     """
-    parts = [
+    parts: list[Text | Table | Figure | Links] = [
         Text(outcome, emphasis=True),
         _forces(translated_table, references, best, target_category),
         *_translation(evaluation_summary, target_category, best),

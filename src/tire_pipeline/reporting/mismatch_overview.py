@@ -38,7 +38,7 @@ def draw_overview(overview: pd.DataFrame, pages: dict[str, str]) -> tuple[str, l
     outcome = [_counted(shown)]
     if len(shown) <= _FEW:
         outcome += [f"{recording}: {text}" for _, recording, text in links]
-    parts = [
+    parts: list[Text | Table | Links] = [
         Text(outcome[:1], emphasis=True),
         Links(links, heading="Recordings"),
         _in_one_table(shown),

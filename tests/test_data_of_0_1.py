@@ -1,0 +1,87 @@
+"""What a former version stored opens, does what it did, or is refused with what to do."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from pydantic import ValidationError
+
+from tire_pipeline.command.stored import translator_state
+from tire_pipeline.datasets import IngestStoreDataset, ReleaseDataset
+from tire_pipeline.pipelines.rollback.pipeline import restore_previous
+from tire_pipeline.retraining.compare import balanced_accuracy, compare_models
+from tire_pipeline.tir import read_tir
+from tire_pipeline.translation import translator_from_state
+from tire_pipeline.translation.parameters import TranslateParameters
+
+STORED = Path(__file__).with_name("data_of_0_1")
+
+
+@pytest.fixture
+def folder(tmp_path):
+    return Path(shutil.copytree(STORED, tmp_path / "data"))
+
+
+def _table(folder):
+    (path,) = (folder / "03_primary").rglob("*.parquet/*/*.parquet")
+    return pd.read_parquet(path)
+
+
+def test_the_ingest_store_opens(folder):
+    store = IngestStoreDataset(path=str(folder / "02_intermediate" / "ingested")).load()
+    assert len(store.table) == 90
+    assert set(store.table["file"]) == set(store.manifest.files)
+
+
+def test_the_released_model_recognizes_tires_as_it_did(folder):
+    shelf = ReleaseDataset(path=str(folder / "06_models" / "released")).load()
+    table = _table(folder)
+    found = compare_models(shelf.model, None, table)
+    assert balanced_accuracy(found, "candidate") > 0.5  # of two categories that it was trained on
+
+
+def test_rollback_goes_back_to_a_model_of_the_former_version(folder):
+    path = str(folder / "06_models" / "released")
+    first, second = (name for name in ReleaseDataset(path=path).load().release.models)
+    assert ReleaseDataset(path=path).load().release.current == second
+    shelf = restore_previous(ReleaseDataset(path=path, for_going_back=True).load())
+    ReleaseDataset(path=path).save(shelf)
+    again = ReleaseDataset(path=path).load()
+    assert again.release.current == first
+    assert again.model is not None
+
+
+def test_a_translator_of_a_former_name_translates_as_it_did(folder):
+    state, _ = translator_state(folder / "06_models" / "translator.npz")
+    assert state["translator"] == "paired_mixed_model"
+    translator = translator_from_state(state)
+    assert (translator.name, translator.pairs, translator.learn_from_batch) == ("mixed_model", True, False)
+    table = _table(folder)
+    result = translator.translation(table[table["category"] == "A"].head(3), bands=False)
+    then = json.loads((folder / "translated_by_then.json").read_text())
+    assert list(result.report["verdict"]) == then["verdicts"]
+    for name, values in then["coefficients"].items():
+        np.testing.assert_allclose(result.table[name], values, rtol=1e-9)
+
+
+def test_translated_files_open(folder):
+    for path in (folder / "07_model_output" / "translated").rglob("*.tir"):
+        assert read_tir(path).coefficients["FNOMIN"] > 0.0
+
+
+@pytest.mark.parametrize(
+    ("former", "now"),
+    [
+        ("paired_mixed_model", "translate.pairs=true translate.learn_from_batch=false"),
+        ("batch_mixed_model", "translate.pairs=false translate.learn_from_batch=true"),
+        ("paired_batch_mixed_model", "translate.pairs=true translate.learn_from_batch=true"),
+    ],
+)
+def test_parameters_of_a_former_name_say_what_to_write(former, now):
+    with pytest.raises(ValidationError, match=f"translate.translator=mixed_model {now}"):
+        TranslateParameters(translator=former)
