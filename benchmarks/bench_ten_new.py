@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.datasets import IngestStoreDataset
-from tire_pipeline.retraining import Entry, Manifest, Store, difference, ingest, look_at
+from tire_pipeline.retraining import Manifest, ManifestEntry, Store, difference, ingest, look_at
 from tire_pipeline.tire_table import KNOWN_COEFFICIENTS, SIZE_KEYS, physical_tire_ids
 
 NEW = "[MODEL]\nFITTYP = 6\n[VERTICAL]\nFNOMIN = 4000\n"
@@ -52,7 +52,7 @@ def made_up(folder: Path, known: int) -> Store:
         path.touch()
     looks = look_at(folder)
     entries = {
-        name: Entry(f"{i:064x}", f"{i:064x}", look.size, look.mtime_ns, look.ctime_ns, 1)
+        name: ManifestEntry(f"{i:064x}", f"{i:064x}", look.size, look.mtime_ns, look.ctime_ns, 1)
         for i, (name, look) in enumerate(looks.items())
     }
     table = pd.DataFrame(np.random.default_rng(0).random((known, len(COLUMNS))), columns=COLUMNS)

@@ -39,7 +39,7 @@ from tire_pipeline.translation.curves.pure_slip import (
 )
 from tire_pipeline.translation.curves.space import fit_curve_space
 from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
-from tire_pipeline.translation.population.fit import Prepared, prepare
+from tire_pipeline.translation.population.fit import PreparedTraining, prepare
 from tire_pipeline.translation.result import TRANSLATED, TranslationResult
 from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel
 
@@ -189,7 +189,7 @@ def measure_fleet(
     target, training, judges = load_fleet(kind, size, seed, sets)
     rows = []
     shared = fit_curve_space(training)
-    prepared: dict[bool, Prepared] = {}
+    prepared: dict[bool, PreparedTraining] = {}
     for name in names:
         started = time.perf_counter()
         options: dict[str, Any] = {}

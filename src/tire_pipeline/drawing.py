@@ -16,7 +16,7 @@ from matplotlib.text import Text
 
 from tire_pipeline.safe_page import visible
 
-F = TypeVar("F", bound=FigureBase)
+AnyFigure = TypeVar("AnyFigure", bound=FigureBase)
 
 #: Okabe and Ito (2008), in an order that also differs in lightness.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D1F")
@@ -126,7 +126,7 @@ def page_style() -> str:
     return package_files("tire_pipeline").joinpath("templates", "page.css").read_text("utf-8")
 
 
-def captioned(figure: F, caption: str) -> F:
+def captioned(figure: AnyFigure, caption: str) -> AnyFigure:
     """Write a caption below a figure that stands alone; in a page the page's own caption says it.
 
     Parameters

@@ -21,7 +21,7 @@ STORY = ("translate", "explain_mismatch", "prove_concealed")
 
 #: Group in kedro-viz of each pipeline. The first screen shows the groups only, and reads as the story:
 #: files -> features -> classifier -> translators -> evaluation, translation; recordings -> mismatch -> proof.
-GROUPS = {
+PIPELINE_GROUPS = {
     "make_fleet": "files",
     "ingest_tir": "files",
     "dedupe_filter": "files",
@@ -69,11 +69,11 @@ def grouped(name: str, pipe: Pipeline) -> Pipeline:
 
     A pipeline that groups its nodes itself stays as it is.
     """
-    if name not in GROUPS or any(node.namespace for node in pipe.nodes):
+    if name not in PIPELINE_GROUPS or any(node.namespace for node in pipe.nodes):
         return pipe
     parts: dict[str, list[Node]] = {}
     for node in pipe.nodes:
-        parts.setdefault(GROUPS_OF_NODES.get(node.name, GROUPS[name]), []).append(node)
+        parts.setdefault(GROUPS_OF_NODES.get(node.name, PIPELINE_GROUPS[name]), []).append(node)
     return sum(
         (
             Pipeline(nodes, namespace=group, prefix_datasets_with_namespace=False)

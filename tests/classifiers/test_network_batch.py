@@ -8,13 +8,13 @@ import torch
 from torch import nn
 
 from tire_pipeline.classifiers.ann import network_probabilities
-from tire_pipeline.classifiers.network_batch import HIDDEN, LOSSES, TrainingSet, train_networks
+from tire_pipeline.classifiers.network_batch import HIDDEN_LAYERS, LOSSES, TrainingSet, train_networks
 from tire_pipeline.errors import DomainError
 
 
 def torch_layers(data, *, seed, optimizer, loss, rate, decay, batch_size, epochs, n_classes):
     generator = torch.Generator().manual_seed(seed)
-    sizes = [data.features.shape[1], *HIDDEN, n_classes]
+    sizes = [data.features.shape[1], *HIDDEN_LAYERS, n_classes]
     linear = []
     for a, b in itertools.pairwise(sizes):
         layer = nn.Linear(a, b)

@@ -14,9 +14,9 @@ from tire_pipeline.concealed.clean_run import residual
 def case_with(name: str, kind: str, over_noise: float):
     for seed in range(300):
         from tire_pipeline.concealed.choice import choose
-        from tire_pipeline.concealed.names import KINDS
+        from tire_pipeline.concealed.names import CASE_KINDS
 
-        root = np.random.SeedSequence([seed, KINDS.index(kind)])
+        root = np.random.SeedSequence([seed, CASE_KINDS.index(kind)])
         rng = np.random.default_rng(root.spawn(61)[0])
         if choose(rng, kind).effects == (name,):
             case, answer = make_case(seed, kind)

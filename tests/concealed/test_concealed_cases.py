@@ -11,12 +11,12 @@ import pytest
 from tire_pipeline.concealed import Answer, case_plan, make_case, make_cases, seal, unseal
 from tire_pipeline.concealed import strength as strength_module
 from tire_pipeline.concealed.artefacts import ArtefactDetails, apply_artefact
-from tire_pipeline.concealed.choice import SHARES, choose
+from tire_pipeline.concealed.choice import KIND_SHARES, choose
 from tire_pipeline.concealed.clean_run import residual, rms
 from tire_pipeline.concealed.constants import draw_constants, without_cooling
 from tire_pipeline.concealed.location import regimes, windows
-from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, HEAT_OR_WEAR, PHYSICS, UNKNOWN
-from tire_pipeline.concealed.rig import Noise, World, add_noise
+from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, HEAT_OR_WEAR, PHYSICS, UNKNOWN_EFFECTS
+from tire_pipeline.concealed.rig import SensorNoise, World, add_noise
 from tire_pipeline.concealed.schedule import OPTIONAL_BLOCKS, draw_plan, make_schedule
 from tire_pipeline.concealed.unknown import play
 from tire_pipeline.errors import DomainError
@@ -53,7 +53,7 @@ def test_a_case_looks_like_a_recording_and_tells_nothing(made):
         assert case.held_out["time"].iloc[0] > case.recording["time"].iloc[-1]
         assert ("turn_slip" in case.recording) == ("turn" in answer.blocks)
         shown = repr(case) + case.case_id
-        for name in (*PHYSICS, *ARTEFACTS, *UNKNOWN):
+        for name in (*PHYSICS, *ARTEFACTS, *UNKNOWN_EFFECTS):
             assert name not in shown
 
 
@@ -64,7 +64,7 @@ def test_every_channel_but_time_is_noisy(made):
 
 
 def test_noise_has_the_size_and_colour_that_were_drawn():
-    noise = Noise({"fy": 20.0, "speed": 0.1}, {"fy": 0.8, "speed": 0.5}, 0.5)
+    noise = SensorNoise({"fy": 20.0, "speed": 0.1}, {"fy": 0.8, "speed": 0.5}, 0.5)
     still = pd.DataFrame({"time": np.arange(40000) * 0.02, "fy": 0.0, "speed": 10.0})
     out = add_noise(still, noise, np.random.default_rng(0))
     assert out["time"].equals(still["time"])
@@ -152,7 +152,7 @@ def block_counts(kinds: dict[str, float], n: int, seed: int) -> np.ndarray:
 
 def test_the_schedule_does_not_give_away_whether_something_is_missing():
     n = 4000
-    with_effect = block_counts({k: SHARES[k] for k in ("single", "pair", "ambiguous")}, n, 1)
+    with_effect = block_counts({k: KIND_SHARES[k] for k in ("single", "pair", "ambiguous")}, n, 1)
     without = block_counts({"nothing": 1.0}, n, 2)
     middle = 0.5 * (with_effect + without)
     error = np.sqrt(2.0 * middle * (1.0 - middle) / n)

@@ -9,8 +9,8 @@ import pytest
 
 from tire_pipeline.concealed import seal, unseal
 from tire_pipeline.concealed.real import RealAnswer, make_real_case, real_plan
-from tire_pipeline.concealed.real.plan import EFFECTS, HIDEABLE, KINDS, SHARES
-from tire_pipeline.concealed.real.put_in import MECHANISMS, Details, Session, put_in
+from tire_pipeline.concealed.real.plan import EFFECTS, HIDEABLE, SOURCE_KINDS, SOURCE_SHARES
+from tire_pipeline.concealed.real.put_in import MECHANISMS, Details, RecordedSession, put_in
 from tire_pipeline.concealed.real.sources import SOURCES, development_list, pool, sweeps
 from tire_pipeline.magic_formula import TireModel
 
@@ -32,8 +32,8 @@ def test_the_plan_has_enough_with_nothing_and_little_from_tydex():
     assert {p.source for p in plans} == set(SOURCES)
     assert plans == real_plan(400, 20261124)
     assert plans != real_plan(400, 20261125)
-    assert sum(SHARES.values()) == pytest.approx(1.0)
-    for source, kinds in KINDS.items():
+    assert sum(SOURCE_SHARES.values()) == pytest.approx(1.0)
+    for source, kinds in SOURCE_KINDS.items():
         assert sum(kinds.values()) == pytest.approx(1.0), source
 
 
@@ -92,7 +92,7 @@ def tire() -> TireModel:
 
 
 @pytest.fixture
-def run(tire) -> tuple[pd.DataFrame, Session]:
+def run(tire) -> tuple[pd.DataFrame, RecordedSession]:
     time = np.arange(0.0, 20.0, 0.01)
     frame = pd.DataFrame(
         {
@@ -108,7 +108,7 @@ def run(tire) -> tuple[pd.DataFrame, Session]:
     frame["fy"] = tire.forces(
         slip_angle=frame["slip_angle"].to_numpy(), normal_load=frame["normal_load"].to_numpy()
     ).fy
-    return frame, Session(tire, 0.0, 20.0, 2000.0, 11.0, 65.0, 3e4, 3500.0, -1.0, 0.2)
+    return frame, RecordedSession(tire, 0.0, 20.0, 2000.0, 11.0, 65.0, 3e4, 3500.0, -1.0, 0.2)
 
 
 PLAIN = Details(1.0, "fy", 2.0, 12.0, (4.0, 6.0), 0.3)

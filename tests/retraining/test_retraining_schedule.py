@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import pytest
 from retraining_files import put, tir_text
 
-from tire_pipeline.retraining import Difference, Manifest, Store, difference, ingest
+from tire_pipeline.retraining import FolderDifference, Manifest, Store, difference, ingest
 
 dg = pytest.importorskip("dagster", reason='the extra is not installed: pip install -e ".[schedule]"')
 from tire_pipeline.schedule import definitions as schedule  # noqa: E402
@@ -20,7 +20,7 @@ class Folder:
     path: object
     manifest: Manifest = field(default_factory=Manifest)
 
-    def difference(self, *_: object) -> Difference:
+    def difference(self, *_: object) -> FolderDifference:
         return difference(self.path, self.manifest, settle_seconds=5.0)
 
     def run(self) -> None:

@@ -10,7 +10,7 @@ import pytest
 from tir_samples import LATERAL, tir_text
 
 from tire_pipeline.tir import (
-    MAX_BYTES,
+    MOST_FILE_BYTES,
     TirError,
     TirSyntaxError,
     TirValueError,
@@ -104,7 +104,7 @@ def test_unknown_versions(fittyp: str):
 def test_a_large_file_is_refused(tmp_path):
     filler = "$ " + "x" * 98 + "\n"
     text = tir_text()
-    fits = text + filler * ((MAX_BYTES - len(text)) // len(filler))
+    fits = text + filler * ((MOST_FILE_BYTES - len(text)) // len(filler))
     assert read_tir(fits.encode()).version == "5.2"
     with pytest.raises(TirSyntaxError, match="larger than 5 MB"):
         read_tir((fits + filler).encode(), path="x.tir")

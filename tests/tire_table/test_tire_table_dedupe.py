@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.tire_table import IDENTICAL, NO_VALUE, SMALL, dedupe_and_filter
+from tire_pipeline.tire_table import IDENTICAL, NO_VALUE, TOO_SMALL, dedupe_and_filter
 
 
 def table(rows: int = 6, categories: str = "AAABBB") -> pd.DataFrame:
@@ -81,9 +81,9 @@ def test_small_categories_are_counted_after_the_other_steps():
     kept, report = dedupe_and_filter(data, 3, ["PCY1"])
     assert kept["category"].tolist() == ["B"] * 4
     assert dict(zip(report["file"], report["reason"], strict=True)) == {
-        "A/0.tir": SMALL,
+        "A/0.tir": TOO_SMALL,
         "A/1.tir": NO_VALUE,
-        "A/2.tir": SMALL,
+        "A/2.tir": TOO_SMALL,
     }
     assert report["detail"].tolist() == ["2 usable, 3 needed", "PCY1", "2 usable, 3 needed"]
 

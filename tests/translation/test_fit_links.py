@@ -5,7 +5,7 @@ import pytest
 
 from tire_pipeline.translation.population.fit_links import Deviations, FitLinks, find_links, linked_blocks
 from tire_pipeline.translation.population.mixed_effects import Fitted
-from tire_pipeline.translation.population.score_prediction import Reading, predict_block
+from tire_pipeline.translation.population.score_prediction import CategoryReading, predict_block
 
 SLICES = {
     "cornering stiffness": slice(0, 1),
@@ -86,7 +86,7 @@ def _predict(source, own_link, error_link, trust=1.0):
     here, there = np.tile([1.0, 1.0], (n, 1)), np.tile([1.0, 0.0], (n, 1))
     same = np.zeros(n, dtype=bool)
     ones, alone = np.ones((n, 2)), np.full((n, 2), 0.1)
-    reading = Reading(ones, np.ones(2), alone, alone[0], same, own_link, error_link)
+    reading = CategoryReading(ones, np.ones(2), alone, alone[0], same, own_link, error_link)
     return predict_block(_fitted([2.0, -1.0]), source, [here], [there], np.ones((n, 1)), trust, reading)
 
 

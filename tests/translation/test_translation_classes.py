@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tire_pipeline.translation.population.class_question import Question
+from tire_pipeline.translation.population.class_input import ClassSearchInput
 from tire_pipeline.translation.population.class_search import _climb, find_classes, with_classes
 from tire_pipeline.translation.population.class_starts import starts
 from tire_pipeline.translation.population.classes import TireClasses, fit_shares, log_density
@@ -37,7 +37,7 @@ def _question(rng, *, grouped, tires=240):
         "size": np.zeros((tires, 1)),
         "category": np.eye(2)[actor],
     }
-    question = Question(
+    question = ClassSearchInput(
         Design(blocks, np.zeros((tires, 0)), np.ones(tires)),
         response,
         np.arange(tires),

@@ -15,7 +15,7 @@ TRAININGS = 10
 
 
 @dataclass(frozen=True)
-class Evaluation:
+class ClassifierScores:
     """Ten trainings of one classifier on one split.
 
     Attributes
@@ -56,7 +56,7 @@ def evaluate_classifier(
     *,
     seeds: Sequence[int] = tuple(range(TRAININGS)),
     **options: object,
-) -> Evaluation:
+) -> ClassifierScores:
     """Train a classifier once a seed on one part and measure it on the other.
 
     Parameters
@@ -81,7 +81,7 @@ def evaluate_classifier(
     scores = pd.DataFrame([scores for scores, _, _ in measured])
     confusion = np.mean([matrix for _, matrix, _ in measured], axis=0)
     per_class = sum(table for _, _, table in measured) / len(measured)
-    return Evaluation(
+    return ClassifierScores(
         scores=scores,
         confusion=pd.DataFrame(confusion, index=classes, columns=classes),
         per_class=per_class,

@@ -17,7 +17,7 @@ from tire_pipeline.tire_table import Binning
 Splits = Mapping[str, tuple[np.ndarray, np.ndarray]]
 
 REPRESENTATION_NAMES = ("coefficients", "key_attributes", "latent", "power_series")
-BIN_COUNTS = tuple(range(2, 41, 2))
+BINS_TRIED = tuple(range(2, 41, 2))
 LATENT_COUNTS = tuple(range(1, 17))
 
 
@@ -53,7 +53,7 @@ def accuracy_by_bins(
     splits: Splits,
     *,
     representations: Mapping[str, Mapping[str, Any]] | Sequence[str] = REPRESENTATION_NAMES,
-    bins: Iterable[int] = BIN_COUNTS,
+    bins: Iterable[int] = BINS_TRIED,
     seeds: Sequence[int] = tuple(range(TRAININGS)),
 ) -> pd.DataFrame:
     """Measure the forest on every representation for every number of bins (Figures 5.5 to 5.8).

@@ -17,7 +17,7 @@ import torch
 from tire_pipeline.classifiers.network_optimizers import make_optimizer
 from tire_pipeline.errors import DomainError
 
-HIDDEN = (128, 128, 64)
+HIDDEN_LAYERS = (128, 128, 64)
 """Nodes of the thesis' three hidden layers."""
 
 LOSSES = ("CrossEntropyLoss", "NLLLoss", "MSELoss")
@@ -51,7 +51,7 @@ def train_networks(
     loss: str = "CrossEntropyLoss",
     batch_size: int = 32,
     epochs: Iterable[int] = (300,),
-    hidden: tuple[int, ...] = HIDDEN,
+    hidden: tuple[int, ...] = HIDDEN_LAYERS,
 ) -> dict[int, list[Layers]]:
     """Train M networks: ReLU between the layers, softmax after the last.
 

@@ -24,7 +24,7 @@ LEAST_TYPICALITY = 0.10
 """And if at least this share of the category's own files, tires left out, lies as far from its mean or
 farther: that share of the files of known suppliers is turned away."""
 
-FOLDS = 5
+OPEN_SET_FOLDS = 5
 _LEAST_SCALE = 0.01  # of the magnitude: what never varies counts as varying by that much
 
 
@@ -130,7 +130,7 @@ class OpenSetClassifier:
 
 
 def _fold_count(codes: np.ndarray, tires: np.ndarray) -> int:
-    return min(FOLDS, *(np.unique(np.asarray(tires)[codes == k]).size for k in np.unique(codes)))
+    return min(OPEN_SET_FOLDS, *(np.unique(np.asarray(tires)[codes == k]).size for k in np.unique(codes)))
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from joblib import Parallel, delayed
 
-from tire_pipeline.classifiers.evaluate import Evaluation, evaluate_classifier
+from tire_pipeline.classifiers.evaluate import ClassifierScores, evaluate_classifier
 from tire_pipeline.classifiers.parameters import TrainClassifierParameters
 from tire_pipeline.progress import track
 
@@ -87,7 +87,7 @@ def train_forest(
         ``split, true, predicted, share``: shares of each true category.
     """
     seeds = range(seed, seed + parameters.trainings)
-    results: dict[str, Evaluation] = {}
+    results: dict[str, ClassifierScores] = {}
     for split, table in zip(SPLITS, (binned_features, binned_features_by_tire), strict=True):
         values, labels = _arrays(table)
         train, test = split_rows(table, splits, split)
@@ -109,7 +109,7 @@ def join_scores(features: pd.DataFrame, bins: pd.DataFrame) -> pd.DataFrame:
     return pd.concat([features, bins], ignore_index=True)
 
 
-def _confusion(results: dict[str, Evaluation]) -> pd.DataFrame:
+def _confusion(results: dict[str, ClassifierScores]) -> pd.DataFrame:
     parts = []
     for split, result in results.items():
         shares = result.confusion.div(result.confusion.sum(axis=1), axis=0).fillna(0.0)
@@ -124,7 +124,7 @@ def _arrays(table: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _score_row(
-    features: str, name: str, split: str, parameters: TrainClassifierParameters, result: Evaluation
+    features: str, name: str, split: str, parameters: TrainClassifierParameters, result: ClassifierScores
 ) -> dict[str, Any]:
     return {
         "features": features,

@@ -11,7 +11,7 @@ from tire_pipeline.representations.coefficients import DATASETS
 STATED = ("LONGVL", "ALPMIN", "ALPMAX", "KPUMIN", "KPUMAX", "CAMMIN", "CAMMAX")
 """Reference speed and ranges of the test, as the file states them."""
 
-SHARES = (("FZMIN", "FZMAX"), ("INFLPRES", "NOMPRES"))
+QUOTIENTS = (("FZMIN", "FZMAX"), ("INFLPRES", "NOMPRES"))
 """Pairs of which the supplier chooses the ratio."""
 
 
@@ -36,7 +36,7 @@ def supplier_features(table: pd.DataFrame) -> tuple[np.ndarray, list[str]]:
     """
     coefficients = _numbers(table, DATASETS["full"]).fillna(0.0)
     stated = _numbers(table, STATED)
-    for low, high in SHARES:
+    for low, high in QUOTIENTS:
         ends = _numbers(table, (low, high))
         stated[f"{low}/{high}"] = ends[low] / ends[high].where(ends[high] != 0.0)
     stated = stated.where(np.isfinite(stated))

@@ -19,7 +19,7 @@ from tire_pipeline.classifiers.ann import network_probabilities, standard_scale
 from tire_pipeline.classifiers.oversampling import oversample
 from tire_pipeline.progress import track
 
-FOLDS = 4
+TUNING_FOLDS = 4
 
 ANN_GRID: dict[str, tuple[Any, ...]] = {
     "learning_rate": (0.0001, 0.001, 0.01, 0.1),
@@ -70,7 +70,7 @@ def narrowed_grid(scores: pd.DataFrame, *, best: int = 20) -> dict[str, tuple[An
 
 
 def folds_of(
-    labels: np.ndarray, *, seed: int, tires: np.ndarray | None = None, folds: int = FOLDS
+    labels: np.ndarray, *, seed: int, tires: np.ndarray | None = None, folds: int = TUNING_FOLDS
 ) -> list[tuple[np.ndarray, np.ndarray]]:
     """Give (training rows, test rows) of each fold: at random, or with no tire on both sides."""
     from sklearn.model_selection import StratifiedGroupKFold, StratifiedKFold

@@ -9,7 +9,7 @@ import click
 import numpy as np
 
 from tire_pipeline.command.options import FILE, output_options, read_runs, reading_options
-from tire_pipeline.command.outcome import Grid, Outcome, finish
+from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -47,7 +47,7 @@ def command(
         click.get_current_context().exit(UNUSABLE)
 
 
-def _outcome(run: Path, recording: pd.DataFrame, issues: list[Issue], axes: str | None) -> Outcome:
+def _outcome(run: Path, recording: pd.DataFrame, issues: list[Issue], axes: str | None) -> CommandOutcome:
     attrs = recording.attrs
     errors = sum(issue.severity == "error" for issue in issues)
     verdict = "It cannot be explained as it is" if errors else "It can be explained"
@@ -81,7 +81,7 @@ def _outcome(run: Path, recording: pd.DataFrame, issues: list[Issue], axes: str 
     def page() -> str:
         return _page(run, recording, lines, channels, found, notes)
 
-    return Outcome(run.name, lines, data, page, [channels, *([found] if issues else [])], notes)
+    return CommandOutcome(run.name, lines, data, page, [channels, *([found] if issues else [])], notes)
 
 
 def _count(number: int, what: str) -> str:

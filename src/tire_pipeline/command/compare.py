@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tire_pipeline.command.options import FILE, output_options
-from tire_pipeline.command.outcome import Grid, Outcome, finish
+from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 
 if TYPE_CHECKING:
     from tire_pipeline.magic_formula import TireModel
@@ -37,7 +37,7 @@ def command(first: Path, second: Path, loads: tuple[float, ...], camber: float, 
 
 def compared(
     models: dict[str, TireModel], loads: tuple[float, ...] = (), camber: float = 0.0, title: str = ""
-) -> Outcome:
+) -> CommandOutcome:
     """Compare two models by name; ``camber`` in degrees."""
     from tire_pipeline.magic_formula.compare import changed_values, compare_models
     from tire_pipeline.magic_formula.key_figures import key_figures, usual_loads
@@ -71,7 +71,7 @@ def compared(
     def page() -> str:
         return _page(models, lines, [figures, forces], changed, at, camber, title)
 
-    return Outcome(title or f"{a} and {b}", lines, data, page, [figures, forces])
+    return CommandOutcome(title or f"{a} and {b}", lines, data, page, [figures, forces])
 
 
 def _lines(models: dict[str, TireModel], apart: list[Difference], changed: int) -> list[str]:

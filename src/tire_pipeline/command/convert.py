@@ -9,7 +9,7 @@ import click
 
 from tire_pipeline.command.compare import compared
 from tire_pipeline.command.options import FILE, check_target, output_options
-from tire_pipeline.command.outcome import Outcome, finish
+from tire_pipeline.command.outcome import CommandOutcome, finish
 
 
 @click.command(
@@ -34,7 +34,7 @@ def command(file: Path, version: str, target: Path | None, overwrite: bool, **ou
     write_tir(converted, target, comments=[said, *notes], overwrite=overwrite)
     again = read_tir(target)
     result = compared({file.name: model, target.name: again}, title=f"{file.name} as Magic Formula {version}")
-    outcome = Outcome(
+    outcome = CommandOutcome(
         result.title,
         result.lines,
         {**result.data, "file": file, "output": target, "to": version, "notes": notes},

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tire_pipeline.command.options import FILE, check_target, output_options, read_runs, reading_options
-from tire_pipeline.command.outcome import Grid, Outcome, finish
+from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 from tire_pipeline.errors import RecordingError
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def _among(hold_out: Path, runs: tuple[Path, ...]) -> Path:
     return hold_out
 
 
-def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Outcome:
+def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> CommandOutcome:
     errors = Grid(
         ("output", "noise", "RMS before", "RMS after", "95% interval", "unit"),
         [
@@ -124,4 +124,4 @@ def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Outcome
 
     data = {"file": file, **report.to_dict()}
     title = f"{file} and {', '.join(report.recordings)}: {report.verdict}"
-    return Outcome(title, [report.summary], data, page, grids, report.notes, written)
+    return CommandOutcome(title, [report.summary], data, page, grids, report.notes, written)

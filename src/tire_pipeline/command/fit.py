@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tire_pipeline.command.options import FILE, check_target, output_options, read_runs, reading_options
-from tire_pipeline.command.outcome import Grid, Outcome, finish
+from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 
 if TYPE_CHECKING:
     from tire_pipeline.magic_formula import FitResult
@@ -73,7 +73,7 @@ def command(
     finish(_outcome(result, list(recordings), target, notes), f"{target.stem}_fit", **output)
 
 
-def _outcome(result: FitResult, runs: list[str], target: Path, notes: list[str]) -> Outcome:
+def _outcome(result: FitResult, runs: list[str], target: Path, notes: list[str]) -> CommandOutcome:
     model = result.model
     sizes = ", ".join(f"{n.capitalize()} {100 * v:.2g} %" for n, v in result.relative_rms.items())
     lines = [
@@ -101,7 +101,7 @@ def _outcome(result: FitResult, runs: list[str], target: Path, notes: list[str])
         return _page(result, lines, residuals, notes, target)
 
     said = [f"not determined by the data: {text}" for text in result.undetermined]
-    return Outcome(target.name, lines, data, page, notes=[*said, *notes], written=[target])
+    return CommandOutcome(target.name, lines, data, page, notes=[*said, *notes], written=[target])
 
 
 def _row(row: Any) -> tuple[Any, ...]:

@@ -34,7 +34,7 @@ class Grid:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class CommandOutcome:
     """What a subcommand found.
 
     Attributes
@@ -63,12 +63,12 @@ class Outcome:
     written: Sequence[Path] = field(default_factory=tuple)
 
 
-def finish(outcome: Outcome, name: str, *, page: Path | None, no_page: bool, as_json: bool) -> None:
+def finish(outcome: CommandOutcome, name: str, *, page: Path | None, no_page: bool, as_json: bool) -> None:
     """Write the page, then print the result.
 
     Parameters
     ----------
-    outcome : Outcome
+    outcome : CommandOutcome
     name : str
         Name of the page, without its suffix, if ``page`` does not give it.
     page : Path, optional
@@ -98,7 +98,7 @@ def page_path(page: Path | None, name: str) -> Path:
     return path
 
 
-def _print(outcome: Outcome, written: Sequence[str]) -> None:
+def _print(outcome: CommandOutcome, written: Sequence[str]) -> None:
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tire_pipeline.command.options import FILE, output_options
-from tire_pipeline.command.outcome import Grid, Outcome, finish
+from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 
 if TYPE_CHECKING:
     from tire_pipeline.magic_formula import TireModel
@@ -39,7 +39,7 @@ def command(file: Path, loads: tuple[float, ...], camber: float, **output: Any) 
     finish(_outcome(model, file, loads, camber), f"{file.stem}_show", **output)
 
 
-def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: float) -> Outcome:
+def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: float) -> CommandOutcome:
     from tire_pipeline.magic_formula.key_figures import key_figures
 
     figures = key_figures(model)
@@ -73,7 +73,7 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
     def page() -> str:
         return _page(model, file, lines, grids, warnings, loads, camber)
 
-    return Outcome(file.name, lines, data, page, grids, warnings)
+    return CommandOutcome(file.name, lines, data, page, grids, warnings)
 
 
 def _gaps(model: TireModel) -> list[str]:

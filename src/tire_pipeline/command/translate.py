@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tire_pipeline.command.options import FILE, check_target, output_options
-from tire_pipeline.command.outcome import Grid, Outcome, finish
+from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 from tire_pipeline.errors import DomainError
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ def _outcome(
     source: Path,
     written: list[Path],
     notes: list[str],
-) -> Outcome:
+) -> CommandOutcome:
     said: Mapping[str, Any] = result.report.iloc[0].to_dict()
     bands = said.get("bias_band", "")
     lines = [
@@ -131,7 +131,7 @@ def _outcome(
     def page() -> str:
         return _page(file, model, translated, result, lines, grid)
 
-    return Outcome(file.name, lines, data, page, notes=notes, written=written)
+    return CommandOutcome(file.name, lines, data, page, notes=notes, written=written)
 
 
 def _page(

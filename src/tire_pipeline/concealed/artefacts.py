@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from scipy.signal import lfilter
 
-UNITS: dict[str, dict[str, float]] = {
+UNIT_ERRORS: dict[str, dict[str, float]] = {
     "slip_angle": {"deg": 180.0 / np.pi},
     "normal_load": {"lbf": 1.0 / 4.4482216, "kN": 1e-3},
     "fy": {"lbf": 1.0 / 4.4482216, "kN": 1e-3},
@@ -19,7 +19,7 @@ UNITS: dict[str, dict[str, float]] = {
 UNSCALED = ("sign_convention", "unit_error", "stuck_channel")
 """Artefacts that are there or not: their strength cannot be chosen."""
 
-FIRST_GUESS: dict[str, float] = {
+ARTEFACT_GUESS: dict[str, float] = {
     "force_offset": 60.0,
     "force_gain": 0.03,
     "slip_angle_offset": 0.002,
@@ -32,7 +32,7 @@ FIRST_GUESS: dict[str, float] = {
 }
 """Strength from which the wanted one is searched."""
 
-LIMITS: dict[str, tuple[float, float]] = {
+ARTEFACT_LIMITS: dict[str, tuple[float, float]] = {
     "force_offset": (1.0, 1000.0),
     "force_gain": (0.001, 0.3),
     "slip_angle_offset": (1e-5, 0.03),
@@ -77,8 +77,8 @@ def draw_details(
     if name == "sign_convention":
         channel = str(rng.choice(["slip_angle", "fy"] + (["fx"] if braking else [])))
     elif name == "unit_error":
-        channel = str(rng.choice(list(UNITS)))
-        factor = float(rng.choice(list(UNITS[channel].values())))
+        channel = str(rng.choice(list(UNIT_ERRORS)))
+        factor = float(rng.choice(list(UNIT_ERRORS[channel].values())))
     elif name == "stuck_channel":
         channel = str(rng.choice(["normal_load", "fy", "slip_angle"]))
     elif name == "crosstalk":

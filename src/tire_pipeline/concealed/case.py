@@ -10,13 +10,13 @@ import pandas as pd
 
 from tire_pipeline.concealed import artefacts, strength
 from tire_pipeline.concealed.answers import Answer, EffectTruth
-from tire_pipeline.concealed.choice import SHARES, Choice, choose
+from tire_pipeline.concealed.choice import KIND_SHARES, Choice, choose
 from tire_pipeline.concealed.clean_run import fit_clean, model_forces, residual, rms
 from tire_pipeline.concealed.constants import draw_constants, without_cooling
 from tire_pipeline.concealed.location import regimes, windows
-from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, HEAT_OR_WEAR, KINDS, PHYSICS
-from tire_pipeline.concealed.rig import FORCES, Noise, World, add_noise, draw_noise
-from tire_pipeline.concealed.schedule import Plan, draw_plan, make_schedule
+from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, CASE_KINDS, HEAT_OR_WEAR, PHYSICS
+from tire_pipeline.concealed.rig import RIG_FORCES, SensorNoise, World, add_noise, draw_noise
+from tire_pipeline.concealed.schedule import CasePlan, draw_plan, make_schedule
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireModel
 
@@ -87,7 +87,7 @@ class _Bench:
     """A drawn tire on a drawn rig with its fitted model, before any effect."""
 
     world: World
-    plan: Plan
+    plan: CasePlan
     tire: TireModel
     schedule: pd.DataFrame
     clean: pd.DataFrame
@@ -123,10 +123,10 @@ def make_case(seed: int, kind: str, settings: CaseSettings | None = None) -> tup
     DomainError
         For an unknown kind.
     """
-    if kind not in KINDS:
-        raise DomainError(f"kind {kind!r} is not known", todo=f"use one of {', '.join(KINDS)}")
+    if kind not in CASE_KINDS:
+        raise DomainError(f"kind {kind!r} is not known", todo=f"use one of {', '.join(CASE_KINDS)}")
     settings = settings or CaseSettings()
-    root = np.random.SeedSequence([seed, KINDS.index(kind)])
+    root = np.random.SeedSequence([seed, CASE_KINDS.index(kind)])
     streams = root.spawn(settings.attempts + 1)
     choice = choose(np.random.default_rng(streams[0]), kind)
     for stream in streams[1:]:
@@ -148,7 +148,7 @@ def case_plan(n: int, seed: int) -> list[tuple[int, str]]:
     seed : int
     """
     rng = np.random.default_rng(seed)
-    kinds = [kind for kind, share in SHARES.items() for _ in range(round(share * n))]
+    kinds = [kind for kind, share in KIND_SHARES.items() for _ in range(round(share * n))]
     kinds = (kinds + ["single"] * n)[:n]
     order = rng.permutation(n)
     seeds = rng.choice(10**9, size=n, replace=False)
@@ -239,7 +239,7 @@ def _set_up(rng: np.random.Generator, choice: Choice, settings: CaseSettings) ->
     world = replace(
         world,
         constants=replace(constants, wear_energy=constants.wear_energy * wear),
-        largest={f: float(clean[f].abs().max()) for f in FORCES},
+        largest={f: float(clean[f].abs().max()) for f in RIG_FORCES},
     )
     largest = max(world.largest.values())
     tire, poor = fit_clean(world, plan, noise=0.002 * largest, rng=rng)
@@ -269,7 +269,7 @@ def _scale(rng: np.random.Generator, bench: _Bench, name: str, settings: CaseSet
         return 1.0
     wanted = strength.draw_ratio(rng, *settings.effect)
     sign = float(rng.choice([-1.0, 1.0])) if name in strength.SIGNED else 1.0
-    low, high = strength.LIMITS[name]
+    low, high = strength.STRENGTH_LIMITS[name]
     if name == "combined_slip":
         base = bench.world.constants.coupling
         sign = 1.0 if base < 0.5 else sign
@@ -280,7 +280,7 @@ def _scale(rng: np.random.Generator, bench: _Bench, name: str, settings: CaseSet
     def measure(x: float) -> float:
         return rms(bench.effect({name: sign * x})) / bench.misfit
 
-    guess = min(max(strength.GUESS[name], low), high)
+    guess = min(max(strength.STRENGTH_GUESS[name], low), high)
     found, got = strength.find_strength(measure, wanted, guess, (low, high))
     if not settings.effect[0] <= got <= settings.effect[1]:
         raise _Unfit
@@ -292,7 +292,7 @@ def _record(
     bench: _Bench,
     schedule: pd.DataFrame,
     strengths: Mapping[str, float],
-    noise: Noise,
+    noise: SensorNoise,
     time0: float,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Run and record; returns the recording, and the same without noise."""
@@ -304,7 +304,7 @@ def _record(
     )
 
 
-def _missing(choice: Choice, plan: Plan) -> tuple[str, ...]:
+def _missing(choice: Choice, plan: CasePlan) -> tuple[str, ...]:
     hidden = ("tread_temperature",) if choice.hide_temperature else ()
     return hidden if "turn" in plan.blocks else (*hidden, "turn_slip")
 
@@ -331,7 +331,7 @@ def _truth(bench: _Bench, name: str, strengths: Mapping[str, float], noise_part:
         rms=size,
         over_misfit=size / bench.misfit,
         over_noise=size / rms(noise_part),
-        output=FORCES[output],
+        output=RIG_FORCES[output],
         when=windows(effect[:, output], bench.schedule["time"].to_numpy(), floor),
         where=regimes(effect[:, output], bench.clean),
         details=details,
@@ -358,7 +358,7 @@ def _oracle(
             "rms_before": float(np.sqrt(np.mean(before[:, i] ** 2))),
             "rms_oracle": float(np.sqrt(np.mean(best[:, i] ** 2))),
         }
-        for i, force in enumerate(FORCES)
+        for i, force in enumerate(RIG_FORCES)
     }
 
 

@@ -19,7 +19,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.tir import read_tir, tir_bytes
 
-FORCES = ["fx", "fy", "mx", "my", "mz"]
+STORED_FORCES = ["fx", "fy", "mx", "my", "mz"]
 Read = Callable[[], bytes]
 
 
@@ -49,7 +49,7 @@ def shown_part(read: Read) -> bytes:
     """What a user would have; of the held-out run only the inputs, to predict it."""
     made = unpack(read())
     held_out = pd.read_parquet(io.BytesIO(made["held_out.parquet"]))
-    inputs = held_out.drop(columns=[name for name in FORCES if name in held_out])
+    inputs = held_out.drop(columns=[name for name in STORED_FORCES if name in held_out])
     shown = {name: made[name] for name in ("model.tir", "recording.parquet", "case_id")}
     return pack({**shown, "inputs.parquet": _parquet(inputs)})
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, HEAT_OR_WEAR, PHYSICS, UNKNOWN
+from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, HEAT_OR_WEAR, PHYSICS, UNKNOWN_EFFECTS
 
-SHARES: dict[str, float] = {
+KIND_SHARES: dict[str, float] = {
     "nothing": 0.20,
     "single": 0.35,
     "pair": 0.15,
@@ -61,7 +61,7 @@ def choose(rng: np.random.Generator, kind: str) -> Choice:
         decoy = choose(rng, as_if)
         if kind == "nothing":
             return Choice((), decoy.focus, decoy.ambiguous, decoy.hide_temperature)
-        name = str(rng.choice(_CHOSEN_ARTEFACTS if kind == "artefact" else UNKNOWN))
+        name = str(rng.choice(_CHOSEN_ARTEFACTS if kind == "artefact" else UNKNOWN_EFFECTS))
         return Choice((name,), (*decoy.focus, name), decoy.ambiguous, decoy.hide_temperature)
     if kind == "single":
         names: tuple[str, ...] = (str(rng.choice(PHYSICS)),)

@@ -7,13 +7,13 @@ import warnings
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.concealed.rig import FORCES, World
-from tire_pipeline.concealed.schedule import CHANNELS, Plan
+from tire_pipeline.concealed.rig import RIG_FORCES, World
+from tire_pipeline.concealed.schedule import CHANNELS, CasePlan
 from tire_pipeline.magic_formula import DegreesWarning, TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 
 
-def clean_schedule(world: World, plan: Plan) -> pd.DataFrame:
+def clean_schedule(world: World, plan: CasePlan) -> pd.DataFrame:
     """Points of a clean run: pure slip, camber and combined slip at nominal speed and pressure.
 
     The loads and angles span those of the recording.
@@ -40,13 +40,15 @@ def clean_schedule(world: World, plan: Plan) -> pd.DataFrame:
     return frame[["time", *CHANNELS]]
 
 
-def fit_clean(world: World, plan: Plan, *, noise: float, rng: np.random.Generator) -> tuple[TireModel, float]:
+def fit_clean(
+    world: World, plan: CasePlan, *, noise: float, rng: np.random.Generator
+) -> tuple[TireModel, float]:
     """Fit MF 5.2 to a clean run: no effect, steady, new tire at its reference temperature.
 
     Parameters
     ----------
     world : World
-    plan : Plan
+    plan : CasePlan
     noise : float
         Standard deviation of the noise on the clean run's forces, N.
     rng : numpy.random.Generator
@@ -58,8 +60,8 @@ def fit_clean(world: World, plan: Plan, *, noise: float, rng: np.random.Generato
         RMS of what the fit leaves of the clean run, N.
     """
     frame = world.run(clean_schedule(world, plan), {})
-    frame = frame[["slip_angle", "slip_ratio", "camber", "normal_load", *FORCES]].copy()
-    for force in FORCES:
+    frame = frame[["slip_angle", "slip_ratio", "camber", "normal_load", *RIG_FORCES]].copy()
+    for force in RIG_FORCES:
         frame[force] += noise * rng.standard_normal(len(frame))
     fitted = fit_magic_formula(
         frame,
@@ -85,13 +87,13 @@ def model_forces(tire: TireModel, frame: pd.DataFrame) -> np.ndarray:
     inputs = {channel: frame[channel].to_numpy() for channel in channels if channel in frame}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DegreesWarning)
-        got = tire.forces(**inputs, limits="ignore", outputs=FORCES)
+        got = tire.forces(**inputs, limits="ignore", outputs=RIG_FORCES)
     return np.column_stack([got.fx, got.fy])
 
 
 def residual(tire: TireModel, frame: pd.DataFrame) -> np.ndarray:
     """Recorded less modelled force, shape (n, 2), N."""
-    return frame[list(FORCES)].to_numpy() - model_forces(tire, frame)
+    return frame[list(RIG_FORCES)].to_numpy() - model_forces(tire, frame)
 
 
 def rms(values: np.ndarray) -> float:

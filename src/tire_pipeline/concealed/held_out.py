@@ -9,7 +9,7 @@ import pandas as pd
 
 from tire_pipeline.concealed.case import Case
 from tire_pipeline.concealed.clean_run import model_forces
-from tire_pipeline.concealed.rig import FORCES
+from tire_pipeline.concealed.rig import RIG_FORCES
 
 
 def held_out_errors(
@@ -29,13 +29,13 @@ def held_out_errors(
     dict
         Output -> ``rms_before``, ``rms_after``, N.
     """
-    recorded = [force for force in FORCES if force in case.held_out]
+    recorded = [force for force in RIG_FORCES if force in case.held_out]
     inputs = case.held_out.drop(columns=recorded)
     before = model_forces(case.tire, inputs)
     after = predict(inputs)
     out = {}
     for force in recorded:
-        i = FORCES.index(force)
+        i = RIG_FORCES.index(force)
         measured = case.held_out[force].to_numpy()
         guess = after[force].to_numpy() if force in after else before[:, i]
         out[force] = {

@@ -37,7 +37,7 @@ ARTEFACTS: tuple[str, ...] = (
 )
 """What a rig or its wiring does to a recording."""
 
-UNKNOWN: tuple[str, ...] = (
+UNKNOWN_EFFECTS: tuple[str, ...] = (
     "backlash",
     "stick_slip",
     "load_rate",
@@ -49,7 +49,7 @@ UNKNOWN: tuple[str, ...] = (
 )
 """What no catalogue entry describes: it must stay without a name."""
 
-KINDS: tuple[str, ...] = ("nothing", "single", "pair", "ambiguous", "artefact", "unknown")
+CASE_KINDS: tuple[str, ...] = ("nothing", "single", "pair", "ambiguous", "artefact", "unknown")
 """Kinds of cases."""
 
 AMBIGUOUS_SETS: tuple[tuple[str, ...], ...] = (

@@ -16,7 +16,7 @@ from tire_pipeline.concealed.names import ARTEFACTS
 from tire_pipeline.concealed.schedule import CHANNELS
 from tire_pipeline.concealed.unknown import act_on_forces, play
 
-FORCES = ("fx", "fy")
+RIG_FORCES = ("fx", "fy")
 """Outputs that are recorded."""
 
 IN_BRUSH: dict[str, int] = {
@@ -43,7 +43,7 @@ IN_BRUSH: dict[str, int] = {
 
 
 @dataclass(frozen=True)
-class Noise:
+class SensorNoise:
     """Standard deviations of the channels' noise, SI, and its colour.
 
     Attributes
@@ -61,7 +61,7 @@ class Noise:
     coloured_share: float
 
 
-def draw_noise(rng: np.random.Generator, constants: TireConstants, largest: float) -> Noise:
+def draw_noise(rng: np.random.Generator, constants: TireConstants, largest: float) -> SensorNoise:
     """Draw the noise of a rig; force noise is 0.25 to 0.7% of the largest force ``largest``, N."""
     force = float(rng.uniform(0.0025, 0.007)) * largest
     sigma = {
@@ -77,10 +77,10 @@ def draw_noise(rng: np.random.Generator, constants: TireConstants, largest: floa
         "fx": force * float(rng.uniform(0.6, 1.1)),
     }
     colour = {channel: float(rng.uniform(0.3, 0.9)) for channel in sigma}
-    return Noise(sigma, colour, float(rng.uniform(0.2, 0.6)))
+    return SensorNoise(sigma, colour, float(rng.uniform(0.2, 0.6)))
 
 
-def add_noise(frame: pd.DataFrame, noise: Noise, rng: np.random.Generator) -> pd.DataFrame:
+def add_noise(frame: pd.DataFrame, noise: SensorNoise, rng: np.random.Generator) -> pd.DataFrame:
     """Return the frame with coloured and white noise on every channel but time."""
     out = frame.copy()
     n = len(out)

@@ -60,7 +60,7 @@ _AMBIGUOUS: dict[int, tuple[str, ...]] = {
 
 
 @dataclass(frozen=True)
-class Plan:
+class CasePlan:
     """How a rig is run in one case; drawn once, used for the recording and the held-out run.
 
     Attributes
@@ -100,7 +100,7 @@ def draw_plan(
     nominal_load: float,
     speed: float,
     pressure: float,
-) -> Plan:
+) -> CasePlan:
     """Draw the plan of one case.
 
     Parameters
@@ -131,7 +131,7 @@ def draw_plan(
     place = rng.uniform(0.35, 0.65) if single_load is False else 0.0
     held = loads[0] * 1.0 if single_load else loads[0] + place * (loads[1] - loads[0])
     camber = float(rng.uniform(0.04, 0.09))
-    return Plan(
+    return CasePlan(
         blocks=tuple(b for b in OPTIONAL_BLOCKS if b in needed or b in drawn),
         single_speed=ambiguous is not None,
         single_load=single_load,
@@ -154,7 +154,7 @@ def draw_plan(
 class _Rig:
     """Collects stretches of set points at the recording's rate."""
 
-    plan: Plan
+    plan: CasePlan
     dt: float
     parts: list[dict[str, np.ndarray]] = field(default_factory=list)
     starts: list[tuple[str, int]] = field(default_factory=list)
@@ -186,7 +186,7 @@ def values_load(rig: _Rig) -> float:
     return rig.plan.loads[0]
 
 
-def _sweep(plan: Plan, dt: float, amplitude: float, rate: float, cycles: int = 1) -> np.ndarray:
+def _sweep(plan: CasePlan, dt: float, amplitude: float, rate: float, cycles: int = 1) -> np.ndarray:
     """Slip angle of whole sweeps, from zero to both sides and back, rad."""
     period = 4.0 * amplitude / rate
     t = np.arange(round(cycles * period / dt)) * dt
@@ -275,13 +275,13 @@ def _repeat(rig: _Rig, rng: np.random.Generator, loads: tuple[float, ...]) -> No
 
 
 def make_schedule(
-    plan: Plan, rng: np.random.Generator, *, rate: float, held_out: bool = False
+    plan: CasePlan, rng: np.random.Generator, *, rate: float, held_out: bool = False
 ) -> tuple[pd.DataFrame, list[tuple[str, int]]]:
     """Turn a plan into the channels that the rig runs.
 
     Parameters
     ----------
-    plan : Plan
+    plan : CasePlan
     rng : numpy.random.Generator
     rate : float
         Samples a second.
@@ -319,7 +319,7 @@ def make_schedule(
     return frame, rig.starts
 
 
-def _recorded_levels(plan: Plan, rng: np.random.Generator) -> dict[str, tuple[float, ...]]:
+def _recorded_levels(plan: CasePlan, rng: np.random.Generator) -> dict[str, tuple[float, ...]]:
     side = float(rng.uniform(0.03, 0.06))
     turn = float(rng.uniform(0.08, 0.2))
     return {
@@ -332,7 +332,7 @@ def _recorded_levels(plan: Plan, rng: np.random.Generator) -> dict[str, tuple[fl
     }
 
 
-def _held_out_levels(plan: Plan, rng: np.random.Generator) -> dict[str, tuple[float, ...]]:
+def _held_out_levels(plan: CasePlan, rng: np.random.Generator) -> dict[str, tuple[float, ...]]:
     return {
         "camber": (0.75 * max(plan.cambers),),
         "pressure": (plan.pressure * float(rng.choice([0.88, 1.12])),),

@@ -55,8 +55,8 @@ SIGNED = (
 )
 """Effects whose sign is drawn as well."""
 
-GUESS = PHYSICS_GUESS | artefacts.FIRST_GUESS | unknown.FIRST_GUESS
-LIMITS = PHYSICS_LIMITS | artefacts.LIMITS | unknown.LIMITS
+STRENGTH_GUESS = PHYSICS_GUESS | artefacts.ARTEFACT_GUESS | unknown.UNKNOWN_GUESS
+STRENGTH_LIMITS = PHYSICS_LIMITS | artefacts.ARTEFACT_LIMITS | unknown.UNKNOWN_LIMITS
 
 
 def draw_ratio(rng, low: float, high: float) -> float:  # type: ignore[no-untyped-def]

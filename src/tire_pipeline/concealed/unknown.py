@@ -10,7 +10,7 @@ import numpy as np
 from numba import njit
 from scipy.signal import cont2discrete, lfilter
 
-FIRST_GUESS: dict[str, float] = {
+UNKNOWN_GUESS: dict[str, float] = {
     "backlash": 0.003,
     "stick_slip": 80.0,
     "load_rate": 0.1,
@@ -22,7 +22,7 @@ FIRST_GUESS: dict[str, float] = {
 }
 """Strength from which the wanted one is searched."""
 
-LIMITS: dict[str, tuple[float, float]] = {
+UNKNOWN_LIMITS: dict[str, tuple[float, float]] = {
     "backlash": (1e-4, 0.03),
     "stick_slip": (1.0, 3000.0),
     "load_rate": (0.002, 0.9),

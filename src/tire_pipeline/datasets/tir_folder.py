@@ -15,7 +15,7 @@ from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.folder_walk import walk
 from tire_pipeline.tir import read_tir
 
-LOG = logging.getLogger(__name__)
+_LOG = logging.getLogger(__name__)
 
 
 class TirFolderDataset(PartitionedDataset):
@@ -70,7 +70,7 @@ class TirFolderDataset(PartitionedDataset):
             return {}
         found = walk(self._path, _is_tir)
         for name, other in found.again.items():
-            LOG.info("%s is a link to %s, which is taken already.", name, other)
+            _LOG.info("%s is a link to %s, which is taken already.", name, other)
         partitions: dict[str, Callable[[], Any]] = {
             name: partial(read_tir, path) for name, path in found.files.items()
         }

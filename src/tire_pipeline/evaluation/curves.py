@@ -14,8 +14,8 @@ from tire_pipeline.magic_formula import TireForces, TireModel
 from tire_pipeline.magic_formula.coefficients import COEFFICIENT_NAMES
 
 # What a table must hold, without NaN, for each group of curves.
-NEEDED: tuple[str, ...] = ("FNOMIN", "PCY1", "PDY1", "PDY2", "PEY1", "PEY2", "PKY1", "PKY2")
-NEEDED += ("PHY1", "PHY2", "PVY1", "PVY2")
+NEEDED_FOR_CURVES: tuple[str, ...] = ("FNOMIN", "PCY1", "PDY1", "PDY2", "PEY1", "PEY2", "PKY1", "PKY2")
+NEEDED_FOR_CURVES += ("PHY1", "PHY2", "PVY1", "PVY2")
 
 
 def _linspace(low: float, high: float, count: int) -> np.ndarray:
@@ -114,19 +114,19 @@ def curves_of(
 
 
 def _check(table: pd.DataFrame) -> None:
-    absent = [name for name in NEEDED if name not in table.columns]
+    absent = [name for name in NEEDED_FOR_CURVES if name not in table.columns]
     if absent:
         raise DomainError(
             f"the table has no column {', '.join(absent)}",
             where="evaluation",
             todo="give all coefficients of the lateral force and FNOMIN",
         )
-    empty = table[list(NEEDED)].isna()
+    empty = table[list(NEEDED_FOR_CURVES)].isna()
     if empty.any(axis=None):
         row, column = np.argwhere(empty.to_numpy())[0]
         name = table["file"].iloc[row] if "file" in table else table.index[row]
         raise DomainError(
-            f"{name} has no value for {NEEDED[column]}",
+            f"{name} has no value for {NEEDED_FOR_CURVES[column]}",
             where="evaluation",
             todo="drop it, or fill in the coefficient",
         )

@@ -8,7 +8,7 @@ from tire_pipeline.errors import DomainError
 
 MANUFACTURERS: tuple[str, ...] = ("A", "B", "C", "D", "E", "F")
 FOUR_TIRE_CATEGORIES: tuple[str, ...] = ("A", "B", "C", "D", "E")
-KINDS: tuple[str, ...] = ("additive", "interacting", "drifting")
+FLEET_KINDS: tuple[str, ...] = ("additive", "interacting", "drifting")
 
 # Shares of the 3,648 files: thesis, section 4.1 and Figure 4.1 (2,061 remain, D and E about 70%).
 FULL_FILES = 3648
@@ -72,8 +72,10 @@ class FleetSettings:
 
     def __post_init__(self) -> None:
         where = "fleet settings"
-        if self.kind not in KINDS:
-            raise DomainError(f"kind is {self.kind!r}", where=where, todo=f"use one of {', '.join(KINDS)}")
+        if self.kind not in FLEET_KINDS:
+            raise DomainError(
+                f"kind is {self.kind!r}", where=where, todo=f"use one of {', '.join(FLEET_KINDS)}"
+            )
         if self.target not in FOUR_TIRE_CATEGORIES:
             raise DomainError(
                 f"target is {self.target!r}",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pandas as pd
+from scipy.constants import g as GRAVITY
 
 # width mm, aspect ratio, rim diameter inch, load index kg
 SIZES: tuple[tuple[int, int, int, int], ...] = (
@@ -25,7 +26,6 @@ SIZES: tuple[tuple[int, int, int, int], ...] = (
     (265, 45, 20, 900),
 )
 COMPOUNDS: tuple[str, ...] = ("winter", "all-season", "touring", "sport")
-GRAVITY = 9.80665
 
 # By compound: friction, stiffness factor, best temperature degC, width of the bell K,
 # loss of stiffness 1/K, share of hysteresis friction.

@@ -10,7 +10,7 @@ import pandas as pd
 from tire_pipeline.fleet.rig.regimes import COMMON
 from tire_pipeline.fleet.rig.true_forces import REFERENCE_TEMPERATURE, Contact, in_contact, lateral
 
-CURVE_LOADS = (4000.0, 6000.0, 8000.0)
+TRUTH_LOADS = (4000.0, 6000.0, 8000.0)
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ def true_curves(tires: pd.DataFrame) -> dict[str, np.ndarray]:
         As :attr:`Truth.curves` says.
     """
     slip_angle = np.linspace(-0.25, 0.25, 100)
-    loads = np.array(CURVE_LOADS)
+    loads = np.array(TRUTH_LOADS)
     shape = (len(tires), loads.size)
     one, nought = np.ones((1, 1)), np.zeros((1, 1))
     contact = Contact(

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 import pandas as pd
 
-FORCES = ("fx", "fy", "mx", "my", "mz")
+FORCE_CHANNELS = ("fx", "fy", "mx", "my", "mz")
 FEW_SAMPLES = 30
 _ANGLES = ("slip_angle", "camber")
 _LARGEST_ANGLE = 1.6  # rad: what no tire is turned to; the same limit as the Magic Formula's
@@ -63,7 +63,7 @@ def check_recording(recording: pd.DataFrame) -> list[Issue]:
 
 def _columns(frame: pd.DataFrame) -> list[Issue]:
     issues = []
-    if not any(c in frame for c in FORCES):
+    if not any(c in frame for c in FORCE_CHANNELS):
         issues.append(
             Issue(
                 "no_force_channel",

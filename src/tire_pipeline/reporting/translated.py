@@ -19,13 +19,13 @@ from tire_pipeline.reporting.embedded import (
     quantised,
 )
 from tire_pipeline.reporting.page import HOME, Table
-from tire_pipeline.reporting.translated_rows import COLUMNS, by_supplier, rows_of
+from tire_pipeline.reporting.translated_rows import ROW_COLUMNS, by_supplier, rows_of
 from tire_pipeline.safe_page import page_environment, policy, visible
+from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
 
-TOGETHER = 40
+CURVES_TOGETHER = 40
 """Files whose curves are compressed together, and opened together when one of them is clicked."""
 
-OUTPUTS = ("fy", "fx", "mz")
 DIGITS = 5
 
 
@@ -69,8 +69,8 @@ def translated_page(
     place = {str(file): i for i, file in enumerate(curves["files"])}
     order = [place.get(row[0], -1) for row in rows]
     data = {
-        "columns": list(COLUMNS),
-        "together": TOGETHER,
+        "columns": list(ROW_COLUMNS),
+        "together": CURVES_TOGETHER,
         "levels": LEVELS,
         "loads": [float(load) for load in curves["normal_load"]],
         "slips": [round(float(slip), 6) for slip in curves["slip"]],
@@ -98,14 +98,14 @@ def _text(name: str) -> str:
 
 
 def _parts(order: list[int], curves: Mapping[str, Any], coefficients: pd.DataFrame) -> list[list[str]]:
-    """Compressed curves, and numbers as JSON, of ``TOGETHER`` rows each."""
+    """Compressed curves, and numbers as JSON, of ``CURVES_TOGETHER`` rows each."""
     by_file = dict(tuple(coefficients.groupby("file"))) if len(coefficients) else {}
     parts = []
-    for first in range(0, len(order), TOGETHER):
-        rows = order[first : first + TOGETHER]
+    for first in range(0, len(order), CURVES_TOGETHER):
+        rows = order[first : first + CURVES_TOGETHER]
         forces, numbers = [], []
         for i in rows:
-            packed, scales = _forces(curves, i) if i >= 0 else (b"", [None] * len(OUTPUTS))
+            packed, scales = _forces(curves, i) if i >= 0 else (b"", [None] * len(DRAWN_OUTPUTS))
             forces.append(packed)
             moved = by_file.get(str(curves["files"][i])) if i >= 0 else None
             numbers.append(
@@ -124,7 +124,7 @@ def _forces(curves: Mapping[str, Any], i: int) -> tuple[bytes, list[list[float |
     stacks: list[np.ndarray] = []
     scales: list[np.ndarray] = []
     found: list[list[float | bool] | None] = []
-    for name in OUTPUTS:
+    for name in DRAWN_OUTPUTS:
         source, low, high = (np.asarray(curves[f"{name}_{k}"][i], float) for k in ("source", "low", "high"))
         stack = np.stack([source, (high + low) / 2, (high - low) / 2])
         has = np.isfinite(stack).all(axis=(1, 2))

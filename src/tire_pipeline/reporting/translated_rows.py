@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-COLUMNS = (
+ROW_COLUMNS = (
     "file",
     "own",
     "supplier",
@@ -22,11 +22,11 @@ COLUMNS = (
     "bias",
     "protocol",
 )
-VERDICTS = ("translated", "already unbiased", "left alone", "refused", "unknown supplier")
+SHOWN_VERDICTS = ("translated", "already unbiased", "left alone", "refused", "unknown supplier")
 
 
 def rows_of(report: pd.DataFrame, own: set[str], tires: Mapping[str, str]) -> list[list[Any]]:
-    """Give the rows by ``COLUMNS``, the user's own files first, then by file; None for what is not known."""
+    """Give the rows by ``ROW_COLUMNS``, the user's own files first, then by file; None: not known."""
     texts = report.reindex(
         columns=["file", "source", "supplier", "verdict", "reason", "changes", "bias_band", "protocol"]
     )
@@ -59,7 +59,7 @@ def by_supplier(rows: list[list[Any]]) -> list[dict[str, Any]]:
     found = []
     for name in sorted({row[2] for row in rows}):
         part = [row for row in rows if row[2] == name]
-        counts = [sum(row[5] == verdict for row in part) for verdict in VERDICTS]
+        counts = [sum(row[5] == verdict for row in part) for verdict in SHOWN_VERDICTS]
         ratios = [row[7] for row in part if row[5] == "translated" and row[7] is not None]
         middle = f"{np.median(ratios):.0%}" if ratios else "–"
         found.append({"name": name, "files": len(part), "counts": counts, "ratio": middle})

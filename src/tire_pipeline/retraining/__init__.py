@@ -4,19 +4,19 @@ from tire_pipeline.retraining.compare import BALANCED, compare_models, not_worse
 from tire_pipeline.retraining.drift import drift_of_features
 from tire_pipeline.retraining.held_out import held_out_rows
 from tire_pipeline.retraining.ingest import Store, ingest
-from tire_pipeline.retraining.manifest import Entry, Manifest
+from tire_pipeline.retraining.manifest import Manifest, ManifestEntry
 from tire_pipeline.retraining.model import CategoryModel, train_model
 from tire_pipeline.retraining.release import Judged, Release, Shelf, judge, roll_back
-from tire_pipeline.retraining.scan import Difference, Look, difference, look_at, settled_difference
+from tire_pipeline.retraining.scan import FolderDifference, Look, difference, look_at, settled_difference
 
 __all__ = [
     "BALANCED",
     "CategoryModel",
-    "Difference",
-    "Entry",
+    "FolderDifference",
     "Judged",
     "Look",
     "Manifest",
+    "ManifestEntry",
     "Release",
     "Shelf",
     "Store",

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-FEW = 5
+FEWEST_FILES = 5
 PSI_LIMIT = 0.2
 RISK = 0.05
-COLUMNS = ["category", "feature", "earlier", "incoming", "psi", "ks", "p_adjusted", "verdict"]
+DRIFT_COLUMNS = ["category", "feature", "earlier", "incoming", "psi", "ks", "p_adjusted", "verdict"]
 SAME, DRIFT, TOO_FEW, NEW = "no drift seen", "drift", "too few files", "new category"
 
 
@@ -42,7 +42,7 @@ def drift_of_features(
     for category in sorted(set(categories[incoming])):
         here = categories == category
         old, new = features[here & ~incoming], features[here & incoming]
-        enough = min(len(old), len(new)) >= FEW
+        enough = min(len(old), len(new)) >= FEWEST_FILES
         verdict = NEW if old.empty else (SAME if enough else TOO_FEW)
         for name in features.columns:
             row = {"category": category, "feature": name, "earlier": len(old), "incoming": len(new)}
@@ -53,7 +53,7 @@ def drift_of_features(
                 row |= {"psi": stability_index(first, second, bins), "ks": float(test.statistic)}
                 row["p_adjusted"] = float(test.pvalue)
             rows.append(row)
-    table = pd.DataFrame(rows, columns=COLUMNS)
+    table = pd.DataFrame(rows, columns=DRIFT_COLUMNS)
     tested = table["p_adjusted"].notna()
     if tested.any():
         table.loc[tested, "p_adjusted"] = false_discovery_control(table.loc[tested, "p_adjusted"])

@@ -12,12 +12,12 @@ from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.file_names import path_of, printable
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
-from tire_pipeline.retraining.manifest import Entry, Manifest
-from tire_pipeline.retraining.scan import Difference, fingerprint
+from tire_pipeline.retraining.manifest import Manifest, ManifestEntry
+from tire_pipeline.retraining.scan import FolderDifference, fingerprint
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import from_models, physical_tire_ids
 
-COLUMNS = ["file", "category", "status", "reason"]
+INGEST_COLUMNS = ["file", "category", "status", "reason"]
 READ, PENDING, GROWING, REMOVED = "read", "pending", "growing", "removed"
 ASIDE, AGAIN = "set aside", "taken already"
 
@@ -40,7 +40,7 @@ class Store:
 def ingest(
     store: Store,
     folder: str | Path,
-    found: Difference,
+    found: FolderDifference,
     read: Callable[[str | Path], TireModel] = read_tir,
 ) -> tuple[Store, pd.DataFrame]:
     """Read what is new, drop what is gone, keep all the rest as it is.
@@ -52,7 +52,7 @@ def ingest(
     ----------
     store : Store
     folder : path
-    found : Difference
+    found : FolderDifference
         Of this folder against the store's manifest.
     read : callable
         Reads one file.
@@ -77,7 +77,7 @@ def ingest(
     new = from_models(_models(Path(folder), {**found.added, **found.changed}, files, rows, number, read))
     reported = {row["file"] for row in rows}
     rows += [_row(n, PENDING, e.reason) for n, e in files.items() if e.pending and n not in reported]
-    report = pd.DataFrame(rows, columns=COLUMNS, dtype="str").sort_values("file", ignore_index=True)
+    report = pd.DataFrame(rows, columns=INGEST_COLUMNS, dtype="str").sort_values("file", ignore_index=True)
     gone = [name for name in found.removed if store.manifest.files[name].row_sha256]
     if not len(new) and not gone:
         return Store(replace(store.manifest, files=files), store.table), report
@@ -113,14 +113,14 @@ def _ordered(names: list[str]) -> list[str]:
 def _models(
     folder: Path,
     wanted: Mapping[str, tuple[object, str]],
-    files: dict[str, Entry],
+    files: dict[str, ManifestEntry],
     rows: list[dict[str, str]],
     number: int,
     read: Callable[[str | Path], TireModel],
 ) -> Iterator[tuple[str, str, TireModel]]:
     for name, (look, digest) in track(wanted.items(), "reading new .tir files", total=len(wanted)):
         before = files.get(name)
-        entry = Entry(
+        entry = ManifestEntry(
             digest,
             before.row_sha256 if before else "",
             look.size,  # type: ignore[attr-defined]

@@ -9,11 +9,11 @@ from dataclasses import astuple, dataclass, field
 
 from tire_pipeline.errors import DomainError
 
-FORMAT = 1
+MANIFEST_FORMAT = 1
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class ManifestEntry:
     """One file as it was last looked at.
 
     Attributes
@@ -53,13 +53,13 @@ class Manifest:
     sequence : int
         Grows by one with every change of the table.
     files : mapping
-        Path relative to the folder -> :class:`Entry`.
+        Path relative to the folder -> :class:`ManifestEntry`.
     revision : int
         Grows by one each time it is stored; tells two runs at once apart.
     """
 
     sequence: int = 0
-    files: Mapping[str, Entry] = field(default_factory=dict)
+    files: Mapping[str, ManifestEntry] = field(default_factory=dict)
     revision: int = 0
 
     @property
@@ -80,7 +80,7 @@ class Manifest:
     def to_json(self, **more: object) -> bytes:
         """Bytes of the manifest; ``more`` goes beside it."""
         files = {name: astuple(self.files[name]) for name in sorted(self.files)}
-        numbers = {"format": FORMAT, "sequence": self.sequence, "revision": self.revision}
+        numbers = {"format": MANIFEST_FORMAT, "sequence": self.sequence, "revision": self.revision}
         content = {**numbers, **more, "files": files}
         return json.dumps(content, separators=(",", ":")).encode()
 
@@ -95,9 +95,9 @@ class Manifest:
         """
         try:
             data = json.loads(content)
-            if data.pop("format") != FORMAT:
+            if data.pop("format") != MANIFEST_FORMAT:
                 raise ValueError("format")
-            files = {str(name): Entry(*values) for name, values in data.pop("files").items()}
+            files = {str(name): ManifestEntry(*values) for name, values in data.pop("files").items()}
             return cls(int(data.pop("sequence")), files, int(data.pop("revision"))), data
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise DomainError(

@@ -14,7 +14,7 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.representations import Representation, representation_from_state
 from tire_pipeline.tire_table import Binning, normalize_table
 
-UNKNOWN = ""
+UNKNOWN_CATEGORY = ""
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class CategoryModel:
         -------
         ndarray of str, shape (rows,)
         """
-        answer = np.full(len(tires), UNKNOWN, dtype=object)
+        answer = np.full(len(tires), UNKNOWN_CATEGORY, dtype=object)
         values = self.encode(tires)
         whole = np.isfinite(values).all(axis=1)
         if whole.any():

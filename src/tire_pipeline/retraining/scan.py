@@ -15,7 +15,7 @@ from tire_pipeline.file_names import path_of
 from tire_pipeline.folder_walk import Found, walk
 from tire_pipeline.regular_file import open_regular
 from tire_pipeline.retraining.manifest import Manifest
-from tire_pipeline.tir import MAX_BYTES
+from tire_pipeline.tir import MOST_FILE_BYTES
 
 SIDECAR = ".sidecar.json"
 
@@ -30,7 +30,7 @@ class Look:
 
 
 @dataclass(frozen=True)
-class Difference:
+class FolderDifference:
     """The folder against the manifest.
 
     Attributes
@@ -131,8 +131,8 @@ def fingerprint(path: str | Path) -> str:
         try:
             with open_regular(each) as file:
                 size = os.fstat(file.fileno()).st_size
-                total.update(file.read(min(size, MAX_BYTES + 1)))
-                if size > MAX_BYTES:
+                total.update(file.read(min(size, MOST_FILE_BYTES + 1)))
+                if size > MOST_FILE_BYTES:
                     total.update(f"{size} bytes".encode())
         except FileNotFoundError:
             if not each.endswith(SIDECAR):
@@ -154,7 +154,7 @@ def difference(
     now: float | None = None,
     rehash_all: bool = False,
     still: Still | None = None,
-) -> Difference:
+) -> FolderDifference:
     """Compare a folder with the manifest by content.
 
     Only files whose size or dates differ from the manifest's are read. A file whose date lies less than
@@ -178,7 +178,7 @@ def difference(
     found = walk(folder, _wanted)
     looks = _looks(found)
     gone = (name for name in manifest.files if name not in looks and not found.may_be_there(name))
-    result = Difference(removed=sorted(gone), aside=found.aside, again=found.again)
+    result = FolderDifference(removed=sorted(gone), aside=found.aside, again=found.again)
     for name, look in looks.items():
         known = manifest.files.get(name)
         seen = known is not None and look == Look(known.size, known.mtime_ns, known.ctime_ns)
@@ -243,7 +243,7 @@ def settled_difference(
     most_wait_seconds: float = 60.0,
     rehash_all: bool = False,
     sleep: Callable[[float], None] = time.sleep,
-) -> Difference:
+) -> FolderDifference:
     """Compare as :func:`difference` does, after waiting a while for files that still grow.
 
     A file counts as settled, too, when it was looked at twice ``settle_seconds`` apart (or as long as the
@@ -271,7 +271,7 @@ def settled_difference(
         still.waited += step
 
 
-def check_removed(found: Difference, manifest: Manifest, most_share: float, where: str) -> None:
+def check_removed(found: FolderDifference, manifest: Manifest, most_share: float, where: str) -> None:
     """Stop if so many files are gone that a folder is more likely not mounted than emptied.
 
     Raises

@@ -15,7 +15,7 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.runs.system_lock import is_held
 from tire_pipeline.runs.ticket import Note, Ticket, open_notes, prune, retire
 
-LOG = logging.getLogger(__name__)
+_LOG = logging.getLogger(__name__)
 EXPIRY_SECONDS = 30.0
 _POLL_SECONDS = 0.5
 _BEATS = 4.0  # a run is not declared dead before it has missed so many of its own beats
@@ -124,7 +124,7 @@ def take_turn(
         line = f"Waiting for {living[0]} to end." if living else f"Is {unknown[0]} still alive? Watching."
         if line not in said:
             said.add(line)
-            LOG.warning(line)
+            _LOG.warning(line)
         sleep(_POLL_SECONDS)
 
 
@@ -146,7 +146,7 @@ def _bury(folder: Path, note: Note) -> None:
     """
     if not retire(folder, note.number, "taken"):
         return
-    LOG.warning("An earlier run (%s) was killed; its results are taken back.", note.run or note.number)
+    _LOG.warning("An earlier run (%s) was killed; its results are taken back.", note.run or note.number)
     take_back(folder.parent, note)
 
 

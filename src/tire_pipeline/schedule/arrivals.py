@@ -9,11 +9,11 @@ from kedro.framework.session import KedroSession
 from kedro.framework.startup import bootstrap_project
 
 from tire_pipeline.datasets import FolderDataset, IngestStoreDataset
-from tire_pipeline.retraining import Difference, settled_difference
+from tire_pipeline.retraining import FolderDifference, settled_difference
 from tire_pipeline.retraining.candidate import RetrainParameters
 
 
-class Session(Protocol):
+class ArrivalSession(Protocol):
     """What is needed to open the catalog."""
 
     env: str | None
@@ -21,7 +21,7 @@ class Session(Protocol):
     parameters: dict[str, Any]
 
 
-def new_files_of(root: Path, config: Session) -> Difference:
+def new_files_of(root: Path, config: ArrivalSession) -> FolderDifference:
     """Compare the folder with the manifest; hashes only what looks different.
 
     Parameters

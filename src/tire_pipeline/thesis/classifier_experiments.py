@@ -26,7 +26,6 @@ from tire_pipeline.representations.power_series_condition import condition_numbe
 Rows = tuple[np.ndarray, np.ndarray]
 Frames = dict[str, pd.DataFrame]
 
-SPLITS = ("random", "by_tire")
 THESIS_CLASSIFIERS = ("ann", "naive_bayes", "random_forest")
 FURTHER_CLASSIFIERS = ("gradient_boosting", "calibrated")
 

@@ -20,7 +20,7 @@ from tire_pipeline.code_hash import code_hash
 from tire_pipeline.thesis import classifier_experiments as experiments
 from tire_pipeline.thesis import files
 from tire_pipeline.thesis.classifier_experiments import FURTHER_CLASSIFIERS, SPLITS, THESIS_CLASSIFIERS
-from tire_pipeline.thesis.parameters import AnnParameters, ReproduceThesisParameters
+from tire_pipeline.thesis.parameters import AnnSearchParameters, ReproduceThesisParameters
 
 Folder = Mapping[str, Callable[[], bytes]]
 Work = dict[str, Callable[[], bytes]]
@@ -86,7 +86,7 @@ def search_the_grid(
     return work
 
 
-def _epochs(combinations: pd.DataFrame, parameters: AnnParameters) -> pd.DataFrame:
+def _epochs(combinations: pd.DataFrame, parameters: AnnSearchParameters) -> pd.DataFrame:
     """Other numbers of epochs than Table 4.2's, in its order, for a quick run."""
     if parameters.epochs is None:
         return combinations

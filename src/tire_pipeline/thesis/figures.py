@@ -9,11 +9,11 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure as MplFigure
 
+from tire_pipeline.classifiers.scores import SPLITS
 from tire_pipeline.reporting import MARKERS, colour_of, new_figure
 from tire_pipeline.thesis.agent_figures import AGENT_FIGURES
 from tire_pipeline.thesis.results import Results, in_words
 
-SPLITS = ("random", "by_tire")
 BIN_FIGURES = {
     "figure_5_5": "coefficients",
     "figure_5_6": "key_attributes",

@@ -60,7 +60,7 @@ class AgentParameters(Parameters):
     total_steps: int | None = Field(default=None, ge=1)
 
 
-class AnnParameters(Parameters):
+class AnnSearchParameters(Parameters):
     """Tuning of the ANN.
 
     Attributes
@@ -82,7 +82,7 @@ class AnnParameters(Parameters):
     epochs: tuple[int, ...] | None = None
 
 
-class ForestParameters(Parameters):
+class ForestSearchParameters(Parameters):
     """Tuning of the forest (Table 4.3); ``trees``: with how many the depth is varied."""
 
     trees: int = Field(default=30, ge=1)
@@ -101,8 +101,8 @@ class ReproduceThesisParameters(Parameters):
         Evaluation tires: ``four`` are the thesis' 16 translations, ``hidden`` many more tires.
     latent_features, latent_epochs : int
         Of the latent representation.
-    ann : AnnParameters
-    forest : ForestParameters
+    ann : AnnSearchParameters
+    forest : ForestSearchParameters
     trainings : int
         Of each classifier (Tables 5.6 to 5.9).
     further_trainings : int
@@ -118,8 +118,8 @@ class ReproduceThesisParameters(Parameters):
     sets: tuple[str, ...] = Field(default=("four", "hidden"), min_length=1)
     latent_features: int = Field(default=8, ge=1, le=64)
     latent_epochs: int = Field(default=200, ge=1)
-    ann: AnnParameters = AnnParameters()
-    forest: ForestParameters = ForestParameters()
+    ann: AnnSearchParameters = AnnSearchParameters()
+    forest: ForestSearchParameters = ForestSearchParameters()
     trainings: int = Field(default=10, ge=1)
     further_trainings: int = Field(default=3, ge=1)
     bins: tuple[int, ...] = tuple(range(2, 41, 2))

@@ -8,7 +8,7 @@ from pathlib import Path
 from tire_pipeline.errors import TirError, TirSyntaxError
 from tire_pipeline.regular_file import NotRegularError, open_regular
 
-MAX_BYTES = 5_000_000
+MOST_FILE_BYTES = 5_000_000
 """A larger file is refused: real ones have 2 to 60 kB."""
 
 _BOMS = ((b"\xef\xbb\xbf", "utf-8"), (b"\xff\xfe", "utf-16-le"), (b"\xfe\xff", "utf-16-be"))
@@ -17,14 +17,14 @@ _MOST_CONTROL = 0.02
 
 
 def load_bytes(source: str | os.PathLike[str] | bytes, path: str | None = None) -> bytes:
-    """Return the content, refusing what is not a regular file of at most ``MAX_BYTES``.
+    """Return the content, refusing what is not a regular file of at most ``MOST_FILE_BYTES``.
 
     Raises
     ------
     TirError
         The path is absent, not readable, or not a regular file.
     TirSyntaxError
-        It is larger than ``MAX_BYTES``.
+        It is larger than ``MOST_FILE_BYTES``.
     """
     if isinstance(source, bytes | bytearray | memoryview):
         data = bytes(source)
@@ -39,7 +39,7 @@ def load_bytes(source: str | os.PathLike[str] | bytes, path: str | None = None) 
             raise TirError(
                 f"cannot be read: {why}", path=path, todo="check the path and its permissions"
             ) from error
-    if len(data) > MAX_BYTES:
+    if len(data) > MOST_FILE_BYTES:
         raise _too_large(path)
     return data
 
@@ -47,14 +47,14 @@ def load_bytes(source: str | os.PathLike[str] | bytes, path: str | None = None) 
 def _load_file(file: Path, path: str) -> bytes:
     try:
         with open_regular(file) as stream:
-            return stream.read(MAX_BYTES + 1)
+            return stream.read(MOST_FILE_BYTES + 1)
     except NotRegularError as error:
         raise TirError("is not a regular file", path=path, todo="give a .tir file") from error
 
 
 def _too_large(path: str | None) -> TirSyntaxError:
     return TirSyntaxError(
-        f"the file is larger than {MAX_BYTES / 1e6:g} MB, the limit for a tire property file",
+        f"the file is larger than {MOST_FILE_BYTES / 1e6:g} MB, the limit for a tire property file",
         path=path,
         todo="check that it is one; real ones have a few ten kB",
     )

@@ -67,7 +67,7 @@ class Section(NamedTuple):
     """Where the line starts in the text."""
 
 
-class Table(NamedTuple):
+class DocumentTable(NamedTuple):
     """Consecutive rows of numbers under a section."""
 
     section: str
@@ -84,7 +84,7 @@ class Scan:
 
     entries: list[Entry] = field(default_factory=list)
     sections: list[Section] = field(default_factory=list)
-    tables: list[Table] = field(default_factory=list)
+    tables: list[DocumentTable] = field(default_factory=list)
     unread: list[int] = field(default_factory=list)
     """First lines that are nothing known (at most 20)."""
     unread_count: int = 0
@@ -136,7 +136,7 @@ class TirFile:
         return [each.name for each in self.scan().sections]
 
     @property
-    def tables(self) -> list[Table]:
+    def tables(self) -> list[DocumentTable]:
         """All tables in order; ``rows`` gives their numbers."""
         return self.scan().tables
 
@@ -162,7 +162,7 @@ class TirFile:
         found = [each.value for each in self.entries if (each.section, each.key) == wanted]
         return found[-1] if found else default
 
-    def rows(self, table: Table) -> list[tuple[float, ...]]:
+    def rows(self, table: DocumentTable) -> list[tuple[float, ...]]:
         """Return the numbers of a table, a tuple a row.
 
         Raises
@@ -265,7 +265,7 @@ def _scan(text: str, path: str | None) -> Scan:
             tables[-1] = tables[-1]._replace(stop=_line_end(text, match))
         elif kind == "row":
             in_table = True
-            tables.append(Table(section, header, line, match.start(), _line_end(text, match)))
+            tables.append(DocumentTable(section, header, line, match.start(), _line_end(text, match)))
             _check_count(tables, MAX_SECTIONS, "tables", path, line)
         else:
             in_table = False

@@ -25,9 +25,9 @@ from tire_pipeline.errors import TirError, TirSyntaxError
 from tire_pipeline.regular_file import open_regular
 
 SUFFIX = ".sidecar.json"
-FORMAT = "tire-pipeline sidecar"
+SIDECAR_FORMAT = "tire-pipeline sidecar"
 FORMAT_VERSION = 1
-MAX_BYTES = 1_000_000
+MOST_SIDECAR_BYTES = 1_000_000
 
 
 def sidecar_path(path: str | os.PathLike[str]) -> Path:
@@ -57,21 +57,21 @@ def read_sidecar(path: str | os.PathLike[str]) -> dict[str, dict[str, object]] |
     file = sidecar_path(path)
     try:
         with open_regular(file) as stream:
-            data = stream.read(MAX_BYTES + 1)
+            data = stream.read(MOST_SIDECAR_BYTES + 1)
     except FileNotFoundError:
         return None
     except (OSError, ValueError) as error:
         if getattr(error, "errno", None) == errno.ENAMETOOLONG:  # no file can have that name
             return None
         raise TirError(f"cannot be read: {error}", path=str(file)) from error
-    if len(data) > MAX_BYTES:
+    if len(data) > MOST_SIDECAR_BYTES:
         raise _wrong(file, "is larger than 1 MB")
     try:
         content = json.loads(data, parse_constant=_no_constant)
     except (ValueError, RecursionError) as error:
         raise _wrong(file, f"is not JSON ({type(error).__name__})") from error
-    if not isinstance(content, dict) or content.get("format") != FORMAT:
-        raise _wrong(file, f"is not a {FORMAT!r}")
+    if not isinstance(content, dict) or content.get("format") != SIDECAR_FORMAT:
+        raise _wrong(file, f"is not a {SIDECAR_FORMAT!r}")
     if content.get("format_version") != FORMAT_VERSION:
         raise _wrong(file, f"has a format_version other than {FORMAT_VERSION}")
     effects = content.get("effects")
@@ -96,7 +96,7 @@ def write_sidecar(path: str | os.PathLike[str], effects: Mapping[str, Mapping[st
         Something in it is not JSON.
     """
     file = sidecar_path(path)
-    content = {"format": FORMAT, "format_version": FORMAT_VERSION, "effects": effects}
+    content = {"format": SIDECAR_FORMAT, "format_version": FORMAT_VERSION, "effects": effects}
     try:
         text = json.dumps(content, indent=1, allow_nan=False, default=_plain)
     except (TypeError, ValueError, RecursionError) as error:

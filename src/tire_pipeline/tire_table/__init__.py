@@ -1,7 +1,7 @@
 """Many tires as one table: what can be learned from, one nominal load, splits, bins."""
 
 from tire_pipeline.tire_table.bins import Binning
-from tire_pipeline.tire_table.dedupe import IDENTICAL, NO_VALUE, SMALL, dedupe_and_filter
+from tire_pipeline.tire_table.dedupe import IDENTICAL, NO_VALUE, TOO_SMALL, dedupe_and_filter
 from tire_pipeline.tire_table.from_models import KNOWN_COEFFICIENTS, METADATA, from_models
 from tire_pipeline.tire_table.normalize import normalize_table
 from tire_pipeline.tire_table.physical_tire import SIZE_KEYS, physical_tire_ids
@@ -13,7 +13,7 @@ __all__ = [
     "METADATA",
     "NO_VALUE",
     "SIZE_KEYS",
-    "SMALL",
+    "TOO_SMALL",
     "Binning",
     "dedupe_and_filter",
     "from_models",

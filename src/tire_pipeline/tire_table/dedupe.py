@@ -11,7 +11,7 @@ from tire_pipeline.errors import DomainError
 
 IDENTICAL = "identical coefficients"
 NO_VALUE = "feature without a value"
-SMALL = "category too small"
+TOO_SMALL = "category too small"
 
 _FORCE_COEFFICIENT = re.compile(r"[PQRS][A-Z]+\d+|L[A-Z]{2,4}|FNOMIN").fullmatch
 
@@ -42,8 +42,8 @@ def dedupe_and_filter(
         The rows that stay, in their order, with a new index.
     report : DataFrame
         One row a dropped file, in the table's order: ``file, category, reason, detail``. ``reason`` is one
-        of ``IDENTICAL``, ``NO_VALUE`` and ``SMALL``; ``detail`` names the file that stays, the features, or
-        the count.
+        of ``IDENTICAL``, ``NO_VALUE`` and ``TOO_SMALL``; ``detail`` names the file that stays, the
+        features, or the count.
 
     Raises
     ------
@@ -88,5 +88,5 @@ def _mark_small(table: pd.DataFrame, minimum: int, reason: pd.Series, detail: pd
     left = table.loc[reason == "", "category"]
     counts = left.map(left.value_counts())
     small = counts.index[counts < minimum]
-    reason[small] = SMALL
+    reason[small] = TOO_SMALL
     detail[small] = [f"{count} usable, {minimum} needed" for count in counts[small]]

@@ -11,7 +11,7 @@ import pandas as pd
 from tire_pipeline.translation.curves.features import GROUPS, LOADS
 from tire_pipeline.translation.curves.space import PARTS, UNIT
 from tire_pipeline.translation.decode.decoder import COEFFICIENTS
-from tire_pipeline.translation.judge.effects import KEY_PARTS, QUANTILE, difference, mean_of_loads
+from tire_pipeline.translation.judge.effects import EFFECT_QUANTILE, KEY_PARTS, difference, mean_of_loads
 from tire_pipeline.translation.population.model import CurveMixedModel, columns_of
 from tire_pipeline.translation.translator import CurveTranslator
 
@@ -103,7 +103,7 @@ def _regions(model: CurveMixedModel, actor: str, reference: str, chance: np.ndar
         group = PARTS[part].group
         back = model.space.back[part] * UNIT[group]
         bias = mean[place] @ back
-        half = QUANTILE * np.sqrt(variance[place] @ back**2)
+        half = EFFECT_QUANTILE * np.sqrt(variance[place] @ back**2)
         labels = names[group][PARTS[part].columns]
         for label, middle, width in zip(labels, bias, half, strict=True):
             share = label.startswith("ln ")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from tire_pipeline.translation.judge.verdict import FARTHEST
+from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE
 from tire_pipeline.translation.predict.base import Predictor
 from tire_pipeline.translation.predict.cycle import ROUNDS, CyclePredictor
 from tire_pipeline.translation.predict.policy import UPDATES, PolicyPredictor
@@ -32,7 +32,7 @@ class LikelihoodAgent(CurveTranslator):
         updates: int = UPDATES,
         gate: bool = False,
         pairs: bool = False,
-        farthest: float = FARTHEST,
+        farthest: float = FARTHEST_DISTANCE,
     ) -> None:
         policy = PolicyPredictor(int(updates), self.curious)
         super().__init__(policy, pairs=pairs, gate=gate, farthest=farthest)

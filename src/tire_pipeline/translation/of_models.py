@@ -13,7 +13,7 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.translation.base import Translator
 from tire_pipeline.translation.decode.decoder import COEFFICIENTS
-from tire_pipeline.translation.judge.verdict import FARTHEST
+from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE
 from tire_pipeline.translation.result import EDGE, TRANSLATED, TranslationResult, comment_lines
 from tire_pipeline.translation.translator import CurveTranslator
 
@@ -62,7 +62,9 @@ def translate_models(
                 where=file,
                 todo=f"say who measured the tire: one of {', '.join(known)}",
             )
-    gated = translator.with_verdict(farthest=min(farthest, FARTHEST), gate=True)  # agents never refuse
+    gated = translator.with_verdict(
+        farthest=min(farthest, FARTHEST_DISTANCE), gate=True
+    )  # agents never refuse
     own = from_models((file, category, model) for file, (category, model) in models.items())
     source = normalize_table(own, nominal_load).assign(category_probability=1.0)
     result = gated.translation(source)

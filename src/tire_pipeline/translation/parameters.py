@@ -8,7 +8,7 @@ from pydantic import Field, field_validator
 
 from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.translation.base import RENAMED
-from tire_pipeline.translation.judge.verdict import FARTHEST
+from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE
 from tire_pipeline.translation.result import EDGE
 
 
@@ -40,7 +40,7 @@ class TranslateParameters(Parameters):
     pairs: bool = True
     learn_from_batch: bool = False
     classify: bool = False
-    farthest: float = Field(EDGE, gt=0, le=FARTHEST)
+    farthest: float = Field(EDGE, gt=0, le=FARTHEST_DISTANCE)
     only: Several = []
     trials: int = Field(0, ge=0)
 

@@ -15,8 +15,8 @@ from tire_pipeline.translation.base import check_target
 from tire_pipeline.translation.curves.bands import curve_bands, stiffness_band
 from tire_pipeline.translation.decode.decoder import COEFFICIENTS, Decoder
 from tire_pipeline.translation.judge.effects import protocol_changes
-from tire_pipeline.translation.judge.verdict import FARTHEST, VerdictRules
-from tire_pipeline.translation.population.fit import Prepared, fit_curve_mixed_model, prepare
+from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE, VerdictRules
+from tire_pipeline.translation.population.fit import PreparedTraining, fit_curve_mixed_model, prepare
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.base import Predictor
 from tire_pipeline.translation.predict.batch import BatchLearning
@@ -80,7 +80,7 @@ class CurveTranslator:
     gate : bool
         Leave files alone for which little gain is expected, and refuse those far from the training data.
     farthest : float
-        Distance to the training data beyond which a file is refused, at most ``FARTHEST``.
+        Distance to the training data beyond which a file is refused, at most ``FARTHEST_DISTANCE``.
     """
 
     name: ClassVar[str]
@@ -94,10 +94,14 @@ class CurveTranslator:
         learn_from_batch: bool = False,
         trust: float = 0.0,
         gate: bool = False,
-        farthest: float = FARTHEST,
+        farthest: float = FARTHEST_DISTANCE,
     ) -> None:
         self.pairs, self.learn_from_batch = bool(pairs), bool(learn_from_batch)
-        self.trust, self.gate, self.farthest = float(trust), bool(gate), min(float(farthest), FARTHEST)
+        self.trust, self.gate, self.farthest = (
+            float(trust),
+            bool(gate),
+            min(float(farthest), FARTHEST_DISTANCE),
+        )
         self._predictor = predictor
         self._parts: Parts | None = None
 
@@ -130,7 +134,7 @@ class CurveTranslator:
         return self.name
 
     def fit(
-        self, training: pd.DataFrame, *, target: str, seed: int = 0, made: Prepared | None = None
+        self, training: pd.DataFrame, *, target: str, seed: int = 0, made: PreparedTraining | None = None
     ) -> Self:
         """Learn.
 
@@ -138,7 +142,7 @@ class CurveTranslator:
         ----------
         training, target, seed
             As for every translator; the mixed model draws nothing.
-        made : Prepared, optional
+        made : PreparedTraining, optional
             What :func:`.population.fit.prepare` gave for ``training``, if it is there already.
 
         Raises
@@ -322,7 +326,7 @@ class MixedModel(CurveTranslator):
     gate : bool
         Leave files alone for which little gain is expected, and refuse those far from the training data.
     farthest : float
-        Distance to the training data beyond which a file is refused, at most ``FARTHEST``.
+        Distance to the training data beyond which a file is refused, at most ``FARTHEST_DISTANCE``.
 
     Notes
     -----
@@ -340,7 +344,7 @@ class MixedModel(CurveTranslator):
         learn_from_batch: bool = False,
         trust: float = 1.0,
         gate: bool = True,
-        farthest: float = FARTHEST,
+        farthest: float = FARTHEST_DISTANCE,
     ) -> None:
         super().__init__(
             MixedPredictor(float(trust)),

@@ -10,7 +10,7 @@ from tire_pipeline.concealed.clean_run import model_forces, residual
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 
-MOST_ROWS = 2000
+MOST_FITTED_ROWS = 2000
 _LEAST_SPREAD = {"camber": 0.01, "slip_ratio": 0.02, "pressure": 5e3}
 
 
@@ -27,7 +27,7 @@ def explain_by_refit(tire: TireModel, recording: pd.DataFrame) -> BaselineReport
     BaselineReport
         Without effects; verdict "unexplained" where the fit leaves less than the model.
     """
-    rows = recording.iloc[:: max(len(recording) // MOST_ROWS, 1)]
+    rows = recording.iloc[:: max(len(recording) // MOST_FITTED_ROWS, 1)]
     moving = [c for c, least in _LEAST_SPREAD.items() if c in rows and np.ptp(rows[c]) > least]
     forces = ["fy", "fx"] if "slip_ratio" in moving else ["fy"]
     version = "6.1" if "pressure" in moving else "5.2"

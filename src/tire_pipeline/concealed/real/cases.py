@@ -19,7 +19,7 @@ from tire_pipeline.concealed.real.plan import RealPlan, draw_effects
 from tire_pipeline.concealed.real.put_in import (
     MECHANISMS,
     Details,
-    Session,
+    RecordedSession,
     draw_details,
     friction_work,
     put_in,
@@ -39,7 +39,7 @@ above it no formula was found."""
 EFFECT = (0.5, 6.0)
 """RMS of an effect over the misfit."""
 
-MOST_ROWS = 7000
+MOST_CASE_ROWS = 7000
 RATES: Mapping[str, tuple[float, ...]] = {"calspan": (10.0, 20.0, 50.0, 100.0), "dart": (5.0, 10.0, 20.0)}
 RADIUS = {"calspan": 0.2, "dart": 0.023, "tydex": 0.3}
 NEEDS: Mapping[str, tuple[str, ...]] = {
@@ -76,12 +76,12 @@ class RealAnswer(Answer):
     held_out: tuple[str, ...] = ()
 
 
-class _Unfit(Exception):
+class _UnfitSweeps(Exception):
     """This draw gives no case of the wanted kind."""
 
 
 @dataclass(frozen=True)
-class _Bench:
+class _RealBench:
     """Sweeps, model and formula of one draw, before anything is put in."""
 
     layout: Layout
@@ -91,7 +91,7 @@ class _Bench:
     rate: float | None
     picked: bool
     misfit: float
-    session: Session
+    session: RecordedSession
 
     def shown(self, frame: pd.DataFrame) -> pd.DataFrame:
         """Rows of a run as they are recorded."""
@@ -123,7 +123,7 @@ def make_real_case(plan: RealPlan, folder: Path, which: Pool = "sealed") -> tupl
     for stream in plan.stream().spawn(ATTEMPTS):
         try:
             return _attempt(np.random.default_rng(stream), plan, chosen)
-        except (_Unfit, RecordingError):  # too few points for a formula: the next draw has more
+        except (_UnfitSweeps, RecordingError):  # too few points for a formula: the next draw has more
             continue
     raise DomainError(
         f"no case of kind {plan.kind!r} from {plan.source} with seed {plan.seed} in {ATTEMPTS} draws",
@@ -152,7 +152,7 @@ def _attempt(rng: np.random.Generator, plan: RealPlan, chosen: Sequence[Sweep]) 
     held = bench.shown(put_in(bench.raw_held, strengths, bench.session, details))
     truths = [_hidden_truth(bench, name, choice.hidden) for name in choice.hidden]
     if not all(EFFECT[0] <= truth.over_misfit <= EFFECT[1] for truth in truths):
-        raise _Unfit
+        raise _UnfitSweeps
     truths += [_put_in_truth(bench, name, strengths, details) for name in choice.put_in]
     kept = [c for c in ("time", "slip_angle", "normal_load", "fy", *bench.layout.channels) if c in frame]
     case = Case(plan.case_id, bench.tire, frame[kept], held[kept])
@@ -183,13 +183,13 @@ def _attempt(rng: np.random.Generator, plan: RealPlan, chosen: Sequence[Sweep]) 
 
 def _set_up(
     rng: np.random.Generator, chosen: Sequence[Sweep], hidden: tuple[str, ...], effects: Sequence[str]
-) -> _Bench:
+) -> _RealBench:
     layout = draw_layout(rng, chosen, hidden, [c for name in effects for c in NEEDS.get(name, ())])
     if layout is None:
-        raise _Unfit
+        raise _UnfitSweeps
     raw, raw_held = rows(layout.shown, None), rows(layout.held_out, None)
     if "camber_offset" in effects and np.ptp(raw["camber"]) < 0.01:
-        raise _Unfit
+        raise _UnfitSweeps
     picked = any(MECHANISMS[name].whole for name in effects) or bool(rng.random() < 0.3)
     rate = _rate(rng, layout, raw, effects)
     tire, formula = fitted(layout.fit), fitted((*layout.shown, *layout.held_out))
@@ -200,11 +200,11 @@ def _set_up(
     session = _session(formula, layout, raw)
     known = at_rate(rows(layout.fit, None), rate, picked=picked) if hidden else shown
     if _rms(_left(tire, known)) > AGREES * max(misfit, _rms(_left(formula, known))):
-        raise _Unfit
+        raise _UnfitSweeps
     held = _rms(_left(formula if hidden else tire, raw_held))
     if max(misfit, held) > MOST_MISFIT * session.largest:
-        raise _Unfit
-    return _Bench(layout, tire, raw, raw_held, rate, picked, misfit, session)
+        raise _UnfitSweeps
+    return _RealBench(layout, tire, raw, raw_held, rate, picked, misfit, session)
 
 
 def _rate(
@@ -214,16 +214,16 @@ def _rate(
     if source not in RATES:
         return None
     least = 50.0 if "nonuniformity" in effects else 0.0
-    allowed = [r for r in RATES[source] if r >= least and len(raw) * r / 100.0 <= MOST_ROWS]
+    allowed = [r for r in RATES[source] if r >= least and len(raw) * r / 100.0 <= MOST_CASE_ROWS]
     if not allowed:
-        raise _Unfit
+        raise _UnfitSweeps
     return float(rng.choice(allowed))
 
 
-def _session(formula: TireModel, layout: Layout, raw: pd.DataFrame) -> Session:
+def _session(formula: TireModel, layout: Layout, raw: pd.DataFrame) -> RecordedSession:
     timed = "time" in raw
     work = float(friction_work(raw)[-1])
-    return Session(
+    return RecordedSession(
         formula=formula,
         start=float(raw["time"].iloc[0]) if timed else 0.0,
         end=float(raw["time"].iloc[-1]) if timed else 1.0,
@@ -237,12 +237,12 @@ def _session(formula: TireModel, layout: Layout, raw: pd.DataFrame) -> Session:
     )
 
 
-def _scale(rng: np.random.Generator, bench: _Bench, name: str, details: Mapping[str, Details]) -> float:
+def _scale(rng: np.random.Generator, bench: _RealBench, name: str, details: Mapping[str, Details]) -> float:
     """Draw how strong an effect shall be, in misfits, and find its strength."""
     mechanism = MECHANISMS[name]
     if not mechanism.scaled:
         if _rms(bench.effect({name: 1.0}, details)) < EFFECT[0] * bench.misfit:
-            raise _Unfit
+            raise _UnfitSweeps
         return 1.0
     wanted = strength.draw_ratio(rng, *EFFECT)
     sign = details[name].sign if mechanism.signed else 1.0
@@ -255,12 +255,12 @@ def _scale(rng: np.random.Generator, bench: _Bench, name: str, details: Mapping[
         measure, wanted, unit * mechanism.guess, (unit * mechanism.low, unit * mechanism.high)
     )
     if not EFFECT[0] <= got <= EFFECT[1]:
-        raise _Unfit
+        raise _UnfitSweeps
     return sign * found
 
 
 def _put_in_truth(
-    bench: _Bench, name: str, strengths: Mapping[str, float], details: Mapping[str, Details]
+    bench: _RealBench, name: str, strengths: Mapping[str, float], details: Mapping[str, Details]
 ) -> EffectTruth:
     effect = bench.effect({name: strengths[name]}, details)
     drawn = details[name]
@@ -273,7 +273,7 @@ def _put_in_truth(
     )
 
 
-def _hidden_truth(bench: _Bench, name: str, hidden: tuple[str, ...]) -> EffectTruth:
+def _hidden_truth(bench: _RealBench, name: str, hidden: tuple[str, ...]) -> EffectTruth:
     """What the best formula knows of these rows and the model does not, at the rows that have it."""
     shown = bench.shown(bench.raw)
     effect = model_forces(bench.session.formula, shown)[:, 1] - model_forces(bench.tire, shown)[:, 1]
@@ -289,7 +289,7 @@ def _hidden_truth(bench: _Bench, name: str, hidden: tuple[str, ...]) -> EffectTr
 
 
 def _truth(
-    bench: _Bench, name: str, size: float, effect: np.ndarray, details: Mapping[str, object]
+    bench: _RealBench, name: str, size: float, effect: np.ndarray, details: Mapping[str, object]
 ) -> EffectTruth:
     shown = bench.shown(bench.raw)
     timed = "time" in shown and len(shown) > 10

@@ -16,7 +16,7 @@ from tire_pipeline.concealed.real.sources import Sweep
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 
-HIDDEN = ("camber", "inflation_pressure", "load_sensitivity")
+HIDDEN_CHANNELS = ("camber", "inflation_pressure", "load_sensitivity")
 """Names of what can be hidden from a model by the choice of its sweeps."""
 
 FIT_RATE = 10.0
@@ -25,7 +25,7 @@ FIT_RATE = 10.0
 ONE_SURFACE = "rubber_floor_ramps/"
 """Drives of one day on one surface; what was changed before the others is not known."""
 
-LEVEL = 0.1
+LAYOUT_LEVEL = 0.1
 """Loads that differ by less than this share are one load."""
 
 
@@ -60,7 +60,7 @@ def draw_layout(
     pool : sequence of Sweep
         Of one source.
     hidden : tuple of str
-        Of ``HIDDEN``; empty where the model shall know all that it is shown.
+        Of ``HIDDEN_CHANNELS``; empty where the model shall know all that it is shown.
     needed : sequence of str
         Channels that must stay in the recording.
     """
@@ -116,7 +116,7 @@ def _levels(
     known = [s for s in chosen if (s.camber, s.pressure) == base]
     if "load_sensitivity" in hidden:
         at = float(rng.choice([s.load for s in known]))
-        known = [s for s in known if abs(s.load / at - 1.0) < LEVEL]
+        known = [s for s in known if abs(s.load / at - 1.0) < LAYOUT_LEVEL]
     return known, [s for s in chosen if s not in known]
 
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-SHARES: dict[str, float] = {"calspan": 0.56, "dart": 0.30, "tydex": 0.14}
+SOURCE_SHARES: dict[str, float] = {"calspan": 0.56, "dart": 0.30, "tydex": 0.14}
 """Share of each source among the cases; at most 0.15 from ``tydex``."""
 
-KINDS: dict[str, dict[str, float]] = {
+SOURCE_KINDS: dict[str, dict[str, float]] = {
     "calspan": {
         "nothing": 0.27,
         "hidden": 0.21,
@@ -117,11 +117,11 @@ HIDEABLE: dict[str, tuple[tuple[str, ...], ...]] = {
 }
 
 LAG = ("relaxation_length", "time_delay", "low_pass")
-SLOW = ("wear", "surface_change", "temperature", "sensor_drift")
+SLOW_EFFECTS = ("wear", "surface_change", "temperature", "sensor_drift")
 SIDE = ("force_offset", "plysteer_conicity", "crosstalk", "slip_angle_offset", "camber_offset")
 ALIKE: dict[str, tuple[str, ...]] = (
     dict.fromkeys(LAG, LAG)
-    | dict.fromkeys(("wear", "surface_change"), SLOW)
+    | dict.fromkeys(("wear", "surface_change"), SLOW_EFFECTS)
     | dict.fromkeys(("force_offset", "crosstalk", "camber_offset"), SIDE)
 )
 """Effect of an ambiguous case -> names that its recording cannot separate from it."""
@@ -135,12 +135,12 @@ CONFOUNDED = (
 )
 """Never together in one case: each of them with the other is one of something else."""
 
-UNSCALED = ("stuck_channel", "sign_convention", "unit_error")
+UNSCALED_EFFECTS = ("stuck_channel", "sign_convention", "unit_error")
 
 
 @dataclass(frozen=True)
 class RealPlan:
-    """One case to make: a seed, a source and a kind of ``KINDS``."""
+    """One case to make: a seed, a source and a kind of ``SOURCE_KINDS``."""
 
     seed: int
     source: str
@@ -154,7 +154,11 @@ class RealPlan:
     def stream(self) -> np.random.SeedSequence:
         """What all draws of this case come from."""
         return np.random.SeedSequence(
-            [self.seed, list(KINDS).index(self.source), list(KINDS[self.source]).index(self.kind)]
+            [
+                self.seed,
+                list(SOURCE_KINDS).index(self.source),
+                list(SOURCE_KINDS[self.source]).index(self.kind),
+            ]
         )
 
 
@@ -178,11 +182,11 @@ def real_plan(n: int, seed: int, *, source: str | None = None, kind: str | None 
         Only these.
     """
     rng = np.random.default_rng([seed, 24])
-    sources = {source: 1.0} if source else SHARES
+    sources = {source: 1.0} if source else SOURCE_SHARES
     cells = [
         (where, what, part * share)
         for where, part in sources.items()
-        for what, share in KINDS[where].items()
+        for what, share in SOURCE_KINDS[where].items()
         if kind in (None, what)
     ]
     total = sum(share for _, _, share in cells)
@@ -222,7 +226,7 @@ def draw_effects(rng: np.random.Generator, plan: RealPlan) -> Effects:
 def _pair(rng: np.random.Generator, source: str) -> Effects:
     """Physics with physics or an artefact; hidden physics with an artefact where it can be hidden."""
     table = EFFECTS[source]
-    artefacts = [name for name in table["artefact"] if name not in UNSCALED]
+    artefacts = [name for name in table["artefact"] if name not in UNSCALED_EFFECTS]
     if source in HIDEABLE and rng.random() < 0.35:
         single = [s for s in HIDEABLE[source] if len(s) == 1]
         return Effects("pair", single[int(rng.integers(len(single)))], (str(rng.choice(artefacts)),), ())

@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 from scipy.signal import lfilter
 
-from tire_pipeline.concealed.artefacts import UNITS
+from tire_pipeline.concealed.artefacts import UNIT_ERRORS
 from tire_pipeline.concealed.clean_run import model_forces
 from tire_pipeline.magic_formula import TireModel
 
@@ -25,7 +25,7 @@ Frame: TypeAlias = pd.DataFrame
 
 
 @dataclass(frozen=True)
-class Session:
+class RecordedSession:
     """What the mechanisms of one case go by.
 
     Attributes
@@ -90,7 +90,7 @@ class Mechanism:
     """
 
     kind: str
-    act: Callable[[Frame, np.ndarray, float, Session, Details], Frame]
+    act: Callable[[Frame, np.ndarray, float, RecordedSession, Details], Frame]
     guess: float
     low: float
     high: float
@@ -101,7 +101,7 @@ class Mechanism:
 
 
 def put_in(
-    frame: Frame, strengths: Mapping[str, float], session: Session, details: Mapping[str, Details]
+    frame: Frame, strengths: Mapping[str, float], session: RecordedSession, details: Mapping[str, Details]
 ) -> Frame:
     """Return one run with all effects in it, physics first.
 
@@ -111,7 +111,7 @@ def put_in(
         Whole sweeps at the recording's own rate, ``piece`` numbers them.
     strengths : mapping
         Effect -> strength with its sign.
-    session : Session
+    session : RecordedSession
     details : mapping
         Effect -> Details.
     """
@@ -137,8 +137,8 @@ def draw_details(name: str, rng: np.random.Generator, time: np.ndarray) -> Detai
     if name == "sign_convention":
         channel = str(rng.choice(["slip_angle", "fy"]))
     elif name == "unit_error":
-        channel = str(rng.choice(list(UNITS)))
-        factor = float(rng.choice(list(UNITS[channel].values())))
+        channel = str(rng.choice(list(UNIT_ERRORS)))
+        factor = float(rng.choice(list(UNIT_ERRORS[channel].values())))
     elif name == "stuck_channel":
         channel = str(rng.choice(["normal_load", "fy", "slip_angle"]))
 
@@ -176,41 +176,41 @@ def _similar(frame: Frame, friction: np.ndarray | float, stiffness: np.ndarray |
     return frame.assign(slip_angle=np.arctan(slip), fy=frame["fy"] * friction)
 
 
-def _friction(frame: Frame, _p: np.ndarray, x: float, _s: Session, _d: Details) -> Frame:
+def _friction(frame: Frame, _p: np.ndarray, x: float, _s: RecordedSession, _d: Details) -> Frame:
     return _similar(frame, 1.0 + x)
 
 
-def _stiffness(frame: Frame, _p: np.ndarray, x: float, _s: Session, _d: Details) -> Frame:
+def _stiffness(frame: Frame, _p: np.ndarray, x: float, _s: RecordedSession, _d: Details) -> Frame:
     return _similar(frame, 1.0, 1.0 + x)
 
 
-def _load(frame: Frame, _p: np.ndarray, x: float, s: Session, _d: Details) -> Frame:
+def _load(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
     return _similar(frame, np.maximum(1.0 + x * (frame["normal_load"] / s.load - 1.0), 0.1))
 
 
-def _temperature(frame: Frame, _p: np.ndarray, x: float, s: Session, _d: Details) -> Frame:
+def _temperature(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
     return _similar(frame, 1.0 + x * (frame["tread_temperature"] - s.temperature) / 10.0)
 
 
-def _speed(frame: Frame, _p: np.ndarray, x: float, s: Session, _d: Details) -> Frame:
+def _speed(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
     grade = np.log(np.maximum(frame["speed"], 0.1) / s.speed)
     return _similar(frame, np.maximum(1.0 + x * grade, 0.1))
 
 
-def _wear(frame: Frame, _p: np.ndarray, x: float, s: Session, _d: Details) -> Frame:
+def _wear(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
     return _similar(frame, np.maximum(1.0 + x * friction_work(frame) / s.work, 0.1))
 
 
-def _surface(frame: Frame, _p: np.ndarray, x: float, _s: Session, d: Details) -> Frame:
+def _surface(frame: Frame, _p: np.ndarray, x: float, _s: RecordedSession, d: Details) -> Frame:
     return _similar(frame, np.where(frame["time"] >= d.moment, 1.0 + x, 1.0))
 
 
-def _compliance(frame: Frame, _p: np.ndarray, x: float, s: Session, _d: Details) -> Frame:
+def _compliance(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
     """The rig turns the wheel back by ``x`` rad at the largest force: more was set than the tire saw."""
     return frame.assign(slip_angle=frame["slip_angle"] + x * s.opposing * frame["fy"] / s.largest)
 
 
-def _relaxation(frame: Frame, pieces: np.ndarray, x: float, s: Session, _d: Details) -> Frame:
+def _relaxation(frame: Frame, pieces: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
     """Force at the slip that lags by ``x`` metres, plus what the formula leaves of the recorded force."""
     step = np.diff(frame["time"].to_numpy(), prepend=frame["time"].iloc[0]) * frame["speed"].to_numpy()
     slip, behind = np.tan(frame["slip_angle"].to_numpy()), np.empty(len(frame))
@@ -223,7 +223,7 @@ def _relaxation(frame: Frame, pieces: np.ndarray, x: float, s: Session, _d: Deta
     return frame.assign(fy=frame["fy"] + change)
 
 
-def _once_a_turn(frame: Frame, _p: np.ndarray, x: float, s: Session, d: Details) -> Frame:
+def _once_a_turn(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, d: Details) -> Frame:
     """A crooked wheel: the slip angle that the tire sees swings by ``x`` rad once a turn."""
     step = np.diff(frame["time"].to_numpy(), prepend=frame["time"].iloc[0])
     turn = np.cumsum(step * frame["speed"].to_numpy()) / s.radius + d.phase
@@ -232,27 +232,27 @@ def _once_a_turn(frame: Frame, _p: np.ndarray, x: float, s: Session, d: Details)
     return frame.assign(fy=frame["fy"] + change)
 
 
-def _offset(channel: str) -> Callable[[Frame, np.ndarray, float, Session, Details], Frame]:
-    def act(frame: Frame, _p: np.ndarray, x: float, _s: Session, _d: Details) -> Frame:
+def _offset(channel: str) -> Callable[[Frame, np.ndarray, float, RecordedSession, Details], Frame]:
+    def act(frame: Frame, _p: np.ndarray, x: float, _s: RecordedSession, _d: Details) -> Frame:
         return frame.assign(**{channel: frame[channel] + x})
 
     return act
 
 
-def _gain(frame: Frame, _p: np.ndarray, x: float, _s: Session, _d: Details) -> Frame:
+def _gain(frame: Frame, _p: np.ndarray, x: float, _s: RecordedSession, _d: Details) -> Frame:
     return frame.assign(fy=frame["fy"] * (1.0 + x))
 
 
-def _crosstalk(frame: Frame, _p: np.ndarray, x: float, _s: Session, _d: Details) -> Frame:
+def _crosstalk(frame: Frame, _p: np.ndarray, x: float, _s: RecordedSession, _d: Details) -> Frame:
     """The load cell leaks the normal load into the side force."""
     return frame.assign(fy=frame["fy"] + x * frame["normal_load"])
 
 
-def _drift(frame: Frame, _p: np.ndarray, x: float, s: Session, _d: Details) -> Frame:
+def _drift(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
     return frame.assign(fy=frame["fy"] + x * (frame["time"] - s.start) / (s.end - s.start))
 
 
-def _delay(frame: Frame, pieces: np.ndarray, x: float, _s: Session, _d: Details) -> Frame:
+def _delay(frame: Frame, pieces: np.ndarray, x: float, _s: RecordedSession, _d: Details) -> Frame:
     time, force = frame["time"].to_numpy(), frame["fy"].to_numpy()
     out = np.empty_like(force)
     for piece in np.unique(pieces):
@@ -261,7 +261,7 @@ def _delay(frame: Frame, pieces: np.ndarray, x: float, _s: Session, _d: Details)
     return frame.assign(fy=out)
 
 
-def _low_pass(frame: Frame, pieces: np.ndarray, x: float, _s: Session, _d: Details) -> Frame:
+def _low_pass(frame: Frame, pieces: np.ndarray, x: float, _s: RecordedSession, _d: Details) -> Frame:
     """Two equal first-order filters, together with the time constant ``x``, s."""
     time, force = frame["time"].to_numpy(), frame["fy"].to_numpy()
     out = np.empty_like(force)
@@ -275,24 +275,24 @@ def _low_pass(frame: Frame, pieces: np.ndarray, x: float, _s: Session, _d: Detai
     return frame.assign(fy=out)
 
 
-def _clipping(frame: Frame, _p: np.ndarray, x: float, s: Session, _d: Details) -> Frame:
+def _clipping(frame: Frame, _p: np.ndarray, x: float, s: RecordedSession, _d: Details) -> Frame:
     level = s.largest * (1.0 - x)
     return frame.assign(fy=frame["fy"].clip(-level, level))
 
 
-def _resolution(frame: Frame, _p: np.ndarray, x: float, _s: Session, _d: Details) -> Frame:
+def _resolution(frame: Frame, _p: np.ndarray, x: float, _s: RecordedSession, _d: Details) -> Frame:
     return frame.assign(fy=np.round(frame["fy"] / x) * x)
 
 
-def _mirrored(frame: Frame, _p: np.ndarray, _x: float, _s: Session, d: Details) -> Frame:
+def _mirrored(frame: Frame, _p: np.ndarray, _x: float, _s: RecordedSession, d: Details) -> Frame:
     return frame.assign(**{d.channel: -frame[d.channel]})
 
 
-def _unit(frame: Frame, _p: np.ndarray, _x: float, _s: Session, d: Details) -> Frame:
+def _unit(frame: Frame, _p: np.ndarray, _x: float, _s: RecordedSession, d: Details) -> Frame:
     return frame.assign(**{d.channel: frame[d.channel] * d.factor})
 
 
-def _stuck(frame: Frame, _p: np.ndarray, _x: float, _s: Session, d: Details) -> Frame:
+def _stuck(frame: Frame, _p: np.ndarray, _x: float, _s: RecordedSession, d: Details) -> Frame:
     inside = ((frame["time"] >= d.interval[0]) & (frame["time"] < d.interval[1])).to_numpy()
     if not inside.any():
         return frame

@@ -102,12 +102,12 @@ def other_values(
         "INFLPRES": np.round(tires["NOMPRES"].to_numpy() * condition["pressure"].to_numpy(), -3),
     }
     table = pd.DataFrame(values, index=coefficients.index)
-    for name in METADATA:
+    for name in WRITTEN_METADATA:
         table[name] = tires[name].to_numpy()
     return table
 
 
-METADATA: tuple[str, ...] = (
+WRITTEN_METADATA: tuple[str, ...] = (
     "UNLOADED_RADIUS",
     "WIDTH",
     "ASPECT_RATIO",

@@ -42,7 +42,7 @@ _SCALE_FACTORS = [
 ]
 
 # The coefficient sections in file order. Each key is a column of the table of values.
-COEFFICIENT_SECTIONS: dict[str, list[str]] = {
+WRITTEN_SECTIONS: dict[str, list[str]] = {
     "LONGITUDINAL_COEFFICIENTS": [*LONGITUDINAL, *_COMBINED_X, "PTX1", "PTX2", "PTX3"],
     "OVERTURNING_COEFFICIENTS": ["QSX1", "QSX2", "QSX3"],
     "LATERAL_COEFFICIENTS": [*LATERAL, *_COMBINED_Y[0].split(), "PTY1", "PTY2"],
@@ -287,7 +287,7 @@ class Template:
                 lines += [" 1.0    0.0", " 1.0    0.4", " 1.0    0.9", " 0.9    1.0"]
         lines += self._section("SCALING_COEFFICIENTS")
         lines += [self._line(key, "1") for key in _SCALE_FACTORS]
-        for name, keys in COEFFICIENT_SECTIONS.items():
+        for name, keys in WRITTEN_SECTIONS.items():
             lines += self._section(name)
             lines += [self._place(key) for key in keys]
         return lines
@@ -307,4 +307,4 @@ _LENGTHS = {"UNLOADED_RADIUS", "WIDTH", "RIM_RADIUS", "RIM_WIDTH", "LONGVL", "VX
 _PER_LENGTH = {"VERTICAL_STIFFNESS", "VERTICAL_DAMPING"}
 _ANGLES = {"ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX"}
 _PRESSURES = {"INFLPRES", "NOMPRES"}
-_COEFFICIENTS = {key for keys in COEFFICIENT_SECTIONS.values() for key in keys}
+_COEFFICIENTS = {key for keys in WRITTEN_SECTIONS.values() for key in keys}

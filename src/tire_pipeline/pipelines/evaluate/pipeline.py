@@ -8,7 +8,7 @@ from tire_pipeline.evaluation.translated import choose_sources, translate_files
 from tire_pipeline.reporting.evaluation_outcome import say_outcome
 from tire_pipeline.reporting.evaluation_page import build_report, force_figure
 
-TRANSLATORS = ["agent", "our_agent", "translator"]
+STATES = ["agent", "our_agent", "translator"]
 
 
 def create_pipeline(**_: object) -> Pipeline:
@@ -26,7 +26,13 @@ def _translating() -> list[Node]:
         ),
         Node(
             translate_files,
-            inputs=["chosen_sources", "evaluation_sources", "tir_files", *TRANSLATORS, "params:normalize"],
+            inputs=[
+                "chosen_sources",
+                "evaluation_sources",
+                "tir_files",
+                *STATES,
+                "params:normalize",
+            ],
             outputs="translated_table",
             name="translate_files",
         ),
@@ -35,7 +41,7 @@ def _translating() -> list[Node]:
             inputs=[
                 "evaluation_sources",
                 "tuning_truth",
-                *TRANSLATORS,
+                *STATES,
                 "params:evaluate",
                 "params:normalize",
                 "params:target_category",

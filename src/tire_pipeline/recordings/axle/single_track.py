@@ -8,11 +8,12 @@ from typing import Literal
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
+from scipy.constants import g as GRAVITY
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.axle.body_motion import BodyMotion, evenly_spaced, from_pose
 from tire_pipeline.recordings.axle.sensor_motion import from_sensors
-from tire_pipeline.recordings.axle.vehicle import GRAVITY, Vehicle
+from tire_pipeline.recordings.axle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 Axle = Literal["front", "rear"]

@@ -7,8 +7,6 @@ from dataclasses import dataclass, fields
 
 from tire_pipeline.errors import RecordingError
 
-GRAVITY = 9.80665
-
 
 @dataclass(frozen=True)
 class Vehicle:

@@ -16,10 +16,10 @@ from tire_pipeline.translation.curves.pure_slip import (
 from tire_pipeline.translation.curves.space import PARTS, UNIT, CurveSpace
 from tire_pipeline.translation.result import Band
 
-SLIPS = np.linspace(-0.2, 0.2, 41)
+BAND_SLIP_RATIOS = np.linspace(-0.2, 0.2, 41)
 """Slip angles (rad) and slip ratios of the bands."""
 
-QUANTILE = 1.6449 * 1.04
+BAND_QUANTILE = 1.6449 * 1.04
 """Standard deviations to either side of the middle: those that hold 90% of a Gaussian, and 4% more, since the
 variances are estimates and the errors have longer tails (found on tuning tires)."""
 
@@ -62,8 +62,8 @@ def curve_bands(
     """
     p = columns(translated)
     features = encode(translated)
-    points = Points.grid(SLIPS, LOADS, [0.0])
-    shape = (len(translated), LOADS.size, SLIPS.size)
+    points = Points.grid(BAND_SLIP_RATIOS, LOADS, [0.0])
+    shape = (len(translated), LOADS.size, BAND_SLIP_RATIOS.size)
     side = {
         "fy": (lateral_force(p, points), _force_deviation(space, features, variance, "lateral")),
         "fx": (longitudinal_force(p, points), _force_deviation(space, features, variance, "longitudinal")),
@@ -75,8 +75,8 @@ def curve_bands(
     bands = {}
     for name, (middle, deviation) in side.items():
         middle = middle.reshape(shape)
-        half = np.where(changed[:, None, None], QUANTILE * deviation, np.nan)
-        bands[name] = Band(SLIPS, LOADS, middle, middle - half, middle + half)
+        half = np.where(changed[:, None, None], BAND_QUANTILE * deviation, np.nan)
+        bands[name] = Band(BAND_SLIP_RATIOS, LOADS, middle, middle - half, middle + half)
     return bands
 
 
@@ -98,7 +98,7 @@ def stiffness_band(
     features = encode(translated)
     (stiffness, *_) = _part_names("lateral")
     weights = {stiffness: np.broadcast_to(np.eye(LOADS.size), (len(translated), LOADS.size, LOADS.size))}
-    deviation = QUANTILE * _linear_deviation(space, variance, weights)
+    deviation = BAND_QUANTILE * _linear_deviation(space, variance, weights)
     middle = np.exp(features["lateral"][:, : LOADS.size]) * LOADS
     ratio = np.where(changed[:, None], np.exp(deviation), np.nan)
     parts = [each[:, :, None] for each in (middle, middle / ratio, middle * ratio)]
@@ -182,13 +182,13 @@ def _torque_deviation(
 
 
 def _to_slips(deviations: list[np.ndarray], reach: np.ndarray, scale: np.ndarray) -> np.ndarray:
-    """From reduced slips to both sides to ``SLIPS``, times the scale; (n, loads, slips)."""
+    """From reduced slips to both sides to ``BAND_SLIP_RATIOS``, times the scale; (n, loads, slips)."""
     negative, positive = deviations
-    out = np.empty((*reach.shape, SLIPS.size))
+    out = np.empty((*reach.shape, BAND_SLIP_RATIOS.size))
     for i in range(reach.shape[0]):
         for k in range(reach.shape[1]):
             at = REDUCED * reach[i, k]
             both = np.concatenate([-at[::-1], at])
             values = np.concatenate([negative[i, k, ::-1], positive[i, k]])
-            out[i, k] = np.interp(SLIPS, both, values)
+            out[i, k] = np.interp(BAND_SLIP_RATIOS, both, values)
     return out * scale[:, :, None]

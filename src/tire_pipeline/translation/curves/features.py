@@ -35,17 +35,17 @@ LOADS = np.array([2000.0, 4000.0, 6000.0, 8000.0])
 REDUCED = np.array([0.25, 0.5, 0.8, 1.1, 1.5, 2.0, 2.6, 3.3])
 """Reduced slips at which curves are compared: slip times stiffness over the friction level."""
 
-FARTHEST = 0.25
+LARGEST_PEAK_SLIP = 0.25
 """Largest slip angle (rad) and slip ratio; friction level is the largest force up to there."""
 
-CAMBER_LOADS = np.array([4000.0, 7000.0])
+CAMBER_NORMAL_LOADS = np.array([4000.0, 7000.0])
 CAMBER_SLIPS = np.array([-0.14, -0.05, 0.0, 0.05, 0.14])
-CAMBER = 0.07
+CAMBER_ANGLE = 0.07
 
-_PEAK_SLIPS = np.array([0.07, 0.09, 0.11, 0.13, 0.16, 0.20, FARTHEST])
+_PEAK_SLIPS = np.array([0.07, 0.09, 0.11, 0.13, 0.16, 0.20, LARGEST_PEAK_SLIP])
 _PEAK = Points.grid(np.concatenate([-_PEAK_SLIPS[::-1], _PEAK_SLIPS]), LOADS, [0.0])
 _ORIGIN = Points.grid([0.0], LOADS, [0.0])
-_TILTED = Points.grid(CAMBER_SLIPS, CAMBER_LOADS, [-CAMBER, 0.0, CAMBER])
+_TILTED = Points.grid(CAMBER_SLIPS, CAMBER_NORMAL_LOADS, [-CAMBER_ANGLE, 0.0, CAMBER_ANGLE])
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ def _reduced_points(level: np.ndarray, slope: np.ndarray) -> Points:
 
 
 def _level(force: np.ndarray) -> np.ndarray:
-    """Largest odd force over load up to ``FARTHEST``, (n, loads)."""
+    """Largest odd force over load up to ``LARGEST_PEAK_SLIP``, (n, loads)."""
     odd, _ = _parts(force, _PEAK_SLIPS.size)
     return np.maximum(np.abs(odd).max(axis=2) / LOADS, 0.1)
 
@@ -122,8 +122,8 @@ def camber_features(p: Columns) -> np.ndarray:
 
 
 def _change_by_camber(values: np.ndarray) -> np.ndarray:
-    curve = values.reshape(len(values), CAMBER_LOADS.size, 3, CAMBER_SLIPS.size)
-    load = CAMBER_LOADS[None, :, None, None]
+    curve = values.reshape(len(values), CAMBER_NORMAL_LOADS.size, 3, CAMBER_SLIPS.size)
+    load = CAMBER_NORMAL_LOADS[None, :, None, None]
     return (curve[:, :, [0, 2]] - curve[:, :, [1]]) / load
 
 
@@ -155,8 +155,8 @@ def _names(*blocks: tuple[str, np.ndarray]) -> tuple[str, ...]:
 _NONE = np.array([])
 _CAMBER_AT = tuple(
     f"at slip angle {slip:g}, camber {tilt:g}, {load:.0f} N"
-    for load in CAMBER_LOADS
-    for tilt in (-CAMBER, CAMBER)
+    for load in CAMBER_NORMAL_LOADS
+    for tilt in (-CAMBER_ANGLE, CAMBER_ANGLE)
     for slip in CAMBER_SLIPS
 )
 

@@ -10,11 +10,11 @@ import numpy as np
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
-from tire_pipeline.translation.curves.bands import SLIPS
+from tire_pipeline.translation.curves.bands import BAND_SLIP_RATIOS
 from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.result import Band, TranslationResult
 
-OUTPUTS = ("fy", "fx", "mz")
+DRAWN_OUTPUTS = ("fy", "fx", "mz")
 
 
 def file_curves(
@@ -37,10 +37,10 @@ def file_curves(
         ``_high`` for fy, fx (N), mz (N m), each (n, l, s), and for stiffness (N/rad), each (n, l). NaN where
         a file was not translated, or its curve cannot be evaluated.
     """
-    bands: dict[str, Band | None] = {name: result.bands.get(name) for name in OUTPUTS}
-    shape = (len(files), LOADS.size, SLIPS.size)
-    found: dict[str, Any] = {"files": list(files), "normal_load": LOADS, "slip": SLIPS}
-    sources = {name: np.full(shape, np.nan, dtype=np.float32) for name in OUTPUTS}
+    bands: dict[str, Band | None] = {name: result.bands.get(name) for name in DRAWN_OUTPUTS}
+    shape = (len(files), LOADS.size, BAND_SLIP_RATIOS.size)
+    found: dict[str, Any] = {"files": list(files), "normal_load": LOADS, "slip": BAND_SLIP_RATIOS}
+    sources = {name: np.full(shape, np.nan, dtype=np.float32) for name in DRAWN_OUTPUTS}
     sources["stiffness"] = np.full(shape[:2], np.nan, dtype=np.float32)
     for i, file in track(list(enumerate(files)), "drawing the files' own curves"):
         for name, values in _own_curves(models[file]).items():
@@ -65,9 +65,9 @@ def _own_curves(model: TireModel) -> dict[str, np.ndarray]:
     load = LOADS[:, None]
     found = {}
     asked: dict[str, dict[str, Any]] = {
-        "fy": {"slip_angle": SLIPS, "normal_load": load},
-        "fx": {"slip_ratio": SLIPS, "normal_load": load},
-        "mz": {"slip_angle": SLIPS, "normal_load": load},
+        "fy": {"slip_angle": BAND_SLIP_RATIOS, "normal_load": load},
+        "fx": {"slip_ratio": BAND_SLIP_RATIOS, "normal_load": load},
+        "mz": {"slip_angle": BAND_SLIP_RATIOS, "normal_load": load},
         "stiffness": {"normal_load": LOADS},
     }
     for name, points in asked.items():

@@ -21,8 +21,8 @@ FRICTION = (0.3, 2.0)
 SHAPE = {"PCY1": (1.0, 2.0), "PCX1": (1.0, 2.0)}
 """Shape factors: below 1 a curve has no peak, above 2 it crosses zero."""
 
-LOADS = np.array([2000.0, 3500.0, 5000.0, 6500.0, 8000.0])
-_ORIGIN = Points.grid([0.0], LOADS, [0.0])
+CHECKED_LOADS = np.array([2000.0, 3500.0, 5000.0, 6500.0, 8000.0])
+_ORIGIN = Points.grid([0.0], CHECKED_LOADS, [0.0])
 
 SYMMETRY = {
     "lateral": ("PEY3", "PHY1", "PHY2", "PVY1", "PVY2"),
@@ -33,11 +33,11 @@ SYMMETRY = {
 
 def _dfz(p: Columns) -> np.ndarray:
     nominal = p["FNOMIN"] * p.get("LFZO", 1.0)
-    return (LOADS[None, :] - nominal) / nominal
+    return (CHECKED_LOADS[None, :] - nominal) / nominal
 
 
 def curvature(group: str, p: Columns) -> np.ndarray:
-    """Curvature factor E before it is bounded by 1, on both sides of the curve at ``LOADS``, (n, 2 loads)."""
+    """Curvature factor E before it is bounded by 1, on both sides at ``CHECKED_LOADS``, (n, 2 loads)."""
     dfz = _dfz(p)
     if group == "lateral":
         level, side = (p["PEY1"] + p["PEY2"] * dfz) * p.get("LEY", 1.0), p["PEY3"]
@@ -74,7 +74,7 @@ def violations(table: pd.DataFrame) -> pd.DataFrame:
     p = columns(table)
     friction, friction_x = peak_friction(p, _ORIGIN), peak_friction_x(p, _ORIGIN)
     stiffness = -cornering_stiffness(p, _ORIGIN)
-    over_load = stiffness / LOADS
+    over_load = stiffness / CHECKED_LOADS
     excess = [curvature_excess(name, p).max(axis=1) for name in ("lateral", "longitudinal", "aligning")]
     shape = [(p[name] < low) | (p[name] > high) for name, (low, high) in SHAPE.items()]
     broken = {

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from tire_pipeline.translation.curves.space import PARTS, UNIT
-from tire_pipeline.translation.judge.effects import KEY_PARTS, QUANTILE
+from tire_pipeline.translation.judge.effects import EFFECT_QUANTILE, KEY_PARTS
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 
 CERTAINTY = 0.90
-"""With which a band holds the bias: that of ``QUANTILE``."""
+"""With which a band holds the bias: that of ``EFFECT_QUANTILE``."""
 
 
 @dataclass(frozen=True)
@@ -58,5 +58,5 @@ def bias_band(model: CurveMixedModel, found: Prediction) -> BiasBand:
         place = model.space.slices[part]
         along = model.space.back[part].mean(axis=1) * UNIT[PARTS[part].group]
         middle[:, k] = found.shift[:, place] @ along
-        half[:, k] = QUANTILE * np.sqrt(found.shift_variance[:, place] @ along**2)
+        half[:, k] = EFFECT_QUANTILE * np.sqrt(found.shift_variance[:, place] @ along**2)
     return BiasBand(np.expm1(middle - half), np.expm1(middle + half))

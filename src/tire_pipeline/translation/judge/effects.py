@@ -8,7 +8,7 @@ import pandas as pd
 from tire_pipeline.translation.curves.space import PARTS, UNIT
 from tire_pipeline.translation.population.model import CurveMixedModel, columns_of
 
-QUANTILE = 1.6449 * 1.2
+EFFECT_QUANTILE = 1.6449 * 1.2
 """Standard deviations to either side of a bias: those that hold 90% of a Gaussian, and 20% more, since the
 model takes its variances for known, and the noise from files of which some are fits of one recording (found
 on tuning fleets)."""
@@ -29,7 +29,7 @@ def mean_of_loads(
     """Mean of a part's features over the loads, and half of its interval, from scores and their variances."""
     place = model.space.slices[part]
     along = model.space.back[part].mean(axis=1) * UNIT[PARTS[part].group]
-    return float(mean[place] @ along), QUANTILE * float(np.sqrt(variance[place] @ along**2))
+    return float(mean[place] @ along), EFFECT_QUANTILE * float(np.sqrt(variance[place] @ along**2))
 
 
 def protocol_changes(model: CurveMixedModel) -> pd.DataFrame:

@@ -9,7 +9,7 @@ import pandas as pd
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.translation.curves.space import PARTS
-from tire_pipeline.translation.population.fit import Prepared, fit_curve_mixed_model, prepare
+from tire_pipeline.translation.population.fit import PreparedTraining, fit_curve_mixed_model, prepare
 from tire_pipeline.translation.population.mixed_effects import Design, posterior_weights
 from tire_pipeline.translation.population.model import CurveMixedModel
 from tire_pipeline.translation.population.update import TaughtCells, learn_from
@@ -22,7 +22,7 @@ def leave_one_tire_out(
     *,
     pairs: bool,
     model: CurveMixedModel | None = None,
-    made: Prepared | None = None,
+    made: PreparedTraining | None = None,
     batch: pd.DataFrame | None = None,
 ) -> pd.DataFrame:
     """Translate each tire that the target and others measured by a model that has not seen it.
@@ -38,7 +38,7 @@ def leave_one_tire_out(
         Whether the other such tires link the categories.
     model : CurveMixedModel, optional
         Already fitted to ``training`` with the same ``pairs``: saves fitting it again.
-    made : Prepared, optional
+    made : PreparedTraining, optional
         What :func:`.population.fit.prepare` gave for the same.
     batch : DataFrame, optional
         Source files that are to be translated, and teach as in :mod:`.predict.batch`: tells whether to
@@ -73,7 +73,7 @@ def leave_one_tire_out(
 
 
 def _one(
-    made: Prepared,
+    made: PreparedTraining,
     full: CurveMixedModel,
     target: str,
     tire: str,

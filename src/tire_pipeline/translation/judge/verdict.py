@@ -18,15 +18,15 @@ from tire_pipeline.translation.judge.words import describe_changes
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.result import LEFT_ALONE, REFUSED, TRANSLATED, UNBIASED, UNKNOWN
 
-FARTHEST = 3.0
+FARTHEST_DISTANCE = 3.0
 """Files farther than this from the training data are refused; 1 is the edge of the training data. On tuning
 tires every refusal between 1.5 and 2.2 was wrong."""
 
-LEAST_GAIN = 0.05
+LEAST_RELATIVE_GAIN = 0.05
 """A file whose expected squared error would shrink by less than this share (2.5% in RMS) is left alone."""
 
 VERSIONS = ("5.0", "5.1", "5.2", "PAC2002")
-NEEDED = ("FNOMIN", "UNLOADED_RADIUS", "PCY1", "PDY1", "PKY1", "PKY2", "PKX1")
+NEEDED_TO_TRANSLATE = ("FNOMIN", "UNLOADED_RADIUS", "PCY1", "PDY1", "PKY1", "PKY2", "PKX1")
 """What a file must state to be translated."""
 
 _OWN = "it is the target's own"
@@ -81,7 +81,7 @@ class VerdictRules:
         """Say why a file cannot be translated at all, "" if it can, (n,)."""
         reason = np.full(len(source), "", dtype=object)
         category = source["category"].astype(str).to_numpy()
-        lacking = source.reindex(columns=list(NEEDED)).isna()
+        lacking = source.reindex(columns=list(NEEDED_TO_TRANSLATE)).isna()
         for i in np.flatnonzero(lacking.any(axis=1).to_numpy()):
             reason[i] = (
                 f"it does not state {', '.join(lacking.columns[lacking.iloc[i]])}: add what is missing"
@@ -151,7 +151,7 @@ class VerdictRules:
             elif impossible.iloc[i]:
                 verdict[i] = REFUSED
                 reason[i] = f"no physical tire found: {', '.join(broken.columns[broken.iloc[i]])}"
-            elif self.gate and (uncertain[i] or ratio[i] > 1.0 - LEAST_GAIN):
+            elif self.gate and (uncertain[i] or ratio[i] > 1.0 - LEAST_RELATIVE_GAIN):
                 zero = bool(band.holds_zero[i])
                 verdict[i] = UNBIASED if zero else LEFT_ALONE
                 reason[i] = _why_alone(actors[i], self.target, bool(uncertain[i]), zero, ratio[i])
@@ -189,15 +189,16 @@ class VerdictRules:
             TrainingReach.from_state(state),
             np.asarray(state["doubt"]),
             bool(state["option_gate"]),
-            float(state.get("option_farthest", FARTHEST)),
+            float(state.get("option_farthest", FARTHEST_DISTANCE)),
         )
 
 
 def _too_far(target: str, distance: float) -> str:
     said = f"this tire is outside of what {target} has measured: distance {distance:.2f}"
-    if distance > FARTHEST:
+    if distance > FARTHEST_DISTANCE:
         return f"{said}, do not trust a translation"
-    return f"{said}, the edge is 1; give training files of such tires, or ask with farthest={FARTHEST:g}"
+    most = f"farthest={FARTHEST_DISTANCE:g}"
+    return f"{said}, the edge is 1; give training files of such tires, or ask with {most}"
 
 
 def _why_alone(actor: str, target: str, uncertain: bool, holds_zero: bool, ratio: float) -> str:

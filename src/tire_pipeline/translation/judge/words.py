@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.translation.curves.features import CAMBER, GROUPS, LOADS
+from tire_pipeline.translation.curves.features import CAMBER_ANGLE, GROUPS, LOADS
 
 _LEAST = 0.005  # a change of half a percent is worth a word
 _CURVES = {"cornering stiffness": ("lateral", 0), "lateral grip": ("lateral", 1)}
@@ -91,6 +91,6 @@ def _other_moves(
     middle = slice(2 * reduced, 3 * reduced)
     residual = [np.abs(f["lateral"][:, even][:, middle]).mean(axis=1) for f in (before, after)]
     torque = [np.abs(f["aligning"][:, : LOADS.size * reduced]).mean(axis=1) for f in (before, after)]
-    thrust = [np.abs(f["camber"]).mean(axis=1) / CAMBER for f in (before, after)]
+    thrust = [np.abs(f["camber"]).mean(axis=1) / CAMBER_ANGLE for f in (before, after)]
     relative = [b / np.maximum(a, 1e-6) - 1.0 for a, b in (torque, thrust)]
     return residual[1] - residual[0], relative[0], relative[1]

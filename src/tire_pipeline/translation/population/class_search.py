@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
-from tire_pipeline.translation.population.class_question import Question, per_tire
+from tire_pipeline.translation.population.class_input import ClassSearchInput, per_tire
 from tire_pipeline.translation.population.class_starts import starts
 from tire_pipeline.translation.population.classes import TireClasses, fit_shares, log_density, log_shares
 from tire_pipeline.translation.population.mixed_effects import Design, Fitted, posterior_weights
@@ -41,12 +41,12 @@ class _State:
     evidence: float = -np.inf
 
 
-def find_classes(question: Question, seed: int = 0) -> tuple[TireClasses | None, np.ndarray]:
+def find_classes(question: ClassSearchInput, seed: int = 0) -> tuple[TireClasses | None, np.ndarray]:
     """Find the classes.
 
     Parameters
     ----------
-    question : Question
+    question : ClassSearchInput
     seed : int
         Of the starts.
 
@@ -79,7 +79,7 @@ def find_classes(question: Question, seed: int = 0) -> tuple[TireClasses | None,
     return TireClasses(question.scores, best.shares, usual, best.own), best.probability
 
 
-def _laid_anew(question: Question, state: _State) -> _State:
+def _laid_anew(question: ClassSearchInput, state: _State) -> _State:
     """Forget, one category after the other, which tires are of which class, and climb again."""
     actor = question.design.blocks["category"].argmax(axis=1)
     for category in np.unique(actor):
@@ -92,7 +92,7 @@ def _laid_anew(question: Question, state: _State) -> _State:
     return state
 
 
-def _climb(question: Question, probability: np.ndarray) -> _State:
+def _climb(question: ClassSearchInput, probability: np.ndarray) -> _State:
     """Expectation maximisation from some probabilities."""
     variances = [{**v, "class": 1.0, "category_class": 0.02} for v in question.variances]
     start = np.diag([v["tire"] for v in variances])
@@ -106,7 +106,7 @@ def _climb(question: Question, probability: np.ndarray) -> _State:
     return state
 
 
-def _step(question: Question, state: _State) -> _State:
+def _step(question: ClassSearchInput, state: _State) -> _State:
     """One maximisation of the effects and one expectation of the classes."""
     probability = state.probability
     n, count = probability.shape

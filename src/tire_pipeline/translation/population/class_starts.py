@@ -12,7 +12,7 @@ import numpy as np
 from sklearn.cluster import KMeans
 from sklearn.mixture import GaussianMixture
 
-from tire_pipeline.translation.population.class_question import Question, per_tire
+from tire_pipeline.translation.population.class_input import ClassSearchInput, per_tire
 from tire_pipeline.translation.population.classes import fit_shares, log_shares
 from tire_pipeline.translation.population.mixed_effects import posterior_weights
 
@@ -21,12 +21,12 @@ _TIRES_A_GROUP = 10  # fewer tires of a category tell no groups within it
 _LEAST_SPLIT = 8  # tires of a class that is split
 
 
-def starts(question: Question, count: int, fewer: np.ndarray | None, seed: int) -> list[np.ndarray]:
+def starts(question: ClassSearchInput, count: int, fewer: np.ndarray | None, seed: int) -> list[np.ndarray]:
     """Give probabilities of classes to begin with.
 
     Parameters
     ----------
-    question : Question
+    question : ClassSearchInput
     count : int
         Number of classes k.
     fewer : ndarray, shape (n, k - 1), optional
@@ -48,7 +48,7 @@ def starts(question: Question, count: int, fewer: np.ndarray | None, seed: int) 
     return [each[question.tire] for each in found]
 
 
-def _unexplained(question: Question) -> np.ndarray:
+def _unexplained(question: ClassSearchInput) -> np.ndarray:
     """What the category leaves unexplained of each tire, (tires, q)."""
     fitted = [
         posterior_weights(question.design, y, v)
@@ -75,7 +75,7 @@ def _of_all(gap: np.ndarray, count: int, seed: int) -> list[np.ndarray]:
 
 
 def _of_one_category(
-    question: Question, gap: np.ndarray, actor: np.ndarray, count: int, seed: int
+    question: ClassSearchInput, gap: np.ndarray, actor: np.ndarray, count: int, seed: int
 ) -> list[np.ndarray]:
     """Groups within each category that has tires enough; shares by the metadata for everyone else's."""
     metadata = question.metadata[question.one_cell]

@@ -15,7 +15,7 @@ from tire_pipeline.translation.population.category_spread import (
     own_spread,
     shared_cells,
 )
-from tire_pipeline.translation.population.class_question import Question
+from tire_pipeline.translation.population.class_input import ClassSearchInput
 from tire_pipeline.translation.population.class_search import find_classes, with_classes
 from tire_pipeline.translation.population.classes import TireClasses
 from tire_pipeline.translation.population.fit_links import Deviations, FitLinks, find_links, linked_blocks
@@ -23,9 +23,9 @@ from tire_pipeline.translation.population.kinds import TIRE_BLOCKS, TireKinds, t
 from tire_pipeline.translation.population.mixed_effects import Design, Fitted, fit_mixed_effects
 from tire_pipeline.translation.population.model import CurveMixedModel, design_blocks
 from tire_pipeline.translation.population.protocol_search import Dated, find_changes
-from tire_pipeline.translation.population.protocols import NO_CHANGE, Protocols, days_of
+from tire_pipeline.translation.population.protocols import NO_PROTOCOL_CHANGE, Protocols, days_of
 
-GUESS = {
+VARIANCE_GUESS = {
     "level": 100.0,
     "metadata": 0.1,
     "size": 0.05,
@@ -85,7 +85,7 @@ def _tire_columns(cells: pd.DataFrame, pairs: bool) -> np.ndarray:
 
 
 def fit_curve_mixed_model(
-    training: pd.DataFrame, *, pairs: bool, kinds: int = 2, made: Prepared | None = None
+    training: pd.DataFrame, *, pairs: bool, kinds: int = 2, made: PreparedTraining | None = None
 ) -> CurveMixedModel:
     """Fit the model to a training table.
 
@@ -97,7 +97,7 @@ def fit_curve_mixed_model(
         Use it that several categories measured a tire.
     kinds : int
         Numbers that say what kind of tire it is, for interactions.
-    made : Prepared, optional
+    made : PreparedTraining, optional
         What :func:`prepare` gave for the same, if it is there already.
 
     Returns
@@ -110,7 +110,7 @@ def fit_curve_mixed_model(
 
 
 @dataclass(frozen=True)
-class Prepared:
+class PreparedTraining:
     """Training data as the mixed model takes them.
 
     Attributes
@@ -132,7 +132,7 @@ class Prepared:
     kinds: TireKinds | None
     scale: np.ndarray
     classes: TireClasses | None
-    protocols: Protocols = NO_CHANGE
+    protocols: Protocols = NO_PROTOCOL_CHANGE
 
     def model(self, fitted: tuple[Fitted, ...]) -> CurveMixedModel:
         """Give the model with these weights."""
@@ -169,14 +169,14 @@ def prepare(
     pairs: bool,
     kinds: int = 2,
     space_and_cells: tuple[CurveSpace, Cells] | None = None,
-) -> Prepared:
+) -> PreparedTraining:
     """Find the curve space (unless it is given), draw cells together, find classes, lay out the design.
 
     Where files have dates, categories are searched for a change of protocol, too; if there is one, classes
     and design are laid out anew with it.
     """
     space_and_cells = space_and_cells or fit_curve_space(training)
-    made = _prepare(training, NO_CHANGE, pairs, kinds, space_and_cells)
+    made = _prepare(training, NO_PROTOCOL_CHANGE, pairs, kinds, space_and_cells)
     protocols = _protocols(training, made)
     return _prepare(training, protocols, pairs, kinds, space_and_cells) if protocols.changes else made
 
@@ -187,7 +187,7 @@ def _prepare(
     pairs: bool,
     kinds: int,
     space_and_cells: tuple[CurveSpace, Cells],
-) -> Prepared:
+) -> PreparedTraining:
     """As :func:`prepare`, for protocols that are known."""
     space, cells = space_and_cells
     rows = training.iloc[cells.row].reset_index(drop=True)
@@ -207,19 +207,21 @@ def _prepare(
     if kinds:
         found, own = _kinds(design, cells, space, scale, kinds)
         design = Design(with_kinds(design.blocks, found.of(design.blocks, own)), tires, cells.files)
-    return Prepared(rows, cells, design, space, metadata, categories, found, scale, classes, protocols)
+    return PreparedTraining(
+        rows, cells, design, space, metadata, categories, found, scale, classes, protocols
+    )
 
 
-def _protocols(training: pd.DataFrame, made: Prepared) -> Protocols:
+def _protocols(training: pd.DataFrame, made: PreparedTraining) -> Protocols:
     """Search what the model leaves of each cell for changes of protocol, by the forces' scores."""
     day = days_of(training)
     if np.isnat(day).all():
-        return NO_CHANGE
+        return NO_PROTOCOL_CHANGE
     x = np.concatenate(list(made.design.blocks.values()), axis=1)
     parts = {n: place for n, place in made.space.slices.items() if PARTS[n].group in CHANGE_GROUPS}
     gap = np.zeros_like(made.cells.scores)
     for k in np.concatenate([np.arange(s.start, s.stop) for s in parts.values()]):
-        one = _fit_score(made.design, made.cells, made.space, made.scale, k, GUESS)
+        one = _fit_score(made.design, made.cells, made.space, made.scale, k, VARIANCE_GUESS)
         gap[:, k] = made.cells.scores[:, k] / made.scale[k] - x @ one.mean[: x.shape[1]]
     dated = Dated(gap, made.rows["category"].to_numpy(dtype=str), day, made.cells.cell)
     return Protocols(find_changes(dated, parts))
@@ -239,10 +241,10 @@ def _classes(
     )
     blocks = {name: design.blocks[name] for name in CLASS_BLOCKS if name in design.blocks}
     plain = Design(blocks, design.tire, design.files)
-    fitted = [_fit_score(plain, cells, space, scale, k, GUESS, alone_known=True) for k in telling]
+    fitted = [_fit_score(plain, cells, space, scale, k, VARIANCE_GUESS, alone_known=True) for k in telling]
     linked = np.concatenate([np.zeros((len(cells.row), 1)), design.tire], axis=1).argmax(axis=1)
     same = np.where(linked > 0, linked, -1 - np.arange(len(cells.row)))
-    question = Question(
+    question = ClassSearchInput(
         plain,
         cells.scores[:, telling] / scale[telling],
         np.unique(same, return_inverse=True)[1],
@@ -267,14 +269,14 @@ def _fit_scores(design: Design, cells: Cells, space: CurveSpace, scale: np.ndarr
 
     Six categories tell little about the variance of their effects on one score; all scores together do.
     """
-    first = [_fit_score(design, cells, space, scale, k, GUESS) for k in range(scale.size)]
+    first = [_fit_score(design, cells, space, scale, k, VARIANCE_GUESS) for k in range(scale.size)]
     noise = space.noise / scale**2
     common = {
         name: float(np.exp(np.mean(np.log(np.array([f.variances[name] for f in first]) / noise))))
         for name in _POOLED
         if name in first[0].variances
     }
-    guesses = [{**GUESS, **{name: common[name] * one for name in common}} for one in noise]
+    guesses = [{**VARIANCE_GUESS, **{name: common[name] * one for name in common}} for one in noise]
     return tuple(
         _fit_score(design, cells, space, scale, k, guess, tuple(common)) for k, guess in enumerate(guesses)
     )
@@ -377,7 +379,7 @@ def _kinds(
     score that it would explain.
     """
     chosen = np.concatenate([np.arange(s.start, s.stop) for s in (space.slices[n] for n in KIND_PARTS)])
-    fitted = [_fit_score(design, cells, space, scale, k, GUESS) for k in chosen]
+    fitted = [_fit_score(design, cells, space, scale, k, VARIANCE_GUESS) for k in chosen]
     ends = np.cumsum([block.shape[1] for block in design.blocks.values()])
     of_tire = np.concatenate(
         [np.full(block.shape[1], name in TIRE_BLOCKS) for name, block in design.blocks.items()]

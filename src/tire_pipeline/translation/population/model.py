@@ -19,14 +19,14 @@ import pandas as pd
 
 from tire_pipeline.translation.curves.space import CurveSpace
 from tire_pipeline.translation.metadata import Metadata
-from tire_pipeline.translation.population.class_question import per_tire
+from tire_pipeline.translation.population.class_input import per_tire
 from tire_pipeline.translation.population.class_search import with_classes
 from tire_pipeline.translation.population.classes import TireClasses
 from tire_pipeline.translation.population.fit_links import FitLinks, linked_blocks
 from tire_pipeline.translation.population.kinds import TireKinds, with_kinds
 from tire_pipeline.translation.population.mixed_effects import Fitted
-from tire_pipeline.translation.population.protocols import NO_CHANGE, Protocols
-from tire_pipeline.translation.population.score_prediction import Reading, predict_block
+from tire_pipeline.translation.population.protocols import NO_PROTOCOL_CHANGE, Protocols
+from tire_pipeline.translation.population.score_prediction import CategoryReading, predict_block
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ class CurveMixedModel:
     alone: np.ndarray
     links: FitLinks
     classes: TireClasses | None = None
-    protocols: Protocols = NO_CHANGE
+    protocols: Protocols = NO_PROTOCOL_CHANGE
 
     def blocks(
         self, table: pd.DataFrame, category: np.ndarray, protocol: np.ndarray
@@ -180,11 +180,11 @@ class CurveMixedModel:
         metadata = per_tire(self.metadata.regressors(table), tire)
         return self.classes.probability(metadata, gap, alone)[tire]
 
-    def _reading(self, place: np.ndarray, target: int, block: np.ndarray) -> Reading:
+    def _reading(self, place: np.ndarray, target: int, block: np.ndarray) -> CategoryReading:
         """How files of the categories ``place`` (n,), and ``target``, read the scores of ``block``."""
         spread, alone = self.spread[:, block], self.alone[:, block]
         here = np.ix_(block, block)
-        return Reading(
+        return CategoryReading(
             spread[place],
             spread[target],
             alone[place],

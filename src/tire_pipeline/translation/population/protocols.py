@@ -125,7 +125,7 @@ class Protocols:
         )
 
 
-NO_CHANGE = Protocols()
+NO_PROTOCOL_CHANGE = Protocols()
 """No category changed its protocol."""
 
 

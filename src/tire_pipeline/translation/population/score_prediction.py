@@ -11,7 +11,7 @@ from tire_pipeline.translation.population.mixed_effects import Fitted
 
 
 @dataclass(frozen=True)
-class Reading:
+class CategoryReading:
     """How source and target read what is a tire's own in the b scores of a block.
 
     Attributes
@@ -46,7 +46,7 @@ def predict_block(
     there: list[np.ndarray],
     likely: np.ndarray,
     trust: float,
-    reading: Reading,
+    reading: CategoryReading,
 ) -> tuple[np.ndarray, ...]:
     """Predict the scores of a block, in their standard deviations.
 
@@ -62,7 +62,7 @@ def predict_block(
     trust : float
         0: what is the file's own is kept as it is; 1: it is drawn towards the expectation by as much as it is
         error.
-    reading : Reading
+    reading : CategoryReading
 
     Returns
     -------
@@ -89,7 +89,7 @@ def _in_class(
     here: np.ndarray,
     there: np.ndarray,
     trust: float,
-    reading: Reading,
+    reading: CategoryReading,
 ) -> tuple[np.ndarray, ...]:
     """As :func:`predict_block`, for tires of a known class."""
     count = here.shape[1]

@@ -17,8 +17,8 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.translation.population.category_spread import FREEDOM
-from tire_pipeline.translation.population.class_question import per_tire
-from tire_pipeline.translation.population.fit import Prepared, own_and_links
+from tire_pipeline.translation.population.class_input import per_tire
+from tire_pipeline.translation.population.fit import PreparedTraining, own_and_links
 from tire_pipeline.translation.population.mixed_effects import Fitted
 from tire_pipeline.translation.population.model import CurveMixedModel
 
@@ -48,7 +48,7 @@ class TaughtCells:
     files: np.ndarray
 
     @classmethod
-    def of_training(cls, made: Prepared) -> Self:
+    def of_training(cls, made: PreparedTraining) -> Self:
         """Lay out the training cells."""
         linked, column = np.nonzero(made.design.tire)
         tire = made.design.tire.shape[1] + np.arange(len(made.rows))

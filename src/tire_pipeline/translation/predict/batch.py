@@ -9,12 +9,12 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.population.fit import Prepared
+from tire_pipeline.translation.population.fit import PreparedTraining
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.population.update import TaughtCells, learn_from
 from tire_pipeline.translation.predict.mixed import MixedPredictor
 
-FOLDS = 5
+BATCH_FOLDS = 5
 """Parts into which the tires of a batch are laid; a part is translated by what the others taught."""
 
 TEACHING_PROBABILITY = 0.95
@@ -40,7 +40,7 @@ class BatchLearning:
     known: np.ndarray
 
     @classmethod
-    def of(cls, made: Prepared, training: pd.DataFrame) -> Self:
+    def of(cls, made: PreparedTraining, training: pd.DataFrame) -> Self:
         """Keep what learning on needs of the training files."""
         return cls(
             TaughtCells.of_training(made),
@@ -75,7 +75,7 @@ class BatchLearning:
         """
         teaches = near & self._sure_and_new(source)
         names = source["tire_id"].to_numpy(dtype=str)
-        fold = np.unique(names, return_inverse=True)[1] % FOLDS
+        fold = np.unique(names, return_inverse=True)[1] % BATCH_FOLDS
         found = {name: getattr(before, name).copy() for name in vars(before)}
         for k in np.unique(fold):
             asked, taught = np.flatnonzero(fold == k), np.flatnonzero((fold != k) & teaches)

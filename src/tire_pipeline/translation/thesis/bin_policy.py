@@ -15,7 +15,7 @@ import torch
 from stable_baselines3.common.policies import ActorCriticPolicy
 
 from tire_pipeline.translation.thesis.compiled_policy import (
-    HIDDEN,
+    HIDDEN_UNITS,
     net_shapes,
     nets_backward,
     nets_forward,
@@ -99,7 +99,7 @@ class BinPolicy(ActorCriticPolicy):
         logs = np.empty((m, self.n_actions), dtype=np.float32)
         shares = np.empty_like(logs)
         values = np.empty((m, 1), dtype=np.float32)
-        hidden = np.empty((4, m, HIDDEN), dtype=np.float32)
+        hidden = np.empty((4, m, HIDDEN_UNITS), dtype=np.float32)
         flat = self.weights.detach().numpy()
         nets_forward(flat, states, self.n_bins, hidden, logs, shares, values)
         return logs, shares, values, hidden

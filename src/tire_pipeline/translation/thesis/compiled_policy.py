@@ -9,14 +9,21 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-HIDDEN = 64
+HIDDEN_UNITS = 64
 """Nodes of both hidden layers: stable-baselines3's default."""
 
 
 def net_shapes(n_features: int, n_bins: int, outputs: int) -> list[tuple[int, ...]]:
     """Shapes of weights (in, out) and biases of one net, in the order of the flat buffer."""
     first = n_features * n_bins
-    return [(first, HIDDEN), (HIDDEN,), (HIDDEN, HIDDEN), (HIDDEN,), (HIDDEN, outputs), (outputs,)]
+    return [
+        (first, HIDDEN_UNITS),
+        (HIDDEN_UNITS,),
+        (HIDDEN_UNITS, HIDDEN_UNITS),
+        (HIDDEN_UNITS,),
+        (HIDDEN_UNITS, outputs),
+        (outputs,),
+    ]
 
 
 @njit(cache=True, fastmath=True, inline="always")
@@ -41,7 +48,7 @@ def _tanh(x):  # type: ignore[no-untyped-def]
 @njit(cache=True, fastmath=True, nogil=True)
 def split_net(flat, start, inputs, outputs):  # type: ignore[no-untyped-def]
     """Give the six parts of one net as views into the flat buffer, and where the next one starts."""
-    h = HIDDEN
+    h = HIDDEN_UNITS
     a = start + inputs * h
     b = a + h
     c = b + h * h
@@ -61,7 +68,7 @@ def split_net(flat, start, inputs, outputs):  # type: ignore[no-untyped-def]
 
 @njit(cache=True, fastmath=True, nogil=True)
 def _forward(states, n_bins, w1, b1, w2, b2, w3, b3, h1, h2, out):  # type: ignore[no-untyped-def]
-    h = HIDDEN
+    h = HIDDEN_UNITS
     for m in range(states.shape[0]):
         for j in range(h):
             h1[m, j] = b1[j]
@@ -89,7 +96,7 @@ def _forward(states, n_bins, w1, b1, w2, b2, w3, b3, h1, h2, out):  # type: igno
 @njit(cache=True, fastmath=True, nogil=True)
 def _backward(states, n_bins, w2, w3, h1, h2, dout, g1, gb1, g2, gb2, g3, gb3):  # type: ignore[no-untyped-def]
     """Add the gradient of the six parts, given that of the outputs."""
-    h = HIDDEN
+    h = HIDDEN_UNITS
     one = np.float32(1)
     d1 = np.empty(h, dtype=np.float32)
     d2 = np.empty(h, dtype=np.float32)

@@ -13,7 +13,7 @@ from stable_baselines3 import PPO
 
 from tire_pipeline.translation.thesis.bin_policy import BinPolicy
 from tire_pipeline.translation.thesis.compiled_policy import (
-    HIDDEN,
+    HIDDEN_UNITS,
     adam,
     nets_backward,
     nets_forward,
@@ -104,7 +104,7 @@ def _gradient(  # type: ignore[no-untyped-def]
     logs = np.empty((m, n_actions), dtype=np.float32)
     shares = np.empty_like(logs)
     values = np.empty((m, 1), dtype=np.float32)
-    hidden = np.empty((4, m, HIDDEN), dtype=np.float32)
+    hidden = np.empty((4, m, HIDDEN_UNITS), dtype=np.float32)
     nets_forward(flat, states, n_bins, hidden, logs, shares, values)
     chosen, entropy = np.empty(m, dtype=np.float32), np.empty(m, dtype=np.float32)
     pick(logs, shares, actions, chosen, entropy)

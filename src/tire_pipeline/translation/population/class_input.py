@@ -11,7 +11,7 @@ from tire_pipeline.translation.population.mixed_effects import Design
 
 
 @dataclass(frozen=True)
-class Question:
+class ClassSearchInput:
     """What the search needs to know.
 
     Attributes

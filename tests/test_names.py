@@ -1,0 +1,95 @@
+"""One name, one thing: no class, constant or module of this project is taken for another."""
+
+from __future__ import annotations
+
+import ast
+from collections import defaultdict
+from itertools import combinations
+from pathlib import Path
+
+import tire_pipeline
+
+ROOT = Path(tire_pipeline.__file__).parent
+
+KNOWN_CLASSES = {"Points", "Problem"}
+KNOWN_CONSTANTS = {
+    "ALIGNING",
+    "AXES",
+    "INPUTS",
+    "LATERAL",
+    "LONGITUDINAL",
+    "PRESSURE",
+    "RANGES",
+    "SURE",
+    "TWO_OVER_PI",
+}
+KNOWN_MODULES = {("simulate", "simulated"), ("state", "states")}
+"""What still stands twice, in the formula, its solvers and ``mismatch``. Nothing is added here; what is
+mended is taken out, or the tests fail."""
+
+METAPHORS = ("wish", "caution", "cautious", "doubt", "doubts", "doubtful")
+
+
+def _modules() -> dict[str, ast.Module]:
+    return {
+        ".".join(path.relative_to(ROOT).with_suffix("").parts): ast.parse(path.read_text(encoding="utf-8"))
+        for path in sorted(ROOT.rglob("*.py"))
+    }
+
+
+def _constants(module: ast.Module) -> list[str]:
+    assigned = [each for each in module.body if isinstance(each, ast.Assign)]
+    annotated = [each for each in module.body if isinstance(each, ast.AnnAssign) and each.value]
+    targets = [target for each in assigned for target in each.targets] + [each.target for each in annotated]
+    names = [target.id for target in targets if isinstance(target, ast.Name)]
+    return [name for name in names if name.isupper() and not name.startswith("_")]
+
+
+def _twice(names: dict[str, list[str]]) -> set[str]:
+    places = defaultdict(set)
+    for module, own in names.items():
+        for name in own:
+            places[name].add(module)
+    return {name for name, found in places.items() if len(found) > 1}
+
+
+def _a_letter_apart(first: str, second: str) -> bool:
+    short, long = sorted((first, second), key=len)
+    if len(short) == len(long):
+        return sum(a != b for a, b in zip(short, long, strict=True)) == 1
+    return len(long) - len(short) == 1 and any(long[:i] + long[i + 1 :] == short for i in range(len(long)))
+
+
+def test_no_two_classes_of_one_name():
+    classes = {
+        name: [each.name for each in module.body if isinstance(each, ast.ClassDef)]
+        for name, module in _modules().items()
+    }
+    assert _twice(classes) == KNOWN_CLASSES
+
+
+def test_no_two_constants_of_one_name():
+    assert _twice({name: _constants(module) for name, module in _modules().items()}) == KNOWN_CONSTANTS
+
+
+def test_no_two_modules_of_a_folder_a_letter_apart():
+    folders = defaultdict(set)
+    for path in ROOT.rglob("*.py"):
+        folders[path.parent].add(path.stem)
+        folders[path.parent.parent].add(path.parent.name)
+    found = {
+        pair
+        for names in folders.values()
+        for pair in combinations(sorted(names), 2)
+        if _a_letter_apart(*pair)
+    }
+    assert found == KNOWN_MODULES
+
+
+def test_no_metaphors_in_translation():
+    for name, module in _modules().items():
+        if not name.startswith("translation."):
+            continue
+        named = [each.name for each in ast.walk(module) if isinstance(each, ast.FunctionDef | ast.ClassDef)]
+        named += [each.id for each in ast.walk(module) if isinstance(each, ast.Name)]
+        assert not {each.lower() for each in named} & set(METAPHORS), name
