@@ -10,7 +10,7 @@ from typing import Any
 
 import pandas as pd
 
-from tire_pipeline.classifiers.scores import split_rows
+from tire_pipeline.classifiers.scores import SPLITS, split_rows
 from tire_pipeline.classifiers.tuning import (
     ANN_GRID,
     ann_combinations,
@@ -19,7 +19,7 @@ from tire_pipeline.classifiers.tuning import (
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.thesis import classifier_experiments as experiments
 from tire_pipeline.thesis import files
-from tire_pipeline.thesis.classifier_experiments import FURTHER_CLASSIFIERS, SPLITS, THESIS_CLASSIFIERS
+from tire_pipeline.thesis.classifier_experiments import FURTHER_CLASSIFIERS, THESIS_CLASSIFIERS
 from tire_pipeline.thesis.parameters import AnnSearchParameters, ReproduceThesisParameters
 
 Folder = Mapping[str, Callable[[], bytes]]
