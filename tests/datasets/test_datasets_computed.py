@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from kedro.io import DatasetError
 
+from tire_pipeline.code_hash import code_hash
 from tire_pipeline.datasets import ComputedFolderDataset, RecordingFolderDataset
-from tire_pipeline.datasets.computed_folder import source_hash
 from tire_pipeline.errors import DomainError
 
 
@@ -70,8 +70,8 @@ def test_no_share(tmp_path, share):
 
 
 def test_the_hash_follows_the_source():
-    assert source_hash("tir") == source_hash("tir")
-    assert source_hash("tir") != source_hash("tir", "magic_formula")
+    assert code_hash("tir") == code_hash("tir")
+    assert code_hash("tir") != code_hash("tir", "magic_formula")
 
 
 def test_a_recording_needs_one_tire(tmp_path):

@@ -12,7 +12,8 @@ import pandas as pd
 import pytest
 from viz_browser import ROOT, browser, needs_browser
 
-from tire_pipeline.reporting.translated import OUTPUTS, translated_page
+from tire_pipeline.reporting.translated import translated_page
+from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
 
 pytestmark = pytest.mark.slow
 SCREENSHOTS = ROOT / "data" / "08_reporting" / "screenshots"
@@ -41,7 +42,7 @@ def _curves(report: pd.DataFrame) -> dict[str, object]:
     generator = np.random.default_rng(1)
     found: dict[str, object] = {"files": list(report["file"]), "normal_load": LOADS, "slip": SLIPS}
     acted = (report["verdict"] == "translated").to_numpy()
-    for name in OUTPUTS:
+    for name in DRAWN_OUTPUTS:
         height = generator.uniform(0.8, 1.2, (count, 1, 1)) * LOADS[:, None]
         source = height * np.tanh(SLIPS * generator.uniform(10, 30, (count, 1, 1)))
         middle = 0.9 * source + 50.0
@@ -199,7 +200,7 @@ def test_a_click_draws_source_translation_band_stiffness_and_coefficients(driver
     detail = click_file(driver, "new/mine.tir")
     names = [f.get_attribute("data-panel") for f in detail.find_elements("css selector", "figure")]
     assert names == ["fy", "fx", "mz", "stiffness"]
-    for name in OUTPUTS:
+    for name in DRAWN_OUTPUTS:
         for load in range(LOADS.size):
             source, middle, low, high = (
                 curves[f"{name}_{part}"][i][load] for part in ("source", "middle", "low", "high")

@@ -81,7 +81,9 @@ def read_recording(
 
     Examples
     --------
-    >>> recording = read_recording("sweep.csv", units={"SA": "deg"})  # doctest: +SKIP
+    >>> recording = read_recording("rig_run.csv")
+    >>> list(recording.columns)
+    ['time', 'slip_angle', 'normal_load', 'speed', 'pressure', 'fy']
     """
     file = Path(path)
     if not file.is_file():

@@ -127,13 +127,57 @@ def make_translator(name: str, **options: Any) -> Translator:
         One of ``TRANSLATORS``.
     **options
         Passed to its constructor.
+
+    Returns
+    -------
+    Translator
+
+    Raises
+    ------
+    DomainError
+        If there is no translator of that name; a former name's error says what to write instead.
+
+    See Also
+    --------
+    translator_from_state : Brings a fitted one back.
+
+    Examples
+    --------
+    >>> translator = make_translator("mixed_model", pairs=False)
+    >>> translator.name, translator.learn_from_batch
+    ('mixed_model', False)
     """
     translator: Translator = _class_of(name)(**options)
     return translator
 
 
 def translator_from_state(state: Mapping[str, Any]) -> Translator:
-    """Bring back any translator from its ``to_state()``, also that of a former name."""
+    """Bring back any translator from its ``to_state()``, also that of a former name.
+
+    Parameters
+    ----------
+    state : mapping
+        From ``to_state()``, or read from its file by :func:`.state_files.unpack_state`.
+
+    Returns
+    -------
+    Translator
+        Translates as the one that gave the state.
+
+    Raises
+    ------
+    DomainError
+        If no translator is of the name that the state holds.
+
+    See Also
+    --------
+    make_translator : Makes one that has learnt nothing yet.
+
+    Examples
+    --------
+    >>> translator_from_state({"translator": "no_change", "target": "D"}).target
+    'D'
+    """
     name = str(state["translator"])
     if name in RENAMED:
         learns = RENAMED[name]["learn_from_batch"]
