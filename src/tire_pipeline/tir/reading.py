@@ -91,7 +91,7 @@ def read_tir(
     Examples
     --------
     >>> tire = read_tir("tire.tir")
-    >>> tire.version, tire.defaulted
+    >>> tire.version, dict(tire.defaulted)
     ('5.2', {})
     """
     file = parse_tir(source, path=path)
