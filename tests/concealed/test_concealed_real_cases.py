@@ -126,7 +126,7 @@ def test_a_mechanism_of_strength_near_nothing_changes_nothing(run, name):
     mechanism = MECHANISMS[name]
     if not mechanism.scaled:
         return
-    tiny = 1e-7 * (session.largest if mechanism.of_force else 1.0)
+    tiny = 1e-7 * (session.largest if mechanism.share_of == "force" else 1.0)
     out = put_in(frame, {name: tiny}, session, {name: PLAIN})
     for channel in ("slip_angle", "fy", "camber"):
         scale = float(frame[channel].abs().max())

@@ -82,7 +82,7 @@ def test_a_brake_force_turns_a_compliant_wheel(tire, record):
     at = {n: recording[n].to_numpy() for n in ("slip_angle", "normal_load")}
     forces = braked.forces(slip_ratio=slip, **at)
     data = prepare(braked, recording.assign(slip_ratio=slip, fx=forces.fx, fy=forces.fy)).data
-    pull = simulate(data, [("compliance", {"steer": 0.0, "steer_by_fx": 1e-6})])["fy"] - data.base["fy"]
+    pull = simulate(data, [("compliance", {"steer": 0.0, "steer_by_fx": 1e-6 * data.load_nominal})])["fy"] - data.base["fy"]
     slope = braked.forces(
         slip_angle=data.get("slip_angle") - 1e-6 * data.all_base["fx"],
         slip_ratio=data.get("slip_ratio"),
@@ -112,10 +112,11 @@ def test_a_soft_rig_is_no_softer_tire(tire, record):
     """Compliance costs more stiffness at large load; the flexible form must not make up for that."""
     recording = record(7)
     data = prepare(tire, recording).data
-    soft = simulate(data, [("compliance", {"steer": 2.5e-6, "steer_by_fx": 0.0})])["fy"] - data.base["fy"]
+    steer = 2.5e-6 * data.load_nominal
+    soft = simulate(data, [("compliance", {"steer": steer, "steer_by_fx": 0.0})])["fy"] - data.base["fy"]
     report = explain_mismatch(tire, recording.assign(fy=recording["fy"] + soft))
     assert [e.name for e in report.effects] == ["compliance"]
-    assert report.effects[0].parameters["steer"][0] == pytest.approx(2.5e-6, rel=0.15)
+    assert report.effects[0].parameters["steer"][0] == pytest.approx(steer, rel=0.15)
 
 
 def _conicity(data, **parameters):

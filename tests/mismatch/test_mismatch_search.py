@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.checks import prepare
 from tire_pipeline.mismatch.doubts import _instead
 from tire_pipeline.mismatch.effects import catalogue
@@ -9,6 +10,7 @@ from tire_pipeline.mismatch.effects.shared import harmonic_power
 from tire_pipeline.mismatch.exchange import exchanged
 from tire_pipeline.mismatch.gates import _least
 from tire_pipeline.mismatch.nuisance import make_nuisance
+from tire_pipeline.mismatch.proof import not_borne_out
 from tire_pipeline.mismatch.refit import finish, moved, objective, refit, residual
 from tire_pipeline.mismatch.repeating import strongest_length
 from tire_pipeline.mismatch.search import _drop, begin, run, with_shapes
@@ -226,6 +228,22 @@ def _out_of_round(tire, record):
     return recording.assign(fy=recording["fy"] + 200.0 * np.cos(data.distance / (0.97 * data.radius)))
 
 
+def test_a_wheel_turns_on_in_the_pauses_of_a_recording(tire, record):
+    """Phase holds over pauses: without that, pieces that begin at another angle of the wheel cancel out."""
+    recording = record(6)
+    data = prepare(tire, recording).data
+    wave = 150.0 * np.cos(data.distance / (0.97 * data.radius))
+    time = recording["time"].to_numpy()
+    shown = np.zeros(time.size, bool)
+    for first, last in ((0.0, 31.3), (40.0, 71.7), (84.1, 115.0), (121.9, 150.0)):
+        shown |= (time >= first) & (time < last)
+    search = begin(prepare(tire, recording.assign(fy=recording["fy"] + wave)[shown]).data)
+    (radius,) = search.data.rolling_radii()
+    assert radius == pytest.approx(0.97 * data.radius, rel=1e-3)
+    run(search)
+    assert search.fit.names == ["nonuniformity"]
+
+
 def test_what_shakes_is_no_longer_noise_once_it_is_modelled(tire, record):
     """The recording's noise is 25 N; a wheel that is not round looks like more until it is in."""
     search = begin(prepare(tire, _out_of_round(tire, record)).data)
@@ -243,6 +261,29 @@ def test_noise_is_as_it_was_once_an_effect_is_dropped(tire, record):
     _drop(search, 0)
     assert search.fit.names == []
     assert search.noise["fy"].floor == pytest.approx(before, rel=1e-3)
+
+
+@pytest.mark.parametrize(("everywhere", "idle"), [(True, None), (False, 0)])
+def test_a_name_has_to_hold_in_parts_that_its_fit_has_not_seen(tire, record, everywhere, idle):
+    """Friction that is lower in all of the recording, and friction that is lower at first and higher later."""
+    time = record(5)["time"].to_numpy()
+    late = time > 0.5 * time[-1]
+    recording = record(5, friction=0.95 if everywhere else np.where(late, 1.06, 0.95))
+    search = begin(prepare(tire, recording).data)
+    fit = refit(search.system, [Variant("friction_scale", {"friction": 0.0}, ("friction",))])
+    assert not_borne_out(search, fit) == idle
+
+
+def test_a_small_wheel_turns_under_its_force_as_a_large_one_does(tire, record):
+    """Compliance of a car at 1:10, whose wheels carry 4 N: the angle by the force is a thousand times as large."""
+    small = tire.replace(FNOMIN=4.0, UNLOADED_RADIUS=0.023)
+    recording = record(7)
+    recording = recording.assign(**{n: recording[n] / 1000.0 for n in ("normal_load", "fy")})
+    data = prepare(small, recording).data
+    soft = simulate(data, [("compliance", {"steer": 0.01, "steer_by_fx": 0.0})])["fy"] - data.base["fy"]
+    report = explain_mismatch(small, recording.assign(fy=recording["fy"] + soft))
+    assert [e.name for e in report.effects] == ["compliance"]
+    assert report.effects[0].parameters["steer"][0] == pytest.approx(0.01, rel=0.2)
 
 
 def test_a_quarter_turn_is_the_derivative_by_the_wheels_angle():

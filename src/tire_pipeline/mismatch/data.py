@@ -78,6 +78,7 @@ class Data(States):
             fixed["elapsed"] = self.elapsed[rows]
             if self.power is not None:
                 fixed["distance"] = self.distance[rows]
+                fixed["wheel_way"] = self.wheel_way[rows]
                 fixed["power"] = self.power[rows]
                 fixed["work"] = self.work[rows]
                 fixed["heat"] = lambda lag: self.heat(lag)[rows]

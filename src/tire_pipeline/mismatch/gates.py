@@ -248,7 +248,21 @@ def unsure(search: Search, index: int, other: str) -> float:
     elif this.shifts and that.shifts:
         blind = "camber_offset" in (this.name, that.name) and not search.data.varies("camber")
         share = settings.CAMBER_SHARE if blind else settings.SHIFT_SHARE
-    return share**2 * search.gates[index].gain
+    return (share * _misfit_over_usual(search)) ** 2 * search.gates[index].gain
+
+
+def _misfit_over_usual(search: Search) -> float:
+    """How much more than a usual formula the model leaves beside the named effects, 1 at least.
+
+    A formula whose force is off by so much is off in its slope as well, and with it what a lag or an offset
+    of the angle does.
+    """
+    rest = residual(search.data, search.fit.changes)
+    left = [
+        np.sqrt(max(float(np.mean(r**2)) - search.noise[o].floor ** 2, 0.0)) / search.largest[o]
+        for o, r in rest.items()
+    ]
+    return max(1.0, max(left) / settings.USUAL_MISFIT)
 
 
 def left_by(search: Search, fit: Fit) -> float:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.report import OutputFit
+from tire_pipeline.mismatch.screening import without
 from tire_pipeline.mismatch.simulate import simulate_moments
 from tire_pipeline.mismatch.state import Search
 
 Array = np.ndarray
 _LOCKED = {"moment", "radius"}
+_PARTS = 8
 
 
 def prove(search: Search, *, resamples: int = 400, seed: int = 0) -> dict[str, OutputFit]:
@@ -141,33 +144,59 @@ def _without(fit: Fit, dropped: Array) -> Array:
     return delta
 
 
-def _left_out(search: Search, fit: Fit) -> dict[str, Array]:
-    """Return residuals with each sweep predicted by parameters fitted without it (no nuisance here)."""
+def _left_out(search: Search, fit: Fit, group: Array | None = None) -> dict[str, Array]:
+    """Return residuals with each group of sweeps predicted by parameters fitted without it (no nuisance here).
+
+    Each sweep is a group of its own if ``group``, shape (sweeps,), is left out.
+    """
     out = residual(search.data, fit.changes)
     if not fit.labels or fit.sums is None:
         return out
+    group = np.arange(search.system.count) if group is None else group
     base = _without(fit, np.zeros(search.system.count, bool))
-    for k in range(search.system.count):
-        left = np.zeros(search.system.count, bool)
-        left[k] = True
-        delta = _without(fit, left) - base
-        rows = search.block == k
+    for k in np.unique(group):
+        delta = _without(fit, group == k) - base
+        rows = (group == k)[search.block]
         for o in out:
             out[o][rows] -= fit.columns[o][rows] @ delta
     return out
 
 
-def makes_worse(search: Search, fit: Fit) -> bool:
-    """Whether the effects leave as much as the model that came in, on sweeps that the fit has not seen.
+def not_borne_out(search: Search, fit: Fit, least: float = settings.HELD_SHARE) -> int | None:
+    """Return the effect that removes least of the mismatch in parts of the recording that its fit has not seen.
 
+    None if each removes the share ``least`` of what is there without it, noise apart. Parts are eighths, one after
+    the other in time: what a tire or a rig does, it does in all of them, and what only resembles it does not.
     In newtons, as the model will be used: without the misfit and the coefficients beside which the evidence
-    was weighed. One sweep at a time: without the highest load as a whole, what changes a pressure's effect
-    with load is open, and a true pressure leaves four times as much there (calspan).
+    was weighed. No condition is left out as a whole: without the highest load, what changes a pressure's
+    effect with load is open, and a true pressure leaves four times as much there (calspan).
+
+    Parameters
+    ----------
+    search : Search
+    fit : Fit
+    least : float
+        Zero asks only that it makes nothing worse, while others are still to be found: beside a stronger one
+        that is not in, an effect removes little.
     """
-    if not fit.names:
-        return False
-    shares = shares_left(_left_out(search, fit), residual(search.data, []))
-    return float(np.mean(list(shares.values()))) >= 1.0
+    shares = [_removed_unseen(search, fit, i) for i in range(len(fit.names))]
+    if not shares or min(shares) >= least:
+        return None
+    return int(np.argmin(shares))
+
+
+def _removed_unseen(search: Search, fit: Fit, index: int) -> float:
+    """Share of the mismatch that an effect removes in parts that the fit has not seen, mean over the outputs."""
+    when = np.bincount(search.block, np.arange(search.data.size)) / np.bincount(search.block)
+    part = np.argsort(np.argsort(when)) * _PARTS // search.system.count
+    with_it = _left_out(search, fit, part)
+    without_it = _left_out(search, without(search, fit, index), part)
+    shares = []
+    for o, there in without_it.items():
+        before, after = float(np.mean(there**2)), float(np.mean(with_it[o] ** 2))
+        above = before - min(search.noise[o].floor ** 2, 0.9 * before)
+        shares.append((before - after) / max(above, 1e-300))
+    return float(np.mean(shares))
 
 
 def shares_left(after: dict[str, Array], before: dict[str, Array]) -> dict[str, float]:

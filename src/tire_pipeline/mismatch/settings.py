@@ -105,6 +105,10 @@ LEAST_SHARE = 0.02
 """Least share of the mismatch that an effect must remove (issue, item 5): refitted without it, or the others
 as they stand."""
 
+HELD_SHARE = 0.1
+"""The same of an eighth of the recording that its fit has not seen: what a formula leaves differs by 5% (RMS)
+from one part of a real recording to the next."""
+
 SURE = 150.0
 """Nats from which that share is of the mismatch beside the other effects, not of all of it: an effect of 0.9
 of the noise beside one six times as strong removes less than a fiftieth of all. True ones that do so have 743
@@ -134,6 +138,10 @@ offset of the angle or the force, of which only what they are recorded beside is
 ambiguous cases and 200 further ones (100 relaxations, 60 offsets of the angle, 40 filters) no true one was
 put second by more than this and 8 nats. 12% for conicity and an offset of camber; 30% where one of the two is
 an offset of camber and camber does not vary, so that nothing shows how right the model's answer to it is."""
+
+USUAL_MISFIT = 0.01
+"""What a formula fitted to a clean tire leaves at most, RMS over largest force (the tuning tires: 0.4 to 0.9%;
+calspan 2%, DART 3%). The three shares above are for such formulas."""
 
 MOST_EFFECTS = 3
 """How many effects are put in at most."""

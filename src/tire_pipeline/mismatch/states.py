@@ -11,6 +11,7 @@ from tire_pipeline.mismatch.effects.shared import first_order, harmonic_power
 from tire_pipeline.mismatch.simulated import Simulated
 
 Array = np.ndarray
+_MOST_WAVES = 4000
 
 
 class States(Simulated):
@@ -97,23 +98,46 @@ class States(Simulated):
         turns = np.abs(self.get("speed")) * self.step / (2.0 * np.pi * self.radius)
         return bool(np.mean((turns < 0.34) & (turns > 1e-4)) > 0.4)
 
+    @cached_property
+    def wheel_way(self) -> Array:
+        """Distance that the wheel rolled, m: in a pause of the recording it rolls on at the speed around it."""
+        if "wheel_way" in self.fixed:
+            return self.fixed["wheel_way"]
+        assert self.time is not None  # asked only of effects that need a time line
+        speed = np.abs(self.get("speed"))
+        way = np.zeros(self.size)
+        way[1:] = np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(self.time))
+        return way
+
     def rolling_radii(self) -> list[float]:
-        """Return the rolling radius (m) at which the residual has most power once a turn."""
+        """Return the rolling radius (m) at which the residual has most power once a turn.
+
+        First by the power of each piece of the recording by itself, then by all of it in one phase, near the
+        radius so found: the wheel rolls on in the pauses, and a long recording tells radii apart that no
+        single piece does.
+        """
         if "radius" in self.fixed:
             return [self.fixed["radius"]]
         residual = self.recorded[self.outputs[-1]] - self.base[self.outputs[-1]]
         residual = residual - self.running_mean(residual, 0.4)
         turns = np.abs(self.get("speed")) * self.step / (2.0 * np.pi * self.radius)
         residual = np.where(turns < 0.4, residual, 0.0)
-        rolled = self.distance
-        span = max(float(rolled[-1] - rolled[0]), 1e-9)
-        per_metre = np.arange(1.0 / (1.04 * self.radius), 1.0 / (0.9 * self.radius), 0.8 / span)
-        if per_metre.size > 4000:
-            per_metre = np.linspace(per_metre[0], per_metre[-1], 4000)
-        power = harmonic_power(residual, rolled, per_metre[0], per_metre[1] - per_metre[0], per_metre.size)
-        best, step = per_metre[int(np.argmax(power))], (per_metre[1] - per_metre[0]) / 20.0
-        power = harmonic_power(residual, rolled, best - 20.0 * step, step, 41)
-        self.fixed["radius"] = float(1.0 / (best + (int(np.argmax(power)) - 20) * step))
+        way, firsts = self.wheel_way, np.flatnonzero(self.start)
+        ends = np.append(firsts[1:], self.size)
+        span = max(float(way[-1] - way[0]), 1e-9)
+        longest = max(float(np.max(way[ends - 1] - way[firsts])), 1e-9)
+        low, high = 1.0 / (1.04 * self.radius), 1.0 / (0.9 * self.radius)
+        count = int(np.clip((high - low) * longest / 0.8, 2, _MOST_WAVES))
+        step = (high - low) / (count - 1)
+        power = np.zeros(count)
+        for first, end in zip(firsts, ends, strict=True):
+            power += harmonic_power(residual[first:end], way[first:end], low, step, count) ** 2
+        best = low + int(np.argmax(power)) * step
+        half = int(np.clip(np.ceil(step * span / 0.8), 1, _MOST_WAVES // 2))
+        for width, points in ((step, half), (step / half, 20)):
+            power = harmonic_power(residual, way, best - width, width / points, 2 * points + 1)
+            best += (int(np.argmax(power)) - points) * width / points
+        self.fixed["radius"] = float(1.0 / best)
         return [self.fixed["radius"]]
 
     def relax(self, state: State, names: set[str]) -> None:

@@ -24,7 +24,7 @@ from tire_pipeline.concealed.real.put_in import (
     friction_work,
     put_in,
 )
-from tire_pipeline.concealed.real.sources import Pool, Sweep, pool
+from tire_pipeline.concealed.real.sources import RADIUS, Pool, Sweep, pool
 from tire_pipeline.errors import DomainError, RecordingError
 from tire_pipeline.magic_formula import TireModel
 
@@ -41,7 +41,6 @@ EFFECT = (0.5, 6.0)
 
 MOST_CASE_ROWS = 7000
 RATES: Mapping[str, tuple[float, ...]] = {"calspan": (10.0, 20.0, 50.0, 100.0), "dart": (5.0, 10.0, 20.0)}
-RADIUS = {"calspan": 0.2, "dart": 0.023, "tydex": 0.3}
 NEEDS: Mapping[str, tuple[str, ...]] = {
     "camber_offset": ("camber",),
     "temperature": ("tread_temperature",),
@@ -246,7 +245,7 @@ def _scale(rng: np.random.Generator, bench: _RealBench, name: str, details: Mapp
         return 1.0
     wanted = strength.draw_ratio(rng, *EFFECT)
     sign = details[name].sign if mechanism.signed else 1.0
-    unit = bench.session.largest if mechanism.of_force else 1.0
+    unit = {"force": bench.session.largest, "radius": bench.session.radius}.get(mechanism.share_of, 1.0)
 
     def measure(x: float) -> float:
         return _rms(bench.effect({name: sign * x}, details)) / bench.misfit

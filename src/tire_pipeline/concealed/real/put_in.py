@@ -79,8 +79,8 @@ class Mechanism:
         (frame of one run, pieces, strength with its sign, Session, Details) -> frame.
     guess, low, high : float
         Strength from which the wanted one is searched, and its limits.
-    of_force : bool
-        Whether these are shares of the largest force.
+    share_of : str
+        ``"force"`` if these are shares of the largest force, ``"radius"`` if they are of the wheel's radius.
     signed : bool
         Whether both directions occur.
     scaled : bool
@@ -94,7 +94,7 @@ class Mechanism:
     guess: float
     low: float
     high: float
-    of_force: bool = False
+    share_of: str = ""
     signed: bool = False
     scaled: bool = True
     whole: bool = False
@@ -304,26 +304,26 @@ MECHANISMS: dict[str, Mechanism] = {
     "friction_scale": Mechanism("physics", _friction, 0.05, 0.002, 0.6, signed=True),
     "stiffness_scale": Mechanism("physics", _stiffness, 0.1, 0.004, 0.9, signed=True),
     "load_sensitivity": Mechanism("physics", _load, 0.1, 0.002, 0.8, signed=True),
-    "temperature": Mechanism("physics", _temperature, 0.1, 0.002, 0.6, signed=True),
+    "temperature": Mechanism("physics", _temperature, 0.05, 0.002, 0.1, signed=True),
     "speed_dependence": Mechanism("physics", _speed, 0.1, 0.002, 0.6, signed=True),
     "wear": Mechanism("physics", _wear, 0.1, 0.002, 0.7, signed=True),
     "surface_change": Mechanism("physics", _surface, 0.1, 0.002, 0.6, signed=True),
     "compliance": Mechanism("physics", _compliance, 0.01, 2e-4, 0.06),
-    "relaxation_length": Mechanism("physics", _relaxation, 0.5, 0.01, 4.0),
+    "relaxation_length": Mechanism("physics", _relaxation, 1.0, 0.1, 4.0, share_of="radius"),
     "nonuniformity": Mechanism("physics", _once_a_turn, 0.005, 2e-4, 0.05, whole=True),
-    "force_offset": Mechanism("artefact", _offset("fy"), 0.03, 1e-3, 0.6, of_force=True, signed=True),
+    "force_offset": Mechanism("artefact", _offset("fy"), 0.03, 1e-3, 0.6, share_of="force", signed=True),
     "force_gain": Mechanism("artefact", _gain, 0.05, 0.001, 0.7, signed=True),
     "slip_angle_offset": Mechanism("artefact", _offset("slip_angle"), 0.003, 5e-5, 0.06, signed=True),
     "camber_offset": Mechanism("artefact", _offset("camber"), 0.02, 1e-3, 0.1, signed=True),
     "crosstalk": Mechanism("artefact", _crosstalk, 0.03, 1e-3, 0.5, signed=True),
-    "sensor_drift": Mechanism("artefact", _drift, 0.06, 2e-3, 0.9, of_force=True, signed=True),
+    "sensor_drift": Mechanism("artefact", _drift, 0.06, 2e-3, 0.9, share_of="force", signed=True),
     "time_delay": Mechanism("artefact", _delay, 0.05, 0.003, 0.8),
     "low_pass": Mechanism("artefact", _low_pass, 0.05, 0.003, 0.8),
     "clipping": Mechanism("artefact", _clipping, 0.15, 0.005, 0.7, whole=True),
     "stuck_channel": Mechanism("artefact", _stuck, 1.0, 1.0, 1.0, scaled=False, whole=True),
     "sign_convention": Mechanism("artefact", _mirrored, 1.0, 1.0, 1.0, scaled=False),
     "unit_error": Mechanism("artefact", _unit, 1.0, 1.0, 1.0, scaled=False),
-    "quantisation": Mechanism("unknown", _resolution, 0.1, 2e-3, 0.8, of_force=True, whole=True),
+    "quantisation": Mechanism("unknown", _resolution, 0.1, 2e-3, 0.8, share_of="force", whole=True),
 }
 """Effect -> how it is put in. Camber and pressure are hidden instead (``layout.py``); combined slip and
 turning are not in the recordings; conicity by itself is what ``crosstalk`` of the load puts in."""

@@ -8,22 +8,23 @@ from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, S
 class Compliance(Effect):
     """The side force turns the wheel, and so does a drive or brake force beside it.
 
-    Covers lateral and longitudinal force steer. Not covered: steer by the aligning moment, which is in
+    Covers lateral and longitudinal force steer, by the angle at a force as large as the nominal load: wheels
+    of all sizes turn by some tenths of a degree. Not covered: steer by the aligning moment, which is in
     proportion to the side force until the tire slides, and camber by the side force, whose thrust is about
     a tenth of what the same angle of steer makes.
     """
 
     name = "compliance"
     title = "compliance of suspension or rig"
-    equation = "slip angle at the wheel = recorded slip angle - steer Fy - steer_by_fx Fx"
+    equation = "slip angle at the wheel = recorded slip angle - steer Fy / Fz0 - steer_by_fx Fx / Fz0"
     source = "Milliken and Milliken, Race Car Vehicle Dynamics, ch. 23 (lateral, longitudinal force steer)"
     own_inputs = True
     scales = True
     steepens = True
     needed = ("steer",)
     parameters = (
-        Parameter("steer", "rad/N", -5e-5, 5e-5, 1e-8),
-        Parameter("steer_by_fx", "rad/N", -2e-5, 2e-5, 1e-8),
+        Parameter("steer", "rad", -0.2, 0.2, 4e-5),
+        Parameter("steer_by_fx", "rad", -0.08, 0.08, 4e-5),
     )
     looks_like = {
         "stiffness_scale": "a stiffness factor is the same at every load",
@@ -39,5 +40,6 @@ class Compliance(Effect):
 
     def inputs(self, state: State, data: object, p: Parameters) -> None:
         """Turn the wheel by the forces that then act."""
+        load = data.load_nominal  # type: ignore[attr-defined]
         turned = data.turned_by_force  # type: ignore[attr-defined]
-        state.slip_angle = turned(state.slip_angle, p["steer"], p["steer_by_fx"])
+        state.slip_angle = turned(state.slip_angle, p["steer"] / load, p["steer_by_fx"] / load)

@@ -88,5 +88,5 @@ class Nonuniformity(Effect):
 
     @staticmethod
     def _turn(data: object, p: Parameters) -> tuple[np.ndarray, np.ndarray]:
-        phase = data.distance / p["radius"]  # type: ignore[attr-defined]
+        phase = data.wheel_way / p["radius"]  # type: ignore[attr-defined]
         return np.cos(phase), np.sin(phase)
