@@ -82,7 +82,10 @@ def test_a_brake_force_turns_a_compliant_wheel(tire, record):
     at = {n: recording[n].to_numpy() for n in ("slip_angle", "normal_load")}
     forces = braked.forces(slip_ratio=slip, **at)
     data = prepare(braked, recording.assign(slip_ratio=slip, fx=forces.fx, fy=forces.fy)).data
-    pull = simulate(data, [("compliance", {"steer": 0.0, "steer_by_fx": 1e-6 * data.load_nominal})])["fy"] - data.base["fy"]
+    pull = (
+        simulate(data, [("compliance", {"steer": 0.0, "steer_by_fx": 1e-6 * data.load_nominal})])["fy"]
+        - data.base["fy"]
+    )
     slope = braked.forces(
         slip_angle=data.get("slip_angle") - 1e-6 * data.all_base["fx"],
         slip_ratio=data.get("slip_ratio"),

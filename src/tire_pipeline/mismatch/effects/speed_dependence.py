@@ -12,7 +12,9 @@ class SpeedDependence(Effect):
     """The model is right at one speed and wrong at others.
 
     Covers friction and stiffness that change with the wheel's speed, and friction that falls with the speed
-    at which the tread slides (LMUV), so that it shows at large slip only. Not covered: one peak of friction
+    at which the tread slides (LMUV), so that it shows at large slip only. The modulus of filled rubber grows
+    with frequency by a power of 0.05 to 0.1, and a tire's stiffness with speed by no more: what changes it by
+    more is no speed of the tire. Not covered: one peak of friction
     over sliding speed at a single wheel speed, which is the shape of the curve, and centrifugal growth.
     """
 
@@ -22,11 +24,14 @@ class SpeedDependence(Effect):
         "d = ln(v / v0), or (v - v0) / v0 where `linear` is 1; friction *= 1 + friction "
         "d - sliding s (v - v0) / v0; stiffness *= 1 + stiffness d; s^2 = tan^2(slip angle) + slip_ratio^2"
     )
-    source = "MF 6.1: LMUV (mu / (1 + LMUV Vs / V0)); Savkoor 1966 on friction and sliding speed"
+    source = (
+        "MF 6.1: LMUV (mu / (1 + LMUV Vs / V0)); Savkoor 1966 on friction and sliding speed; "
+        "Ferry 1980, Viscoelastic Properties of Polymers, on modulus and frequency"
+    )
     channels = ("speed",)
     parameters = (
-        Parameter("friction", "1", -0.5, 0.5, 0.01),
-        Parameter("stiffness", "1", -0.5, 0.5, 0.01),
+        Parameter("friction", "1", -0.4, 0.4, 0.01),
+        Parameter("stiffness", "1", -0.12, 0.12, 0.01),
         Parameter("sliding", "1", -2.0, 5.0, 0.05, further=True),
         Parameter("linear", "0 or 1", 0.0, 1.0, 0.1),
     )
