@@ -145,7 +145,7 @@ def _without(fit: Fit, dropped: Array) -> Array:
 
 
 def _left_out(search: Search, fit: Fit, group: Array | None = None) -> dict[str, Array]:
-    """Return residuals with each group of sweeps predicted by parameters fitted without it (no nuisance here).
+    """Return residuals with each group of sweeps predicted by parameters fitted without it; no nuisance here.
 
     Each sweep is a group of its own if ``group``, shape (sweeps,), is left out.
     """
@@ -163,10 +163,11 @@ def _left_out(search: Search, fit: Fit, group: Array | None = None) -> dict[str,
 
 
 def not_borne_out(search: Search, fit: Fit, least: float = settings.HELD_SHARE) -> int | None:
-    """Return the effect that removes least of the mismatch in parts of the recording that its fit has not seen.
+    """Return the effect that removes least of the mismatch in parts that its fit has not seen.
 
-    None if each removes the share ``least`` of what is there without it, noise apart. Parts are eighths, one after
-    the other in time: what a tire or a rig does, it does in all of them, and what only resembles it does not.
+    None if each removes the share ``least`` of what is there without it, noise apart. Parts are eighths of
+    the recording, one after the other: what a tire or a rig does, it does in all of them, and what only
+    resembles it does not.
     In newtons, as the model will be used: without the misfit and the coefficients beside which the evidence
     was weighed. No condition is left out as a whole: without the highest load, what changes a pressure's
     effect with load is open, and a true pressure leaves four times as much there (calspan).
@@ -186,7 +187,7 @@ def not_borne_out(search: Search, fit: Fit, least: float = settings.HELD_SHARE) 
 
 
 def _removed_unseen(search: Search, fit: Fit, index: int) -> float:
-    """Share of the mismatch that an effect removes in parts that the fit has not seen, mean over the outputs."""
+    """Share of the mismatch that an effect removes in parts that the fit has not seen, mean of outputs."""
     when = np.bincount(search.block, np.arange(search.data.size)) / np.bincount(search.block)
     part = np.argsort(np.argsort(when)) * _PARTS // search.system.count
     with_it = _left_out(search, fit, part)

@@ -140,8 +140,8 @@ put second by more than this and 8 nats. 12% for conicity and an offset of cambe
 an offset of camber and camber does not vary, so that nothing shows how right the model's answer to it is."""
 
 USUAL_MISFIT = 0.01
-"""What a formula fitted to a clean tire leaves at most, RMS over largest force (the tuning tires: 0.4 to 0.9%;
-calspan 2%, DART 3%). The three shares above are for such formulas."""
+"""What a formula fitted to a clean tire leaves at most, RMS over largest force: the tuning tires 0.4 to 0.9%,
+calspan 2%, DART 3%. The three shares above are for such formulas."""
 
 MOST_EFFECTS = 3
 """How many effects are put in at most."""

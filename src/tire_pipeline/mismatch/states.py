@@ -100,7 +100,7 @@ class States(Simulated):
 
     @cached_property
     def wheel_way(self) -> Array:
-        """Distance that the wheel rolled, m: in a pause of the recording it rolls on at the speed around it."""
+        """Distance that the wheel rolled, m: in a pause it rolls on at the speed around it."""
         if "wheel_way" in self.fixed:
             return self.fixed["wheel_way"]
         assert self.time is not None  # asked only of effects that need a time line
