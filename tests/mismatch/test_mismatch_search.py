@@ -265,7 +265,7 @@ def test_noise_is_as_it_was_once_an_effect_is_dropped(tire, record):
 
 @pytest.mark.parametrize(("everywhere", "idle"), [(True, None), (False, 0)])
 def test_a_name_has_to_hold_in_parts_that_its_fit_has_not_seen(tire, record, everywhere, idle):
-    """Friction that is lower in all of the recording, and friction that is lower at first and higher later."""
+    """Friction lower in all of the recording, and friction lower at first and higher later."""
     time = record(5)["time"].to_numpy()
     late = time > 0.5 * time[-1]
     recording = record(5, friction=0.95 if everywhere else np.where(late, 1.06, 0.95))
@@ -275,7 +275,7 @@ def test_a_name_has_to_hold_in_parts_that_its_fit_has_not_seen(tire, record, eve
 
 
 def test_a_small_wheel_turns_under_its_force_as_a_large_one_does(tire, record):
-    """Compliance of a car at 1:10, whose wheels carry 4 N: the angle by the force is a thousand times as large."""
+    """Compliance of a car at 1:10, whose wheels carry 4 N."""
     small = tire.replace(FNOMIN=4.0, UNLOADED_RADIUS=0.023)
     recording = record(7)
     recording = recording.assign(**{n: recording[n] / 1000.0 for n in ("normal_load", "fy")})
