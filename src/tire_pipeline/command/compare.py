@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tire_pipeline.command.options import FILE, output_options
+from tire_pipeline.command.options import FILE, names_of, output_options
 from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ def command(first: Path, second: Path, loads: tuple[float, ...], camber: float, 
     """Compare two files."""
     from tire_pipeline.tir import read_tir
 
-    names = (first.name, second.name) if first.name != second.name else (str(first), str(second))
+    names = names_of([first, second])
     outcome = compared(dict(zip(names, (read_tir(first), read_tir(second)), strict=True)), loads, camber)
     finish(outcome, f"{first.stem}_against_{second.stem}", **output)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from tire_pipeline.errors import TirError
+from tire_pipeline.errors import DomainError, TirError
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -78,11 +78,9 @@ def read_runs(
     """Read recordings, by file name, or by path where two have one name."""
     from tire_pipeline.recordings import read_recording
 
-    short = {path.name for path in paths}
-    unique = len(short) == len(paths)
     runs = {}
-    for path in paths:
-        runs[path.name if unique else str(path)] = read_recording(
+    for name, path in zip(names_of(paths), paths, strict=True):
+        runs[name] = read_recording(
             path,
             format=format_,
             axes=axes,
@@ -90,6 +88,21 @@ def read_runs(
             names=_pairs(names, "--name"),
         )
     return runs
+
+
+def names_of(paths: Sequence[Path]) -> list[str]:
+    """Names of files, or their paths where two have one name.
+
+    Raises
+    ------
+    DomainError
+        A file is given twice.
+    """
+    twice = [path for number, path in enumerate(paths) if path in paths[:number]]
+    if twice:
+        raise DomainError("this file is given twice", where=str(twice[0]), todo="give each file once")
+    names = [path.name for path in paths]
+    return names if len(set(names)) == len(names) else [str(path) for path in paths]
 
 
 def _pairs(texts: Sequence[str], option: str) -> dict[str, str]:
