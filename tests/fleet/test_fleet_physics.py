@@ -69,8 +69,8 @@ def test_surface_temperature_drum_and_run_in_act_where_they_should() -> None:
 
 
 def _quiet(count: int) -> Session:
-    one, nought = np.ones((count, 1)), np.zeros((count, 1))
-    return Session(one, one, one, nought, nought, nought)
+    one, zero = np.ones((count, 1)), np.zeros((count, 1))
+    return Session(one, one, one, zero, zero, zero)
 
 
 def _curve(regime) -> np.ndarray:

@@ -194,7 +194,7 @@ def test_recordings_that_cannot_be_fitted_say_why():
 
 
 def test_one_load_leaves_a_tire_and_not_nothing():
-    """With PKY2 at 0 the cornering stiffness would be nil, and the fit a constant."""
+    """With PKY2 at 0 the cornering stiffness would be zero, and the fit a constant."""
     slip = np.linspace(-0.12, 0.12, 81)
     true = TireModel.from_coefficients(
         {"FNOMIN": 7.2, "UNLOADED_RADIUS": 0.03, "PCY1": 1.4, "PDY1": 0.8, "PKY1": -12.0, "PKY2": 1.8},

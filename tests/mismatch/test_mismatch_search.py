@@ -173,7 +173,7 @@ def test_what_removes_nothing_does_not_bar_the_way(tire, record, monkeypatch):
 
 
 def test_combined_slip_does_not_start_where_it_does_nothing(tire, record):
-    """At a coefficient near nil the weighting does not answer to it, and a fit would stay there."""
+    """At a coefficient near zero the weighting does not answer to it, and a fit would stay there."""
     hardly = tire.replace(RBX1=20.0, RBX2=11.0, RBY1=10.0, RBY2=3e-4, RCY1=1.0)
     data = prepare(hardly, record(9)).data
     own, on_top = catalogue()["combined_slip"].starts(data)

@@ -18,7 +18,7 @@ _WORDS = {
     "ambiguous covered": "Ambiguous by design: the truth is among the names",
     "ambiguous covered, first key": "The same, by the answers of the first published proof",
     "ambiguous, names given": "Ambiguous by design: names given, mean",
-    "false names, outside the catalogue": "Effect outside the catalogue: a name is given all the same",
+    "false names, outside the catalogue": "Effect outside the catalogue: a name is given anyway",
     "window IoU": "When: overlap of the stretches named and true",
     "regime IoU": "Where: overlap of the ranges named and true",
     "held-out share of the oracle's": "Error removed on held-out data, of what the true model removes",

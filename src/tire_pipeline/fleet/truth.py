@@ -63,15 +63,15 @@ def true_curves(tires: pd.DataFrame) -> dict[str, np.ndarray]:
     slip_angle = np.linspace(-0.25, 0.25, 100)
     loads = np.array(TRUTH_LOADS)
     shape = (len(tires), loads.size)
-    one, nought = np.ones((1, 1)), np.zeros((1, 1))
+    one, zero = np.ones((1, 1)), np.zeros((1, 1))
     contact = Contact(
         normal_load=np.broadcast_to(loads, shape),
         camber=np.zeros(shape),
         pressure=one,
-        wear=nought,
+        wear=zero,
         adhesion=one,
         hysteresis=one,
-        curvature=nought,
+        curvature=zero,
         conditioning=one,
     )
     true = in_contact(tires, contact)

@@ -322,7 +322,9 @@ def _pieces(time: Array | None, rows: Array, notes: list[str]) -> Array:
     start[gaps + 1] = True
     long = steps[gaps] > 10.0 * typical
     if long.any():
-        notes.append(f"{int(long.sum())} gaps in the time line, the longest {float(steps[gaps].max()):.3g} s")
+        count, longest = int(long.sum()), float(steps[gaps].max())
+        said = f"{count} gaps in the time line, the longest" if count > 1 else "a gap in the time line of"
+        notes.append(f"{said} {longest:.3g} s")
     return start
 
 

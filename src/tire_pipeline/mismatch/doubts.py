@@ -1,4 +1,4 @@
-"""Doubts: whether a form without a name explains the recording as well as a named effect."""
+"""Doubts: whether an unnamed form explains the recording as well as a named effect."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Array = np.ndarray
 
 @dataclass(frozen=True)
 class Doubt:
-    """The best form without a name beside one accepted effect: in its place, and on top of it.
+    """The best unnamed form beside one accepted effect: in its place, and on top of it.
 
     Parameters
     ----------
@@ -29,9 +29,9 @@ class Doubt:
     label : str
         Of the form.
     size : float
-        Nats beyond what a proven name allows.
+        Log evidence beyond what a proven name allows.
     on_top : float
-        Nats that the best form adds to all accepted effects.
+        Log evidence that the best form adds to all accepted effects.
     part : float
         The larger of what a form explains in the effect's place and on top, over the effect's evidence.
     """
@@ -44,7 +44,7 @@ class Doubt:
 
 
 def doubts(search: Search) -> list[Doubt]:
-    """Compare each accepted effect with all forms without a name.
+    """Compare each accepted effect with all unnamed forms.
 
     A form that holds a constant has to beat the constant clearly: what is no likelier with a memory has none.
     What the misfit may do anyway (rates, memories) speaks against a name only in its place, not on top of it.
@@ -84,7 +84,7 @@ def doubts(search: Search) -> list[Doubt]:
 
 
 Gain = tuple[float, str]
-"""Nats, and the label of the form that gains them."""
+"""Log evidence, and the label of the form that gains them."""
 
 
 def _instead(gain: float, least: float, in_place: list[Gain], on_top: list[Gain]) -> Gain:
@@ -101,7 +101,7 @@ def _instead(gain: float, least: float, in_place: list[Gain], on_top: list[Gain]
 
 
 def _gains(search: Search, system: System, fit: Fit) -> list[Gain]:
-    """Return what each form without a name gains on top of a fit."""
+    """Return what each unnamed form gains on top of a fit."""
     rest = residual(search.data, fit.changes)
     return [(_gain(search, system, fit, rest, f), f.label) for f in forms(search.data, fit.changes)]
 

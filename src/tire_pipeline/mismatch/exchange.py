@@ -29,7 +29,7 @@ def exchanged(search: Search) -> list[Fit]:
     with fewer, or with a more usual one of two that look the same, only about as likely. None may leave
     plainly more of the mismatch. Of two effects that scale the force, one that leaves plainly less may be
     less likely; and a single one gives way to two others (friction and compliance look like a gain). Of two
-    that change the slope alone frozen coefficients decide, by as many nats.
+    that change the slope alone frozen coefficients decide, by as much log evidence.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def _one_for_one(search: Search, group: tuple[int, ...], fit: Fit) -> tuple[Effe
 
 
 def _less(search: Search, group: tuple[int, ...], fit: Fit) -> float:
-    """Nats by which a simpler or more usual set may be less likely.
+    """Log evidence by which a simpler or more usual set may be less likely.
 
     Of two lags as much as their forms may get wrong: a short filter and a delay are the same but for it.
     """

@@ -1,4 +1,4 @@
-"""What a form without a name adds to the forces."""
+"""What an unnamed form adds to the forces."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ class Gates:
     Parameters
     ----------
     gain : float
-        Nats by which the set is likelier with it, after the price of its parameters.
+        Log evidence by which the set is likelier with it, after the price of its parameters.
     p_value : float
         Wilcoxon over sweeps: held-out error with and without it.
     share : float
@@ -137,7 +137,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
 
 
 def _least_gain(names: list[str], index: int, share: float) -> float:
-    """Nats that an effect of a set has to gain, by the share of the mismatch that it removes."""
+    """Log evidence that an effect of a set has to gain, by the share of the mismatch that it removes."""
     if len(names) == 1:
         large = share > settings.LARGE_SHARE and not catalogue()[names[index]].shifts
         return settings.LEAST_GAIN_LARGE if large else settings.LEAST_GAIN_ALONE
@@ -167,7 +167,7 @@ def _of_one_kind(search: Search, gate: Gates, gates: list[Gates]) -> Gates:
 
 
 def asked_for(search: Search, name: str, share: float) -> tuple[float, float, float]:
-    """Return the nats, nats with loose coefficients, and share that one more effect has to gain.
+    """Return the log evidence, that with loose coefficients, and share that one more effect has to gain.
 
     Beside the named effects, all stronger than it.
 
@@ -217,17 +217,18 @@ def mismatch_of(rest: dict[str, Array], floors: dict[str, float]) -> float:
 def least_share(names: list[str], index: int, gain: float, there: float) -> float:
     """Return the least share of the mismatch that an effect of a set has to remove.
 
-    Of all of it, or of what is there beside the other effects, if it gains ``SURE`` nats: an effect six
+    Of all of it, or of what is there beside the other effects, if it gains a log evidence of ``SURE``: an
+    effect six
     times as strong does not hide another. Not so a lag beside a lag or an offset beside an offset: what one's
-    form gets wrong is another. None of an effect that is alone and worth so many nats that it would be called
-    unexplained without a name: noise and the formula's misfit may be many times as large.
+    form gets wrong is another. None of an effect that is alone and worth so much log evidence that it
+    would be called unexplained: noise and the formula's misfit may be many times as large.
 
     Parameters
     ----------
     names : list of str
     index : int
     gain : float
-        Nats.
+        Log evidence.
     there : float
         What is there beside the others, as a share of all.
     """
@@ -240,7 +241,7 @@ def least_share(names: list[str], index: int, gain: float, there: float) -> floa
 
 
 def unsure(search: Search, index: int, other: str) -> float:
-    """Nats by which another effect of an accepted one's kind may be less likely by its form alone."""
+    """Log evidence by which another effect of an accepted one's kind may be less likely by its form alone."""
     this, that = catalogue()[search.gates[index].name], catalogue()[other]
     share = 0.0
     if (this.dynamic and that.dynamic) or (this.shifts and that.shifts and that.exact):

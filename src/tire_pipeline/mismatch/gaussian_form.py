@@ -57,7 +57,7 @@ def gaussian_form(data: Data, rest: Array, output: str, block: Array, floor: flo
     Squared-exponential kernel with one length scale a channel plus white noise (Rasmussen and Williams,
     Gaussian Processes for Machine Learning, 2006, 5.1), on 250 samples drawn from the other sweeps. Channels
     whose length scale is over three times their range are taken out again, and so are those without which
-    the likelihood falls by less than three nats.
+    the likelihood falls by less than three.
     """
     names, x = _inputs(data)
     held = block % 3 == 1

@@ -1,4 +1,4 @@
-"""What is left above the noise after the effects: where, how large, and a form without a name."""
+"""What is left above the noise after the effects: where, how large, and an unnamed form."""
 
 from __future__ import annotations
 
@@ -58,7 +58,8 @@ def gaussian_forms(search: Search, size: dict[str, float]) -> list[GaussianForm]
 
 
 def excess(search: Search, left: dict[str, Array]) -> tuple[float, float]:
-    """Return how much power whitened residuals have beyond white noise, and what that is worth in nats.
+    """Return how much power whitened residuals have beyond white noise, and what that is worth in log
+    evidence.
 
     At each scale the samples are summed over windows; the mean square of the sums over that of
     noise as the search takes it (white, of the same robust size, times ``inflation``) is 1 for noise. The

@@ -1,4 +1,4 @@
-"""Forms without a name that repeat every so many metres, but not with the wheel: a seam of the drum."""
+"""Unnamed forms that repeat every so many metres, but not with the wheel: a seam of the drum."""
 
 from __future__ import annotations
 

@@ -43,7 +43,7 @@ class EffectReport:
     parameters : dict
         Name -> (value, standard error, unit).
     evidence : dict
-        Gain in nats, Wilcoxon p, and so on.
+        Gain in log evidence, Wilcoxon p, and so on.
     """
 
     name: str
@@ -146,7 +146,7 @@ class Visible:
 
 @dataclass(frozen=True)
 class Remainder:
-    """What is left above the noise, without a name.
+    """The unexplained residual: what is left above the noise.
 
     Parameters
     ----------

@@ -36,7 +36,7 @@ def search_all(search: Search) -> None:
     """Search from the likeliest effect; if that does not hold, from the next ones, two at most.
 
     Two effects together can look like a third one, which then goes in first and bars the way. A single effect
-    that leaves something without a name is doubted, too; but others have to be likelier than it. What is
+    that leaves an unexplained residual is doubted, too; but others have to be likelier than it. What is
     found instead has to be likelier than the first one with its best further effect, too small to be named.
     """
     run(search)
@@ -73,7 +73,7 @@ def _left(search: Search) -> float:
 
 
 def _holds(search: Search, left: float) -> bool:
-    """Whether what was found, with so many nats left, is not in doubt."""
+    """Whether what was found, with so much log evidence left, is not in doubt."""
     if not search.fit.names:
         seen = _gain_of_first(search) > 2.0 * settings.LEAST_GAIN
         return left < settings.REMAINDER_NATS and not search.unnamed and not seen

@@ -73,7 +73,7 @@ def best_gain(info: Array, score: Array, skip: int, search: Search) -> float:
 
 
 def gain_of(search: Search, fit: Fit, against: float) -> float:
-    """Nats by which a fit is likelier than an objective without its effects, parameters paid."""
+    """Log evidence by which a fit is likelier than an objective without its effects, parameters paid."""
     return 0.5 * (against - fit.objective) / search.inflation - search.price * fit.parameters
 
 
@@ -118,7 +118,7 @@ def prune(search: Search, fit: Fit) -> Fit:
 
 
 def _least_worth(search: Search, effect: str, parameter: str) -> float:
-    """Nats that a parameter must be worth to be kept."""
+    """Log evidence that a parameter must be worth to be kept."""
     further = catalogue()[effect].parameter(parameter).further
     return max(search.price, settings.TIE) if further else search.price
 

@@ -133,8 +133,8 @@ def _judged(search: Search, fit: Fit, shaped: System) -> Fit:
         at = beside(search, found)
         gain = log_likelihood(at, found.changes, at.inflation)
         if gain > most:
-            nil = -0.5 * empty / at.inflation - 0.5 * nothing.log_determinant()
-            best, most = replace(found, objective=empty - 2.0 * search.inflation * (gain - nil)), gain
+            empty_gain = -0.5 * empty / at.inflation - 0.5 * nothing.log_determinant()
+            best, most = replace(found, objective=empty - 2.0 * search.inflation * (gain - empty_gain)), gain
     return best
 
 
@@ -358,7 +358,7 @@ def _drop(search: Search, index: int) -> None:
 
 
 def _withdraw(search: Search) -> None:
-    """Take back names that a form without a name explains as well, or that other loads do not bear out."""
+    """Take back names that an unnamed form explains as well, or that other loads do not bear out."""
     while search.fit.names:
         worst_one = _of_some_loads(search)
         if worst_one is not None:
@@ -375,7 +375,7 @@ def _withdraw(search: Search) -> None:
                 search.unnamed = ""
             return
         search.unnamed = worst.label
-        _take_back(search, worst.index, f"a form without a name does as well: {worst.label}", worst.label)
+        _take_back(search, worst.index, f"an unnamed form does as well: {worst.label}", worst.label)
 
 
 def _take_back(search: Search, index: int, why: str, label: str) -> None:

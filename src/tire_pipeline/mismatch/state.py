@@ -60,7 +60,7 @@ class Search:
 
     @property
     def price(self) -> float:
-        """Nats that one more parameter costs."""
+        """Log evidence that one more parameter costs."""
         rows = self.data.size * len(self.data.outputs)
         return 0.5 * float(np.log(max(rows / self.inflation, 8.0)))
 

@@ -1,4 +1,4 @@
-"""Forms without a name: what an input does by its rate, its memory or its play.
+"""Unnamed forms: what an input does by its rate, its memory or its play.
 
 An effect of the catalogue may resemble a cause that is not in it. Every input of the tire can act on
 friction and stiffness through how fast it changes and through what it was some seconds ago, and can
@@ -66,7 +66,8 @@ def constant_form(data: Data, changes: list[Change]) -> Form:
 def forms(data: Data, changes: list[Change]) -> Iterator[Form]:
     """Yield all forms that the recording can show, around a model with some effects put in.
 
-    The rate of a slip comes twice: where slip and load are the same, and everywhere, for ``TURNS`` more nats.
+    The rate of a slip comes twice: where slip and load are the same, and everywhere, for ``TURNS`` more
+    log evidence.
     """
     if data.time is None:
         return
@@ -91,7 +92,7 @@ def _with_play(data: Data, name: str, width: float) -> dict[str, Array]:
 
 
 def _drivers(data: Data) -> Iterator[tuple[str, Array, float]]:
-    """Yield rates and memories of the inputs, each of about unit size, and nats that it must have more."""
+    """Yield rates and memories of the inputs, each of about unit size, and how much more each must gain."""
     for name in ("slip_angle", "slip_ratio", "normal_load"):
         if not data.varies(name):
             continue

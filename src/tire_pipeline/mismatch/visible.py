@@ -272,7 +272,7 @@ class _Scene:
 
 
 def _sure_at(nats: float, error: float, spread: float) -> float:
-    """Return the size that is worth some nats in 95% of repetitions, which differ by ``spread``."""
+    """Return the size that is worth some log evidence in 95% of repetitions, which differ by ``spread``."""
     return float(np.sqrt(2.0 * nats)) * error + _SEEN * spread
 
 
@@ -284,7 +284,7 @@ def visible(search: Search, *, unexplained: bool) -> list[Visible]:
     search : Search
         At its end.
     unexplained : bool
-        Whether something without a name is left: then nothing is ruled out.
+        Whether there is an unexplained residual: then nothing is ruled out.
     """
     named = [_named(name, dict(values), search, i) for i, (name, values) in enumerate(search.fit.changes)]
     found = list(sights(search))
@@ -323,7 +323,7 @@ def _row(sight: Sight, *, unexplained: bool) -> Visible:
     if np.isfinite(ruled_out):
         parts.append(f"changes above {amount(ruled_out, unit)} are ruled out")
     elif unexplained:
-        parts.append("nothing is ruled out while something is left without a name")
+        parts.append("nothing is ruled out while there is an unexplained residual")
     else:
         parts.append("no size that is possible is ruled out")
     if np.isfinite(seen):

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure as MplFigure
 
 from tire_pipeline.evaluation import curves_of
@@ -41,37 +40,46 @@ _CLASSIFIERS = {"ann": "neural network", "random_forest": "random forest", "naiv
 
 
 def force_figure(translated_table: pd.DataFrame, references: pd.DataFrame, best: dict[str, Any]) -> MplFigure:
-    """Lateral force of up to four tires: as measured, as the best translated, and as the target measured."""
-    rows = translated_table[translated_table["translator"].isin([NO_CHANGE, best["name"]])]
-    names = list(dict.fromkeys(rows["set"]))
-    part = rows[rows["set"] == names[0]] if names else rows
+    """Lateral force of up to four tires: as measured, as the best translated, and as the target measured.
+
+    Where the target measured them, a second row shows the differences from its measurement.
+    """
+    shown = translated_table[translated_table["translator"].isin([NO_CHANGE, best["name"]])]
+    names = list(dict.fromkeys(shown["set"]))
+    part = shown[shown["set"] == names[0]] if names else shown
     tires = list(dict.fromkeys(part["tire"]))[:4]
-    figure, axes = new_figure(1, max(len(tires), 1), width=3.2 * max(len(tires), 1), height=3.4, sharey=True)
-    for one, tire in zip(np.atleast_1d(np.asarray(axes)), tires, strict=False):
+    columns, rows = max(len(tires), 1), 2 if len(references) else 1
+    figure, axes = new_figure(
+        rows, columns, width=3.2 * columns, height=2.8 * rows, sharex=True, sharey="row", squeeze=False
+    )
+    for column, tire in enumerate(tires):
         target = references[references["tire"] == tire] if len(references) else references
-        _draw_tire(one, part[part["tire"] == tire], target)
-        one.set_title(str(tire))
-        one.set_xlabel("slip angle / deg")
-    first = np.atleast_1d(np.asarray(axes))[0]
-    first.set_ylabel("lateral force at 6 kN / kN")
-    handles, labels = first.get_legend_handles_labels()
+        _draw_tire(axes[:, column], part[part["tire"] == tire], target)
+        axes[0, column].set_title(str(tire))
+        axes[-1, column].set_xlabel("slip angle / deg")
+    axes[0, 0].set_ylabel("lateral force at 6 kN / kN")
+    if rows > 1:
+        axes[1, 0].set_ylabel("the same less the target's / N")
+    handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=5, fontsize=8)
     return figure
 
 
-def _draw_tire(axes: Axes, own: pd.DataFrame, target: pd.DataFrame) -> None:
-    """Draw one tire's force curves: every source before and after, and the target's measurement."""
+def _draw_tire(axes: np.ndarray, own: pd.DataFrame, target: pd.DataFrame) -> None:
+    """Draw one tire's forces and, if there is a second row, their differences from the target's."""
     angles = np.degrees(_GRID.slip_angles)
+    reference = _lateral_force(target.head(1)) if len(target) else None
+    if reference is not None:
+        axes[0].plot(angles, reference, color="black", lw=2, label="target's measurement")
     categories = sorted(own["category"].unique())
     for row in own.to_dict("records"):
-        after = row["state"] == "after"
-        label = f"{row['category']} translated" if after else f"{row['category']} as measured"
-        colour = colour_of(categories.index(row["category"]))
         fy = _lateral_force(pd.DataFrame([row]))
-        axes.plot(angles, fy, color=colour, ls="--" if after else "-", lw=1.1, label=label)
-    if len(target):
-        fy = _lateral_force(target.head(1))
-        axes.plot(angles, fy, color="black", lw=2, label="target's measurement")
+        after = row["state"] == "after"
+        style: Any = {"color": colour_of(categories.index(row["category"])), "ls": "--" if after else "-"}
+        label = f"{row['category']} translated" if after else f"{row['category']} as measured"
+        axes[0].plot(angles, fy, lw=1.1, label=label, **style)
+        if reference is not None:
+            axes[1].plot(angles, 1e3 * (fy - reference), lw=1.1, **style)
 
 
 def _lateral_force(row: pd.DataFrame) -> np.ndarray:
@@ -122,8 +130,9 @@ def build_report(
 def _forces(table: pd.DataFrame, references: pd.DataFrame, best: dict[str, Any], target: str) -> Figure:
     return Figure(
         force_figure(table, references, best),
-        "Lateral force over slip angle at 6 kN: thin solid as each source measured, dashed as the "
-        f"{best['name']} translated, thick as {target} measured. Dashed lines should lie on the thick one.",
+        f"Lateral force over slip angle at 6 kN: solid as each source measured, dashed as the {best['name']} "
+        f"translated, thick as {target} measured. Below, the differences from {target}'s measurement: dashed "
+        "lines should lie near zero.",
         heading="Force curves",
     )
 

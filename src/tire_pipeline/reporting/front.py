@@ -117,8 +117,9 @@ def _what_matters(folder: Path) -> list[Text | Links | Picture]:
     curves = _newest(folder / "force_curves.png")
     if curves is not None:
         caption = (
-            "Lateral force over slip angle: thin as each source measured, dashed as translated, thick as the "
-            "target measured. Dashed lines should lie on the thick one."
+            "Lateral force over slip angle: solid as each source measured, dashed as translated, thick as "
+            "the target measured. Below, the differences from the target's measurement: dashed lines should "
+            "lie near zero."
         )
         parts.append(Picture(curves.relative_to(folder).as_posix(), caption))
     return parts

@@ -63,7 +63,7 @@ def read_files(
             f"{summary['set_aside']} of {summary['files']} files cannot be read; the first: "
             f"{first['file']}: {first['reason']}",
             where="ingest_tir",
-            todo="mend or take out those files, or raise ingest_tir.most_failed_share",
+            todo="correct or remove those files, or raise ingest_tir.most_failed_share",
         )
     return table, report, summary
 

@@ -1,4 +1,4 @@
-"""What is learned about the data: how each actor's measurements differ from each other's, with intervals."""
+"""What is learned about the data: how the measurements of organisations differ, with intervals."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ _MOST_TIRES = 25
 
 @dataclass(frozen=True)
 class BiasReport:
-    """Bias between pairs of actors.
+    """Bias between pairs of organisations.
 
     Attributes
     ----------
     by_region : DataFrame
         ``actor``, ``reference``, ``output``, ``region``, ``unit``, ``bias``, ``low``, ``high`` (90%
         interval), ``clear`` (the interval leaves out 0). Bias is ``actor`` less ``reference`` at the mean
-        tire, in the mean of its protocols if an actor changed them: a share for logarithmic features (0.05:
-        5% more), else in the feature's own unit.
+        tire, in the mean of its protocols if an organisation changed them: a share for logarithmic
+        features (0.05: 5% more), else in the feature's own unit.
     by_metadata : DataFrame
         ``actor``, ``reference``, ``what``, ``metadata``, ``bias``, ``low``, ``high``, ``clear``: by how much
         the bias of ``what`` (mean over the loads) grows with one standard deviation of the metadata.

@@ -29,7 +29,7 @@ class Parameter:
     ratio : bool
         Whether it moves by factors: a fit changes it by no more than a factor of e in one step.
     further : bool
-        Whether it only refines what the others do, and has to be sure (``TIE`` nats) to be taken.
+        Whether it only refines what the others do, and has to be sure (``TIE`` of log evidence) to be taken.
     """
 
     name: str
@@ -140,9 +140,9 @@ class Effect:
     scanned : tuple of str
         Parameters that the starts scan, so that the screen need not move them.
     least_gain : float
-        Nats that it asks for in any case.
+        Log evidence that it asks for in any case.
     least_beside : float
-        Nats that it asks for beside a stronger effect.
+        Log evidence that it asks for beside a stronger effect.
     unusual : bool
         True if in a tie the other explanation is named first.
     parameters : tuple of Parameter

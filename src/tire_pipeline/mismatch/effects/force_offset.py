@@ -20,7 +20,7 @@ class ForceOffset(Effect):
     own_inputs = True
     shifts = True
     exact = True
-    least_gain = 30.0  # false ones in the tuning cases have up to 25 nats: a fit is off at zero slip, too
+    least_gain = 30.0  # false ones in the tuning cases have up to 25: a fit is off at zero slip, too
     parameters = (
         Parameter("fy", "N", -5000.0, 5000.0, 1.0, output="fy"),
         Parameter("fx", "N", -5000.0, 5000.0, 1.0, output="fx"),

@@ -41,7 +41,7 @@ class LoadSensitivity(Effect):
     experiment = "sweeps to full sliding at four loads or more"
     order = 40
     least_gain = 15.0
-    least_beside = 25.0  # false ones have 13 nats alone and 17 beside camber: few loads
+    least_beside = 25.0  # false ones have a log evidence of 13 alone and 17 beside camber: few loads
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """One stiffness where one force alone is driven."""

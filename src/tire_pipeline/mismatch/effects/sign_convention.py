@@ -28,10 +28,10 @@ _AWAY = 0.1
 """Part of the mismatch that turned signs must take away: what is there by chance is small."""
 
 _SURE = 8.0
-"""Nats by which turned signs must be likelier than those that were given."""
+"""Log evidence by which turned signs must be likelier than those that were given."""
 
 _ALIKE = 3.0
-"""Nats within which two conventions cannot be told apart."""
+"""Log evidence within which two conventions cannot be told apart."""
 
 _GAIN_OFF = 0.3
 _OFFSET = 0.03
@@ -175,7 +175,8 @@ def _alike(recorded: Array, base: Array, other: Array) -> bool:
 
 
 def _likelier(recorded: Array, base: Array, other: Array, *, sized: bool = True) -> float:
-    """Nats by which ``other`` is likelier than ``base``: how much of their difference is in the record.
+    """Log evidence by which ``other`` is likelier than ``base``: how much of their difference is in the
+    record.
 
     ``recorded - base`` is fitted by a gain, an offset and b times the difference: b is 0 if ``base`` is right
     and 1 if ``other`` is. Gain and offset are as far off as load cells are: with free ones the ply steer of

@@ -21,7 +21,7 @@ class SurfaceChange(Effect):
     source = "a step of LMUX = LMUY in time"
     needs_time = True
     slow = True
-    least_gain = 35.0  # its moment may lie anywhere: false ones have up to 32 nats in the tuning cases
+    least_gain = 35.0  # its moment may lie anywhere: false ones have up to 32 in the tuning cases
     scanned = ("moment",)
     parameters = (
         Parameter("friction", "1", -0.8, 1.0, 0.01),

@@ -18,7 +18,7 @@ from tire_pipeline.recordings.axle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 _NEEDED = ("speed", "yaw_rate", "lateral_acceleration")
-# Straight running: below these the lateral speed is taken as nought.
+# Straight running: below these the lateral speed is taken as zero.
 _STRAIGHT_YAW_RATE, _STRAIGHT_ACCELERATION, _STRAIGHT_SECONDS = 0.02, 0.2, 0.5
 
 
