@@ -25,7 +25,9 @@ class FrontPageHooks:
 
     @hook_impl(trylast=True)
     def after_pipeline_run(self) -> None:
-        """Link what is there now."""
+        """Link what is there now, and say where."""
         if self._folder is not None:
             self._folder.mkdir(parents=True, exist_ok=True)
-            HtmlPageDataset(filepath=str(self._folder / FRONT)).save(front_page(self._folder))
+            page = self._folder / FRONT
+            HtmlPageDataset(filepath=str(page)).save(front_page(self._folder))
+            print(f"all reports: {page}")

@@ -71,7 +71,7 @@ def _bar(items: Iterable[T], what: str, total: int | None, console: Console) -> 
             if not started and elapsed > _SHOW_AFTER_SECONDS:
                 progress.start()
                 started = True
-            progress.update(task, completed=done, rate=f"{done / max(elapsed, 1e-9):.3g}/s")
+            progress.update(task, completed=done, rate=_pace(done, elapsed))
     finally:
         if started:
             progress.stop()
@@ -84,6 +84,11 @@ def _lines(items: Iterable[T], what: str, total: int | None) -> Iterator[T]:
         now = time.monotonic()
         if now - last > _LINE_EVERY_SECONDS:
             last = now
-            rate = done / (now - start)
-            left = f", {(total - done) / rate:.0f} s left" if total else ""
-            print(f"{what}: {done}/{total or '?'} ({rate:.3g}/s{left})", file=sys.stderr, flush=True)
+            left = f", {(total - done) * (now - start) / done:.0f} s left" if total else ""
+            pace = _pace(done, now - start)
+            print(f"{what}: {done}/{total or '?'} ({pace}{left})", file=sys.stderr, flush=True)
+
+
+def _pace(done: int, seconds: float) -> str:
+    """Give a rate, or the seconds that each takes if that is more than one."""
+    return f"{seconds / done:.3g} s each" if seconds > done else f"{done / max(seconds, 1e-9):.3g}/s"
