@@ -290,3 +290,20 @@ def test_edits_of_the_text():
     assert file.edited([(10, 11, "3"), (0, 0, "$\n"), (4, 5, "2")]).text == "$\nA = 2\nB = 3\n"
     assert file.get("", "b") == "2"
     assert file.get("X", "b", "none") == "none"
+
+
+def test_computed_coefficients_have_nine_digits_and_the_others_their_own(tmp_path):
+    source = tmp_path / "source.tir"
+    source.write_text(
+        "[UNITS]\nLENGTH='mm'\n[DIMENSION]\nUNLOADED_RADIUS = 310.5\n[VERTICAL]\nFNOMIN = 4000\n"
+        "[LATERAL_COEFFICIENTS]\nPCY1 = 1.30\nPDY1 = 0.98000000000000009\nPKY1 = -20\n"
+    )
+    tire = read_tir(source)
+    moved = tire.replace(PDY1=tire.coefficients["PDY1"] * (1 + 1e-13), PKY1=-19.6966362490789926)
+    text = write_tir(moved, tmp_path / "out.tir", digits=9).read_text()
+    assert "PDY1 = 0.98000000000000009" in text
+    assert "PKY1 = -19.6966362\n" in text
+    assert "UNLOADED_RADIUS = 310.5" in text
+    assert "PKY1 = -19.696636249078992" in write_tir(moved, tmp_path / "exact.tir").read_text()
+    fresh = write_tir(TireModel.from_coefficients(dict(moved.coefficients)), tmp_path / "fresh.tir", digits=9)
+    assert read_tir(fresh).coefficients["PKY1"] == -19.6966362

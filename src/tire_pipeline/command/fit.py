@@ -46,7 +46,7 @@ def command(
     """Fit a model."""
     from tire_pipeline.magic_formula import fit_magic_formula
     from tire_pipeline.recordings import join_recordings
-    from tire_pipeline.tir import read_tir, write_tir
+    from tire_pipeline.tir import COMPUTED_DIGITS, read_tir, write_tir
 
     check_target(target, overwrite, *runs, *([start] if start else []))
     recordings = read_runs(runs, axes=axes, units=units, names=names, format_=format_)
@@ -67,6 +67,7 @@ def command(
             f"RMS of residuals over the largest magnitude: {said}",
             *result.undetermined,
         ],
+        digits=COMPUTED_DIGITS,
         overwrite=overwrite,
     )
     notes = [*joined.attrs.get("notes", []), *result.notes]

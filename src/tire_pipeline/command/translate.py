@@ -64,7 +64,7 @@ def command(
 ) -> None:
     """Translate a file."""
     from tire_pipeline.command.stored import translator_state
-    from tire_pipeline.tir import read_tir, write_tir
+    from tire_pipeline.tir import COMPUTED_DIGITS, read_tir, write_tir
     from tire_pipeline.translation import translator_from_state
     from tire_pipeline.translation.of_models import translate_models
 
@@ -82,7 +82,8 @@ def command(
     )
     written = []
     for name, new in translated.items():
-        written.append(write_tir(new, target, comments=comments[name], overwrite=overwrite))
+        said = comments[name]
+        written.append(write_tir(new, target, comments=said, overwrite=overwrite, digits=COMPUTED_DIGITS))
     outcome = _outcome(file, model, translated.get(file.name), result, source, written, notes)
     finish(outcome, f"{file.stem}_translate", **output)
 

@@ -191,6 +191,18 @@ class CorrectedModel:
                 }
         return tire, sidecar
 
+    def _comments(self, sidecar: Mapping[str, object]) -> list[str]:
+        """What a ``.tir`` file says at its top: physics, where it stands, and faults of the recording."""
+        names = [name for name, _ in self.changes]
+        physics = [name for name in names if catalogue()[name].kind != "artefact"]
+        inside = [name for name in physics if name not in sidecar]
+        faults = [name for name in names if name not in physics]
+        said = ["corrected by tire_pipeline.mismatch"]
+        said += [f"physics in these coefficients: {', '.join(inside) or 'none'}"]
+        said += [f"physics in the sidecar beside this file: {', '.join(sidecar)}"] if sidecar else []
+        said += [f"faults of the recording, not in this file: {', '.join(faults)}"] if faults else []
+        return said
+
     def to_tir(self, path: str | Path, *, overwrite: bool = False) -> Path:
         """Write the corrected ``.tir`` file, and a sidecar for what the format has no place for.
 
@@ -209,16 +221,15 @@ class CorrectedModel:
         RecordingError
             If a question is open on which all of it rests: ``question`` says which.
         """
-        from tire_pipeline.tir import write_sidecar, write_tir
+        from tire_pipeline.tir import COMPUTED_DIGITS, write_sidecar, write_tir
 
         if self.question is not None:
             raise RecordingError(
                 f"nothing corrected is written: {self.question.why}", where=str(path), todo=self.question.todo
             )
         tire, sidecar = self.tire_model()
-        names = ", ".join(n for n, _ in self.changes) or "nothing"
         written = write_tir(
-            tire, path, comments=f"corrected by tire_pipeline.mismatch: {names}", overwrite=overwrite
+            tire, path, comments=self._comments(sidecar), overwrite=overwrite, digits=COMPUTED_DIGITS
         )
         if sidecar:
             write_sidecar(written, sidecar)

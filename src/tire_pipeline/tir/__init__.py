@@ -5,9 +5,11 @@ from tire_pipeline.tir.decode import MOST_FILE_BYTES
 from tire_pipeline.tir.document import Entry, TirFile, parse_tir
 from tire_pipeline.tir.reading import read_tir
 from tire_pipeline.tir.sidecar import read_sidecar, sidecar_path, write_sidecar
+from tire_pipeline.tir.values import COMPUTED_DIGITS
 from tire_pipeline.tir.writing import tir_bytes, write_tir
 
 __all__ = [
+    "COMPUTED_DIGITS",
     "MOST_FILE_BYTES",
     "Entry",
     "TirError",

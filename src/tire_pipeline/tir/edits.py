@@ -25,7 +25,12 @@ Edit = tuple[int, int, str]
 
 
 def edited_source(
-    model: TireModel, source: TirFile, comments: Iterable[str] = (), *, complete: bool = False
+    model: TireModel,
+    source: TirFile,
+    comments: Iterable[str] = (),
+    *,
+    complete: bool = False,
+    digits: int | None = None,
 ) -> TirFile:
     """Return the model's source file with the model's values.
 
@@ -41,8 +46,10 @@ def edited_source(
         Added as comment lines at the top.
     complete : bool
         Add what stands in for missing coefficients.
+    digits : int, optional
+        Significant digits of changed values; what agrees with the source to so many is not changed.
     """
-    work = _Work(source)
+    work = _Work(source, digits)
     work.coefficients(model)
     work.metadata(model)
     if model.version != work.reading.version:
@@ -57,8 +64,9 @@ def edited_source(
 class _Work:
     """Collects the edits of one file."""
 
-    def __init__(self, source: TirFile) -> None:
+    def __init__(self, source: TirFile, digits: int | None) -> None:
         self.source = source
+        self.digits = digits
         self.reading: Reading = interpret(source)
         self.scan: Scan = source.scan()
         self.edits: list[Edit] = []
@@ -67,13 +75,16 @@ class _Work:
     def text(self, key: str, value: float, factor: float | None = None) -> str:
         if factor is None:
             factor = self.reading.factors[DIMENSION.get(key, "")]
-        return format_scaled(value, factor)
+        return format_scaled(value, factor, self.digits)
+
+    def same(self, old: float, new: float) -> bool:
+        return old == new or (self.digits is not None and abs(old - new) < 10.0**-self.digits * abs(old))
 
     def coefficients(self, model: TireModel) -> None:
         reading = self.reading
         for name, value in model.coefficients.items():
             if name in reading.coefficients:
-                if reading.coefficients[name] != value:
+                if not self.same(reading.coefficients[name], value):
                     entry, factor = reading.origin[name]
                     self.put(entry, self.text(name, value, factor))
             elif name in reading.empty:

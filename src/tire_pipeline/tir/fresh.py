@@ -19,7 +19,9 @@ _LABELS = ("FITTYP", "PROPERTY_FILE_FORMAT")
 NOT_GIVEN = "not given: this stands in"
 
 
-def fresh_text(model: TireModel, comments: Iterable[str] = (), *, complete: bool = True) -> str:
+def fresh_text(
+    model: TireModel, comments: Iterable[str] = (), *, complete: bool = True, digits: int | None = None
+) -> str:
     """Return a complete file in SI units: standard sections in their order, a comment for each key.
 
     Parameters
@@ -28,8 +30,10 @@ def fresh_text(model: TireModel, comments: Iterable[str] = (), *, complete: bool
     comments : iterable of str
     complete : bool
         Write also what stands in for missing coefficients, marked as such.
+    digits : int, optional
+        Significant digits of the coefficients; by default all.
     """
-    sections = _sections(model, complete)
+    sections = _sections(model, complete, digits)
     lines = _header(model, comments)
     lines += _units(model)
     for section in (*LAYOUT, *sorted(set(sections) - set(LAYOUT))):
@@ -83,7 +87,7 @@ def value_text(value: str | float) -> str:
     return quoted(value) if isinstance(value, str) else format_number(value)
 
 
-def _sections(model: TireModel, complete: bool) -> dict[str, dict[str, tuple[str, str]]]:
+def _sections(model: TireModel, complete: bool, digits: int | None) -> dict[str, dict[str, tuple[str, str]]]:
     found: dict[str, dict[str, tuple[str, str]]] = {}
     labels = found.setdefault("MODEL", {})
     for key, text in version_labels(model.version).items():
@@ -96,7 +100,7 @@ def _sections(model: TireModel, complete: bool) -> dict[str, dict[str, tuple[str
             found.setdefault(home_section(key), {})[key] = (format_number(number), NOT_GIVEN)
     for key, number in model.coefficients.items():
         section = home_section(key)
-        found.setdefault(section, {})[key] = (format_number(number), describe(section, key))
+        found.setdefault(section, {})[key] = (format_number(number, digits), describe(section, key))
     return found
 
 

@@ -30,19 +30,29 @@ def parse_number(text: str) -> float | None:
         return float(text.replace("D", "e").replace("d", "e"))
 
 
-def format_number(value: float) -> str:
-    """Return the shortest text that reads back as exactly the same double.
+COMPUTED_DIGITS = 9
+"""Significant digits of coefficients that were computed: far more than any measurement tells."""
+
+
+def format_number(value: float, digits: int | None = None) -> str:
+    """Return the shortest text that reads back as exactly the same double, or as it rounded.
+
+    Parameters
+    ----------
+    value : float
+    digits : int, optional
+        Significant digits to round to.
 
     Examples
     --------
-    >>> format_number(2.0), format_number(1e-5), format_number(0.1)
-    ('2', '1e-05', '0.1')
+    >>> format_number(2.0), format_number(1e-5), format_number(0.1), format_number(1.6966362490789926, 9)
+    ('2', '1e-05', '0.1', '1.69663625')
     """
-    text = repr(float(value))
+    text = repr(float(value if digits is None else f"{value:.{digits}g}"))
     return text[:-2] if text.endswith(".0") else text
 
 
-def format_scaled(value: float, factor: float) -> str:
+def format_scaled(value: float, factor: float, digits: int | None = None) -> str:
     """Return the text of ``value / factor``, chosen so that text times factor gives ``value`` again if any
     does.
 
@@ -52,9 +62,11 @@ def format_scaled(value: float, factor: float) -> str:
         In SI.
     factor : float
         SI units in one unit of the file.
+    digits : int, optional
+        Significant digits to round to.
     """
-    if factor == 1.0:
-        return format_number(value)
+    if factor == 1.0 or digits is not None:
+        return format_number(value / factor, digits)
     near = value / factor
     candidates = (near, math.nextafter(near, math.inf), math.nextafter(near, -math.inf))
     exact = (each for each in candidates if each * factor == value)

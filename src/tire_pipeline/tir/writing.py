@@ -24,6 +24,7 @@ def write_tir(
     version: str | None = None,
     overwrite: bool = False,
     complete: bool | None = None,
+    digits: int | None = None,
 ) -> Path:
     """Write a model as a tire property file, all or nothing.
 
@@ -45,6 +46,9 @@ def write_tir(
     complete : bool, optional
         Whether to write what stands in for coefficients that the model lacks (``defaulted``), each with a
         comment that says so. By default only where there is no source file: other tools expect all keys.
+    digits : int, optional
+        Significant digits of coefficients that were changed, such as ``COMPUTED_DIGITS`` for computed ones.
+        By default as many as give exactly the model's value again.
 
     Returns
     -------
@@ -69,7 +73,7 @@ def write_tir(
         if file.exists() and not overwrite:
             todo = "choose another name, or pass overwrite=True"
             raise TirError(f"{what} a file of that name", path=str(file), todo=todo)
-    write_bytes(target, tir_bytes(model, comments=comments, complete=complete))
+    write_bytes(target, tir_bytes(model, comments=comments, complete=complete, digits=digits))
     if isinstance(sidecar, Mapping) and sidecar:
         write_sidecar(target, sidecar)
     else:
@@ -82,9 +86,11 @@ def tir_bytes(
     *,
     comments: str | Iterable[str] | None = None,
     complete: bool | None = None,
+    digits: int | None = None,
 ) -> bytes:
     """Return the content that :func:`write_tir` writes."""
     lines = [comments] if isinstance(comments, str) else list(comments or ())
     if isinstance(model.source, TirFile):
-        return edited_source(model, model.source, lines, complete=bool(complete)).to_bytes()
-    return fresh_text(model, lines, complete=complete is not False).encode("utf-8")
+        edited = edited_source(model, model.source, lines, complete=bool(complete), digits=digits)
+        return edited.to_bytes()
+    return fresh_text(model, lines, complete=complete is not False, digits=digits).encode("utf-8")

@@ -20,7 +20,7 @@ from tire_pipeline.classifiers.suppliers import (
 from tire_pipeline.errors import DomainError, TirePipelineError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
-from tire_pipeline.tir import tir_bytes
+from tire_pipeline.tir import COMPUTED_DIGITS, tir_bytes
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.translation import translator_from_state
@@ -141,7 +141,10 @@ def translate_all(
     own = from_models((file, "", model) for file, model in models.items())
     curves = file_curves(list(own["file"]), models, result)
     translated, comments = at_own_load(result, models, own)
-    texts = {file: tir_bytes(model, comments=comments[file]) for file, model in translated.items()}
+    texts = {
+        file: tir_bytes(model, comments=comments[file], digits=COMPUTED_DIGITS)
+        for file, model in translated.items()
+    }
     report = pd.concat([result.report, unreadable], ignore_index=True) if len(unreadable) else result.report
     report = report.reset_index(drop=True)
     return texts, report, result.coefficients, _bands(result, own), result.protocols, curves
