@@ -90,5 +90,11 @@ def _lines(items: Iterable[T], what: str, total: int | None) -> Iterator[T]:
 
 
 def _pace(done: int, seconds: float) -> str:
-    """Give a rate, or the seconds that each takes if that is more than one."""
+    """Give a rate, or the seconds that each takes if that is more than one.
+
+    Examples
+    --------
+    >>> _pace(10, 5.0), _pace(1, 90.0)
+    ('2/s', '90 s each')
+    """
     return f"{seconds / done:.3g} s each" if seconds > done else f"{done / max(seconds, 1e-9):.3g}/s"

@@ -51,7 +51,7 @@ def test_a_recording_gets_a_report_a_page_and_a_verdict(tmp_path):
     page = place.read_text()
     assert "<svg" in page or "<img" in page
     asked = re.findall(r"""(?:src|href)\s*=\s*["'](?!#|data:)([^"']+)""", page)
-    assert asked == ["../../mismatch.html"]
+    assert asked == ["../../index.html", "../../mismatch.html"]
     assert (place.parent / asked[0]).is_file()
 
 

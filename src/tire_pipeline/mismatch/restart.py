@@ -68,7 +68,7 @@ def search_all(search: Search) -> None:
 
 
 def _left(search: Search) -> float:
-    """Return what is left above white noise, nats."""
+    """Return what is left above white noise, as log evidence."""
     return excess(search, white_left(search))[1]
 
 
@@ -115,6 +115,6 @@ def _gain_of_first(search: Search) -> float:
 
 
 def _gain(search: Search, fit: Fit) -> float:
-    """Evidence of a fit by the weights of a search, nats."""
+    """Evidence of a fit by the weights of a search, as a log."""
     at = replace(fit, objective=objective(search.system, fit.changes))
     return gain_of(search, at, objective(search.system, []))
