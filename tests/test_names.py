@@ -25,7 +25,7 @@ KNOWN_CONSTANTS = {
 }
 KNOWN_MODULES = {("simulate", "simulated"), ("state", "states")}
 """What still stands twice, in the formula, its solvers and ``mismatch``. Nothing is added here; what is
-mended is taken out, or the tests fail."""
+resolved is removed, or the tests fail."""
 
 SEALED = "concealed.second."
 """A simulator that is sealed by the hash of its source: its names stay as they are."""
