@@ -37,6 +37,7 @@ def _modules() -> dict[str, ast.Module]:
     every = {
         ".".join(path.relative_to(ROOT).with_suffix("").parts): ast.parse(path.read_text(encoding="utf-8"))
         for path in sorted(ROOT.rglob("*.py"))
+        if path.parent.name != "__pycache__"  # derivatives that are generated at first use
     }
     return {name: module for name, module in every.items() if not name.startswith(SEALED)}
 
