@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.levenberg_marquardt import Problem, Steps, solve
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.representations.lateral_curve import lateral_factors, lateral_force
 
 _CHUNK = 256
 _MAX_DAMPING = 1e8
+_DIFFERENCE = 1e-6  # of a coefficient's size, for derivatives
 
 
 def fit_lateral(
@@ -22,8 +24,8 @@ def fit_lateral(
 ) -> pd.DataFrame:
     """Give the source tires with the lateral coefficients that come closest to the curves.
 
-    Levenberg-Marquardt on all tires side by side, started from the source's coefficients; a step
-    is taken for the tires that it helps only, so no tire ends further away than it began.
+    Started from the source's coefficients (:mod:`tire_pipeline.levenberg_marquardt`); a step is taken for the
+    tires that it helps only, so no tire ends further away than it began.
 
     Parameters
     ----------
@@ -71,43 +73,31 @@ def _fit_chunk(
     scale = np.abs(curves).max(axis=(1, 2))[:, None] + 1.0
     wanted = curves.reshape(len(curves), -1)
 
-    def residuals(values: np.ndarray) -> np.ndarray:
-        tires = columns | dict(zip(names, values.T, strict=True))
-        force = lateral_force(lateral_factors(tires, loads), slip_angles)
-        return (force.reshape(wanted.shape) - wanted) / scale
+    source_values = source.loc[:, names].to_numpy(dtype=float, copy=True)
+    spans = np.maximum(np.abs(source_values), 0.01)
 
-    values = source.loc[:, names].to_numpy(dtype=float, copy=True)
-    spans = np.maximum(np.abs(values), 0.01)
-    current = residuals(values)
-    cost = (current**2).sum(axis=1)
-    damping = np.full(len(values), 1e-3)
-    for _ in range(steps):
-        jacobian = _jacobian(residuals, values, spans, current)
-        normal = np.einsum("nri,nrj->nij", jacobian, jacobian)
-        gradient = np.einsum("nri,nr->ni", jacobian, current)
-        weight = np.einsum("nii->ni", normal) + 1e-9
-        normal += (damping[:, None] * weight)[:, :, None] * np.eye(len(names))
-        move = -np.linalg.solve(normal, gradient[..., None])[..., 0] * spans
+    def residuals(moves: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        values = source_values[rows] + moves * spans[rows]
+        tires = {name: column[rows] for name, column in columns.items()}
+        tires |= dict(zip(names, values.T, strict=True))
         with np.errstate(all="ignore"):
-            tried = residuals(values + move)
-            tried_cost = (tried**2).sum(axis=1)
-        better = tried_cost < cost
-        gain = np.where(better, (cost - tried_cost) / np.maximum(cost, 1e-300), 0.0)
-        values = np.where(better[:, None], values + move, values)
-        current = np.where(better[:, None], tried, current)
-        cost = np.where(better, tried_cost, cost)
-        damping = np.where(better, damping / 5, damping * 5).clip(1e-12, _MAX_DAMPING)
-        if np.all((better & (gain < 1e-9)) | (damping >= _MAX_DAMPING) | (cost < 1e-20)):
-            break
-    return values
+            force = lateral_force(lateral_factors(tires, loads), slip_angles)
+        found: np.ndarray = (force.reshape(len(rows), -1) - wanted[rows]) / scale[rows]
+        return found
 
+    def model(moves: np.ndarray, rows: np.ndarray, slopes: bool) -> tuple[np.ndarray, np.ndarray | None]:
+        here = residuals(moves, rows)
+        if not slopes:
+            return here, None
+        found = np.empty((len(rows), len(names), here.shape[1]))
+        for index in range(len(names)):
+            moved = moves.copy()
+            moved[:, index] += _DIFFERENCE
+            found[:, index] = (residuals(moved, rows) - here) / _DIFFERENCE
+        return here, found
 
-def _jacobian(residuals, values, spans, current):  # type: ignore[no-untyped-def]
-    """Forward differences in units of ``spans``, shape (n, residuals, coefficients)."""
-    columns = []
-    for index in range(values.shape[1]):
-        moved = values.copy()
-        step = 1e-6
-        moved[:, index] += step * spans[:, index]
-        columns.append((residuals(moved) - current) / step)
-    return np.stack(columns, axis=-1)
+    zero = np.zeros_like(source_values)
+    problem = Problem(model, zero, zero - np.inf, zero + np.inf, zero, zero)
+    rule = Steps(most=steps, tolerance=1e-9, damping=1e-3, easier=5.0, largest=_MAX_DAMPING)
+    moves, _ = solve(problem, rule)
+    return np.asarray(source_values + moves * spans)

@@ -4,12 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.magic_formula.coefficients import Coefficients, missing_defaults, pack_mapping
+from tire_pipeline.magic_formula.equations_61 import NO_TURN_SLIP, pure_lateral
+from tire_pipeline.magic_formula.shapes import sine_curve
+
 FACTOR_COLUMNS = ("PCY1", "PDY1", "PDY2", "PEY1", "PEY2", "PEY3", "PKY1", "PKY2")
 SHIFT_COLUMNS = ("PHY1", "PHY2", "PVY1", "PVY2")
+SCALE_COLUMNS = ("LFZO", "LCY", "LMUY", "LEY", "LKY", "LHY", "LVY")
+_USED = ("FNOMIN", *FACTOR_COLUMNS, "PKY4", *SHIFT_COLUMNS, *SCALE_COLUMNS)
+_NEUTRAL = Coefficients(*pack_mapping({}, missing_defaults({}, "6.1")).tolist())
 _DEFAULTS = {"PEY3": 0.0, "PKY4": 2.0, **dict.fromkeys(SHIFT_COLUMNS, 0.0)}
 
 
@@ -48,7 +56,7 @@ def lateral_factors(table: pd.DataFrame | Mapping[str, np.ndarray], loads: np.nd
 
     Notes
     -----
-    Thesis, equations A.17 to A.26; with PKY4 also the form of versions 6.1 and 6.2.
+    The engine's own lateral force, without camber; with PKY4 = 2 version 6.1 is the thesis' A.17 to A.26.
     """
 
     def column(name: str) -> np.ndarray:
@@ -60,26 +68,21 @@ def lateral_factors(table: pd.DataFrame | Mapping[str, np.ndarray], loads: np.nd
         values = np.asarray(table[name], dtype=float).reshape(-1, 1)
         return values if neutral is None else np.where(np.isnan(values), neutral, values)
 
-    nominal = column("FNOMIN") * column("LFZO")
+    p: Any = _NEUTRAL._replace(**{name: column(name) for name in _USED})
     loads = np.asarray(loads, dtype=float)[None, :]
+    nominal = p.FNOMIN * p.LFZO
     dfz = (loads - nominal) / nominal
-    shape = column("PCY1") * column("LCY") + 0 * dfz
-    peak = (column("PDY1") + column("PDY2") * dfz) * column("LMUY") * loads
-    slope = (
-        column("PKY1")
-        * nominal
-        * np.sin(column("PKY4") * np.arctan(loads / (column("PKY2") * nominal)))
-        * column("LKY")
+    none = 0.0 * dfz
+    _, friction, slope, horizontal, vertical, _ = pure_lateral(
+        p, none, none, loads, dfz, none, nominal, NO_TURN_SLIP
     )
-    curvature = (column("PEY1") + column("PEY2") * dfz) * column("LEY")
-    horizontal = (column("PHY1") + column("PHY2") * dfz) * column("LHY")
-    vertical = loads * (column("PVY1") + column("PVY2") * dfz) * column("LVY") * column("LMUY")
+    shape, peak = p.PCY1 * p.LCY + none, friction * loads
     return LateralFactors(
         stiffness=slope / (shape * peak),
         shape=shape,
         peak=peak,
-        curvature=curvature,
-        e_side=column("PEY3") + 0 * dfz,
+        curvature=(p.PEY1 + p.PEY2 * dfz) * p.LEY,
+        e_side=p.PEY3 + none,
         horizontal_shift=horizontal,
         vertical_shift=vertical,
     )
@@ -103,7 +106,7 @@ def lateral_force(factors: LateralFactors, slip_angles: np.ndarray) -> np.ndarra
     alpha = np.asarray(slip_angles, dtype=float) + factors.horizontal_shift[..., None]
     curvature = factors.curvature[..., None] * (1 - factors.e_side[..., None] * np.sign(alpha))
     curvature = np.minimum(curvature, 1.0)
-    argument = factors.stiffness[..., None] * alpha
-    bent = argument - curvature * (argument - np.arctan(argument))
-    force = factors.peak[..., None] * np.sin(factors.shape[..., None] * np.arctan(bent))
+    force: np.ndarray = sine_curve(
+        factors.stiffness[..., None], factors.shape[..., None], factors.peak[..., None], curvature, alpha
+    )
     return force + factors.vertical_shift[..., None]

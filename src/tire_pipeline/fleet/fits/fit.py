@@ -18,8 +18,8 @@ from tire_pipeline.fleet.fits.formula import (
     longitudinal,
 )
 from tire_pipeline.fleet.fits.habits import Habit, fit_setup, nominal_loads
-from tire_pipeline.fleet.fits.levenberg import Problem, solve
 from tire_pipeline.fleet.rig.sweeps import Sweeps
+from tire_pipeline.levenberg_marquardt import Problem, solve
 from tire_pipeline.progress import track
 
 CHUNK = 48  # tires fitted together: keeps the derivatives in the processor's cache
@@ -160,15 +160,12 @@ def _fit(
     power = (task.habit.load_power + task.weight_twist)[:, None]
     weight = (sweeps.normal_load / rated) ** power
     weight = weight * (1.0 + task.habit.centre_weight * np.exp(-((sweeps.slip / 0.05) ** 2)))
-    return solve(
-        Problem(
-            model=model,
-            target=target,
-            weight=weight / (scale * rated),
-            start=setup.start,
-            lower=setup.lower,
-            upper=setup.upper,
-            prior=setup.start,
-            stiffness=setup.stiffness,
-        )
-    )
+    weight = weight / (scale * rated)
+
+    def residuals(p: np.ndarray, rows: np.ndarray, slopes: bool) -> tuple[np.ndarray, np.ndarray]:
+        value, jacobian = model(p, rows)
+        jacobian *= weight[rows][:, None, :]
+        return (value - target[rows]) * weight[rows], jacobian
+
+    problem = Problem(residuals, setup.start, setup.lower, setup.upper, setup.start, setup.stiffness)
+    return solve(problem)[0]

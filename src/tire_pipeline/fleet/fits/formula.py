@@ -1,5 +1,6 @@
-"""Pure-slip Magic Formula 5.2 with its derivatives, for many tires at once, as the fit needs it.
+"""Pure-slip Magic Formula 5.2, on purpose not the engine's: what judges does not rest on what is judged.
 
+With its derivatives, for many tires at once, as the fit needs it. A test compares it with the engine.
 Equations A.4 to A.14 (Fx), A.16 to A.26 (Fy) and A.28 to A.41 (Mz) of the thesis, all scale factors 1.
 Parameters come as (n, p), points as (n, m); values go as (n, m) and derivatives as (n, p, m).
 """

@@ -7,11 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.levenberg_marquardt import Problem, Steps, solve
 from tire_pipeline.translation.curves.features import GROUPS, Group
 from tire_pipeline.translation.curves.pure_slip import columns
 from tire_pipeline.translation.decode.physics import curvature_excess
 
-_STEPS = 6
+_STEPS = Steps(
+    most=6, tolerance=0.01, damping=1e-3, easier=10.0, harder=50.0, largest=1e4, relative=False, hold=False
+)
+_DIFFERENCE = 1e-4  # of a coefficient's spread, for derivatives
 _PULL = 0.003  # weight of "stay at the source's coefficients" against one feature, both in their spreads
 _CURVATURE = (30.0, 300.0, 3000.0)  # weight of a curvature factor above 1; the next where it still is
 _EXCESS = 3e-4  # of the curvature factor above 1 that may remain
@@ -62,8 +66,8 @@ def decode(table: pd.DataFrame, target: DecodeTarget) -> pd.DataFrame:
 
     Notes
     -----
-    Damped Gauss-Newton steps on all tires at once, derivatives by differences; a step that does not lower
-    a tire's cost is not taken. A curvature factor above 1 costs more and more, until next to none is left.
+    Damped Gauss-Newton steps on all tires at once (:mod:`tire_pipeline.levenberg_marquardt`), derivatives by
+    differences. A curvature factor above 1 costs more and more, until next to none is left.
     """
     decoded = table.copy()
     for group in GROUPS:
@@ -121,43 +125,30 @@ class _Solver:
         gap = np.where(np.isfinite(gap), gap, 1e6)
         return np.concatenate([gap, self.curvature * curvature_excess(self.group.name, p)], axis=1)
 
-    def _cost(self, gap: np.ndarray, values: np.ndarray, rows: np.ndarray) -> np.ndarray:
-        moved = (values - self.source[rows]) / self.spread
-        return (gap**2).sum(axis=1) + _PULL * (moved**2).sum(axis=1)
-
-    def _jacobian(self, values: np.ndarray, gap: np.ndarray, rows: np.ndarray) -> np.ndarray:
-        jacobian = np.empty((*gap.shape, self.spread.size))
+    def _model(
+        self, moves: np.ndarray, rows: np.ndarray, slopes: bool
+    ) -> tuple[np.ndarray, np.ndarray | None]:
+        """Residuals and their derivatives by differences, over moves from the source in units of spread."""
+        values = self.source[rows] + moves * self.spread
+        gap = self._residual(values, rows)
+        if not slopes:
+            return gap, None
+        jacobian = np.empty((len(rows), self.spread.size, gap.shape[1]))
         for k, spread in enumerate(self.spread):
             moved = values.copy()
-            moved[:, k] += 1e-4 * spread
-            jacobian[:, :, k] = (self._residual(moved, rows) - gap) / 1e-4
-        return jacobian
+            moved[:, k] += _DIFFERENCE * spread
+            jacobian[:, k] = (self._residual(moved, rows) - gap) / _DIFFERENCE
+        return gap, jacobian
 
-    def _descend(self, rows: np.ndarray, best: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        low, high = self.low[rows], self.high[rows]
-        gap = self._residual(best, rows)
-        cost = self._cost(gap, best, rows)
-        damping = np.full(len(rows), 1e-3)
-        live = np.arange(len(rows))
-        for _ in range(_STEPS):
-            at, now = rows[live], best[live]
-            jacobian = self._jacobian(now, gap[live], at)
-            free = (low[live] < high[live]).astype(float)
-            jacobian *= free[:, None, :]
-            normal = jacobian.transpose(0, 2, 1) @ jacobian
-            right = -(jacobian.transpose(0, 2, 1) @ gap[live][:, :, None])[:, :, 0]
-            right -= _PULL * free * (now - self.source[at]) / self.spread
-            normal[:, *np.diag_indices(self.spread.size)] += (_PULL + damping[live])[:, None]
-            step = np.linalg.solve(normal, right[:, :, None])[:, :, 0]
-            trial = np.clip(now + step * self.spread, low[live], high[live])
-            new_gap = self._residual(trial, at)
-            new_cost = self._cost(new_gap, trial, at)
-            better = new_cost < cost[live]
-            gained = np.where(better, 1.0 - new_cost / np.maximum(cost[live], 1e-12), 1.0)
-            taken = live[better]
-            best[taken], gap[taken], cost[taken] = trial[better], new_gap[better], new_cost[better]
-            damping[live] = np.where(better, damping[live] / 10.0, damping[live] * 50.0)
-            live = live[(gained > 0.01) & (damping[live] < 1e4)]
-            if live.size == 0:
-                break
-        return best, cost
+    def _descend(self, rows: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        source = self.source[rows]
+
+        def model(moves: np.ndarray, at: np.ndarray, slopes: bool) -> tuple[np.ndarray, np.ndarray | None]:
+            return self._model(moves, rows[at], slopes)
+
+        start, lower, upper = (
+            (values - source) / self.spread for values in (start, self.low[rows], self.high[rows])
+        )
+        zero = np.zeros_like(start)
+        moves, cost = solve(Problem(model, start, lower, upper, zero, zero + _PULL), _STEPS)
+        return np.where(lower == upper, source, source + moves * self.spread), cost
