@@ -1,8 +1,8 @@
 """Steps per second of the thesis' environment, and one agent's whole training, against the naive form.
 
 Naive: stable-baselines3's DummyVecEnv of four gymnasium environments, each asking scikit-learn's
-``predict_proba`` for one row a step; MlpPolicy as it comes. Ours: the same rules, forest, algorithm and
-hyperparameters, with a batch of four environments stepped by one compiled call and compiled nets.
+``predict_proba`` for one row a step. Ours: the same rules, forest, algorithm and hyperparameters, with a
+batch of four environments stepped by one compiled call.
 Both take turns, several rounds, in one process on one thread; each round's ratio is of neighbours in time,
 the median of the ratios is given. Processor time, as other programs may run meanwhile.
 

@@ -3,7 +3,6 @@ import sys
 
 import numpy as np
 import pytest
-import torch
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
@@ -104,91 +103,6 @@ def test_greedy_policy_is_that_of_stable_baselines3(binned, forest):
     greedy = GreedyPolicy.from_model(model, 10)
     expected, _ = model.predict(binned, deterministic=True)
     np.testing.assert_array_equal(greedy.actions(binned), expected)
-
-
-def test_bin_policy_computes_what_mlp_policy_computes(binned, forest):
-    from stable_baselines3 import PPO
-
-    rules = Rules(11, 10, target=2)
-    ours = make_model(BatchEnv(binned, forest, rules, n_envs=4, seed=0), algorithm="PPO", seed=3)
-    theirs = PPO("MlpPolicy", BatchEnv(binned, forest, rules, n_envs=4, seed=0), seed=3)
-    expected = dict(theirs.policy.named_parameters())
-    for name, part in ours.policy.mlp_parameters().items():
-        assert torch.equal(part, expected.pop(name))
-    assert not expected
-    with torch.no_grad():  # larger weights, so that tanh saturates somewhere
-        ours.policy.weights *= 8
-        for part in theirs.policy.parameters():
-            part *= 8
-    states = torch.as_tensor(binned[:64])
-    actions = torch.arange(64).float() % rules.n_actions
-    losses = []
-    for policy in (ours.policy, theirs.policy):
-        values, logs, entropy = policy.evaluate_actions(states, actions)
-        losses.append((values.flatten() * 2 + logs + 3 * entropy).square().mean())
-        losses[-1].backward()
-    torch.testing.assert_close(losses[0], losses[1], rtol=1e-5, atol=1e-7)
-    got = ours.policy.mlp_parameters(ours.policy.weights.grad)
-    for name, part in theirs.policy.named_parameters():
-        scale = float(part.grad.abs().max())
-        torch.testing.assert_close(got[name], part.grad, rtol=1e-4, atol=1e-5 * scale)
-    torch.testing.assert_close(ours.policy.predict_values(states), theirs.policy.predict_values(states))
-    for a, b in zip(ours.policy(states, True), theirs.policy(states, True), strict=True):
-        torch.testing.assert_close(a, b)
-
-
-def test_flat_adam_is_torchs_adam():
-    from tire_pipeline.translation.thesis.flat_adam import FlatAdam
-
-    start = torch.linspace(-2, 2, 500)
-    made = []
-    for cls in (FlatAdam, torch.optim.Adam):
-        weights = torch.nn.Parameter(start.clone())
-        optimizer = cls([weights], lr=3e-2, eps=1e-5)
-        for step in range(30):
-            optimizer.zero_grad()
-            ((weights - 0.3).pow(4) * (1 + step % 3)).sum().backward()
-            optimizer.step()
-        made.append(weights.detach())
-    assert (made[0] - start).abs().max() > 0.5
-    torch.testing.assert_close(made[0], made[1], rtol=1e-4, atol=1e-5)
-
-
-@pytest.mark.parametrize("entropy_weight", [0.0, 0.05])
-def test_compiled_update_is_that_of_stable_baselines3(binned, forest, entropy_weight):
-    from stable_baselines3 import PPO
-
-    from tire_pipeline.translation.thesis.bin_policy import BinPolicy
-    from tire_pipeline.translation.thesis.compiled_update import CompiledPPO
-    from tire_pipeline.translation.thesis.flat_adam import FlatAdam
-
-    rules = Rules(11, 10, target=2)
-    trained, start = [], None
-    for cls in (CompiledPPO, PPO):
-        optimizer = {"optimizer_class": FlatAdam} if cls is CompiledPPO else {}
-        env = BatchEnv(binned, forest, rules, n_envs=4, seed=0)
-        options = {"n_steps": 90, "ent_coef": entropy_weight, "seed": 3, "learning_rate": 3e-3}
-        model = cls(BinPolicy, env, policy_kwargs=optimizer, **options)
-        start = model.policy.weights.detach().clone()
-        # one roll-out of 360 rows: ten epochs of five full minibatches and one of 40
-        model.learn(360)
-        trained.append(model.policy.weights.detach())
-    assert (trained[1] - start).abs().max() > 0.05
-    torch.testing.assert_close(trained[0], trained[1], rtol=0, atol=2e-4)
-
-
-def test_bin_policy_draws_actions_as_often_as_they_are_probable(binned, forest):
-    rules = Rules(11, 10, target=2)
-    model = make_model(BatchEnv(binned, forest, rules, n_envs=4, seed=0), algorithm="A2C", seed=3)
-    with torch.no_grad():
-        model.policy.weights *= 5
-    state = torch.as_tensor(binned[:1]).repeat(40_000, 1)
-    actions, _, logs = model.policy(state)
-    share = torch.bincount(actions, minlength=rules.n_actions) / len(actions)
-    probability = torch.zeros(rules.n_actions)
-    probability[actions] = logs.exp()
-    assert probability.sum() > 0.999
-    torch.testing.assert_close(share, probability, rtol=0, atol=0.012)
 
 
 @pytest.mark.parametrize("reward", REWARDS)

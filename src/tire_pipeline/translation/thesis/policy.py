@@ -54,7 +54,7 @@ class GreedyPolicy:
     @classmethod
     def from_model(cls, model: Any, n_bins: int) -> GreedyPolicy:
         """Take the actor's weights from a trained PPO or A2C."""
-        weights = {name: value.numpy() for name, value in model.policy.mlp_parameters().items()}
+        weights = {name: value.numpy() for name, value in model.policy.state_dict().items()}
         layers = [
             (weights[f"{name}.weight"].astype(float), weights[f"{name}.bias"].astype(float))
             for name in _LAYERS

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -20,7 +21,7 @@ N_STEPS = 320
 N_ENVS = 4
 TOTAL_STEPS = {"PPO": 100_000, "A2C": 300_000}
 """Steps of all environments together. The thesis does not give its number. A2C updates once where PPO
-updates 200 times, so it gets more steps and still takes less time."""
+updates 200 times, so it gets more steps and still takes less time (``benchmarks/bench_agents.py``)."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +72,7 @@ def train_agent(
         env = BatchEnv(starts, forest, rules, n_envs=n_envs, seed=seed)
         model = make_model(env, algorithm=algorithm, seed=seed, n_steps=n_steps)
         steps = TOTAL_STEPS[algorithm] if total_steps is None else total_steps
-        model.learn(total_timesteps=steps, callback=_progress(steps, n_steps * n_envs))  # type: ignore[attr-defined]
+        model.learn(total_timesteps=steps, callback=_progress(steps, n_steps * n_envs))
     return TrainedAgent(
         policy=GreedyPolicy.from_model(model, rules.n_bins),
         learning_curve=pd.DataFrame(env.episodes, columns=["step", "reward", "length"]),
@@ -98,27 +99,16 @@ def _progress(total_steps: int, steps_per_update: int) -> object:
     return Progress()
 
 
-def make_model(env: object, *, algorithm: str, seed: int, n_steps: int = N_STEPS) -> object:
+def make_model(env: object, *, algorithm: str, seed: int, n_steps: int = N_STEPS) -> Any:
     """Give an untrained PPO or A2C with the thesis' settings."""
     import stable_baselines3
-
-    from tire_pipeline.translation.thesis.bin_policy import BinPolicy
-    from tire_pipeline.translation.thesis.compiled_update import CompiledPPO
-    from tire_pipeline.translation.thesis.flat_adam import FlatAdam
 
     if algorithm not in ALGORITHMS:
         raise DomainError(
             f"there is no algorithm {algorithm!r}", todo=f"choose one of {', '.join(ALGORITHMS)}"
         )
-    cls: object = stable_baselines3.A2C
-    options: dict[str, object] = {}
-    if algorithm == "PPO":  # the same Adam; eps is stable-baselines3's default
-        options["policy_kwargs"] = {"optimizer_class": FlatAdam, "optimizer_kwargs": {"eps": 1e-5}}
-        cls = CompiledPPO
-    made: object = cls(  # type: ignore[operator]
-        BinPolicy, env, n_steps=n_steps, seed=seed, device="cpu", verbose=0, **options
-    )
-    return made
+    cls: Any = getattr(stable_baselines3, algorithm)
+    return cls("MlpPolicy", env, n_steps=n_steps, seed=seed, device="cpu", verbose=0)
 
 
 @contextmanager
