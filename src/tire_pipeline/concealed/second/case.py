@@ -144,6 +144,25 @@ def _drawn_run(
     return Run(tire, rig, course, above), schedule.pattern(sections, rng)
 
 
+def _placed(
+    rng: np.random.Generator,
+    run: Run,
+    levels: np.ndarray,
+    without: np.ndarray,
+    one: np.ndarray,
+    wanted: tuple[tuple[Cause, float], ...],
+) -> tuple[tuple[Placed, ...], tuple[float, ...]]:
+    """Each cause with its size and draw, and the strength it reached alone."""
+    scales = np.sqrt(np.mean(without**2, axis=1))
+    placed, strengths = [], []
+    for cause, much in wanted:
+        draw = _draw(rng, levels, scales)
+        size, reached = sized(run, cause, draw, without, one, much)
+        placed.append((cause, size, draw))
+        strengths.append(reached)
+    return tuple(placed), tuple(strengths)
+
+
 def draw_case(
     rng: np.random.Generator,
     cause: str | tuple[str, ...] | None = None,
@@ -189,23 +208,17 @@ def draw_case(
     run, levels = _drawn_run(rng, tire, rig, causes, rows + round(rows * HELD_OUT))
     without = run.forces()
     one = unit(rig, without, formula_misfit() if misfit is None else misfit)
-    scales = np.sqrt(np.mean(without**2, axis=1))
-    placed, strengths = [], []
-    for each, much in zip(causes, wanted, strict=True):
-        draw = _draw(rng, levels, scales)
-        size, reached = sized(run, each, draw, without, one, much)
-        placed.append((each, size, draw))
-        strengths.append(reached)
-    rolled, _ = run.rolled(tuple(placed))
-    forces = run.measured(rolled, tuple(placed))
+    placed, strengths = _placed(rng, run, levels, without, one, tuple(zip(causes, wanted, strict=True)))
+    rolled, _ = run.rolled(placed)
+    forces = run.measured(rolled, placed)
     noise = draw_noise(rig, forces.shape[1], rng)
     hidden = _hidden(rng, causes)
-    table = _table(run, rolled, forces, noise, hidden, _stored_course(run, tuple(placed)))
+    table = _table(run, rolled, forces, noise, hidden, _stored_course(run, placed))
     truth = Truth(
         causes=tuple(each.name for each in causes),
         physics=tuple(each.physics for each in causes),
         parameters=tuple(as_parameters(each) for each in placed),
-        strengths=tuple(strengths),
+        strengths=strengths,
         unit=one,
         recording_with=forces.T[:rows],
         recording_without=without.T[:rows],

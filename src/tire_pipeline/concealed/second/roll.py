@@ -104,6 +104,41 @@ def _hold(stiffness: float, tire: np.ndarray, half: float, held: np.ndarray) -> 
 
 
 @njit(cache=True, error_model="numpy")
+def _strips(
+    tire: np.ndarray,
+    states: tuple[np.ndarray, np.ndarray, np.ndarray],
+    spread: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray],
+    pressed: tuple[float, float],
+    moved: tuple[float, float, float, float],
+    rubber: tuple[float, float, float, float, float],
+) -> float:
+    """One step of all strips; friction power, W.
+
+    `states`: stress, flash, room for the bound. `spread`: slip speed along the contact, places of the strips,
+    shares of load, pressure profile. `pressed`: load over a strip's area, friction of the surface. `moved`:
+    speed ahead, rolling speed, the carcass's, spin. `rubber`: stiffness, length, speed scale, temperature,
+    time step.
+    """
+    stress, flash, bound = states
+    slip_y, widths, shares, profile = spread
+    ahead, rolling, carcass, spin = moved
+    tread, length, speed_scale, bulk, step = rubber
+    power = 0.0
+    for j in range(STRIPS):
+        pressure = shares[j] * pressed[0]
+        factor = pressed[1] * pressure_factor(tire, pressure)
+        for i in range(ELEMENTS):
+            bound[i] = pressure * factor * profile[i]
+        slip_x = ahead - rolling * (1.0 + tire[at.CONICITY] * widths[j] / tire[at.RADIUS])
+        slip_x += carcass - spin * widths[j]
+        lost = sweep_strip(
+            tire, stress[j], flash[j], slip_x, slip_y, bound, tread, rolling, length, speed_scale, bulk, step
+        )
+        power += lost * tire[at.WIDTH] / STRIPS
+    return power
+
+
+@njit(cache=True, error_model="numpy")
 def _roll(tire: np.ndarray, course: Course, start: np.ndarray, out: np.ndarray, steps: int) -> None:
     """The loop over samples and the steps within; `out` is (8, n)."""
     n = course.time.size
@@ -148,32 +183,14 @@ def _roll(tire: np.ndarray, course: Course, start: np.ndarray, out: np.ndarray, 
             sideways = speed * np.sin(angle) + rolling * tire[at.PLY_STEER] + tire[at.LAG] * rates[SIDE]
             sideways += shake(tire, hub, force_y, load, step)
             _slip_over_length(slip_y, sideways, spin + tire[at.LAG] * rates[YAW], rolling, modes, half)
-            power = 0.0
-            for j in range(STRIPS):
-                pressure = shares[j] * load / (tire[at.WIDTH] / STRIPS * 2.0 * half)
-                factor = course.surface[k] * pressure_factor(tire, pressure)
-                for i in range(ELEMENTS):
-                    bound[i] = pressure * factor * profile[i]
-                slip_x = ahead - rolling * (1.0 + tire[at.CONICITY] * widths[j] / tire[at.RADIUS])
-                slip_x += tire[at.LAG] * rates[LENGTH] - spin * widths[j]
-                power += (
-                    sweep_strip(
-                        tire,
-                        stress[j],
-                        flash[j],
-                        slip_x,
-                        slip_y,
-                        bound,
-                        tread,
-                        rolling,
-                        2.0 * half,
-                        speed_scale,
-                        bulk,
-                        step,
-                    )
-                    * tire[at.WIDTH]
-                    / STRIPS
-                )
+            power = _strips(
+                tire,
+                (stress, flash, bound),
+                (slip_y, widths, shares, profile),
+                (load / (tire[at.WIDTH] / STRIPS * 2.0 * half), course.surface[k]),
+                (ahead, rolling, tire[at.LAG] * rates[LENGTH], spin),
+                (tread, 2.0 * half, speed_scale, bulk, step),
+            )
             moment = _push(tire, stress, widths, half, modes, pushed)
             force_x, force_y = pushed[LENGTH], pushed[SIDE]
             bend(tire, modes, rates, stiffness, pushed, held, step)

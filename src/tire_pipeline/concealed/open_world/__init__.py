@@ -1,0 +1,1 @@
+"""Mechanisms that are in no catalogue: twelve to tune a search on, twelve sealed."""
