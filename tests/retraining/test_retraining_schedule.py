@@ -168,9 +168,9 @@ def test_a_partition_tunes_its_own_networks_only(asked):
 def test_the_partitions_are_as_many_as_there_are_parts(small_table):
     from tire_pipeline.classifiers.tuning import ann_combinations
     from tire_pipeline.concealed.proof import explain_by_baselines, explain_cases
-    from tire_pipeline.thesis.experiment_files import _networks
+    from tire_pipeline.thesis.experiment_files import network_parts
 
-    parts = {**_networks("random", small_table, "random", ann_combinations(), 1)}
+    parts = {**network_parts("random", small_table, "random", ann_combinations(), 1)}
     assert 2 * len(parts) == schedule.TUNING_PARTS
     shown = {f"code/{case:03d}.zip": bytes for case in range(schedule.CASES)}
     parameters = schedule.ProveConcealedParameters(seed=10_000)

@@ -12,7 +12,7 @@ from tire_pipeline.translation.decode.least_change import DecodeTarget, decode
 from tire_pipeline.translation.decode.physics import violations
 from tire_pipeline.translation.population.mixed_effects import (
     Design,
-    _Marginal,
+    MarginalLikelihood,
     fit_mixed_effects,
     posterior_weights,
 )
@@ -132,7 +132,7 @@ def test_gradient_of_the_marginal_likelihood():
     design, response = _design(rng, 0.5)
     shared = np.zeros((60, 2))
     shared[:2, 0] = shared[2:4, 1] = 1.0
-    marginal = _Marginal(Design(design.blocks, shared, design.files), response, 0.05)
+    marginal = MarginalLikelihood(Design(design.blocks, shared, design.files), response, 0.05)
     logs = np.log([5.0, 0.3, 0.2, 0.1, 0.04])
     _, slope = marginal.value_and_gradient(logs)
     for k in range(logs.size):

@@ -295,7 +295,7 @@ def test_what_is_a_tires_own_does_not_depend_on_how_its_category_spreads_it(pair
     for i, k in enumerate(model.kinds.scores):
         expected = here[0] @ model.fitted[k].mean[: here[0].shape[1]]
         source[:, k] = (expected + 1.5 * own[:, i]) * model.scale[k]
-    np.testing.assert_allclose(model._own(source, place, here)[0], own, rtol=1e-6)
+    np.testing.assert_allclose(model.own_scores(source, place, here)[0], own, rtol=1e-6)
 
 
 def test_categories_spread_stiffness_alike_and_shapes_each_in_its_own_way(paired):

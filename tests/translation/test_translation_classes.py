@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from tire_pipeline.translation.population.class_input import ClassSearchInput
-from tire_pipeline.translation.population.class_search import _climb, find_classes, with_classes
+from tire_pipeline.translation.population.class_search import find_classes, refined_classes, with_classes
 from tire_pipeline.translation.population.class_starts import starts
 from tire_pipeline.translation.population.classes import TireClasses, fit_shares, log_density
-from tire_pipeline.translation.population.mixed_effects import Design, _Marginal, posterior_weights
+from tire_pipeline.translation.population.mixed_effects import Design, MarginalLikelihood, posterior_weights
 
 VARIANCES = {
     "level": 100.0,
@@ -121,7 +121,7 @@ def test_tires_that_two_categories_measured_do_not_draw_the_classes_together():
     question, own = _with_shared_tires(question, rng)
     kind = np.concatenate([kind, kind[own]])
     unsure = 0.7 * np.eye(3)[kind] + 0.1
-    assert (_climb(question, unsure).probability.argmax(axis=1) == kind).mean() > 0.95
+    assert (refined_classes(question, unsure).probability.argmax(axis=1) == kind).mean() > 0.95
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])
@@ -182,7 +182,8 @@ def test_a_row_that_counts_twice_is_two_rows():
     once = Design({"metadata": x}, np.zeros((12, 0)), np.ones(12), np.r_[2.0, np.ones(11)])
     twice = Design({"metadata": np.r_[x[:1], x]}, np.zeros((13, 0)), np.ones(13))
     one, two = (
-        _Marginal(d, v, 0.05).value_and_gradient(logs) for d, v in ((once, y), (twice, np.r_[y[:1], y]))
+        MarginalLikelihood(d, v, 0.05).value_and_gradient(logs)
+        for d, v in ((once, y), (twice, np.r_[y[:1], y]))
     )
     assert one[0] == pytest.approx(two[0])
     np.testing.assert_allclose(one[1], two[1])

@@ -57,7 +57,7 @@ def search_at_random(
     combinations = _epochs(random_combinations(parameters.ann.random, seed=seed), parameters.ann)
     work: Work = {}
     for split in SPLITS:
-        work |= _networks(f"{split}", normalized_table, split, combinations, seed)
+        work |= network_parts(f"{split}", normalized_table, split, combinations, seed)
     return work
 
 
@@ -82,7 +82,7 @@ def search_the_grid(
             combinations = ann_combinations(experiments.kept_values(own, best=parameters.ann.best))
         else:
             combinations = _epochs(ann_combinations(), parameters.ann)
-        work |= _networks(f"{split}", normalized_table, split, combinations, seed)
+        work |= network_parts(f"{split}", normalized_table, split, combinations, seed)
     return work
 
 
@@ -95,7 +95,8 @@ def _epochs(combinations: pd.DataFrame, parameters: AnnSearchParameters) -> pd.D
     return kept.assign(epochs=kept["epochs"].map(other)).reset_index(drop=True)
 
 
-def _networks(name: str, table: pd.DataFrame, split: str, combinations: pd.DataFrame, seed: int) -> Work:
+def network_parts(name: str, table: pd.DataFrame, split: str, combinations: pd.DataFrame, seed: int) -> Work:
+    """Say how networks of each batch size and optimizer are tuned, one part each."""
     work: Work = {}
     for (batch, optimizer), part in combinations.groupby(_JOBS):
         part = part.reset_index(drop=True)

@@ -33,7 +33,9 @@ def with_classes(blocks: Mapping[str, np.ndarray], coded: np.ndarray) -> dict[st
 
 
 @dataclass
-class _State:
+class ClassState:
+    """Where a search for classes has come to."""
+
     probability: np.ndarray  # (n, k), the same for all cells of a tire
     own: np.ndarray
     variances: list[dict[str, float]]
@@ -57,13 +59,13 @@ def find_classes(question: ClassSearchInput, seed: int = 0) -> tuple[TireClasses
     probability : ndarray, shape (n, k)
         Of each cell's tire.
     """
-    best: _State | None = None
+    best: ClassState | None = None
     fewer: np.ndarray | None = None
     tires = int(question.tire.max()) + 1
     for count in COUNTS:
         if count > max(1, tires // _TIRES_A_CLASS):
             break
-        climbed = [_climb(question, start) for start in starts(question, count, fewer, seed)]
+        climbed = [refined_classes(question, start) for start in starts(question, count, fewer, seed)]
         found = max(climbed, key=lambda state: state.evidence)
         fewer = found.probability
         if best is None or found.evidence > best.evidence:
@@ -79,24 +81,24 @@ def find_classes(question: ClassSearchInput, seed: int = 0) -> tuple[TireClasses
     return TireClasses(question.scores, best.shares, usual, best.own), best.probability
 
 
-def _laid_anew(question: ClassSearchInput, state: _State) -> _State:
+def _laid_anew(question: ClassSearchInput, state: ClassState) -> ClassState:
     """Forget, one category after the other, which tires are of which class, and climb again."""
     actor = question.design.blocks["category"].argmax(axis=1)
     for category in np.unique(actor):
         own = actor == category
         probability = state.probability.copy()
         probability[own] = np.exp(log_shares(question.metadata[own], state.shares))
-        again = _climb(question, probability)
+        again = refined_classes(question, probability)
         if again.evidence > state.evidence + _LITTLE:
             state = again
     return state
 
 
-def _climb(question: ClassSearchInput, probability: np.ndarray) -> _State:
+def refined_classes(question: ClassSearchInput, probability: np.ndarray) -> ClassState:
     """Expectation maximisation from some probabilities."""
     variances = [{**v, "class": 1.0, "category_class": 0.02} for v in question.variances]
     start = np.diag([v["tire"] for v in variances])
-    state = _State(probability, start, variances, fit_shares(question.metadata, probability))
+    state = ClassState(probability, start, variances, fit_shares(question.metadata, probability))
     before = -np.inf
     for _ in range(_STEPS):
         state = _step(question, state)
@@ -106,7 +108,7 @@ def _climb(question: ClassSearchInput, probability: np.ndarray) -> _State:
     return state
 
 
-def _step(question: ClassSearchInput, state: _State) -> _State:
+def _step(question: ClassSearchInput, state: ClassState) -> ClassState:
     """One maximisation of the effects and one expectation of the classes."""
     probability = state.probability
     n, count = probability.shape
@@ -145,7 +147,7 @@ def _step(question: ClassSearchInput, state: _State) -> _State:
     complexity = _SHARE_COST * 0.5 * np.log(len(metadata)) * (count - 1)
     own = _own_covariance(gap, new, alone, question.linked)
     updated = _updated(laid, fitted, own, question.noise)
-    return _State(
+    return ClassState(
         new[question.tire],
         own,
         updated,

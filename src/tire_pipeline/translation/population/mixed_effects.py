@@ -65,7 +65,7 @@ def _stack(design: Design) -> np.ndarray:
     return np.concatenate([*design.blocks.values(), design.tire], axis=1)
 
 
-class _Marginal:
+class MarginalLikelihood:
     """Negative log marginal likelihood and its gradient by the logarithms of the variances."""
 
     def __init__(self, design: Design, response: np.ndarray, noise: float) -> None:
@@ -97,6 +97,7 @@ class _Marginal:
         return mean, covariance, rest, float(value)
 
     def value_and_gradient(self, logs: np.ndarray) -> tuple[float, np.ndarray]:
+        """Give the value and its gradient by the logarithms of the variances, (v,)."""
         mean, covariance, rest, value = self.posterior(logs)
         variances = np.exp(logs)
         square = mean**2 + np.diag(covariance)
@@ -141,7 +142,7 @@ def fit_mixed_effects(
     -------
     Fitted
     """
-    marginal = _Marginal(design, response, noise)
+    marginal = MarginalLikelihood(design, response, noise)
     names = [*marginal.names, "tire_category"]
     centre = np.log([guess[name] if name != "level" else _FLAT for name in names])
     bounds = [(_LOW, _HIGH)] * len(names)
@@ -179,7 +180,7 @@ def posterior_weights(design: Design, response: np.ndarray, variances: Mapping[s
     -------
     Fitted
     """
-    marginal = _Marginal(design, response, variances["noise"])
+    marginal = MarginalLikelihood(design, response, variances["noise"])
     logs = np.log([variances[name] for name in (*marginal.names, "tire_category")])
     mean, covariance, _, _ = marginal.posterior(logs)
     return Fitted(dict(variances), mean, covariance)

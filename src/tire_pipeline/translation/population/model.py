@@ -134,7 +134,7 @@ class CurveMixedModel:
             every = [with_kinds(one, self.kinds.of(one, mine)) for one, mine in zip(every, own, strict=True)]
         return [np.concatenate(list(one.values()), axis=1) for one in every]
 
-    def _own(self, source: np.ndarray, place: np.ndarray, here: list[np.ndarray]) -> list[np.ndarray]:
+    def own_scores(self, source: np.ndarray, place: np.ndarray, here: list[np.ndarray]) -> list[np.ndarray]:
         """What is a tire's own in the scores of its kind, for each class (n, q), from its scores (n, p).
 
         Where the category's spread is 1, as in :func:`.fit.prepare`: it is the tire's, whoever
@@ -216,7 +216,7 @@ class CurveMixedModel:
         blocks = self.blocks(table, category, self.protocols.code(table))
         here = self.regressors(blocks)
         likely = self.class_probability(table, source, here)
-        own = self._own(source, place, here)
+        own = self.own_scores(source, place, here)
         here = self.regressors(blocks, own)
         now = self.protocols.newest(target, len(table))
         there = self.regressors(self.blocks(table, np.full(len(table), target), now), own)
