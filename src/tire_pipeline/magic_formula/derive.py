@@ -9,8 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import lru_cache
-from hashlib import sha256
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,10 +21,22 @@ from tire_pipeline.magic_formula.coefficients import (
 )
 from tire_pipeline.magic_formula.equations_52 import evaluate_52
 from tire_pipeline.magic_formula.equations_61 import NO_TURN_SLIP, evaluate_61, rolling_load_factor
+from tire_pipeline.magic_formula.jit import checksum_of
 
 DERIVED = ("fx", "fy", "mx", "my", "mz")
 """The outputs that have gradients, in the order in which the equations return them."""
 
+_SOURCES = (
+    "tire_pipeline.magic_formula.derive",
+    "tire_pipeline.magic_formula.fast_math",
+    "tire_pipeline.magic_formula.unpacking",
+    "tire_pipeline.magic_formula.jit",
+    "tire_pipeline.magic_formula.ops",
+    "tire_pipeline.magic_formula.shapes",
+    "tire_pipeline.magic_formula.equations_52",
+    "tire_pipeline.magic_formula.equations_61",
+    "tire_pipeline.magic_formula.coefficients",
+)
 _UFUNCS = {
     np.add: "+",
     np.subtract: "-",
@@ -312,11 +322,7 @@ def module_source(family: int) -> str:
 @lru_cache(maxsize=1)
 def source_stamp() -> str:
     """Return a mark of the sources that the gradients are made from and compiled with."""
-    folder = Path(__file__).parent
-    equations = ("shapes", "coefficients", "equations_52", "equations_61")
-    names = ("derive", "fast_math", "ops", "jit", "unpacking", *equations)
-    text = b"".join((folder / f"{name}.py").read_bytes() for name in names)
-    return sha256(text).hexdigest()[:16]
+    return checksum_of(_SOURCES)
 
 
 _HEAD = '''"""Gradients over coefficients, family {family}, written by derive.py."""

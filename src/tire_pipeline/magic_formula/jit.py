@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from hashlib import sha256
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
 NO_NUMBA_VARIABLE = "TIRE_PIPELINE_NO_NUMBA"
@@ -32,6 +35,16 @@ except ImportError:
 
 jitable = register_jitable(**OPTIONS)
 """Mark a function that the interpreter runs on arrays and the compiler runs on scalars."""
+
+
+def checksum_of(modules: tuple[str, ...]) -> str:
+    """Return a mark of the sources of some modules, which need not be imported for it."""
+    text = b""
+    for name in modules:
+        spec = find_spec(name)
+        assert spec is not None, name
+        text += Path(str(spec.origin)).read_bytes()
+    return sha256(text).hexdigest()[:16]
 
 
 def compiled(function: Callable[..., Any], signature: Any) -> Callable[..., Any]:

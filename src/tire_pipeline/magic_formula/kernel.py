@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
-from hashlib import sha256
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -22,10 +20,21 @@ from tire_pipeline.magic_formula.equations_61 import (
     evaluate_61,
     rolling_load_factor,
 )
-from tire_pipeline.magic_formula.jit import compiled
+from tire_pipeline.magic_formula.jit import checksum_of, compiled
 from tire_pipeline.magic_formula.numpy_form import OUTPUTS, SATURATION
 from tire_pipeline.magic_formula.unpacking import unpack
 
+_SOURCES = (
+    "tire_pipeline.magic_formula.kernel",
+    "tire_pipeline.magic_formula.unpacking",
+    "tire_pipeline.magic_formula.fast_math",
+    "tire_pipeline.magic_formula.jit",
+    "tire_pipeline.magic_formula.ops",
+    "tire_pipeline.magic_formula.shapes",
+    "tire_pipeline.magic_formula.equations_52",
+    "tire_pipeline.magic_formula.equations_61",
+    "tire_pipeline.magic_formula.coefficients",
+)
 BLOCK = 256
 """Points in a block."""
 
@@ -52,11 +61,7 @@ _SIGNATURE = types.void(
 @lru_cache(maxsize=1)
 def _stamp() -> int:
     """Return a number made from the sources of a kernel: part of the key that it is kept under."""
-    folder = Path(__file__).parent
-    equations = ("equations_52", "equations_61", "shapes", "coefficients")
-    names = ("kernel", "unpacking", "fast_math", "ops", *equations)
-    text = b"".join((folder / f"{name}.py").read_bytes() for name in names)
-    return int(sha256(text).hexdigest()[:15], 16)
+    return int(checksum_of(_SOURCES)[:15], 16)
 
 
 @lru_cache(maxsize=8)
