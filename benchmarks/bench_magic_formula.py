@@ -27,8 +27,8 @@ from magic_formula_tires import tire_52, tire_61
 from numba import njit
 
 from tire_pipeline.magic_formula import derive, equations_52, equations_61
-from tire_pipeline.magic_formula.coefficients import Coefficients
 from tire_pipeline.magic_formula.gradients import gradients_of
+from tire_pipeline.magic_formula.parameters.coefficients import Coefficients
 
 WANTED = ("fx", "fy", "mz")
 TIRES = {"5.2": tire_52(), "6.1": tire_61()}

@@ -37,12 +37,12 @@ from tire_pipeline.concealed.constants import draw_constants
 from tire_pipeline.concealed.rig import World
 from tire_pipeline.concealed.schedule import CHANNELS
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.magic_formula.coefficients import family_of
 from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula, given
 from tire_pipeline.magic_formula.fitting.solve import Problem, quick
 from tire_pipeline.magic_formula.fitting.stages import BOUNDS, PRESSURE_BOUNDS, STAGES
 from tire_pipeline.magic_formula.fitting.starts import typical_values
 from tire_pipeline.magic_formula.fitting.typical import FEW_POINTS, pull
+from tire_pipeline.magic_formula.parameters.coefficients import family_of
 from tire_pipeline.recordings import read_recording
 
 SHARED = Path(__file__).resolve().parents[2] / "shared"

@@ -21,7 +21,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "tests" / "magic_formula"))
 from magic_formula_tires import tire_52  # noqa: E402
 
-from tire_pipeline.magic_formula.axes import AXES  # noqa: E402
+from tire_pipeline.magic_formula.parameters.axes import AXES  # noqa: E402
 
 DARK, BLUE, RED, GREEN = "#333333", "#0072b2", "#d55e00", "#009e73"
 SLIP, TILT = 0.25, 0.25

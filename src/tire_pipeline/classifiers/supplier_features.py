@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.magic_formula.coefficients import FAMILIES, SCALE_FACTORS
+from tire_pipeline.magic_formula.parameters.coefficients import FAMILIES, SCALE_FACTORS
 from tire_pipeline.representations.coefficients import DATASETS
 
 STATED = ("LONGVL", "ALPMIN", "ALPMAX", "KPUMIN", "KPUMAX", "CAMMIN", "CAMMAX")

@@ -11,7 +11,7 @@ import pandas as pd
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireForces, TireModel
-from tire_pipeline.magic_formula.coefficients import COEFFICIENT_NAMES
+from tire_pipeline.magic_formula.parameters.coefficients import COEFFICIENT_NAMES
 
 # What a table must hold, without NaN, for each group of curves.
 NEEDED_FOR_CURVES: tuple[str, ...] = ("FNOMIN", "PCY1", "PDY1", "PDY2", "PEY1", "PEY2", "PKY1", "PKY2")

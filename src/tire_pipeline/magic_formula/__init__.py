@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from tire_pipeline.magic_formula.axes import AXES
 from tire_pipeline.magic_formula.batch import forces_batch, pack, pack_matrix
-from tire_pipeline.magic_formula.coefficients import COEFFICIENT_NAMES
 from tire_pipeline.magic_formula.convert import conversion_notes, to_version
 from tire_pipeline.magic_formula.forces import MissingRadiusWarning, TireForces
-from tire_pipeline.magic_formula.inputs import DegreesWarning, TireRangeWarning
 from tire_pipeline.magic_formula.model import TireModel, model_of
 from tire_pipeline.magic_formula.nominal_load import changed_coefficients, nominal_load_changed
 from tire_pipeline.magic_formula.numpy_form import OUTPUTS
+from tire_pipeline.magic_formula.parameters.axes import AXES
+from tire_pipeline.magic_formula.parameters.coefficients import COEFFICIENT_NAMES
+from tire_pipeline.magic_formula.parameters.inputs import DegreesWarning, TireRangeWarning
 
 if TYPE_CHECKING:
     from tire_pipeline.magic_formula.fitting import FitResult, PoorFitWarning, fit_magic_formula

@@ -9,17 +9,17 @@ import numpy as np
 
 from tire_pipeline.errors import TirShapeError, TirValueError
 from tire_pipeline.magic_formula import engine
-from tire_pipeline.magic_formula.coefficients import (
+from tire_pipeline.magic_formula.forces import checked_outputs
+from tire_pipeline.magic_formula.numpy_form import OUTPUTS
+from tire_pipeline.magic_formula.parameters.coefficients import (
     COEFFICIENT_NAMES,
     INDEX,
     family_of,
     missing_defaults,
     pack_mapping,
 )
-from tire_pipeline.magic_formula.forces import checked_outputs
-from tire_pipeline.magic_formula.inputs import as_float_arrays
-from tire_pipeline.magic_formula.numpy_form import OUTPUTS
-from tire_pipeline.magic_formula.parameters import TireParameters
+from tire_pipeline.magic_formula.parameters.inputs import as_float_arrays
+from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 _NEUTRAL = {version: pack_mapping({}, missing_defaults({}, version)) for version in ("5.2", "6.1")}
 _NO_SIGNS = np.ones(2 + len(OUTPUTS))

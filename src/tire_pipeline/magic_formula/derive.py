@@ -13,15 +13,15 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.magic_formula.coefficients import (
+from tire_pipeline.magic_formula.equations_52 import evaluate_52
+from tire_pipeline.magic_formula.equations_61 import NO_TURN_SLIP, evaluate_61, rolling_load_factor
+from tire_pipeline.magic_formula.jit import checksum_of
+from tire_pipeline.magic_formula.parameters.coefficients import (
     COEFFICIENT_NAMES,
     EXTENSIONS_6,
     NAMES_BY_FAMILY,
     Coefficients,
 )
-from tire_pipeline.magic_formula.equations_52 import evaluate_52
-from tire_pipeline.magic_formula.equations_61 import NO_TURN_SLIP, evaluate_61, rolling_load_factor
-from tire_pipeline.magic_formula.jit import checksum_of
 
 DERIVED = ("fx", "fy", "mx", "my", "mz")
 """The outputs that have gradients, in the order in which the equations return them."""
@@ -35,7 +35,7 @@ _SOURCES = (
     "tire_pipeline.magic_formula.shapes",
     "tire_pipeline.magic_formula.equations_52",
     "tire_pipeline.magic_formula.equations_61",
-    "tire_pipeline.magic_formula.coefficients",
+    "tire_pipeline.magic_formula.parameters.coefficients",
 )
 _UFUNCS = {
     np.add: "+",

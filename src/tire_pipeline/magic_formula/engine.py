@@ -11,9 +11,9 @@ from itertools import pairwise
 import numpy as np
 
 from tire_pipeline.magic_formula import numpy_form
-from tire_pipeline.magic_formula.coefficients import are_moderate
 from tire_pipeline.magic_formula.jit import HAVE_NUMBA
 from tire_pipeline.magic_formula.numpy_form import OUTPUTS
+from tire_pipeline.magic_formula.parameters.coefficients import are_moderate
 
 if HAVE_NUMBA:
     from tire_pipeline.magic_formula import kernel

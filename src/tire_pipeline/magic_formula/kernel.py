@@ -33,7 +33,7 @@ _SOURCES = (
     "tire_pipeline.magic_formula.shapes",
     "tire_pipeline.magic_formula.equations_52",
     "tire_pipeline.magic_formula.equations_61",
-    "tire_pipeline.magic_formula.coefficients",
+    "tire_pipeline.magic_formula.parameters.coefficients",
 )
 BLOCK = 256
 """Points in a block."""

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.magic_formula.forces import tire_forces
-from tire_pipeline.magic_formula.parameters import TireParameters
+from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 LARGEST_SLIP_ANGLE = np.deg2rad(15.0)
 LARGEST_SLIP_RATIO = 0.3

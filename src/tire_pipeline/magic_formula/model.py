@@ -7,7 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tire_pipeline.magic_formula.coefficients import (
+from tire_pipeline.magic_formula.convert import to_version
+from tire_pipeline.magic_formula.forces import TireForces, tire_forces
+from tire_pipeline.magic_formula.jacobian import jacobian
+from tire_pipeline.magic_formula.key_figures import key_figures
+from tire_pipeline.magic_formula.nominal_load import nominal_load_changed
+from tire_pipeline.magic_formula.parameters.coefficients import (
     EXTENSIONS_6,
     INDEX,
     NAMES_BY_FAMILY,
@@ -15,12 +20,7 @@ from tire_pipeline.magic_formula.coefficients import (
     is_possible,
     missing_defaults,
 )
-from tire_pipeline.magic_formula.convert import to_version
-from tire_pipeline.magic_formula.forces import TireForces, tire_forces
-from tire_pipeline.magic_formula.jacobian import jacobian
-from tire_pipeline.magic_formula.key_figures import key_figures
-from tire_pipeline.magic_formula.nominal_load import nominal_load_changed
-from tire_pipeline.magic_formula.parameters import TireParameters
+from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -10,7 +10,7 @@ import numpy as np
 from tire_pipeline.drawing import colour_of, new_figure
 from tire_pipeline.magic_formula.forces import tire_forces
 from tire_pipeline.magic_formula.key_figures import forces_over, usual_loads
-from tire_pipeline.magic_formula.parameters import TireParameters
+from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

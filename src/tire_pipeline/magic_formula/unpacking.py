@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from tire_pipeline.magic_formula.coefficients import COEFFICIENT_NAMES, Coefficients
 from tire_pipeline.magic_formula.jit import jitable
+from tire_pipeline.magic_formula.parameters.coefficients import COEFFICIENT_NAMES, Coefficients
 
 
 def _unpacker() -> Callable[..., Any]:

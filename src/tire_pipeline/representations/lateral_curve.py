@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.magic_formula.coefficients import Coefficients, missing_defaults, pack_mapping
 from tire_pipeline.magic_formula.equations_61 import NO_TURN_SLIP, pure_lateral
+from tire_pipeline.magic_formula.parameters.coefficients import Coefficients, missing_defaults, pack_mapping
 from tire_pipeline.magic_formula.shapes import sine_curve
 
 FACTOR_COLUMNS = ("PCY1", "PDY1", "PDY2", "PEY1", "PEY2", "PEY3", "PKY1", "PKY2")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 
-from tire_pipeline.magic_formula.coefficients import is_possible
 from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.parameters.coefficients import is_possible
 from tire_pipeline.tir.escaping import comment_lines, quoted
 from tire_pipeline.tir.keys import DIMENSION, NEVER_COEFFICIENTS, names_coefficient, section_name
 from tire_pipeline.tir.layout import LAYOUT, describe, home_section

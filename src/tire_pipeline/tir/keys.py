@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from tire_pipeline.magic_formula.coefficients import INDEX
+from tire_pipeline.magic_formula.parameters.coefficients import INDEX
 
 SECTION_ALIASES = {
     "UNIT": "UNITS",

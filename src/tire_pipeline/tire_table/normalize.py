@@ -7,8 +7,8 @@ import numpy.typing as npt
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.magic_formula.coefficients import family_of
 from tire_pipeline.magic_formula.nominal_load import changed_coefficients
+from tire_pipeline.magic_formula.parameters.coefficients import family_of
 
 _NOT_ZERO_BY_DEFAULT = {"QSY7": 1.0}
 

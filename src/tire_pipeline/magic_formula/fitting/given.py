@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.magic_formula.coefficients import family_of
 from tire_pipeline.magic_formula.fitting import stages
 from tire_pipeline.magic_formula.fitting.stages import Stage
 from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.parameters.coefficients import family_of
 
 INPUTS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
 FEWEST_POINTS = 10

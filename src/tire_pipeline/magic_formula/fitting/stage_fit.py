@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tire_pipeline.magic_formula.coefficients import INDEX
 from tire_pipeline.magic_formula.fitting.coverage import noise_alone, open_coefficients
 from tire_pipeline.magic_formula.fitting.given import INPUTS
 from tire_pipeline.magic_formula.fitting.search import SLACK, StageFit, are_few, judged, least, most_typical
@@ -21,6 +20,7 @@ from tire_pipeline.magic_formula.fitting.starts import (
 )
 from tire_pipeline.magic_formula.fitting.typical import pull
 from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.parameters.coefficients import INDEX
 
 _EXACT = 1e-4
 """A misfit below this share of the largest force is no misfit."""

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.magic_formula.inputs import LOOKS_LIKE_DEGREES
 from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.parameters.inputs import LOOKS_LIKE_DEGREES
 
 MOST_LEFT = 0.1
 """RMS of the residuals, over the largest force, beyond which a fit is no success."""

@@ -14,7 +14,7 @@ import pandas as pd
 from numpy.typing import ArrayLike
 
 from tire_pipeline.magic_formula import forces_batch
-from tire_pipeline.magic_formula.coefficients import INDEX, missing_defaults, pack_mapping
+from tire_pipeline.magic_formula.parameters.coefficients import INDEX, missing_defaults, pack_mapping
 from tire_pipeline.representations.coefficients import ALIGNING, LATERAL, LONGITUDINAL
 
 Columns = Mapping[str, np.ndarray]

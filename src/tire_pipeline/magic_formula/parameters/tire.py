@@ -12,7 +12,7 @@ from typing import Any, Self, TypeVar
 import numpy as np
 
 from tire_pipeline.errors import TirValueError
-from tire_pipeline.magic_formula.coefficients import (
+from tire_pipeline.magic_formula.parameters.coefficients import (
     INDEX,
     RANGES,
     are_moderate,
