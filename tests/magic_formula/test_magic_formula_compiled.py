@@ -10,9 +10,10 @@ import pytest
 from magic_formula_tires import tire_52, tire_61
 
 from tire_pipeline.errors import TirValueError
-from tire_pipeline.magic_formula import OUTPUTS, engine, numpy_form
+from tire_pipeline.magic_formula import OUTPUTS, engine
+from tire_pipeline.magic_formula.equations import numpy_form
+from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA
 from tire_pipeline.magic_formula.gradients import gradients_of
-from tire_pipeline.magic_formula.jit import HAVE_NUMBA
 
 TIRES = {"5.2": tire_52(), "6.1": tire_61()}
 RNG = np.random.default_rng(1)
@@ -84,7 +85,7 @@ def test_very_large_angles_and_shapes_go_to_numpy():
 def test_without_numba_the_results_are_the_same():
     code = (
         "import json; from magic_formula_tires import tire_52, tire_61; "
-        "from tire_pipeline.magic_formula.jit import HAVE_NUMBA; assert not HAVE_NUMBA\n"
+        "from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA; assert not HAVE_NUMBA\n"
         "for t in (tire_52(), tire_61()):\n"
         "    f = t.forces(slip_angle=[0.05, -0.1], slip_ratio=[0.1, 0.0], camber=0.02, normal_load=3000.0)\n"
         "    j = t.jacobian(['PKY1'], slip_angle=0.05, normal_load=3000.0)['fy']\n"

@@ -10,8 +10,8 @@ from tir_samples import LATERAL, tir_text
 
 from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula import MissingRadiusWarning, TireModel
+from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.forces import NEEDS_RADIUS
-from tire_pipeline.magic_formula.numpy_form import OUTPUTS
 from tire_pipeline.tir import read_tir, write_tir
 
 MOMENTS = "QBZ1 = 8\nQCZ1 = 1.1\nQDZ1 = 0.1\nQSX1 = 0.01\nQSY1 = 0.01\n"

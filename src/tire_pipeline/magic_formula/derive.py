@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.magic_formula.equations_52 import evaluate_52
-from tire_pipeline.magic_formula.equations_61 import NO_TURN_SLIP, evaluate_61, rolling_load_factor
-from tire_pipeline.magic_formula.jit import checksum_of
+from tire_pipeline.magic_formula.equations.equations_52 import evaluate_52
+from tire_pipeline.magic_formula.equations.equations_61 import NO_TURN_SLIP, evaluate_61, rolling_load_factor
+from tire_pipeline.magic_formula.equations.jit import checksum_of
 from tire_pipeline.magic_formula.parameters.coefficients import (
     COEFFICIENT_NAMES,
     EXTENSIONS_6,
@@ -30,11 +30,11 @@ _SOURCES = (
     "tire_pipeline.magic_formula.derive",
     "tire_pipeline.magic_formula.fast_math",
     "tire_pipeline.magic_formula.unpacking",
-    "tire_pipeline.magic_formula.jit",
-    "tire_pipeline.magic_formula.ops",
-    "tire_pipeline.magic_formula.shapes",
-    "tire_pipeline.magic_formula.equations_52",
-    "tire_pipeline.magic_formula.equations_61",
+    "tire_pipeline.magic_formula.equations.jit",
+    "tire_pipeline.magic_formula.equations.ops",
+    "tire_pipeline.magic_formula.equations.shapes",
+    "tire_pipeline.magic_formula.equations.equations_52",
+    "tire_pipeline.magic_formula.equations.equations_61",
     "tire_pipeline.magic_formula.parameters.coefficients",
 )
 _UFUNCS = {
@@ -329,8 +329,8 @@ _HEAD = '''"""Gradients over coefficients, family {family}, written by derive.py
 
 import numpy as np
 
-from tire_pipeline.magic_formula.jit import jitable
-from tire_pipeline.magic_formula.ops import (
+from tire_pipeline.magic_formula.equations.jit import jitable
+from tire_pipeline.magic_formula.equations.ops import (
     absolute, arctan, cos, exp, log, maximum, minimum, power, select, sin, sqrt,
 )
 from tire_pipeline.magic_formula.unpacking import unpack

@@ -10,9 +10,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from tire_pipeline.magic_formula import numpy_form
-from tire_pipeline.magic_formula.jit import HAVE_NUMBA
-from tire_pipeline.magic_formula.numpy_form import OUTPUTS
+from tire_pipeline.magic_formula.equations import numpy_form
+from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA
+from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.parameters.coefficients import are_moderate
 
 if HAVE_NUMBA:

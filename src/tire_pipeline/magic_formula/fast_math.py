@@ -13,8 +13,8 @@ import numpy as np
 from numba import njit, types
 from numba.extending import intrinsic, overload
 
-from tire_pipeline.magic_formula import ops
-from tire_pipeline.magic_formula.jit import OPTIONS
+from tire_pipeline.magic_formula.equations import ops
+from tire_pipeline.magic_formula.equations.jit import OPTIONS
 
 _PI_1, _PI_2, _PI_3 = 3.1415926218032837, 3.178650942459171e-08, 1.2246467864107189e-16
 _PI_4 = 1.2736634327021899e-24

@@ -14,8 +14,8 @@ from numpy.lib.stride_tricks import as_strided
 
 from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula import engine
-from tire_pipeline.magic_formula.jit import HAVE_NUMBA
-from tire_pipeline.magic_formula.numpy_form import OUTPUTS
+from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA
+from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.parameters import inputs
 from tire_pipeline.magic_formula.parameters.axes import Signs, is_mirrored, signs_of
 from tire_pipeline.magic_formula.parameters.tire import TireParameters

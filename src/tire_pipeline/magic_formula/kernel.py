@@ -14,25 +14,25 @@ import numpy as np
 from numba import njit, types
 
 from tire_pipeline.magic_formula import fast_math as fast_math  # teaches numba the operations
-from tire_pipeline.magic_formula.equations_52 import evaluate_52
-from tire_pipeline.magic_formula.equations_61 import (
+from tire_pipeline.magic_formula.equations.equations_52 import evaluate_52
+from tire_pipeline.magic_formula.equations.equations_61 import (
     NO_TURN_SLIP,
     evaluate_61,
     rolling_load_factor,
 )
-from tire_pipeline.magic_formula.jit import checksum_of, compiled
-from tire_pipeline.magic_formula.numpy_form import OUTPUTS, SATURATION
+from tire_pipeline.magic_formula.equations.jit import checksum_of, compiled
+from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS, SATURATION
 from tire_pipeline.magic_formula.unpacking import unpack
 
 _SOURCES = (
     "tire_pipeline.magic_formula.kernel",
     "tire_pipeline.magic_formula.unpacking",
     "tire_pipeline.magic_formula.fast_math",
-    "tire_pipeline.magic_formula.jit",
-    "tire_pipeline.magic_formula.ops",
-    "tire_pipeline.magic_formula.shapes",
-    "tire_pipeline.magic_formula.equations_52",
-    "tire_pipeline.magic_formula.equations_61",
+    "tire_pipeline.magic_formula.equations.jit",
+    "tire_pipeline.magic_formula.equations.ops",
+    "tire_pipeline.magic_formula.equations.shapes",
+    "tire_pipeline.magic_formula.equations.equations_52",
+    "tire_pipeline.magic_formula.equations.equations_61",
     "tire_pipeline.magic_formula.parameters.coefficients",
 )
 BLOCK = 256

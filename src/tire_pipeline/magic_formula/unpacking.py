@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from tire_pipeline.magic_formula.jit import jitable
+from tire_pipeline.magic_formula.equations.jit import jitable
 from tire_pipeline.magic_formula.parameters.coefficients import COEFFICIENT_NAMES, Coefficients
 
 

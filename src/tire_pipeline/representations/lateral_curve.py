@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.magic_formula.equations_61 import NO_TURN_SLIP, pure_lateral
+from tire_pipeline.magic_formula.equations.equations_61 import NO_TURN_SLIP, pure_lateral
+from tire_pipeline.magic_formula.equations.shapes import sine_curve
 from tire_pipeline.magic_formula.parameters.coefficients import Coefficients, missing_defaults, pack_mapping
-from tire_pipeline.magic_formula.shapes import sine_curve
 
 FACTOR_COLUMNS = ("PCY1", "PDY1", "PDY2", "PEY1", "PEY2", "PEY3", "PKY1", "PKY2")
 SHIFT_COLUMNS = ("PHY1", "PHY2", "PVY1", "PVY2")

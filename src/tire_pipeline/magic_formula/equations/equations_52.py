@@ -6,9 +6,18 @@ right form stands here and the docstring names the equation; docs/explanation/ma
 
 from __future__ import annotations
 
-from tire_pipeline.magic_formula.jit import jitable
-from tire_pipeline.magic_formula.ops import absolute, arctan, cos, exp, maximum, minimum, select, sin
-from tire_pipeline.magic_formula.shapes import (
+from tire_pipeline.magic_formula.equations.jit import jitable
+from tire_pipeline.magic_formula.equations.ops import (
+    absolute,
+    arctan,
+    cos,
+    exp,
+    maximum,
+    minimum,
+    select,
+    sin,
+)
+from tire_pipeline.magic_formula.equations.shapes import (
     cos_arctan,
     cosine_curve,
     divide,

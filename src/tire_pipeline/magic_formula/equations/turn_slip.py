@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.magic_formula.equations_61 import (
+from tire_pipeline.magic_formula.equations.equations_61 import (
     Zetas,
     camber_shift,
     camber_stiffness,
@@ -17,7 +17,7 @@ from tire_pipeline.magic_formula.equations_61 import (
     lateral_friction,
     lateral_weight,
 )
-from tire_pipeline.magic_formula.shapes import cos_arctan, divide
+from tire_pipeline.magic_formula.equations.shapes import cos_arctan, divide
 
 
 def zetas_of(p, alpha, kappa, gamma, fz, speed, dpi, turn_slip):

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from collections import namedtuple
 
-from tire_pipeline.magic_formula.jit import jitable
-from tire_pipeline.magic_formula.ops import (
+from tire_pipeline.magic_formula.equations.jit import jitable
+from tire_pipeline.magic_formula.equations.ops import (
     absolute,
     arctan,
     cos,
@@ -21,7 +21,7 @@ from tire_pipeline.magic_formula.ops import (
     select,
     sin,
 )
-from tire_pipeline.magic_formula.shapes import (
+from tire_pipeline.magic_formula.equations.shapes import (
     cos_arctan,
     cosine_curve,
     divide,

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.magic_formula.equations_52 import evaluate_52
-from tire_pipeline.magic_formula.equations_61 import NO_TURN_SLIP, evaluate_61, rolling_load_factor
+from tire_pipeline.magic_formula.equations.equations_52 import evaluate_52
+from tire_pipeline.magic_formula.equations.equations_61 import NO_TURN_SLIP, evaluate_61, rolling_load_factor
+from tire_pipeline.magic_formula.equations.shapes import clamp
+from tire_pipeline.magic_formula.equations.turn_slip import zetas_of
 from tire_pipeline.magic_formula.parameters.coefficients import Coefficients
-from tire_pipeline.magic_formula.shapes import clamp
-from tire_pipeline.magic_formula.turn_slip import zetas_of
 
 OUTPUTS = (
     "fx",

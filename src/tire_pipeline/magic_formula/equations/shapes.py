@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from tire_pipeline.magic_formula.jit import jitable
-from tire_pipeline.magic_formula.ops import (
+from tire_pipeline.magic_formula.equations.jit import jitable
+from tire_pipeline.magic_formula.equations.ops import (
     HUGE,
     absolute,
     arctan,

@@ -1,0 +1,1 @@
+"""The equations, written once for arrays and for the compiler."""
