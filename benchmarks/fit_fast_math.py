@@ -1,4 +1,4 @@
-"""Find the polynomials of ``magic_formula/fast_math.py`` (needs mpmath, which comes with sympy).
+"""Find the polynomials of ``magic_formula/compiled/fast_math.py`` (needs mpmath, which comes with sympy).
 
 Prints each polynomial's coefficients, highest power first, and its largest relative error.
 """

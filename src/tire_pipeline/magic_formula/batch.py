@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.errors import TirShapeError, TirValueError
-from tire_pipeline.magic_formula import engine
+from tire_pipeline.magic_formula.compiled import engine
 from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.forces import checked_outputs
 from tire_pipeline.magic_formula.parameters.coefficients import (

@@ -28,8 +28,8 @@ DERIVED = ("fx", "fy", "mx", "my", "mz")
 
 _SOURCES = (
     "tire_pipeline.magic_formula.derive",
-    "tire_pipeline.magic_formula.fast_math",
-    "tire_pipeline.magic_formula.unpacking",
+    "tire_pipeline.magic_formula.compiled.fast_math",
+    "tire_pipeline.magic_formula.compiled.unpacking",
     "tire_pipeline.magic_formula.equations.jit",
     "tire_pipeline.magic_formula.equations.ops",
     "tire_pipeline.magic_formula.equations.shapes",
@@ -333,7 +333,7 @@ from tire_pipeline.magic_formula.equations.jit import jitable
 from tire_pipeline.magic_formula.equations.ops import (
     absolute, arctan, cos, exp, log, maximum, minimum, power, select, sin, sqrt,
 )
-from tire_pipeline.magic_formula.unpacking import unpack
+from tire_pipeline.magic_formula.compiled.unpacking import unpack
 
 BLOCK = 64
 '''

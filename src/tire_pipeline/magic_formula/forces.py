@@ -13,7 +13,7 @@ import numpy as np
 from numpy.lib.stride_tricks import as_strided
 
 from tire_pipeline.errors import TirValueError
-from tire_pipeline.magic_formula import engine
+from tire_pipeline.magic_formula.compiled import engine
 from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA
 from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.parameters import inputs

@@ -153,7 +153,7 @@ def _fill(
 def _compiled(family: int, output: str) -> Callable[..., None]:
     from numba import types
 
-    from tire_pipeline.magic_formula import fast_math
+    from tire_pipeline.magic_formula.compiled import fast_math
 
     assert fast_math is not None  # it has taught numba the operations
     vector = types.Array(types.float64, 1, "C", readonly=True)

@@ -1,7 +1,7 @@
 """The few mathematical operations that the equations are written in.
 
 The interpreter (and so the NumPy form) takes them from NumPy, on arrays. Compiled code takes the scalar
-forms of :mod:`tire_pipeline.magic_formula.fast_math`.
+forms of :mod:`tire_pipeline.magic_formula.compiled.fast_math`.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import scipy
 
-from tire_pipeline.magic_formula import engine
+from tire_pipeline.magic_formula.compiled import engine
 from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.fitting.typical import Pull
 from tire_pipeline.magic_formula.jacobian import packed_jacobian

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numba import njit, types
 
-from tire_pipeline.magic_formula import fast_math as fast_math  # teaches numba the operations
+from tire_pipeline.magic_formula.compiled import fast_math as fast_math  # teaches numba the operations
+from tire_pipeline.magic_formula.compiled.unpacking import unpack
 from tire_pipeline.magic_formula.equations.equations_52 import evaluate_52
 from tire_pipeline.magic_formula.equations.equations_61 import (
     NO_TURN_SLIP,
@@ -22,12 +23,11 @@ from tire_pipeline.magic_formula.equations.equations_61 import (
 )
 from tire_pipeline.magic_formula.equations.jit import checksum_of, compiled
 from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS, SATURATION
-from tire_pipeline.magic_formula.unpacking import unpack
 
 _SOURCES = (
-    "tire_pipeline.magic_formula.kernel",
-    "tire_pipeline.magic_formula.unpacking",
-    "tire_pipeline.magic_formula.fast_math",
+    "tire_pipeline.magic_formula.compiled.kernel",
+    "tire_pipeline.magic_formula.compiled.unpacking",
+    "tire_pipeline.magic_formula.compiled.fast_math",
     "tire_pipeline.magic_formula.equations.jit",
     "tire_pipeline.magic_formula.equations.ops",
     "tire_pipeline.magic_formula.equations.shapes",

@@ -16,7 +16,7 @@ from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.parameters.coefficients import are_moderate
 
 if HAVE_NUMBA:
-    from tire_pipeline.magic_formula import kernel
+    from tire_pipeline.magic_formula.compiled import kernel
 
 _NUMPY_CHUNK = 8192
 """Points at a time in the NumPy form: its temporaries stay below a few MiB."""

@@ -1,0 +1,1 @@
+"""The equations in compiled form, over tires and points."""
