@@ -26,9 +26,9 @@ import numpy as np
 from magic_formula_tires import tire_52, tire_61
 from numba import njit
 
-from tire_pipeline.magic_formula import derive
+from tire_pipeline.magic_formula.derivatives import derive
+from tire_pipeline.magic_formula.derivatives.gradients import gradients_of
 from tire_pipeline.magic_formula.equations import equations_52, equations_61
-from tire_pipeline.magic_formula.gradients import gradients_of
 from tire_pipeline.magic_formula.parameters.coefficients import Coefficients
 
 WANTED = ("fx", "fy", "mz")

@@ -13,13 +13,13 @@ import pytest
 from magic_formula_tires import tire_52
 
 import tire_pipeline
-from tire_pipeline.magic_formula import derive, gradients
-from tire_pipeline.magic_formula.gradients import gradients_of
+from tire_pipeline.magic_formula.derivatives import derive, gradients
+from tire_pipeline.magic_formula.derivatives.gradients import gradients_of
 
 ROOT = Path(__file__).parents[2]
 CODE = (
     "import json; from magic_formula_tires import tire_52\n"
-    "from tire_pipeline.magic_formula import gradients\n"
+    "from tire_pipeline.magic_formula.derivatives import gradients\n"
     "points = {'slip_angle': 0.05, 'camber': 0.02, 'normal_load': 3000.0}\n"
     "j = tire_52().jacobian(['QSX1', 'QSX3'], **points, outputs=('mx',))\n"
     "print(json.dumps([gradients.gradients_of(5).__dict__.get('__file__'), j['mx'].tolist()]))\n"
@@ -128,5 +128,5 @@ def test_the_wheel_builds_offline_and_holds_no_generated_code(tmp_path):
     subprocess.run([*pip, "--quiet", "-w", str(tmp_path), str(source)], check=True, capture_output=True)
     (wheel,) = tmp_path.glob("*.whl")
     names = zipfile.ZipFile(wheel).namelist()
-    assert "tire_pipeline/magic_formula/derive.py" in names
+    assert "tire_pipeline/magic_formula/derivatives/derive.py" in names
     assert not [name for name in names if "gradients_" in name]

@@ -17,7 +17,7 @@ from hashlib import sha256
 from pathlib import Path
 from types import ModuleType
 
-from tire_pipeline.magic_formula.derive import module_source, source_stamp
+from tire_pipeline.magic_formula.derivatives.derive import module_source, source_stamp
 
 _PACKAGE = Path(__file__).parent
 _OLD = 86_400.0

@@ -27,7 +27,7 @@ DERIVED = ("fx", "fy", "mx", "my", "mz")
 """The outputs that have gradients, in the order in which the equations return them."""
 
 _SOURCES = (
-    "tire_pipeline.magic_formula.derive",
+    "tire_pipeline.magic_formula.derivatives.derive",
     "tire_pipeline.magic_formula.compiled.fast_math",
     "tire_pipeline.magic_formula.compiled.unpacking",
     "tire_pipeline.magic_formula.equations.jit",

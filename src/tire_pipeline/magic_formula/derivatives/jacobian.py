@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.errors import TirValueError
+from tire_pipeline.magic_formula.derivatives.gradients import gradients_of
 from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA, compiled
 from tire_pipeline.magic_formula.equations.numpy_form import SATURATION, relative_pressure
 from tire_pipeline.magic_formula.equations.shapes import clamp
-from tire_pipeline.magic_formula.gradients import gradients_of
 from tire_pipeline.magic_formula.parameters.coefficients import INDEX, Coefficients
 from tire_pipeline.magic_formula.parameters.inputs import as_float_arrays
 from tire_pipeline.magic_formula.parameters.tire import TireParameters

@@ -1,0 +1,1 @@
+"""Derivatives of forces with respect to coefficients: written from the equations, kept, evaluated."""
