@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from tire_pipeline.magic_formula.batch import forces_batch, pack, pack_matrix
-from tire_pipeline.magic_formula.convert import conversion_notes, to_version
+from tire_pipeline.magic_formula.changes.convert import conversion_notes, to_version
+from tire_pipeline.magic_formula.changes.nominal_load import changed_coefficients, nominal_load_changed
 from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.forces import MissingRadiusWarning, TireForces
 from tire_pipeline.magic_formula.model import TireModel, model_of
-from tire_pipeline.magic_formula.nominal_load import changed_coefficients, nominal_load_changed
 from tire_pipeline.magic_formula.parameters.axes import AXES
 from tire_pipeline.magic_formula.parameters.coefficients import COEFFICIENT_NAMES
 from tire_pipeline.magic_formula.parameters.inputs import DegreesWarning, TireRangeWarning

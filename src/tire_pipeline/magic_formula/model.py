@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tire_pipeline.magic_formula.convert import to_version
+from tire_pipeline.magic_formula.changes.convert import to_version
+from tire_pipeline.magic_formula.changes.nominal_load import nominal_load_changed
 from tire_pipeline.magic_formula.derivatives.jacobian import jacobian
 from tire_pipeline.magic_formula.forces import TireForces, tire_forces
 from tire_pipeline.magic_formula.key_figures import key_figures
-from tire_pipeline.magic_formula.nominal_load import nominal_load_changed
 from tire_pipeline.magic_formula.parameters.coefficients import (
     EXTENSIONS_6,
     INDEX,

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tire_pipeline.atomic import write_bytes
 from tire_pipeline.errors import TirError
-from tire_pipeline.magic_formula.convert import to_version
+from tire_pipeline.magic_formula.changes.convert import to_version
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.tir.document import TirFile
 from tire_pipeline.tir.edits import edited_source
@@ -40,7 +40,7 @@ def write_tir(
     comments : str or sequence of str, optional
         Comment lines to add at the top. Control characters, brackets and ``$`` in them are replaced.
     version : str, optional
-        Write it as another version (:func:`tire_pipeline.magic_formula.convert.to_version`).
+        Write it as another version (:func:`tire_pipeline.magic_formula.changes.convert.to_version`).
     overwrite : bool
         Replace a file that is there, be it the model's own source.
     complete : bool, optional

@@ -7,7 +7,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.magic_formula.nominal_load import changed_coefficients
+from tire_pipeline.magic_formula.changes.nominal_load import changed_coefficients
 from tire_pipeline.magic_formula.parameters.coefficients import family_of
 
 _NOT_ZERO_BY_DEFAULT = {"QSY7": 1.0}
@@ -16,7 +16,7 @@ _NOT_ZERO_BY_DEFAULT = {"QSY7": 1.0}
 def normalize_table(table: pd.DataFrame, nominal_load: npt.ArrayLike) -> pd.DataFrame:
     """Write the same forces with one nominal load, all rows at once.
 
-    The rules are those of :func:`tire_pipeline.magic_formula.nominal_load.changed_coefficients`. A
+    The rules are those of :func:`tire_pipeline.magic_formula.changes.nominal_load.changed_coefficients`. A
     coefficient that a file lacks counts as what stands in for it, and stays without a value unless the
     change gives it one.
 
