@@ -17,6 +17,7 @@ from tire_pipeline.magic_formula.derivatives import derive, gradients
 from tire_pipeline.magic_formula.derivatives.gradients import gradients_of
 
 ROOT = Path(__file__).parents[2]
+PLACE = "tire_pipeline/magic_formula/derivatives"
 CODE = (
     "import json; from magic_formula_tires import tire_52\n"
     "from tire_pipeline.magic_formula.derivatives import gradients\n"
@@ -65,12 +66,12 @@ def package(tmp_path):
 
 def read_only(package: Path) -> None:
     """Keep anyone, also root, from writing beside the equations: a file stands where the folder would be."""
-    (package / "tire_pipeline" / "magic_formula" / "__pycache__").write_text("")
+    (package / PLACE / "__pycache__").write_text("")
 
 
 def test_the_code_lies_where_compiled_code_lies(package, tmp_path):
     file, found = answer(started(package, tmp_path / "cache", TIRE_PIPELINE_NO_NUMBA="1"))
-    assert Path(file).parent == package / "tire_pipeline" / "magic_formula" / "__pycache__"
+    assert Path(file).parent == package / PLACE / "__pycache__"
     assert not (tmp_path / "cache").exists()
     np.testing.assert_allclose(found, expected(), rtol=1e-12)
 
@@ -128,5 +129,5 @@ def test_the_wheel_builds_offline_and_holds_no_generated_code(tmp_path):
     subprocess.run([*pip, "--quiet", "-w", str(tmp_path), str(source)], check=True, capture_output=True)
     (wheel,) = tmp_path.glob("*.whl")
     names = zipfile.ZipFile(wheel).namelist()
-    assert "tire_pipeline/magic_formula/derivatives/derive.py" in names
+    assert f"{PLACE}/derive.py" in names
     assert not [name for name in names if "gradients_" in name]
