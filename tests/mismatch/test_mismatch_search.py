@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 
 from tire_pipeline.mismatch import explain_mismatch
-from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.checks import prepare
 from tire_pipeline.mismatch.doubts import _instead
 from tire_pipeline.mismatch.effects import catalogue
@@ -10,7 +9,6 @@ from tire_pipeline.mismatch.effects.shared import harmonic_power
 from tire_pipeline.mismatch.exchange import exchanged
 from tire_pipeline.mismatch.gates import _least
 from tire_pipeline.mismatch.nuisance import make_nuisance
-from tire_pipeline.mismatch.proof import not_borne_out
 from tire_pipeline.mismatch.refit import finish, moved, objective, refit, residual
 from tire_pipeline.mismatch.repeating import strongest_length
 from tire_pipeline.mismatch.search import _drop, begin, run, with_shapes
@@ -261,17 +259,6 @@ def test_noise_is_as_it_was_once_an_effect_is_dropped(tire, record):
     _drop(search, 0)
     assert search.fit.names == []
     assert search.noise["fy"].floor == pytest.approx(before, rel=1e-3)
-
-
-@pytest.mark.parametrize(("everywhere", "idle"), [(True, None), (False, 0)])
-def test_a_name_has_to_hold_in_parts_that_its_fit_has_not_seen(tire, record, everywhere, idle):
-    """Friction lower in all of the recording, and friction lower at first and higher later."""
-    time = record(5)["time"].to_numpy()
-    late = time > 0.5 * time[-1]
-    recording = record(5, friction=0.95 if everywhere else np.where(late, 1.06, 0.95))
-    search = begin(prepare(tire, recording).data)
-    fit = refit(search.system, [Variant("friction_scale", {"friction": 0.0}, ("friction",))])
-    assert not_borne_out(search, fit) == idle
 
 
 def test_a_small_wheel_turns_under_its_force_as_a_large_one_does(tire, record):

@@ -14,7 +14,6 @@ from tire_pipeline.mismatch.state import Search
 
 Array = np.ndarray
 _LOCKED = {"moment", "radius"}
-_PARTS = 8
 
 
 def prove(search: Search, *, resamples: int = 400, seed: int = 0) -> dict[str, OutputFit]:
@@ -144,60 +143,57 @@ def _without(fit: Fit, dropped: Array) -> Array:
     return delta
 
 
-def _left_out(search: Search, fit: Fit, group: Array | None = None) -> dict[str, Array]:
-    """Return residuals with each group of sweeps predicted by parameters fitted without it; no nuisance here.
-
-    Each sweep is a group of its own if ``group``, shape (sweeps,), is left out.
-    """
+def _left_out(search: Search, fit: Fit) -> dict[str, Array]:
+    """Return residuals with each sweep predicted by parameters fitted without it (no nuisance here)."""
     out = residual(search.data, fit.changes)
     if not fit.labels or fit.sums is None:
         return out
-    group = np.arange(search.system.count) if group is None else group
     base = _without(fit, np.zeros(search.system.count, bool))
-    for k in np.unique(group):
-        delta = _without(fit, group == k) - base
-        rows = (group == k)[search.block]
+    for k in range(search.system.count):
+        left = np.zeros(search.system.count, bool)
+        left[k] = True
+        delta = _without(fit, left) - base
+        rows = search.block == k
         for o in out:
             out[o][rows] -= fit.columns[o][rows] @ delta
     return out
 
 
-def not_borne_out(search: Search, fit: Fit, least: float = settings.HELD_SHARE) -> int | None:
-    """Return the effect that removes least of the mismatch in parts that its fit has not seen.
+def makes_worse(search: Search, fit: Fit) -> bool:
+    """Whether the effects leave as much as the model that came in, on sweeps that the fit has not seen.
 
-    None if each removes the share ``least`` of what is there without it, noise apart. Parts are eighths of
-    the recording, one after the other: what a tire or a rig does, it does in all of them, and what only
-    resembles it does not.
     In newtons, as the model will be used: without the misfit and the coefficients beside which the evidence
-    was weighed. No condition is left out as a whole: without the highest load, what changes a pressure's
-    effect with load is open, and a true pressure leaves four times as much there (calspan).
+    was weighed. One sweep at a time: without the highest load as a whole, or an eighth of the recording, what
+    changes a pressure's effect with load is open, and a true pressure leaves four times as much (calspan).
+    """
+    if not fit.names:
+        return False
+    shares = shares_left(_left_out(search, fit), residual(search.data, []))
+    return float(np.mean(list(shares.values()))) >= 1.0
+
+
+def slight(search: Search, fit: Fit) -> int | None:
+    """Return the effect that removes least on sweeps that the fit has not seen, if that is next to nothing.
+
+    None if each removes ``HELD_SHARE`` of the mismatch that is there without it, noise apart.
 
     Parameters
     ----------
     search : Search
     fit : Fit
-    least : float
-        Zero asks only that it makes nothing worse, while others are still to be found: beside a stronger one
-        that is not in, an effect removes little.
     """
-    shares = [_removed_unseen(search, fit, i) for i in range(len(fit.names))]
-    if not shares or min(shares) >= least:
+    with_it, shares = _left_out(search, fit), []
+    for i in range(len(fit.names)):
+        without_it = _left_out(search, without(search, fit, i))
+        gone = []
+        for o, there in without_it.items():
+            before, after = float(np.mean(there**2)), float(np.mean(with_it[o] ** 2))
+            above = before - min(search.noise[o].floor ** 2, 0.9 * before)
+            gone.append((before - after) / max(above, 1e-300))
+        shares.append(float(np.mean(gone)))
+    if not shares or min(shares) >= settings.HELD_SHARE:
         return None
     return int(np.argmin(shares))
-
-
-def _removed_unseen(search: Search, fit: Fit, index: int) -> float:
-    """Share of the mismatch that an effect removes in parts that the fit has not seen, mean of outputs."""
-    when = np.bincount(search.block, np.arange(search.data.size)) / np.bincount(search.block)
-    part = np.argsort(np.argsort(when)) * _PARTS // search.system.count
-    with_it = _left_out(search, fit, part)
-    without_it = _left_out(search, without(search, fit, index), part)
-    shares = []
-    for o, there in without_it.items():
-        before, after = float(np.mean(there**2)), float(np.mean(with_it[o] ** 2))
-        above = before - min(search.noise[o].floor ** 2, 0.9 * before)
-        shares.append((before - after) / max(above, 1e-300))
-    return float(np.mean(shares))
 
 
 def shares_left(after: dict[str, Array], before: dict[str, Array]) -> dict[str, float]:

@@ -27,7 +27,7 @@ from tire_pipeline.mismatch.gates import (
 )
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.left_out import groups, left_out_error
-from tire_pipeline.mismatch.proof import not_borne_out
+from tire_pipeline.mismatch.proof import makes_worse, slight
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.screening import (
     frozen_cost,
@@ -44,7 +44,8 @@ from tire_pipeline.mismatch.state import Search, begin, beside, log_likelihood, 
 
 __all__ = ["Search", "begin", "gain_of", "objective", "prune", "run", "with_shapes"]
 
-_NO_BETTER = "parts of the recording that its fit has not seen are predicted no better with it"
+_NO_BETTER = "sweeps that its fit has not seen are predicted no better with it"
+_SLIGHT = "removes next to nothing of what is left on sweeps that its fit has not seen"
 _OF_SOME_LOADS = "loads that its fit has not seen are predicted no better with it"
 
 
@@ -220,9 +221,9 @@ def _take(search: Search, fits: list[Fit]) -> bool:
         search.refused.update(reasons(search, gates))
         if not ok and len(gates) == 1 and gates[0].explains_most:
             search.nearly.add(fit.names[0])
-        if ok and (idle := not_borne_out(search, fit, 0.0)) is not None:
-            search.log.append(f"held-out parts are predicted no better with {fit.names[idle]}")
-            search.refused[fit.names[idle]] = _NO_BETTER
+        if ok and makes_worse(search, fit):
+            search.log.append("held-out sweeps are predicted no better")
+            search.refused[fit.names[-1]] = _NO_BETTER
             continue
         if ok:
             search.fit, search.gates = fit, gates
@@ -364,9 +365,13 @@ def _withdraw(search: Search) -> None:
         if worst_one is not None:
             _take_back(search, worst_one, _OF_SOME_LOADS, "left-out loads")
             continue
-        idle = not_borne_out(search, search.fit)
-        if idle is not None:
-            _take_back(search, idle, _NO_BETTER, "held-out parts")
+        if makes_worse(search, search.fit):
+            weakest = int(np.argmin([g.gain for g in search.gates]))
+            _take_back(search, weakest, _NO_BETTER, "held-out sweeps")
+            continue
+        least = slight(search, search.fit)
+        if least is not None:
+            _take_back(search, least, _SLIGHT, "slight on held-out sweeps")
             continue
         found = search.doubts = doubts(search)
         worst = max(found, key=lambda d: d.size)
