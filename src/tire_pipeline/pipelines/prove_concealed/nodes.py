@@ -12,11 +12,11 @@ import pandas as pd
 from pydantic import Field
 
 from tire_pipeline.concealed import Answer, Case, case_plan, held_out_errors, score, seal, unseal
-from tire_pipeline.datasets.computed_folder import source_hash
 from tire_pipeline.pipelines.parameters import Parameters
 from tire_pipeline.pipelines.prove_concealed import files
 from tire_pipeline.pipelines.prove_concealed.real_parameters import RealParameters
 from tire_pipeline.progress import track
+from tire_pipeline.source import source_hash
 from tire_pipeline.tir import read_tir
 
 Folder = Mapping[str, Callable[[], bytes]]

@@ -16,7 +16,6 @@ from tire_pipeline.concealed.real import RealAnswer, real_plan
 from tire_pipeline.concealed.real.published import published
 from tire_pipeline.concealed.real.score import score_real
 from tire_pipeline.concealed.real.sources import available, development_list, fingerprint
-from tire_pipeline.datasets.computed_folder import source_hash
 from tire_pipeline.pipelines.prove_concealed import files
 from tire_pipeline.pipelines.prove_concealed.nodes import (
     METHOD,
@@ -27,6 +26,7 @@ from tire_pipeline.pipelines.prove_concealed.nodes import (
     explained_by,
     part_cases,
 )
+from tire_pipeline.source import source_hash
 
 Work = dict[str, Callable[[], bytes]]
 

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.datasets.computed_folder import source_hash
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.pipelines.evaluate.measured import measured
@@ -19,6 +18,7 @@ from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
 from tire_pipeline.pipelines.reproduce_thesis import files
 from tire_pipeline.pipelines.reproduce_thesis.parameters import ReproduceThesisParameters
 from tire_pipeline.progress import track
+from tire_pipeline.source import source_hash
 from tire_pipeline.thesis import agents as thesis_agents
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.translation.thesis.grid import Cell

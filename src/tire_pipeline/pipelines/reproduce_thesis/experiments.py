@@ -15,10 +15,10 @@ from tire_pipeline.classifiers.tuning import (
     ann_combinations,
     random_combinations,
 )
-from tire_pipeline.datasets.computed_folder import source_hash
 from tire_pipeline.pipelines.reproduce_thesis import files
 from tire_pipeline.pipelines.reproduce_thesis.parameters import AnnParameters, ReproduceThesisParameters
 from tire_pipeline.pipelines.train_classifier.nodes import split_rows
+from tire_pipeline.source import source_hash
 from tire_pipeline.thesis import classifier_experiments as experiments
 from tire_pipeline.thesis.classifier_experiments import FURTHER_CLASSIFIERS, SPLITS, THESIS_CLASSIFIERS
 

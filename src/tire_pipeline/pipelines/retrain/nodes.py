@@ -13,6 +13,7 @@ import pandas as pd
 from pydantic import Field
 
 from tire_pipeline.classifiers.random_forest import RandomForest
+from tire_pipeline.cluster import work_map
 from tire_pipeline.pipelines.bin.nodes import BinParameters
 from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
 from tire_pipeline.pipelines.parameters import Parameters
@@ -98,7 +99,7 @@ def read_new_files(
         rehash_all=parameters.rehash_all,
     )
     check_removed(found, ingested.manifest, parameters.most_removed_share, str(tir_folder))
-    store, report = ingest(ingested, tir_folder, found)
+    store, report = ingest(ingested, tir_folder, found, work=work_map(without_cluster=1))
     return store, store.table, report
 
 

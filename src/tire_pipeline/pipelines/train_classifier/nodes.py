@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
+from functools import partial
+from itertools import product
 from typing import Any
 
 import numpy as np
 import pandas as pd
-from joblib import Parallel, delayed
 from matplotlib.figure import Figure
 from pydantic import Field
 
 from tire_pipeline.classifiers.evaluate import Evaluation, evaluate_classifier
+from tire_pipeline.cluster import work_map
 from tire_pipeline.pipelines.parameters import Parameters
-from tire_pipeline.progress import track
 from tire_pipeline.reporting import new_figure
+from tire_pipeline.tasks import all_done
 
 SPLITS = ("random", "by_tire")
 NAMES = ("ann", "random_forest", "naive_bayes")
-PROCESSES = 2
 _NOT_FEATURES = ["file", "category", "tire_id"]
 
 
@@ -89,17 +90,17 @@ def score_classifiers(
     """
     values, labels = _arrays(features)
     seeds = range(seed, seed + parameters.trainings)
-
-    def score(name: str, split: str) -> dict[str, Any]:
-        train, test = split_rows(features, splits, split)
-        options = parameters.options(name)
-        result = evaluate_classifier(name, values, labels, train, test, seeds=seeds, **options)
-        return _score_row("as they are", name, split, parameters, result)
-
-    pairs = [(name, split) for name in NAMES for split in SPLITS]
-    parallel = Parallel(n_jobs=PROCESSES, return_as="generator")
-    rows = parallel(delayed(score)(*pair) for pair in pairs)
-    return pd.DataFrame(list(track(rows, "training classifiers", total=len(pairs))))
+    tasks = {}
+    for name, split in product(NAMES, SPLITS):
+        rows = split_rows(features, splits, split)
+        options = {"seeds": seeds, **parameters.options(name)}
+        tasks[f"{name}, {split}"] = partial(evaluate_classifier, name, values, labels, *rows, **options)
+    done = all_done(work_map(), tasks, "training classifiers").values()
+    scored = [
+        _score_row("as they are", name, split, parameters, each.result())
+        for (name, split), each in zip(product(NAMES, SPLITS), done, strict=True)
+    ]
+    return pd.DataFrame(scored)
 
 
 def train_forest(

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.cluster import work_map
 from tire_pipeline.errors import DomainError, TirePipelineError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.pipelines.normalize.nodes import NormalizeParameters
@@ -21,7 +22,7 @@ from tire_pipeline.pipelines.translate.suppliers import (
     category_of,
     with_suppliers,
 )
-from tire_pipeline.progress import track
+from tire_pipeline.tasks import Map, in_blocks
 from tire_pipeline.tir import tir_bytes
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.translation import translator_from_state
@@ -66,7 +67,7 @@ def read_sources(
         If not one file could be read, or none is of those that were asked for.
     """
     wanted = chosen_files(files_to_translate, parameters.only)
-    models, problems = _read(wanted, parameters.trials)
+    models, problems = _read(wanted, parameters.trials, work_map(without_cluster=1))
     known = set(normalized_table["category"])
     own = from_models((file, category_of(file, known), model) for file, model in models.items())
     sources = normalize_table(own, normalize.nominal_load)
@@ -160,18 +161,20 @@ def _named_suppliers(result: TranslationResult, source: pd.DataFrame) -> Transla
     return replace(result, report=report)
 
 
-def _read(files: Files, most: int) -> tuple[dict[str, TireModel], list[dict[str, str]]]:
+def _read(files: Files, most: int, work: Map) -> tuple[dict[str, TireModel], list[dict[str, str]]]:
     models: dict[str, TireModel] = {}
     problems = []
-    wanted = list(files.items())[: most or None]
-    for file, load in track(wanted, "reading files to translate", total=len(wanted)):
-        try:
-            models[file] = load()
-        except Exception as error:
-            cause = error if isinstance(error, TirePipelineError) else error.__cause__ or error
-            if not isinstance(cause, TirePipelineError | OSError):
-                raise
-            problems.append({"file": file, "verdict": "refused", "reason": f"cannot be read: {cause}"})
+    wanted = dict(list(files.items())[: most or None])
+    done = {each.name: each for each in in_blocks(work, wanted, "reading files to translate")}
+    for file in wanted:
+        error = done[file].error
+        if error is None:
+            models[file] = done[file].result()
+            continue
+        cause = error if isinstance(error, TirePipelineError) else error.__cause__ or error
+        if not isinstance(cause, TirePipelineError | OSError):
+            raise error
+        problems.append({"file": file, "verdict": "refused", "reason": f"cannot be read: {cause}"})
     if not models:
         raise DomainError(
             f"not one of {len(wanted)} files could be read; the first: {problems[0]['reason']}",
