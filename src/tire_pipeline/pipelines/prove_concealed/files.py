@@ -48,7 +48,7 @@ def _packed(case: Case, answer: Answer) -> bytes:
 def shown_part(read: Read) -> bytes:
     """What a user would have; of the held-out run only the inputs, to predict it."""
     made = unpack(read())
-    held_out = pd.readas_parquet(io.BytesIO(made["held_out.parquet"]))
+    held_out = pd.read_parquet(io.BytesIO(made["held_out.parquet"]))
     inputs = held_out.drop(columns=[name for name in FORCES if name in held_out])
     shown = {name: made[name] for name in ("model.tir", "recording.parquet", "case_id")}
     return pack({**shown, "inputs.parquet": as_parquet(inputs)})
@@ -72,8 +72,8 @@ def explained(read: Read, method: str) -> bytes:
     """
     shown = unpack(read())
     tire = read_tir(shown["model.tir"])
-    recording = pd.readas_parquet(io.BytesIO(shown["recording.parquet"]))
-    inputs = pd.readas_parquet(io.BytesIO(shown["inputs.parquet"]))
+    recording = pd.read_parquet(io.BytesIO(shown["recording.parquet"]))
+    inputs = pd.read_parquet(io.BytesIO(shown["inputs.parquet"]))
     prediction = pd.DataFrame(index=inputs.index)
     report: Any
     try:
