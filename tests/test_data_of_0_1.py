@@ -66,7 +66,8 @@ def test_a_translator_of_a_former_name_translates_as_it_did(folder):
     then = json.loads((folder / "translated_by_then.json").read_text())
     assert list(result.report["verdict"]) == then["verdicts"]
     for name, values in then["coefficients"].items():
-        np.testing.assert_allclose(result.table[name], values, rtol=1e-9)
+        # The decoder's solver is another one since: coefficients moved by up to 4e-9 (changelog, part I).
+        np.testing.assert_allclose(result.table[name], values, rtol=1e-8)
 
 
 def test_translated_files_open(folder):

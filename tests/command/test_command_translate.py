@@ -69,7 +69,7 @@ def test_a_file_is_translated_as_the_translator_itself_does(folder, translator):
     back = normalize_table(result.table, model.value("FNOMIN")).iloc[0]
     new = read_tir("tire_as_D.tir")
     for name in ("PDY1", "PKY1", "PKY2"):
-        assert new.coefficients[name] == pytest.approx(back[name], rel=1e-12)
+        assert new.coefficients[name] == float(f"{back[name]:.9g}")  # the digits of a file
     assert new.coefficients["FNOMIN"] == model.coefficients["FNOMIN"]
     assert "source category: A" in Path("tire_as_D.tir").read_text(encoding="latin-1")
     page = Path("tire_translate.html").read_text()

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.report import OutputFit
-from tire_pipeline.mismatch.screening import without
 from tire_pipeline.mismatch.simulate import simulate_moments
 from tire_pipeline.mismatch.state import Search
 
@@ -166,34 +164,13 @@ def makes_worse(search: Search, fit: Fit) -> bool:
     was weighed. One sweep at a time: without the highest load as a whole, or an eighth of the recording, what
     changes a pressure's effect with load is open, and a true pressure leaves four times as much (calspan).
     """
-    if not fit.names:
-        return False
+    return bool(fit.names) and removed_unseen(search, fit) <= 0.0
+
+
+def removed_unseen(search: Search, fit: Fit) -> float:
+    """Share of the squared mismatch that goes on sweeps that the fit has not seen, mean of the outputs."""
     shares = shares_left(_left_out(search, fit), residual(search.data, []))
-    return float(np.mean(list(shares.values()))) >= 1.0
-
-
-def slight(search: Search, fit: Fit) -> int | None:
-    """Return the effect that removes least on sweeps that the fit has not seen, if that is next to nothing.
-
-    None if each removes ``HELD_SHARE`` of the mismatch that is there without it, noise apart.
-
-    Parameters
-    ----------
-    search : Search
-    fit : Fit
-    """
-    with_it, shares = _left_out(search, fit), []
-    for i in range(len(fit.names)):
-        without_it = _left_out(search, without(search, fit, i))
-        gone = []
-        for o, there in without_it.items():
-            before, after = float(np.mean(there**2)), float(np.mean(with_it[o] ** 2))
-            above = before - min(search.noise[o].floor ** 2, 0.9 * before)
-            gone.append((before - after) / max(above, 1e-300))
-        shares.append(float(np.mean(gone)))
-    if not shares or min(shares) >= settings.HELD_SHARE:
-        return None
-    return int(np.argmin(shares))
+    return 1.0 - float(np.mean(list(shares.values())))
 
 
 def shares_left(after: dict[str, Array], before: dict[str, Array]) -> dict[str, float]:

@@ -27,7 +27,7 @@ from tire_pipeline.mismatch.gates import (
 )
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.left_out import groups, left_out_error
-from tire_pipeline.mismatch.proof import makes_worse, slight
+from tire_pipeline.mismatch.proof import makes_worse, removed_unseen
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.screening import (
     frozen_cost,
@@ -369,9 +369,8 @@ def _withdraw(search: Search) -> None:
             weakest = int(np.argmin([g.gain for g in search.gates]))
             _take_back(search, weakest, _NO_BETTER, "held-out sweeps")
             continue
-        least = slight(search, search.fit)
-        if least is not None:
-            _take_back(search, least, _SLIGHT, "slight on held-out sweeps")
+        if len(search.fit.names) == 1 and removed_unseen(search, search.fit) < settings.HELD_SHARE:
+            _take_back(search, 0, _SLIGHT, "slight on held-out sweeps")
             continue
         found = search.doubts = doubts(search)
         worst = max(found, key=lambda d: d.size)

@@ -109,9 +109,9 @@ LEAST_SHARE = 0.02
 as they stand."""
 
 HELD_SHARE = 0.03
-"""The same on sweeps that its fit has not seen, of what is there without it. On the flat belt a wheel that is
-out of round removes 1 to 2% (once 9%) where nothing is missing, a hidden camber 4 to 7%, a pressure 14 to
-21%."""
+"""The same of an effect that is the only one, on sweeps that its fit has not seen. On the flat belt a wheel
+that is out of round removes 1 to 2% (once 9%) where nothing is missing, a hidden camber 4 to 7%, a pressure
+14 to 21%."""
 
 SURE = 150.0
 """Log evidence from which that share is of the mismatch beside the other effects, not of all of it: an
