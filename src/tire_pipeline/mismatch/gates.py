@@ -218,10 +218,9 @@ def least_share(names: list[str], index: int, gain: float, there: float) -> floa
     """Return the least share of the mismatch that an effect of a set has to remove.
 
     Of all of it, or of what is there beside the other effects, if it gains a log evidence of ``SURE``: an
-    effect six
-    times as strong does not hide another. Not so a lag beside a lag or an offset beside an offset: what one's
-    form gets wrong is another. None of an effect that is alone and worth so much log evidence that it
-    would be called unexplained: noise and the formula's misfit may be many times as large.
+    effect six times as strong does not hide another. Not so a lag beside a lag or an offset beside an offset:
+    what one's form gets wrong is another. None of an effect that is alone and worth so much log evidence that
+    the recording would be called unexplained without it: noise and misfit may be many times as large.
 
     Parameters
     ----------
@@ -249,6 +248,8 @@ def unsure(search: Search, index: int, other: str) -> float:
     elif this.shifts and that.shifts:
         blind = "camber_offset" in (this.name, that.name) and not search.data.varies("camber")
         share = settings.CAMBER_SHARE if blind else settings.SHIFT_SHARE
+    if not share:
+        return 0.0
     return (share * _misfit_over_usual(search)) ** 2 * search.gates[index].gain
 
 

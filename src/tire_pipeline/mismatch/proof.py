@@ -157,18 +157,13 @@ def _left_out(search: Search, fit: Fit) -> dict[str, Array]:
     return out
 
 
-def makes_worse(search: Search, fit: Fit) -> bool:
-    """Whether the effects leave as much as the model that came in, on sweeps that the fit has not seen.
+def removed_unseen(search: Search, fit: Fit) -> float:
+    """Share of the squared mismatch that goes on sweeps that the fit has not seen, mean of the outputs.
 
     In newtons, as the model will be used: without the misfit and the coefficients beside which the evidence
     was weighed. One sweep at a time: without the highest load as a whole, or an eighth of the recording, what
     changes a pressure's effect with load is open, and a true pressure leaves four times as much (calspan).
     """
-    return bool(fit.names) and removed_unseen(search, fit) <= 0.0
-
-
-def removed_unseen(search: Search, fit: Fit) -> float:
-    """Share of the squared mismatch that goes on sweeps that the fit has not seen, mean of the outputs."""
     shares = shares_left(_left_out(search, fit), residual(search.data, []))
     return 1.0 - float(np.mean(list(shares.values())))
 

@@ -27,7 +27,7 @@ from tire_pipeline.mismatch.gates import (
 )
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.left_out import groups, left_out_error
-from tire_pipeline.mismatch.proof import makes_worse, removed_unseen
+from tire_pipeline.mismatch.proof import removed_unseen
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.screening import (
     frozen_cost,
@@ -221,7 +221,7 @@ def _take(search: Search, fits: list[Fit]) -> bool:
         search.refused.update(reasons(search, gates))
         if not ok and len(gates) == 1 and gates[0].explains_most:
             search.nearly.add(fit.names[0])
-        if ok and makes_worse(search, fit):
+        if ok and removed_unseen(search, fit) <= 0.0:
             search.log.append("held-out sweeps are predicted no better")
             search.refused[fit.names[-1]] = _NO_BETTER
             continue
@@ -365,11 +365,12 @@ def _withdraw(search: Search) -> None:
         if worst_one is not None:
             _take_back(search, worst_one, _OF_SOME_LOADS, "left-out loads")
             continue
-        if makes_worse(search, search.fit):
+        gone = removed_unseen(search, search.fit)
+        if gone <= 0.0:
             weakest = int(np.argmin([g.gain for g in search.gates]))
             _take_back(search, weakest, _NO_BETTER, "held-out sweeps")
             continue
-        if len(search.fit.names) == 1 and removed_unseen(search, search.fit) < settings.HELD_SHARE:
+        if len(search.fit.names) == 1 and gone < settings.HELD_SHARE:
             _take_back(search, 0, _SLIGHT, "slight on held-out sweeps")
             continue
         found = search.doubts = doubts(search)

@@ -175,8 +175,7 @@ def _alike(recorded: Array, base: Array, other: Array) -> bool:
 
 
 def _likelier(recorded: Array, base: Array, other: Array, *, sized: bool = True) -> float:
-    """Log evidence by which ``other`` is likelier than ``base``: how much of their difference is in the
-    record.
+    """Log evidence by which ``other`` is likelier than ``base``, by what is recorded of their difference.
 
     ``recorded - base`` is fitted by a gain, an offset and b times the difference: b is 0 if ``base`` is right
     and 1 if ``other`` is. Gain and offset are as far off as load cells are: with free ones the ply steer of

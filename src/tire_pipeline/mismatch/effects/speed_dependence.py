@@ -13,9 +13,9 @@ class SpeedDependence(Effect):
 
     Covers friction and stiffness that change with the wheel's speed, and friction that falls with the speed
     at which the tread slides (LMUV), so that it shows at large slip only. The modulus of filled rubber grows
-    with frequency by a power of 0.05 to 0.1, and a tire's stiffness with speed by no more: what changes it by
-    more is no speed of the tire. Not covered: one peak of friction
-    over sliding speed at a single wheel speed, which is the shape of the curve, and centrifugal growth.
+    with frequency by a power of 0.05 to 0.1, and a tire's stiffness grows with speed by no more. Not covered:
+    one peak of friction over sliding speed at a single wheel speed, which is the shape of the curve, and
+    centrifugal growth.
     """
 
     name = "speed_dependence"
