@@ -12,7 +12,7 @@ import scipy
 
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
-from tire_pipeline.mismatch.effects.sign_convention import excludes_sae, turned
+from tire_pipeline.mismatch.effects.sensor.sign_convention import excludes_sae, turned
 from tire_pipeline.mismatch.open_questions import Question
 from tire_pipeline.mismatch.recorded import ABSOLUTE_SPREAD, SLOW, moves
 from tire_pipeline.mismatch.simulate import plain_forces

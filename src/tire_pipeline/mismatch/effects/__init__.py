@@ -13,7 +13,7 @@ __all__ = ["Effect", "Parameter", "State", "catalogue"]
 
 @cache
 def catalogue() -> dict[str, Effect]:
-    """Return all effects by name, found by listing this folder.
+    """Return all effects by name, found by listing this folder and those within.
 
     Examples
     --------
@@ -21,10 +21,9 @@ def catalogue() -> dict[str, Effect]:
     'physics'
     """
     found: dict[str, Effect] = {}
-    for module_info in sorted(pkgutil.iter_modules(__path__), key=lambda m: m.name):
-        if module_info.name in {"base", "shared"}:
-            continue
-        module = importlib.import_module(f"{__name__}.{module_info.name}")
+    names = [each.name for each in pkgutil.walk_packages(__path__, f"{__name__}.") if not each.ispkg]
+    for name in sorted(names, key=lambda each: each.rpartition(".")[2]):
+        module = importlib.import_module(name)
         for value in vars(module).values():
             if (
                 isinstance(value, type)

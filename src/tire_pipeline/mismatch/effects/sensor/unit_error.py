@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
-from tire_pipeline.mismatch.effects.repairs import Simulate, best_repair
+from tire_pipeline.mismatch.effects.sensor.repairs import Simulate, best_repair
 
 _DEG = 180.0 / np.pi
 _LBF = 4.4482216152605

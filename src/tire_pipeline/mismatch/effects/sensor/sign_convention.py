@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
-from tire_pipeline.mismatch.effects.repairs import Simulate
+from tire_pipeline.mismatch.effects.sensor.repairs import Simulate
 
 _CONVENTIONS = {"fy": ("slip_angle", "camber", "fy"), "fx": ("slip_ratio", "fx")}
 """Channels whose signs an axis system may turn, by the force that shows it."""

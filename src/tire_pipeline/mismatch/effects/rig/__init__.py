@@ -1,0 +1,1 @@
+"""Effects in the rig, its road and how the tire sits in it."""

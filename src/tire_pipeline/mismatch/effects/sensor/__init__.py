@@ -1,0 +1,1 @@
+"""Effects in the sensors and in how their channels are written."""
