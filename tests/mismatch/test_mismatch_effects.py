@@ -4,7 +4,7 @@ import pytest
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.checks import prepare
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.simulate import simulate
+from tire_pipeline.mismatch.model.forces import simulate
 
 PHYSICS = (
     "friction_scale stiffness_scale load_sensitivity camber combined_slip inflation_pressure temperature "

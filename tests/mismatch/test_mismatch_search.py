@@ -8,12 +8,12 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import harmonic_power
 from tire_pipeline.mismatch.exchange import exchanged
 from tire_pipeline.mismatch.gates import _least
+from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.nuisance import make_nuisance
 from tire_pipeline.mismatch.refit import finish, moved, objective, refit, residual
 from tire_pipeline.mismatch.repeating import strongest_length
 from tire_pipeline.mismatch.search import _drop, begin, run, with_shapes
 from tire_pipeline.mismatch.shapes import shape_columns
-from tire_pipeline.mismatch.simulate import simulate
 from tire_pipeline.mismatch.unnamed import forms, play
 
 

@@ -11,10 +11,10 @@ import pandas as pd
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.cleaning import Cleaning, clean
-from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.exact import open_axes, repair
 from tire_pipeline.mismatch.identity import another_tire
+from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.open_questions import Question
 from tire_pipeline.mismatch.surrogate import stand_in
 from tire_pipeline.mismatch.usable import judge, leave_out_still_slip

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.mismatch.simulate import plain_forces
+from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.smoothing import denoise
 
 Array = np.ndarray

@@ -16,11 +16,12 @@ from tire_pipeline.mismatch.as_recorded import as_recorded
 from tire_pipeline.mismatch.checks import Prepared, prepare
 from tire_pipeline.mismatch.confidence import confidence
 from tire_pipeline.mismatch.corrected import CorrectedModel, force_limits
-from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.intervals import standard_errors
 from tire_pipeline.mismatch.locate import AXES, everywhere, locate, when, where
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.proof import prove, prove_moments, recorded_moments, shares_left
 from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.remainder import remainder
@@ -28,7 +29,6 @@ from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFi
 from tire_pipeline.mismatch.restart import search_all, unlike
 from tire_pipeline.mismatch.search import Search
 from tire_pipeline.mismatch.sentences import summary
-from tire_pipeline.mismatch.simulate import simulate
 from tire_pipeline.mismatch.thinning import refit_on_all, thinned
 from tire_pipeline.mismatch.visible import visible
 from tire_pipeline.mismatch.words import not_looked_for

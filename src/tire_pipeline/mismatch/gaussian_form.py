@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.report import GaussianForm
 
 if TYPE_CHECKING:

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 import scipy
 
-from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects.shared import njit
+from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.noise import Noise
 
 Array = np.ndarray

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.mismatch.model.channels import moves
+from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.open_questions import Question
-from tire_pipeline.mismatch.recorded import moves
-from tire_pipeline.mismatch.simulate import plain_forces
 from tire_pipeline.mismatch.usable import SLIPS, Drive
 
 Array = np.ndarray

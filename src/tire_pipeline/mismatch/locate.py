@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
-from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.noise import Noise
 
 Array = np.ndarray

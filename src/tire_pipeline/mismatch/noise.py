@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 import scipy
 
-from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects.shared import njit
+from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
 _MEDIAN_OF_CHI2 = 0.4549

@@ -15,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 
 from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects.shared import first_order
-from tire_pipeline.mismatch.simulate import plain_forces
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.forces import plain_forces
 
 Array = np.ndarray
 _COEFFICIENTS = {

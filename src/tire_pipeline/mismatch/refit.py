@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.mismatch.candidates import Variant, derivatives
-from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.gram import Sums, System
-from tire_pipeline.mismatch.simulate import Change, simulate
+from tire_pipeline.mismatch.model.candidates import Variant, derivatives
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.forces import Change, simulate
 
 Array = np.ndarray
 _DAMPINGS = (1e-6, 0.03, 0.3, 3.0, 30.0)

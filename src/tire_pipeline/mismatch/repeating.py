@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.form import Form
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.refit import residual
-from tire_pipeline.mismatch.simulate import Change
 
 Array = np.ndarray
 _LENGTHS = (3.0, 14.0)

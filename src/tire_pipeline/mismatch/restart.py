@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.candidates import Variant
+from tire_pipeline.mismatch.model.candidates import Variant
 from tire_pipeline.mismatch.refit import Fit, objective, refit
 from tire_pipeline.mismatch.remainder import excess, white_left
 from tire_pipeline.mismatch.screening import gain_of, prune, screen

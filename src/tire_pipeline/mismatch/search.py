@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.candidates import Variant
 from tire_pipeline.mismatch.doubts import doubts
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.exchange import exchanged
@@ -27,6 +26,7 @@ from tire_pipeline.mismatch.gates import (
 )
 from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.left_out import groups, left_out_error
+from tire_pipeline.mismatch.model.candidates import Variant
 from tire_pipeline.mismatch.proof import removed_unseen
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
 from tire_pipeline.mismatch.screening import (

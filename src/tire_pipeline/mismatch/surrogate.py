@@ -10,7 +10,7 @@ import pandas as pd
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.mismatch.simulate import plain_forces
+from tire_pipeline.mismatch.model.forces import plain_forces
 
 Array = np.ndarray
 _MOST_POINTS = 4000

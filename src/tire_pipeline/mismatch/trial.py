@@ -12,7 +12,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.checks import prepare
 from tire_pipeline.mismatch.effects import State, catalogue
 from tire_pipeline.mismatch.effects.base import Effect
-from tire_pipeline.mismatch.simulate import simulate
+from tire_pipeline.mismatch.model.forces import simulate
 
 _CHANNELS = {"slip_angle_offset": "slip_angle", "camber_offset": "camber"}
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
-from tire_pipeline.mismatch.data import Data
+from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
 _LEAST_SECONDS = 1.0

@@ -6,8 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
-from tire_pipeline.mismatch.nominal import Nominal
-from tire_pipeline.mismatch.simulate import plain_forces, simulate
+from tire_pipeline.mismatch.model.forces import plain_forces, simulate
+from tire_pipeline.mismatch.model.nominal import Nominal
 
 Array = np.ndarray
 

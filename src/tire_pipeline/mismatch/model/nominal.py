@@ -6,8 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
-from tire_pipeline.mismatch.recorded import Channels
-from tire_pipeline.mismatch.simulate import plain_forces
+from tire_pipeline.mismatch.model.channels import Channels
+from tire_pipeline.mismatch.model.forces import plain_forces
 
 Array = np.ndarray
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.mismatch.states import States
+from tire_pipeline.mismatch.model.states import States
 
 Array = np.ndarray
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.effects.base import State
 from tire_pipeline.mismatch.effects.shared import first_order, harmonic_power
-from tire_pipeline.mismatch.simulated import Simulated
+from tire_pipeline.mismatch.model.simulated import Simulated
 
 Array = np.ndarray
 _MOST_WAVES = 4000

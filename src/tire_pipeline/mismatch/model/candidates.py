@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tire_pipeline.mismatch.data import Data
 from tire_pipeline.mismatch.effects import Effect, catalogue
-from tire_pipeline.mismatch.simulate import Change, simulate
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.forces import Change, simulate
 
 Array = np.ndarray
 
