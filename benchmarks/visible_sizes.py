@@ -39,7 +39,7 @@ from tire_pipeline.concealed.real import RealPlan, make_real_case
 from tire_pipeline.errors import DomainError, RecordingError
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch import search as searching
-from tire_pipeline.mismatch.checks import prepare
+from tire_pipeline.mismatch.recording.checks import prepare
 from tire_pipeline.mismatch.restart import search_all
 from tire_pipeline.mismatch.state import Search
 from tire_pipeline.mismatch.thinning import thinned

@@ -5,8 +5,8 @@ import pytest
 from tire_pipeline.concealed import make_case
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
-from tire_pipeline.mismatch.checks import prepare
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.recording.checks import prepare
 from tire_pipeline.mismatch.words import interval
 
 

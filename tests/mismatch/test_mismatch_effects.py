@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from tire_pipeline.mismatch import explain_mismatch
-from tire_pipeline.mismatch.checks import prepare
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.model.forces import simulate
+from tire_pipeline.mismatch.recording.checks import prepare
 
 PHYSICS = (
     "friction_scale stiffness_scale load_sensitivity camber combined_slip inflation_pressure temperature "

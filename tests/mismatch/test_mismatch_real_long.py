@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tire_pipeline.mismatch import explain_mismatch
-from tire_pipeline.mismatch.checks import prepare
+from tire_pipeline.mismatch.recording.checks import prepare
 from tire_pipeline.mismatch.search import begin, run
 from tire_pipeline.mismatch.thinning import MOST_SAMPLES, portions, refit_on_all, thinned
 

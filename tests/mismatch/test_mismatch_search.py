@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 
 from tire_pipeline.mismatch import explain_mismatch
-from tire_pipeline.mismatch.checks import prepare
 from tire_pipeline.mismatch.doubts import _instead
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import harmonic_power
@@ -10,6 +9,7 @@ from tire_pipeline.mismatch.exchange import exchanged
 from tire_pipeline.mismatch.gates import _least
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.nuisance import make_nuisance
+from tire_pipeline.mismatch.recording.checks import prepare
 from tire_pipeline.mismatch.refit import finish, moved, objective, refit, residual
 from tire_pipeline.mismatch.repeating import strongest_length
 from tire_pipeline.mismatch.search import _drop, begin, run, with_shapes

@@ -11,13 +11,13 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.mismatch.checks import INPUTS, own_relaxation
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate, simulate_moments
-from tire_pipeline.mismatch.open_questions import Question
-from tire_pipeline.mismatch.smoothing import denoise
+from tire_pipeline.mismatch.recording.checks import INPUTS, own_relaxation
+from tire_pipeline.mismatch.recording.open_questions import Question
+from tire_pipeline.mismatch.recording.smoothing import denoise
 
 Array = np.ndarray
 _SAME_NOISE = 3.0

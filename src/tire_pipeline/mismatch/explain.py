@@ -13,7 +13,6 @@ from tire_pipeline.mismatch import search as searching
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.ambiguity import alternatives, experiment, rivals
 from tire_pipeline.mismatch.as_recorded import as_recorded
-from tire_pipeline.mismatch.checks import Prepared, prepare
 from tire_pipeline.mismatch.confidence import confidence
 from tire_pipeline.mismatch.corrected import CorrectedModel, force_limits
 from tire_pipeline.mismatch.effects import catalogue
@@ -23,6 +22,7 @@ from tire_pipeline.mismatch.locate import AXES, everywhere, locate, when, where
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.proof import prove, prove_moments, recorded_moments, shares_left
+from tire_pipeline.mismatch.recording.checks import Prepared, prepare
 from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.remainder import remainder
 from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFit, Remainder

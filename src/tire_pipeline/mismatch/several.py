@@ -10,9 +10,9 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.mismatch.checks import INPUTS
 from tire_pipeline.mismatch.corrected import CorrectedModel
 from tire_pipeline.mismatch.explain import explain_mismatch
+from tire_pipeline.mismatch.recording.checks import INPUTS
 from tire_pipeline.mismatch.report import HeldOutFit, MismatchReport, PredictionError
 from tire_pipeline.mismatch.sentences import TRY_IT, on_held_out
 from tire_pipeline.recordings.join import join_recordings

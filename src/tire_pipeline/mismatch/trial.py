@@ -9,10 +9,10 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.mismatch.checks import prepare
 from tire_pipeline.mismatch.effects import State, catalogue
 from tire_pipeline.mismatch.effects.base import Effect
 from tire_pipeline.mismatch.model.forces import simulate
+from tire_pipeline.mismatch.recording.checks import prepare
 
 _CHANNELS = {"slip_angle_offset": "slip_angle", "camber_offset": "camber"}
 

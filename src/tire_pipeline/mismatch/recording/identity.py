@@ -10,8 +10,8 @@ import numpy as np
 
 from tire_pipeline.mismatch.model.channels import moves
 from tire_pipeline.mismatch.model.forces import plain_forces
-from tire_pipeline.mismatch.open_questions import Question
-from tire_pipeline.mismatch.usable import SLIPS, Drive
+from tire_pipeline.mismatch.recording.open_questions import Question
+from tire_pipeline.mismatch.recording.usable import SLIPS, Drive
 
 Array = np.ndarray
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.mismatch.model.forces import plain_forces
-from tire_pipeline.mismatch.smoothing import denoise
+from tire_pipeline.mismatch.recording.smoothing import denoise
 
 Array = np.ndarray
 CLEANED = ("slip_angle", "slip_ratio", "camber", "normal_load")

@@ -11,7 +11,7 @@ import numpy as np
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, moves
 from tire_pipeline.mismatch.model.forces import plain_forces
-from tire_pipeline.mismatch.open_questions import Question
+from tire_pipeline.mismatch.recording.open_questions import Question
 
 Array = np.ndarray
 SLIPS = {"fy": "slip_angle", "fx": "slip_ratio"}

@@ -10,14 +10,14 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.mismatch.cleaning import Cleaning, clean
 from tire_pipeline.mismatch.effects.base import Finding
-from tire_pipeline.mismatch.exact import open_axes, repair
-from tire_pipeline.mismatch.identity import another_tire
 from tire_pipeline.mismatch.model.data import Data
-from tire_pipeline.mismatch.open_questions import Question
-from tire_pipeline.mismatch.surrogate import stand_in
-from tire_pipeline.mismatch.usable import judge, leave_out_still_slip
+from tire_pipeline.mismatch.recording.cleaning import Cleaning, clean
+from tire_pipeline.mismatch.recording.exact import open_axes, repair
+from tire_pipeline.mismatch.recording.identity import another_tire
+from tire_pipeline.mismatch.recording.open_questions import Question
+from tire_pipeline.mismatch.recording.surrogate import stand_in
+from tire_pipeline.mismatch.recording.usable import judge, leave_out_still_slip
 
 Array = np.ndarray
 INPUTS = (

@@ -1,0 +1,1 @@
+"""From a table to clean arrays: checked, repaired and cleaned, or a question to the user."""
