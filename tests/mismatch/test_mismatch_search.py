@@ -2,19 +2,19 @@ import numpy as np
 import pytest
 
 from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.discrepancy.nuisance import make_nuisance
+from tire_pipeline.mismatch.discrepancy.repeating import strongest_length
+from tire_pipeline.mismatch.discrepancy.unnamed import forms, play
 from tire_pipeline.mismatch.doubts import _instead
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import harmonic_power
 from tire_pipeline.mismatch.exchange import exchanged
 from tire_pipeline.mismatch.gates import _least
 from tire_pipeline.mismatch.model.forces import simulate
-from tire_pipeline.mismatch.nuisance import make_nuisance
 from tire_pipeline.mismatch.recording.checks import prepare
 from tire_pipeline.mismatch.refit import finish, moved, objective, refit, residual
-from tire_pipeline.mismatch.repeating import strongest_length
 from tire_pipeline.mismatch.search import _drop, begin, run, with_shapes
 from tire_pipeline.mismatch.shapes import shape_columns
-from tire_pipeline.mismatch.unnamed import forms, play
 
 
 def test_play_follows_only_when_pushed():

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.gates import unsure
-from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.model.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate

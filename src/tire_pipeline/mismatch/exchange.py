@@ -7,10 +7,10 @@ from dataclasses import replace
 from itertools import combinations
 
 from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Effect
 from tire_pipeline.mismatch.gates import leaving_less, left_by
-from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.model.candidates import Variant
 from tire_pipeline.mismatch.refit import Fit, objective, refit
 from tire_pipeline.mismatch.screening import frozen_cost, gain_of, likeliest, prune, rank, screen, without

@@ -8,8 +8,8 @@ import numpy as np
 import scipy
 
 from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.refit import Fit, moved, objective, refit, residual
 from tire_pipeline.mismatch.screening import without
 from tire_pipeline.mismatch.shapes import with_shapes

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.mismatch.gram import System
+from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.refit import Fit, inverse
 from tire_pipeline.mismatch.state import Search, nuisance_scale
 

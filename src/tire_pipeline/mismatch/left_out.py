@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.mismatch.gram import Sums, System
+from tire_pipeline.mismatch.discrepancy.gram import Sums, System
 from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.state import Search
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
+from tire_pipeline.mismatch.discrepancy.noise import Noise
 from tire_pipeline.mismatch.model.data import Data
-from tire_pipeline.mismatch.noise import Noise
 
 Array = np.ndarray
 _LEVEL = 0.05

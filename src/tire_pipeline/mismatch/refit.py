@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.mismatch.discrepancy.gram import Sums, System
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.gram import Sums, System
 from tire_pipeline.mismatch.model.candidates import Variant, derivatives
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate

@@ -7,9 +7,9 @@ import warnings
 import numpy as np
 
 from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.gaussian_form import gaussian_form
+from tire_pipeline.mismatch.discrepancy.gaussian_form import gaussian_form
+from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.locate import locate
-from tire_pipeline.mismatch.noise import estimate_noise
 from tire_pipeline.mismatch.refit import residual
 from tire_pipeline.mismatch.report import GaussianForm, Remainder
 from tire_pipeline.mismatch.search import Search, with_shapes

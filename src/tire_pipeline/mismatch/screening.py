@@ -7,8 +7,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.model.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.refit import Fit, objective, refit, residual

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.doubts import doubts
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.exchange import exchanged
@@ -24,7 +25,6 @@ from tire_pipeline.mismatch.gates import (
     reasons,
     share_of_sweeps,
 )
-from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.left_out import groups, left_out_error
 from tire_pipeline.mismatch.model.candidates import Variant
 from tire_pipeline.mismatch.proof import removed_unseen

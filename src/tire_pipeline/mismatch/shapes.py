@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.state import Search

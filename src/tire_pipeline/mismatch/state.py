@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.discrepancy.gram import System
+from tire_pipeline.mismatch.discrepancy.noise import Noise, estimate_noise, refined
+from tire_pipeline.mismatch.discrepancy.nuisance import Sizes, largest_force, make_nuisance
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.gram import System
 from tire_pipeline.mismatch.model.blocks import sweeps
 from tire_pipeline.mismatch.model.candidates import Variant, variants
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
-from tire_pipeline.mismatch.noise import Noise, estimate_noise, refined
-from tire_pipeline.mismatch.nuisance import Sizes, largest_force, make_nuisance
 from tire_pipeline.mismatch.refit import Fit, residual
 
 if TYPE_CHECKING:

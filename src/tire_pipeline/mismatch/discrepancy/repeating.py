@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tire_pipeline.mismatch.form import Form
+from tire_pipeline.mismatch.discrepancy.form import Form
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.refit import residual

@@ -13,11 +13,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.discrepancy.form import Form
+from tire_pipeline.mismatch.discrepancy.repeating import repeating_forms
 from tire_pipeline.mismatch.effects.shared import first_order, njit
-from tire_pipeline.mismatch.form import Form
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
-from tire_pipeline.mismatch.repeating import repeating_forms
 
 Array = np.ndarray
 _SLIPS = {"slip_angle": "fy", "slip_ratio": "fx"}

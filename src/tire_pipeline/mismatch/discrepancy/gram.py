@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 import scipy
 
+from tire_pipeline.mismatch.discrepancy.noise import Noise
 from tire_pipeline.mismatch.effects.shared import njit
 from tire_pipeline.mismatch.model.data import Data
-from tire_pipeline.mismatch.noise import Noise
 
 Array = np.ndarray
 _ROWS = 512
