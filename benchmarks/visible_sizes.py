@@ -38,11 +38,11 @@ from tire_pipeline.concealed import Case, CaseSettings, make_case
 from tire_pipeline.concealed.real import RealPlan, make_real_case
 from tire_pipeline.errors import DomainError, RecordingError
 from tire_pipeline.mismatch import explain_mismatch
-from tire_pipeline.mismatch import search as searching
+from tire_pipeline.mismatch.inference import search as searching
+from tire_pipeline.mismatch.inference.restart import search_all
+from tire_pipeline.mismatch.inference.search_state import Search
+from tire_pipeline.mismatch.inference.thinning import thinned
 from tire_pipeline.mismatch.recording.checks import prepare
-from tire_pipeline.mismatch.restart import search_all
-from tire_pipeline.mismatch.state import Search
-from tire_pipeline.mismatch.thinning import thinned
 from tire_pipeline.mismatch.trial import put_in
 from tire_pipeline.mismatch.visible import Sight, one_sided, sights
 

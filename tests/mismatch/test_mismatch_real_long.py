@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.inference.search import begin, run
+from tire_pipeline.mismatch.inference.thinning import MOST_SAMPLES, portions, refit_on_all, thinned
 from tire_pipeline.mismatch.recording.checks import prepare
-from tire_pipeline.mismatch.search import begin, run
-from tire_pipeline.mismatch.thinning import MOST_SAMPLES, portions, refit_on_all, thinned
 
 FILE = Path(__file__).resolve().parents[2] / "benchmarks" / "bench_mismatch.py"
 

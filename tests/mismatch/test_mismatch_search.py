@@ -5,16 +5,16 @@ from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.discrepancy.nuisance import make_nuisance
 from tire_pipeline.mismatch.discrepancy.repeating import strongest_length
 from tire_pipeline.mismatch.discrepancy.unnamed import forms, play
-from tire_pipeline.mismatch.doubts import _instead
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import harmonic_power
-from tire_pipeline.mismatch.exchange import exchanged
-from tire_pipeline.mismatch.gates import _least
+from tire_pipeline.mismatch.inference.doubts import _instead
+from tire_pipeline.mismatch.inference.exchange import exchanged
+from tire_pipeline.mismatch.inference.gates import _least
+from tire_pipeline.mismatch.inference.refit import finish, moved, objective, refit, residual
+from tire_pipeline.mismatch.inference.search import _drop, begin, run, with_shapes
+from tire_pipeline.mismatch.inference.shapes import shape_columns
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.recording.checks import prepare
-from tire_pipeline.mismatch.refit import finish, moved, objective, refit, residual
-from tire_pipeline.mismatch.search import _drop, begin, run, with_shapes
-from tire_pipeline.mismatch.shapes import shape_columns
 
 
 def test_play_follows_only_when_pushed():
@@ -161,7 +161,7 @@ def test_a_form_of_another_effect_cannot_hide_the_one_that_is_judged(tire, recor
 
 def test_what_removes_nothing_does_not_bar_the_way(tire, record, monkeypatch):
     """The likeliest candidate is set aside if it removes next to nothing, and the next one is tried."""
-    from tire_pipeline.mismatch import search as module
+    from tire_pipeline.mismatch.inference import search as module
 
     search = begin(prepare(tire, record(8, friction=1.08)).data)
     monkeypatch.setattr(module, "_visible", lambda _, fit: "friction_scale" not in fit.names)

@@ -9,13 +9,13 @@ from mismatch_shared import shared
 
 from tire_pipeline.concealed.real import RealPlan, make_real_case
 from tire_pipeline.mismatch import explain_mismatch
-from tire_pipeline.mismatch import search as searching
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.inference import search as searching
+from tire_pipeline.mismatch.inference.refit import refit
+from tire_pipeline.mismatch.inference.restart import search_all
 from tire_pipeline.mismatch.intervals import standard_errors
 from tire_pipeline.mismatch.model.candidates import Variant
 from tire_pipeline.mismatch.recording.checks import prepare
-from tire_pipeline.mismatch.refit import refit
-from tire_pipeline.mismatch.restart import search_all
 from tire_pipeline.mismatch.trial import put_in
 from tire_pipeline.mismatch.visible import one_sided, sights
 

@@ -14,10 +14,10 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.mismatch.corrected import CorrectedModel, rms
+from tire_pipeline.mismatch.inference.refit import residual
+from tire_pipeline.mismatch.inference.search import Search
 from tire_pipeline.mismatch.model.forces import simulate_moments
-from tire_pipeline.mismatch.refit import residual
 from tire_pipeline.mismatch.report import OutputFit
-from tire_pipeline.mismatch.search import Search
 
 Array = np.ndarray
 

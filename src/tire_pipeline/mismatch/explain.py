@@ -9,27 +9,27 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.mismatch import search as searching
 from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.ambiguity import alternatives, experiment, rivals
 from tire_pipeline.mismatch.as_recorded import as_recorded
-from tire_pipeline.mismatch.confidence import confidence
 from tire_pipeline.mismatch.corrected import CorrectedModel, force_limits
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
+from tire_pipeline.mismatch.inference import search as searching
+from tire_pipeline.mismatch.inference.ambiguity import alternatives, experiment, rivals
+from tire_pipeline.mismatch.inference.confidence import confidence
+from tire_pipeline.mismatch.inference.refit import Fit, residual
+from tire_pipeline.mismatch.inference.restart import search_all, unlike
+from tire_pipeline.mismatch.inference.search import Search
+from tire_pipeline.mismatch.inference.thinning import refit_on_all, thinned
 from tire_pipeline.mismatch.intervals import standard_errors
 from tire_pipeline.mismatch.locate import AXES, everywhere, locate, when, where
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.proof import prove, prove_moments, recorded_moments, shares_left
 from tire_pipeline.mismatch.recording.checks import Prepared, prepare
-from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.remainder import remainder
 from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFit, Remainder
-from tire_pipeline.mismatch.restart import search_all, unlike
-from tire_pipeline.mismatch.search import Search
 from tire_pipeline.mismatch.sentences import summary
-from tire_pipeline.mismatch.thinning import refit_on_all, thinned
 from tire_pipeline.mismatch.visible import visible
 from tire_pipeline.mismatch.words import not_looked_for
 from tire_pipeline.progress import track

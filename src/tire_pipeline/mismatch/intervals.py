@@ -12,8 +12,8 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.gram import System
-from tire_pipeline.mismatch.refit import Fit, inverse
-from tire_pipeline.mismatch.state import Search, nuisance_scale
+from tire_pipeline.mismatch.inference.refit import Fit, inverse
+from tire_pipeline.mismatch.inference.search_state import Search, nuisance_scale
 
 Array = np.ndarray
 ROOM = 2.0

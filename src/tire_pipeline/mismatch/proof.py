@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.mismatch.inference.refit import Fit, residual
+from tire_pipeline.mismatch.inference.search_state import Search
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate_moments
-from tire_pipeline.mismatch.refit import Fit, residual
 from tire_pipeline.mismatch.report import OutputFit
-from tire_pipeline.mismatch.state import Search
 
 Array = np.ndarray
 _LOCKED = {"moment", "radius"}

@@ -9,10 +9,10 @@ import numpy as np
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.gaussian_form import gaussian_form
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
+from tire_pipeline.mismatch.inference.refit import residual
+from tire_pipeline.mismatch.inference.search import Search, with_shapes
 from tire_pipeline.mismatch.locate import locate
-from tire_pipeline.mismatch.refit import residual
 from tire_pipeline.mismatch.report import GaussianForm, Remainder
-from tire_pipeline.mismatch.search import Search, with_shapes
 
 Array = np.ndarray
 _MOST_TERMS = 5

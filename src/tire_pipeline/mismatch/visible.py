@@ -18,13 +18,19 @@ from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.gram import Sums, System
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Parameter
-from tire_pipeline.mismatch.gates import asked_for, floors_of, mismatch_of, of_coefficients, part_of_samples
+from tire_pipeline.mismatch.inference.gates import (
+    asked_for,
+    floors_of,
+    mismatch_of,
+    of_coefficients,
+    part_of_samples,
+)
+from tire_pipeline.mismatch.inference.refit import finish, inverse, residual
+from tire_pipeline.mismatch.inference.search_state import Search
 from tire_pipeline.mismatch.intervals import roomy, standard_errors
 from tire_pipeline.mismatch.model.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.model.forces import Change, simulate
-from tire_pipeline.mismatch.refit import finish, inverse, residual
 from tire_pipeline.mismatch.report import Visible
-from tire_pipeline.mismatch.state import Search
 from tire_pipeline.mismatch.words import amount
 
 Array = np.ndarray

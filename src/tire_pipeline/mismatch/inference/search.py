@@ -11,10 +11,10 @@ import numpy as np
 
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.gram import System
-from tire_pipeline.mismatch.doubts import doubts
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.exchange import exchanged
-from tire_pipeline.mismatch.gates import (
+from tire_pipeline.mismatch.inference.doubts import doubts
+from tire_pipeline.mismatch.inference.exchange import exchanged
+from tire_pipeline.mismatch.inference.gates import (
     accepted,
     floors_of,
     least_share,
@@ -25,11 +25,9 @@ from tire_pipeline.mismatch.gates import (
     reasons,
     share_of_sweeps,
 )
-from tire_pipeline.mismatch.left_out import groups, left_out_error
-from tire_pipeline.mismatch.model.candidates import Variant
-from tire_pipeline.mismatch.proof import removed_unseen
-from tire_pipeline.mismatch.refit import Fit, objective, refit, residual
-from tire_pipeline.mismatch.screening import (
+from tire_pipeline.mismatch.inference.left_out import groups, left_out_error
+from tire_pipeline.mismatch.inference.refit import Fit, objective, refit, residual
+from tire_pipeline.mismatch.inference.screening import (
     frozen_cost,
     gain_of,
     hollow,
@@ -39,8 +37,10 @@ from tire_pipeline.mismatch.screening import (
     screen,
     without,
 )
-from tire_pipeline.mismatch.shapes import with_shapes
-from tire_pipeline.mismatch.state import Search, begin, beside, log_likelihood, renoise
+from tire_pipeline.mismatch.inference.search_state import Search, begin, beside, log_likelihood, renoise
+from tire_pipeline.mismatch.inference.shapes import with_shapes
+from tire_pipeline.mismatch.model.candidates import Variant
+from tire_pipeline.mismatch.proof import removed_unseen
 
 __all__ = ["Search", "begin", "gain_of", "objective", "prune", "run", "with_shapes"]
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.gram import Sums, System
-from tire_pipeline.mismatch.refit import Fit, residual
-from tire_pipeline.mismatch.state import Search
+from tire_pipeline.mismatch.inference.refit import Fit, residual
+from tire_pipeline.mismatch.inference.search_state import Search
 
 Array = np.ndarray
 _LEAST_GROUPS = 3

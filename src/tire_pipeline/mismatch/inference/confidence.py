@@ -14,7 +14,11 @@ import numpy as np
 @cache
 def calibration() -> dict[str, Any]:
     """Return the constants of the map and how they were got (``calibration.json``)."""
-    text = resources.files("tire_pipeline.mismatch").joinpath("calibration.json").read_text(encoding="utf-8")
+    text = (
+        resources.files("tire_pipeline.mismatch.inference")
+        .joinpath("calibration.json")
+        .read_text(encoding="utf-8")
+    )
     return json.loads(text)
 
 

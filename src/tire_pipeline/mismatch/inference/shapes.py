@@ -9,9 +9,9 @@ import numpy as np
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.inference.search_state import Search
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
-from tire_pipeline.mismatch.state import Search
 
 Array = np.ndarray
 _KNOTS = 12

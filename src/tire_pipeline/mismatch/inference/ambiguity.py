@@ -9,12 +9,12 @@ import numpy as np
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.gates import unsure
+from tire_pipeline.mismatch.inference.gates import unsure
+from tire_pipeline.mismatch.inference.refit import Fit, refit
+from tire_pipeline.mismatch.inference.search import Search, gain_of, objective, prune, with_shapes
 from tire_pipeline.mismatch.model.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate
-from tire_pipeline.mismatch.refit import Fit, refit
-from tire_pipeline.mismatch.search import Search, gain_of, objective, prune, with_shapes
 
 Array = np.ndarray
 _NEAREST, _FAR = 4, 0.35

@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 
 from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.inference.refit import Fit, objective, refit
+from tire_pipeline.mismatch.inference.screening import gain_of, prune, screen
+from tire_pipeline.mismatch.inference.search import run
+from tire_pipeline.mismatch.inference.search_state import Search, renoise
+from tire_pipeline.mismatch.inference.shapes import with_shapes
 from tire_pipeline.mismatch.model.candidates import Variant
-from tire_pipeline.mismatch.refit import Fit, objective, refit
 from tire_pipeline.mismatch.remainder import excess, white_left
-from tire_pipeline.mismatch.screening import gain_of, prune, screen
-from tire_pipeline.mismatch.search import run
-from tire_pipeline.mismatch.shapes import with_shapes
-from tire_pipeline.mismatch.state import Search, renoise
 
 _FOUND = "fit gates doubts unnamed likelier noise system loose frozen inflation misfit refused".split()
 

@@ -10,12 +10,20 @@ from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Effect
-from tire_pipeline.mismatch.gates import leaving_less, left_by
+from tire_pipeline.mismatch.inference.gates import leaving_less, left_by
+from tire_pipeline.mismatch.inference.refit import Fit, objective, refit
+from tire_pipeline.mismatch.inference.screening import (
+    frozen_cost,
+    gain_of,
+    likeliest,
+    prune,
+    rank,
+    screen,
+    without,
+)
+from tire_pipeline.mismatch.inference.search_state import Search
+from tire_pipeline.mismatch.inference.shapes import with_shapes
 from tire_pipeline.mismatch.model.candidates import Variant
-from tire_pipeline.mismatch.refit import Fit, objective, refit
-from tire_pipeline.mismatch.screening import frozen_cost, gain_of, likeliest, prune, rank, screen, without
-from tire_pipeline.mismatch.shapes import with_shapes
-from tire_pipeline.mismatch.state import Search
 
 _FORMS = 3
 """How many other effects are tried in each place."""

@@ -1,0 +1,1 @@
+"""Which effects the recording holds: screened, refitted jointly, tested."""
