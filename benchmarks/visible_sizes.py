@@ -42,9 +42,9 @@ from tire_pipeline.mismatch.inference import search as searching
 from tire_pipeline.mismatch.inference.restart import search_all
 from tire_pipeline.mismatch.inference.search_state import Search
 from tire_pipeline.mismatch.inference.thinning import thinned
+from tire_pipeline.mismatch.proof.trial import put_in
+from tire_pipeline.mismatch.proof.visible import Sight, one_sided, sights
 from tire_pipeline.mismatch.recording.checks import prepare
-from tire_pipeline.mismatch.trial import put_in
-from tire_pipeline.mismatch.visible import Sight, one_sided, sights
 
 RECORDINGS = Path(__file__).resolve().parents[2] / "shared" / "recordings"
 RESULTS = Path(__file__).parent / "results"

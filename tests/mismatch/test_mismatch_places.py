@@ -6,8 +6,8 @@ import pytest
 from mismatch_rates import flat_belt, free_drive, second_session
 
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
-from tire_pipeline.mismatch.locate import everywhere, locate
 from tire_pipeline.mismatch.model.blocks import sweeps
+from tire_pipeline.mismatch.proof.locate import everywhere, locate
 from tire_pipeline.mismatch.recording.checks import prepare
 from tire_pipeline.mismatch.sentences import _where
 

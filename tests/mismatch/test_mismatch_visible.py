@@ -13,11 +13,11 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference import search as searching
 from tire_pipeline.mismatch.inference.refit import refit
 from tire_pipeline.mismatch.inference.restart import search_all
-from tire_pipeline.mismatch.intervals import standard_errors
 from tire_pipeline.mismatch.model.candidates import Variant
+from tire_pipeline.mismatch.proof.intervals import standard_errors
+from tire_pipeline.mismatch.proof.trial import put_in
+from tire_pipeline.mismatch.proof.visible import one_sided, sights
 from tire_pipeline.mismatch.recording.checks import prepare
-from tire_pipeline.mismatch.trial import put_in
-from tire_pipeline.mismatch.visible import one_sided, sights
 
 
 @pytest.fixture(scope="module")

@@ -21,16 +21,16 @@ from tire_pipeline.mismatch.inference.refit import Fit, residual
 from tire_pipeline.mismatch.inference.restart import search_all, unlike
 from tire_pipeline.mismatch.inference.search import Search
 from tire_pipeline.mismatch.inference.thinning import refit_on_all, thinned
-from tire_pipeline.mismatch.intervals import standard_errors
-from tire_pipeline.mismatch.locate import AXES, everywhere, locate, when, where
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate
-from tire_pipeline.mismatch.proof import prove, prove_moments, recorded_moments, shares_left
+from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments, shares_left
+from tire_pipeline.mismatch.proof.intervals import standard_errors
+from tire_pipeline.mismatch.proof.locate import AXES, everywhere, locate, when, where
+from tire_pipeline.mismatch.proof.remainder import remainder
+from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.checks import Prepared, prepare
-from tire_pipeline.mismatch.remainder import remainder
 from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFit, Remainder
 from tire_pipeline.mismatch.sentences import summary
-from tire_pipeline.mismatch.visible import visible
 from tire_pipeline.mismatch.words import not_looked_for
 from tire_pipeline.progress import track
 

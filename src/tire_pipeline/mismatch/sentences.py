@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.locate import Located
+from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.report import EffectReport, HeldOutFit, OutputFit, Remainder
 from tire_pipeline.mismatch.words import figure, in_words, newtons, place
 

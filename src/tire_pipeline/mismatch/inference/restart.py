@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.inference.search import run
 from tire_pipeline.mismatch.inference.search_state import Search, renoise
 from tire_pipeline.mismatch.inference.shapes import with_shapes
 from tire_pipeline.mismatch.model.candidates import Variant
-from tire_pipeline.mismatch.remainder import excess, white_left
+from tire_pipeline.mismatch.proof.remainder import excess, white_left
 
 _FOUND = "fit gates doubts unnamed likelier noise system loose frozen inflation misfit refused".split()
 

@@ -40,7 +40,7 @@ from tire_pipeline.mismatch.inference.screening import (
 from tire_pipeline.mismatch.inference.search_state import Search, begin, beside, log_likelihood, renoise
 from tire_pipeline.mismatch.inference.shapes import with_shapes
 from tire_pipeline.mismatch.model.candidates import Variant
-from tire_pipeline.mismatch.proof import removed_unseen
+from tire_pipeline.mismatch.proof.held_out import removed_unseen
 
 __all__ = ["Search", "begin", "gain_of", "objective", "prune", "run", "with_shapes"]
 

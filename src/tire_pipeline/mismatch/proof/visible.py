@@ -27,9 +27,9 @@ from tire_pipeline.mismatch.inference.gates import (
 )
 from tire_pipeline.mismatch.inference.refit import finish, inverse, residual
 from tire_pipeline.mismatch.inference.search_state import Search
-from tire_pipeline.mismatch.intervals import roomy, standard_errors
 from tire_pipeline.mismatch.model.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.model.forces import Change, simulate
+from tire_pipeline.mismatch.proof.intervals import roomy, standard_errors
 from tire_pipeline.mismatch.report import Visible
 from tire_pipeline.mismatch.words import amount
 

@@ -11,7 +11,7 @@ from tire_pipeline.mismatch.discrepancy.gaussian_form import gaussian_form
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.inference.refit import residual
 from tire_pipeline.mismatch.inference.search import Search, with_shapes
-from tire_pipeline.mismatch.locate import locate
+from tire_pipeline.mismatch.proof.locate import locate
 from tire_pipeline.mismatch.report import GaussianForm, Remainder
 
 Array = np.ndarray
