@@ -19,7 +19,7 @@ from mismatch_rates import (
 )
 
 from tire_pipeline.mismatch import explain_mismatch
-from tire_pipeline.mismatch.corrected import CorrectedModel
+from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.recording.checks import prepare
 
 HIDDEN = ("nothing", "pressure", "camber", "camber pressure")

@@ -6,13 +6,13 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from tire_pipeline.mismatch.corrected import CorrectedModel
+    from tire_pipeline.mismatch.corrected.model import CorrectedModel
     from tire_pipeline.mismatch.explain import explain_mismatch
     from tire_pipeline.mismatch.report import EffectReport, HeldOutFit, MismatchReport, OutputFit
     from tire_pipeline.mismatch.several import explain_recordings
 
 _MODULES = {
-    "CorrectedModel": "corrected",
+    "CorrectedModel": "corrected.model",
     "EffectReport": "report",
     "HeldOutFit": "report",
     "MismatchReport": "report",

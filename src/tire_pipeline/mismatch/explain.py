@@ -10,8 +10,8 @@ import pandas as pd
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.as_recorded import as_recorded
-from tire_pipeline.mismatch.corrected import CorrectedModel, force_limits
+from tire_pipeline.mismatch.corrected.as_recorded import as_recorded
+from tire_pipeline.mismatch.corrected.model import CorrectedModel, force_limits
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.inference import search as searching

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tire_pipeline.mismatch.corrected import CorrectedModel
+from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.proof.locate import Located
 
 if TYPE_CHECKING:

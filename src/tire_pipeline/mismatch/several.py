@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.mismatch.corrected import CorrectedModel
+from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.explain import explain_mismatch
 from tire_pipeline.mismatch.recording.checks import INPUTS
 from tire_pipeline.mismatch.report import HeldOutFit, MismatchReport, PredictionError

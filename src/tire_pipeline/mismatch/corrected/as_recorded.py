@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.mismatch.corrected import CorrectedModel, rms
+from tire_pipeline.mismatch.corrected.model import CorrectedModel, rms
 from tire_pipeline.mismatch.inference.refit import residual
 from tire_pipeline.mismatch.inference.search import Search
 from tire_pipeline.mismatch.model.forces import simulate_moments

@@ -1,0 +1,1 @@
+"""The model with the missing physics put in."""
