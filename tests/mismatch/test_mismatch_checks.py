@@ -7,7 +7,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.recording.checks import prepare
-from tire_pipeline.mismatch.words import interval
+from tire_pipeline.mismatch.report.words import interval
 
 
 def physics(report):

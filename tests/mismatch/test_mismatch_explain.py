@@ -10,7 +10,7 @@ from mismatch_shared import shared
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.proof.locate import Located
-from tire_pipeline.mismatch.sentences import summary
+from tire_pipeline.mismatch.report.sentences import summary
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
 

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from tire_pipeline.mismatch.figures import drawings, time_line
+from tire_pipeline.mismatch.report.figures import drawings, time_line
 
 
 def report(changes: list[str], *, gap: float) -> SimpleNamespace:

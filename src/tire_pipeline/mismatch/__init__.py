@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from tire_pipeline.mismatch.corrected.model import CorrectedModel
     from tire_pipeline.mismatch.explain import explain_mismatch
-    from tire_pipeline.mismatch.report import EffectReport, HeldOutFit, MismatchReport, OutputFit
+    from tire_pipeline.mismatch.report.result import EffectReport, HeldOutFit, MismatchReport, OutputFit
     from tire_pipeline.mismatch.several import explain_recordings
 
 _MODULES = {
     "CorrectedModel": "corrected.model",
-    "EffectReport": "report",
-    "HeldOutFit": "report",
-    "MismatchReport": "report",
-    "OutputFit": "report",
+    "EffectReport": "report.result",
+    "HeldOutFit": "report.result",
+    "MismatchReport": "report.result",
+    "OutputFit": "report.result",
     "explain_mismatch": "explain",
     "explain_recordings": "several",
 }

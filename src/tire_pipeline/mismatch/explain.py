@@ -29,9 +29,9 @@ from tire_pipeline.mismatch.proof.locate import AXES, everywhere, locate, when, 
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.checks import Prepared, prepare
-from tire_pipeline.mismatch.report import EffectReport, MismatchReport, OutputFit, Remainder
-from tire_pipeline.mismatch.sentences import summary
-from tire_pipeline.mismatch.words import not_looked_for
+from tire_pipeline.mismatch.report.result import EffectReport, MismatchReport, OutputFit, Remainder
+from tire_pipeline.mismatch.report.sentences import summary
+from tire_pipeline.mismatch.report.words import not_looked_for
 from tire_pipeline.progress import track
 
 Array = np.ndarray

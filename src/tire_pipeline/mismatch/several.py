@@ -13,8 +13,8 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.explain import explain_mismatch
 from tire_pipeline.mismatch.recording.checks import INPUTS
-from tire_pipeline.mismatch.report import HeldOutFit, MismatchReport, PredictionError
-from tire_pipeline.mismatch.sentences import TRY_IT, on_held_out
+from tire_pipeline.mismatch.report.result import HeldOutFit, MismatchReport, PredictionError
+from tire_pipeline.mismatch.report.sentences import TRY_IT, on_held_out
 from tire_pipeline.recordings.join import join_recordings
 
 Array = np.ndarray

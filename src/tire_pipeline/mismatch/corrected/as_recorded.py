@@ -17,7 +17,7 @@ from tire_pipeline.mismatch.corrected.model import CorrectedModel, rms
 from tire_pipeline.mismatch.inference.refit import residual
 from tire_pipeline.mismatch.inference.search import Search
 from tire_pipeline.mismatch.model.forces import simulate_moments
-from tire_pipeline.mismatch.report import OutputFit
+from tire_pipeline.mismatch.report.result import OutputFit
 
 Array = np.ndarray
 

@@ -9,7 +9,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from tire_pipeline.mismatch.model.data import Data
-from tire_pipeline.mismatch.report import GaussianForm
+from tire_pipeline.mismatch.report.result import GaussianForm
 
 if TYPE_CHECKING:
     from sklearn.gaussian_process import GaussianProcessRegressor

@@ -8,7 +8,7 @@ from tire_pipeline.mismatch.inference.refit import Fit, residual
 from tire_pipeline.mismatch.inference.search_state import Search
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate_moments
-from tire_pipeline.mismatch.report import OutputFit
+from tire_pipeline.mismatch.report.result import OutputFit
 
 Array = np.ndarray
 _LOCKED = {"moment", "radius"}

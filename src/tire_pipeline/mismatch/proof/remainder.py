@@ -12,7 +12,7 @@ from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.inference.refit import residual
 from tire_pipeline.mismatch.inference.search import Search, with_shapes
 from tire_pipeline.mismatch.proof.locate import locate
-from tire_pipeline.mismatch.report import GaussianForm, Remainder
+from tire_pipeline.mismatch.report.result import GaussianForm, Remainder
 
 Array = np.ndarray
 _MOST_TERMS = 5

@@ -30,8 +30,8 @@ from tire_pipeline.mismatch.inference.search_state import Search
 from tire_pipeline.mismatch.model.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.proof.intervals import roomy, standard_errors
-from tire_pipeline.mismatch.report import Visible
-from tire_pipeline.mismatch.words import amount
+from tire_pipeline.mismatch.report.result import Visible
+from tire_pipeline.mismatch.report.words import amount
 
 Array = np.ndarray
 _SEEN = float(ndtri(0.95))

@@ -8,8 +8,8 @@ import numpy as np
 
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.proof.locate import Located
-from tire_pipeline.mismatch.report import EffectReport, HeldOutFit, OutputFit, Remainder
-from tire_pipeline.mismatch.words import figure, in_words, newtons, place
+from tire_pipeline.mismatch.report.result import EffectReport, HeldOutFit, OutputFit, Remainder
+from tire_pipeline.mismatch.report.words import figure, in_words, newtons, place
 
 _FEW_STRETCHES = 3
 """More stretches of time are not listed in the summary; the report has them all."""

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from tire_pipeline.mismatch.effects import Effect, catalogue
-from tire_pipeline.mismatch.report import GaussianForm
+from tire_pipeline.mismatch.report.result import GaussianForm
 
 _UNITS = {
     "slip_angle": (57.29578, "deg", "slip angle"),

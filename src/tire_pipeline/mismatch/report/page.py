@@ -12,9 +12,9 @@ from markupsafe import Markup
 
 from tire_pipeline.drawing import page_style
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.figures import drawings
-from tire_pipeline.mismatch.report import EffectReport, MismatchReport, Visible
-from tire_pipeline.mismatch.words import amount, condition, gaussian, in_words, interval
+from tire_pipeline.mismatch.report.figures import drawings
+from tire_pipeline.mismatch.report.result import EffectReport, MismatchReport, Visible
+from tire_pipeline.mismatch.report.words import amount, condition, gaussian, in_words, interval
 from tire_pipeline.safe_page import page_environment, policy
 
 _TOO_LITTLE = {"does not pay for itself": "too little evidence for its parameters"}
@@ -29,8 +29,8 @@ def render(report: MismatchReport, *, pages: Sequence[tuple[str, str]] = ()) -> 
     pages : sequence of (str, str)
         Address and name of other pages, for links at the top.
     """
-    environment = page_environment("tire_pipeline.mismatch")
-    own = files("tire_pipeline.mismatch").joinpath("templates", "report.css").read_text("utf-8")
+    environment = page_environment("tire_pipeline.mismatch.report")
+    own = files("tire_pipeline.mismatch.report").joinpath("templates", "report.css").read_text("utf-8")
     style = page_style() + own
     environment.filters |= {"number": number, "percent": percent, "condition": condition}
     errors = [(o, f) for o, f in report.fit.items() if math.isfinite(f.rms_before)]

@@ -260,7 +260,7 @@ class MismatchReport:
         matplotlib.figure.Figure
             Of the output that differs most, beside its noise.
         """
-        from tire_pipeline.mismatch.figures import overview
+        from tire_pipeline.mismatch.report.figures import overview
 
         return overview(self)
 
@@ -305,7 +305,7 @@ class MismatchReport:
         -------
         Path
         """
-        from tire_pipeline.mismatch.page import render
+        from tire_pipeline.mismatch.report.page import render
 
         path = Path(path)
         path.write_text(render(self, pages=pages), encoding="utf-8")

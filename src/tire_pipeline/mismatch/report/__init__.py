@@ -1,0 +1,1 @@
+"""What the user gets: values, words, figures and the page."""
