@@ -1,4 +1,4 @@
-"""Fit how sure a name is (src/tire_pipeline/mismatch/inference/calibration.json) to the cases of spent proofs.
+"""Fit how sure a name is (src/tire_pipeline/mismatch/proof/calibration.json) to the cases of spent proofs.
 
 Run: python benchmarks/fit_confidence.py [--seeds 20261129 20261130 20261131] [--write]
 
@@ -21,9 +21,9 @@ from threadpoolctl import threadpool_limits
 import tire_pipeline.mismatch.explain as explaining
 from tire_pipeline.concealed import case_plan, make_case
 from tire_pipeline.concealed.measures import calibration_error
-from tire_pipeline.mismatch.inference.confidence import calibrate, confidence, features
+from tire_pipeline.mismatch.proof.confidence import calibrate, confidence, features
 
-FILE = Path(explaining.__file__).with_name("calibration.json")
+FILE = Path(explaining.__file__).parent / "proof" / "calibration.json"
 SEEDS = (20261129, 20261130, 20261131)
 CASES = 400
 Row = tuple[dict[str, float], bool, float]

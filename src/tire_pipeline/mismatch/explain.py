@@ -16,13 +16,13 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.inference import search as searching
 from tire_pipeline.mismatch.inference.ambiguity import alternatives, experiment, rivals
-from tire_pipeline.mismatch.inference.confidence import confidence
 from tire_pipeline.mismatch.inference.refit import Fit, residual
 from tire_pipeline.mismatch.inference.restart import search_all, unlike
 from tire_pipeline.mismatch.inference.search import Search
 from tire_pipeline.mismatch.inference.thinning import refit_on_all, thinned
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate
+from tire_pipeline.mismatch.proof.confidence import confidence
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments, shares_left
 from tire_pipeline.mismatch.proof.intervals import standard_errors
 from tire_pipeline.mismatch.proof.locate import AXES, everywhere, locate, when, where

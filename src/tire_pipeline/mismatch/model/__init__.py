@@ -1,1 +1,1 @@
-"""The simulation of a recording: channels, states along the time line, forces, and what an effect would add."""
+"""The simulation of a recording: channels, states along the time line, forces, what an effect would add."""

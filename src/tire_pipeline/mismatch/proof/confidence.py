@@ -15,7 +15,7 @@ import numpy as np
 def calibration() -> dict[str, Any]:
     """Return the constants of the map and how they were got (``calibration.json``)."""
     text = (
-        resources.files("tire_pipeline.mismatch.inference")
+        resources.files("tire_pipeline.mismatch.proof")
         .joinpath("calibration.json")
         .read_text(encoding="utf-8")
     )
