@@ -10,10 +10,11 @@ from tire_pipeline.mismatch.effects.shared import harmonic_power
 from tire_pipeline.mismatch.inference.doubts import _instead
 from tire_pipeline.mismatch.inference.exchange import exchanged
 from tire_pipeline.mismatch.inference.gates import _least
-from tire_pipeline.mismatch.inference.refit import finish, moved, objective, refit, residual
+from tire_pipeline.mismatch.inference.refit import finish, moved, objective, refit
 from tire_pipeline.mismatch.inference.search import _drop, begin, run, with_shapes
 from tire_pipeline.mismatch.inference.shapes import shape_columns
 from tire_pipeline.mismatch.model.forces import simulate
+from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.recording.checks import prepare
 
 

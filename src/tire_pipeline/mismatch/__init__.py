@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from tire_pipeline.mismatch.corrected.model import CorrectedModel
     from tire_pipeline.mismatch.explain import explain_mismatch
-    from tire_pipeline.mismatch.report.result import EffectReport, HeldOutFit, MismatchReport, OutputFit
+    from tire_pipeline.mismatch.proof.measured import OutputFit
+    from tire_pipeline.mismatch.report.result import EffectReport, HeldOutFit, MismatchReport
     from tire_pipeline.mismatch.several import explain_recordings
 
 _MODULES = {
@@ -16,7 +17,7 @@ _MODULES = {
     "EffectReport": "report.result",
     "HeldOutFit": "report.result",
     "MismatchReport": "report.result",
-    "OutputFit": "report.result",
+    "OutputFit": "proof.measured",
     "explain_mismatch": "explain",
     "explain_recordings": "several",
 }

@@ -16,20 +16,23 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.inference import search as searching
 from tire_pipeline.mismatch.inference.ambiguity import alternatives, experiment, rivals
-from tire_pipeline.mismatch.inference.refit import Fit, residual
+from tire_pipeline.mismatch.inference.left_out import shares_left
+from tire_pipeline.mismatch.inference.refit import Fit
 from tire_pipeline.mismatch.inference.restart import search_all, unlike
 from tire_pipeline.mismatch.inference.search import Search
 from tire_pipeline.mismatch.inference.thinning import refit_on_all, thinned
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate
+from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.confidence import confidence
-from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments, shares_left
+from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.intervals import standard_errors
 from tire_pipeline.mismatch.proof.locate import AXES, everywhere, locate, when, where
+from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.checks import Prepared, prepare
-from tire_pipeline.mismatch.report.result import EffectReport, MismatchReport, OutputFit, Remainder
+from tire_pipeline.mismatch.report.result import EffectReport, MismatchReport
 from tire_pipeline.mismatch.report.sentences import summary
 from tire_pipeline.mismatch.report.words import not_looked_for
 from tire_pipeline.progress import track

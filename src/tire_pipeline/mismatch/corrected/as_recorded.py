@@ -14,10 +14,10 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.mismatch.corrected.model import CorrectedModel, rms
-from tire_pipeline.mismatch.inference.refit import residual
 from tire_pipeline.mismatch.inference.search import Search
 from tire_pipeline.mismatch.model.forces import simulate_moments
-from tire_pipeline.mismatch.report.result import OutputFit
+from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.proof.measured import OutputFit
 
 Array = np.ndarray
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from tire_pipeline.mismatch.model.data import Data
-from tire_pipeline.mismatch.report.result import GaussianForm
 
 if TYPE_CHECKING:
     from sklearn.gaussian_process import GaussianProcessRegressor
@@ -31,6 +31,34 @@ _HELD_POINTS = 2000
 _LONGEST = 3.0
 _LEAST_NATS = 3.0
 _NOT_THERE = 30.0
+
+
+@dataclass(frozen=True)
+class GaussianForm:
+    """A Gaussian process for what is left of one output; it has no name.
+
+    Parameters
+    ----------
+    output : str
+    size, noise : float
+        Its standard deviation, and that of the white noise beside it, N.
+    lengths : dict
+        Channel (or ``rate of <channel>``, per second) -> length over which it changes, SI.
+    explained : float
+        Share of what is left, as a square, that it predicts on sweeps left out of its fit.
+    recovered : float
+        The same of what is left above the noise.
+    points : int
+        Samples it was fitted to.
+    """
+
+    output: str
+    size: float
+    noise: float
+    lengths: dict[str, float]
+    explained: float
+    recovered: float
+    points: int
 
 
 def gaussian_form(data: Data, rest: Array, output: str, block: Array, floor: float) -> GaussianForm | None:

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.form import Form
-from tire_pipeline.mismatch.inference.refit import residual
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
+from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
 _LENGTHS = (3.0, 14.0)

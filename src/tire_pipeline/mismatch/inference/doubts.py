@@ -10,10 +10,11 @@ from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.form import Form
 from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.discrepancy.unnamed import constant_form, forms
-from tire_pipeline.mismatch.inference.refit import Fit, residual
+from tire_pipeline.mismatch.inference.refit import Fit
 from tire_pipeline.mismatch.inference.screening import best_gain, without
 from tire_pipeline.mismatch.inference.search_state import Search
 from tire_pipeline.mismatch.inference.shapes import with_shapes
+from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
 

@@ -10,10 +10,11 @@ import scipy
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.inference.refit import Fit, moved, objective, refit, residual
+from tire_pipeline.mismatch.inference.refit import Fit, moved, objective, refit
 from tire_pipeline.mismatch.inference.screening import without
 from tire_pipeline.mismatch.inference.search_state import Search, noise_beside, of_noise
 from tire_pipeline.mismatch.inference.shapes import with_shapes
+from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
 _PARTS = (1.0, 0.3, 0.1)

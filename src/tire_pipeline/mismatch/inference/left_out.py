@@ -10,10 +10,12 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.gram import Sums, System
-from tire_pipeline.mismatch.inference.refit import Fit, residual
+from tire_pipeline.mismatch.inference.refit import Fit
 from tire_pipeline.mismatch.inference.search_state import Search
+from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
+_LOCKED = {"moment", "radius"}
 _LEAST_GROUPS = 3
 _APART = 0.1
 """Loads are levels of their own where they are so far apart, over the median load."""
@@ -76,3 +78,58 @@ def _solution(system: System, sums: Sums, kept: Array) -> Array:
     size = np.sqrt(np.maximum(np.diag(info), 1e-300))
     scaled = info / size[:, None] / size[None, :] + 1e-6 * np.eye(size.size)
     return np.linalg.solve(scaled, score / size) / size
+
+
+def removed_unseen(search: Search, fit: Fit) -> float:
+    """Share of the squared mismatch that goes on sweeps that the fit has not seen, mean of the outputs.
+
+    In newtons, as the model will be used: without the misfit and the coefficients beside which the evidence
+    was weighed. One sweep at a time: without the highest load as a whole, or an eighth of the recording, what
+    changes a pressure's effect with load is open, and a true pressure leaves four times as much (calspan).
+    """
+    shares = shares_left(each_left_out(search, fit), residual(search.data, []))
+    return 1.0 - float(np.mean(list(shares.values())))
+
+
+def shares_left(after: dict[str, Array], before: dict[str, Array]) -> dict[str, float]:
+    """Mean square of what is left over that of the mismatch, by output."""
+    return {o: float(np.mean(after[o] ** 2) / max(float(np.mean(before[o] ** 2)), 1e-300)) for o in after}
+
+
+def each_left_out(search: Search, fit: Fit) -> dict[str, Array]:
+    """Return residuals with each sweep predicted by parameters fitted without it (no nuisance here)."""
+    out = residual(search.data, fit.changes)
+    if not fit.labels or fit.sums is None:
+        return out
+    base = step_without(fit, np.zeros(search.system.count, bool))
+    for k in range(search.system.count):
+        left = np.zeros(search.system.count, bool)
+        left[k] = True
+        delta = step_without(fit, left) - base
+        rows = search.block == k
+        for o in out:
+            out[o][rows] -= fit.columns[o][rows] @ delta
+    return out
+
+
+def step_without(fit: Fit, dropped: Array) -> Array:
+    """Return the change of the parameters when some sweeps (bool, by number) are left out.
+
+    A moment in time and a wheel's radius are locked: one sweep determines them, and a linear step says
+    nothing about them without it.
+    """
+    sums = fit.sums
+    assert sums is not None  # kept by the last fit
+    kept = ~dropped
+    free = np.array([name not in _LOCKED for _, name in fit.labels])
+    info, score = sums.ee[kept].sum(axis=0), sums.er[kept].sum(axis=0)
+    delta = np.zeros(score.size)
+    if free.any():
+        delta[free] = _solve(info[np.ix_(free, free)], score[free])
+    return delta
+
+
+def _solve(info: Array, score: Array) -> Array:
+    size = np.sqrt(np.maximum(np.diag(info), 1e-300))
+    m = info / size[:, None] / size[None, :] + 1e-6 * np.eye(size.size)
+    return np.linalg.solve(m, score / size) / size

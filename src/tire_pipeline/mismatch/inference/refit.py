@@ -13,6 +13,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.model.candidates import Variant, derivatives
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
+from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
 _DAMPINGS = (1e-6, 0.03, 0.3, 3.0, 30.0)
@@ -71,12 +72,6 @@ class Fit:
         """Number of parameters that float, discrete choices of a scan included."""
         extra = sum(1 for name, _ in self.changes if name in {"nonuniformity"})
         return sum(len(f) for f in self.free) + extra
-
-
-def residual(data: Data, changes: Sequence[Change]) -> dict[str, Array]:
-    """Recorded minus simulated, N."""
-    f = simulate(data, changes)
-    return {o: data.recorded[o] - f[o] for o in data.outputs}
 
 
 def objective(system: System, changes: Sequence[Change]) -> float:

@@ -13,9 +13,11 @@ from tire_pipeline.mismatch.inference.search import run
 from tire_pipeline.mismatch.inference.search_state import Search, renoise
 from tire_pipeline.mismatch.inference.shapes import with_shapes
 from tire_pipeline.mismatch.model.candidates import Variant
-from tire_pipeline.mismatch.proof.remainder import excess, white_left
+from tire_pipeline.mismatch.model.residual import residual
 
 _FOUND = "fit gates doubts unnamed likelier noise system loose frozen inflation misfit refused".split()
+
+Array = np.ndarray
 
 
 def unlike(search: Search, nats: float) -> bool:
@@ -118,3 +120,45 @@ def _gain(search: Search, fit: Fit) -> float:
     """Evidence of a fit by the weights of a search, as a log."""
     at = replace(fit, objective=objective(search.system, fit.changes))
     return gain_of(search, at, objective(search.system, []))
+
+
+def white_left(search: Search) -> dict[str, Array]:
+    """Return the whitened residual beside the effects, their form errors and nearly free coefficients."""
+    fit = search.fit
+    system = with_shapes(search, search.loose, fit.changes)
+    return system.left(residual(search.data, fit.changes), fit.columns if fit.labels else None)
+
+
+def excess(search: Search, left: dict[str, Array]) -> tuple[float, float]:
+    """Return how much power whitened residuals have beyond white noise, and what that is worth in log
+    evidence.
+
+    At each scale the samples are summed over windows; the mean square of the sums over that of
+    noise as the search takes it (white, of the same robust size, times ``inflation``) is 1 for noise. The
+    worst output and scale count.
+
+    Where the recording states its uncertainty (``fy_std``, as :func:`axle_recording` does) neighbours share
+    a filter and unknowns that are constant over a drive: slow changes are no evidence there, and only
+    power beyond what is stated counts.
+    """
+    worst, nats = 1.0, 0.0
+    for o, white in left.items():
+        if f"{o}_std" in search.data.channels:
+            ratio = float(np.mean(np.minimum(white**2, 25.0)))
+            worst = max(worst, ratio)
+            if ratio > 1.0:
+                count = white.size / search.inflation
+                nats = max(nats, 0.5 * count * (ratio - 1.0 - np.log(ratio)))
+            continue
+        size = float(np.median(white**2) / 0.4549)
+        x = white / np.sqrt(max(size, 1e-12))
+        for width in (1, 5, 12, 25, 60):
+            n = x.size // width
+            if n < 30:
+                continue
+            sums = x[: n * width].reshape(n, width).sum(axis=1) / np.sqrt(width)
+            ratio = float(np.mean(np.minimum(sums**2, 25.0))) / search.inflation
+            worst = max(worst, ratio)
+            if ratio > 1.0:
+                nats = max(nats, 0.5 * n * (ratio - 1.0 - np.log(ratio)))
+    return worst, nats

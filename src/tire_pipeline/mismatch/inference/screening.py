@@ -9,10 +9,11 @@ import numpy as np
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.inference.refit import Fit, objective, refit, residual
+from tire_pipeline.mismatch.inference.refit import Fit, objective, refit
 from tire_pipeline.mismatch.inference.search_state import Search
 from tire_pipeline.mismatch.model.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.model.forces import simulate
+from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
 

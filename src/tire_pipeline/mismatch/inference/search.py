@@ -25,8 +25,8 @@ from tire_pipeline.mismatch.inference.gates import (
     reasons,
     share_of_sweeps,
 )
-from tire_pipeline.mismatch.inference.left_out import groups, left_out_error
-from tire_pipeline.mismatch.inference.refit import Fit, objective, refit, residual
+from tire_pipeline.mismatch.inference.left_out import groups, left_out_error, removed_unseen
+from tire_pipeline.mismatch.inference.refit import Fit, objective, refit
 from tire_pipeline.mismatch.inference.screening import (
     frozen_cost,
     gain_of,
@@ -40,7 +40,7 @@ from tire_pipeline.mismatch.inference.screening import (
 from tire_pipeline.mismatch.inference.search_state import Search, begin, beside, log_likelihood, renoise
 from tire_pipeline.mismatch.inference.shapes import with_shapes
 from tire_pipeline.mismatch.model.candidates import Variant
-from tire_pipeline.mismatch.proof.held_out import removed_unseen
+from tire_pipeline.mismatch.model.residual import residual
 
 __all__ = ["Search", "begin", "gain_of", "objective", "prune", "run", "with_shapes"]
 

@@ -13,11 +13,12 @@ from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.discrepancy.noise import Noise, estimate_noise, refined
 from tire_pipeline.mismatch.discrepancy.nuisance import Sizes, largest_force, make_nuisance
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.inference.refit import Fit, residual
+from tire_pipeline.mismatch.inference.refit import Fit
 from tire_pipeline.mismatch.model.blocks import sweeps
 from tire_pipeline.mismatch.model.candidates import Variant, variants
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
+from tire_pipeline.mismatch.model.residual import residual
 
 if TYPE_CHECKING:
     from tire_pipeline.mismatch.inference.doubts import Doubt

@@ -10,12 +10,13 @@ from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.discrepancy.nuisance import make_nuisance
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.inference.refit import Fit, finish, inverse, objective, residual
+from tire_pipeline.mismatch.inference.refit import Fit, finish, inverse, objective
 from tire_pipeline.mismatch.inference.search import Search
 from tire_pipeline.mismatch.inference.search_state import nuisance_scale
 from tire_pipeline.mismatch.model.candidates import derivatives
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
+from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.progress import track
 
 Array = np.ndarray

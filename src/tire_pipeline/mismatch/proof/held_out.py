@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.mismatch.inference.refit import Fit, residual
+from tire_pipeline.mismatch.inference.left_out import each_left_out, step_without
 from tire_pipeline.mismatch.inference.search_state import Search
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate_moments
-from tire_pipeline.mismatch.report.result import OutputFit
+from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.proof.measured import OutputFit
 
 Array = np.ndarray
-_LOCKED = {"moment", "radius"}
 
 
 def prove(search: Search, *, resamples: int = 400, seed: int = 0) -> dict[str, OutputFit]:
@@ -22,7 +22,7 @@ def prove(search: Search, *, resamples: int = 400, seed: int = 0) -> dict[str, O
     """
     data, fit = search.data, search.fit
     before = {o: data.recorded[o] - data.base[o] for o in data.outputs}
-    after = _left_out(search, fit)
+    after = each_left_out(search, fit)
     rng = np.random.default_rng(seed)
     name, rows = held_out_condition(data)
     condition = _condition(search, rows) if rows is not None else None
@@ -118,61 +118,6 @@ def _by_sweep(x: Array, block: Array, count: int) -> Array:
     return np.bincount(block, x**2, count)
 
 
-def _solve(info: Array, score: Array) -> Array:
-    size = np.sqrt(np.maximum(np.diag(info), 1e-300))
-    m = info / size[:, None] / size[None, :] + 1e-6 * np.eye(size.size)
-    return np.linalg.solve(m, score / size) / size
-
-
-def _without(fit: Fit, dropped: Array) -> Array:
-    """Return the change of the parameters when some sweeps (bool, by number) are left out.
-
-    A moment in time and a wheel's radius are locked: one sweep determines them, and a linear step says
-    nothing about them without it.
-    """
-    sums = fit.sums
-    assert sums is not None  # kept by the last fit
-    kept = ~dropped
-    free = np.array([name not in _LOCKED for _, name in fit.labels])
-    info, score = sums.ee[kept].sum(axis=0), sums.er[kept].sum(axis=0)
-    delta = np.zeros(score.size)
-    if free.any():
-        delta[free] = _solve(info[np.ix_(free, free)], score[free])
-    return delta
-
-
-def _left_out(search: Search, fit: Fit) -> dict[str, Array]:
-    """Return residuals with each sweep predicted by parameters fitted without it (no nuisance here)."""
-    out = residual(search.data, fit.changes)
-    if not fit.labels or fit.sums is None:
-        return out
-    base = _without(fit, np.zeros(search.system.count, bool))
-    for k in range(search.system.count):
-        left = np.zeros(search.system.count, bool)
-        left[k] = True
-        delta = _without(fit, left) - base
-        rows = search.block == k
-        for o in out:
-            out[o][rows] -= fit.columns[o][rows] @ delta
-    return out
-
-
-def removed_unseen(search: Search, fit: Fit) -> float:
-    """Share of the squared mismatch that goes on sweeps that the fit has not seen, mean of the outputs.
-
-    In newtons, as the model will be used: without the misfit and the coefficients beside which the evidence
-    was weighed. One sweep at a time: without the highest load as a whole, or an eighth of the recording, what
-    changes a pressure's effect with load is open, and a true pressure leaves four times as much (calspan).
-    """
-    shares = shares_left(_left_out(search, fit), residual(search.data, []))
-    return 1.0 - float(np.mean(list(shares.values())))
-
-
-def shares_left(after: dict[str, Array], before: dict[str, Array]) -> dict[str, float]:
-    """Mean square of what is left over that of the mismatch, by output."""
-    return {o: float(np.mean(after[o] ** 2) / max(float(np.mean(before[o] ** 2)), 1e-300)) for o in after}
-
-
 def held_out_condition(data: Data) -> tuple[str, Array | None]:
     """Return the condition to leave out as a whole: the highest load, else the largest slip."""
     for name, unit in (("normal_load", "N"), ("slip_angle", "rad"), ("slip_ratio", "1")):
@@ -198,5 +143,5 @@ def _condition(search: Search, rows: Array) -> dict[str, Array] | None:
         touched = inside / np.maximum(size, 1) > 0.5
     if touched.all() or not touched.any():
         return None
-    delta = _without(search.fit, touched) - _without(search.fit, np.zeros(count, bool))
+    delta = step_without(search.fit, touched) - step_without(search.fit, np.zeros(count, bool))
     return {o: after[o][rows] - search.fit.columns[o][rows] @ delta for o in after}

@@ -7,12 +7,13 @@ import warnings
 import numpy as np
 
 from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.discrepancy.gaussian_form import gaussian_form
+from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm, gaussian_form
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
-from tire_pipeline.mismatch.inference.refit import residual
-from tire_pipeline.mismatch.inference.search import Search, with_shapes
+from tire_pipeline.mismatch.inference.restart import excess, white_left
+from tire_pipeline.mismatch.inference.search import Search
+from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.locate import locate
-from tire_pipeline.mismatch.report.result import GaussianForm, Remainder
+from tire_pipeline.mismatch.proof.measured import Remainder
 
 Array = np.ndarray
 _MOST_TERMS = 5
@@ -41,13 +42,6 @@ def remainder(search: Search) -> Remainder:
     return Remainder(size, located, form, bool(significant), statistic, nats, gaussian)
 
 
-def white_left(search: Search) -> dict[str, Array]:
-    """Return the whitened residual beside the effects, their form errors and nearly free coefficients."""
-    fit = search.fit
-    system = with_shapes(search, search.loose, fit.changes)
-    return system.left(residual(search.data, fit.changes), fit.columns if fit.labels else None)
-
-
 def gaussian_forms(search: Search, size: dict[str, float]) -> list[GaussianForm]:
     """Return a Gaussian process for each output that has something left, the largest first."""
     rest = residual(search.data, search.fit.changes)
@@ -55,41 +49,6 @@ def gaussian_forms(search: Search, size: dict[str, float]) -> list[GaussianForm]
     wanted = [o for o in order if o == order[0] or size[o] > 0.5 * search.noise[o].floor]
     forms = [gaussian_form(search.data, rest[o], o, search.block, search.noise[o].floor) for o in wanted]
     return [f for f in forms if f is not None]
-
-
-def excess(search: Search, left: dict[str, Array]) -> tuple[float, float]:
-    """Return how much power whitened residuals have beyond white noise, and what that is worth in log
-    evidence.
-
-    At each scale the samples are summed over windows; the mean square of the sums over that of
-    noise as the search takes it (white, of the same robust size, times ``inflation``) is 1 for noise. The
-    worst output and scale count.
-
-    Where the recording states its uncertainty (``fy_std``, as :func:`axle_recording` does) neighbours share
-    a filter and unknowns that are constant over a drive: slow changes are no evidence there, and only
-    power beyond what is stated counts.
-    """
-    worst, nats = 1.0, 0.0
-    for o, white in left.items():
-        if f"{o}_std" in search.data.channels:
-            ratio = float(np.mean(np.minimum(white**2, 25.0)))
-            worst = max(worst, ratio)
-            if ratio > 1.0:
-                count = white.size / search.inflation
-                nats = max(nats, 0.5 * count * (ratio - 1.0 - np.log(ratio)))
-            continue
-        size = float(np.median(white**2) / 0.4549)
-        x = white / np.sqrt(max(size, 1e-12))
-        for width in (1, 5, 12, 25, 60):
-            n = x.size // width
-            if n < 30:
-                continue
-            sums = x[: n * width].reshape(n, width).sum(axis=1) / np.sqrt(width)
-            ratio = float(np.mean(np.minimum(sums**2, 25.0))) / search.inflation
-            worst = max(worst, ratio)
-            if ratio > 1.0:
-                nats = max(nats, 0.5 * n * (ratio - 1.0 - np.log(ratio)))
-    return worst, nats
 
 
 def sparse_form(search: Search) -> str:

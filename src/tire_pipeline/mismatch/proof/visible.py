@@ -17,6 +17,7 @@ from scipy.special import ndtri
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.gram import Sums, System
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects.amounts import amount
 from tire_pipeline.mismatch.effects.base import Parameter
 from tire_pipeline.mismatch.inference.gates import (
     asked_for,
@@ -25,13 +26,13 @@ from tire_pipeline.mismatch.inference.gates import (
     of_coefficients,
     part_of_samples,
 )
-from tire_pipeline.mismatch.inference.refit import finish, inverse, residual
+from tire_pipeline.mismatch.inference.refit import finish, inverse
 from tire_pipeline.mismatch.inference.search_state import Search
 from tire_pipeline.mismatch.model.candidates import Variant, screening_columns
 from tire_pipeline.mismatch.model.forces import Change, simulate
+from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.intervals import roomy, standard_errors
-from tire_pipeline.mismatch.report.result import Visible
-from tire_pipeline.mismatch.report.words import amount
+from tire_pipeline.mismatch.proof.measured import Visible
 
 Array = np.ndarray
 _SEEN = float(ndtri(0.95))

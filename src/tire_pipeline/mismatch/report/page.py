@@ -12,9 +12,11 @@ from markupsafe import Markup
 
 from tire_pipeline.drawing import page_style
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects.amounts import amount
+from tire_pipeline.mismatch.proof.measured import Visible
 from tire_pipeline.mismatch.report.figures import drawings
-from tire_pipeline.mismatch.report.result import EffectReport, MismatchReport, Visible
-from tire_pipeline.mismatch.report.words import amount, condition, gaussian, in_words, interval
+from tire_pipeline.mismatch.report.result import EffectReport, MismatchReport
+from tire_pipeline.mismatch.report.words import condition, gaussian, in_words, interval
 from tire_pipeline.safe_page import page_environment, policy
 
 _TOO_LITTLE = {"does not pay for itself": "too little evidence for its parameters"}

@@ -8,7 +8,8 @@ import numpy as np
 
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.proof.locate import Located
-from tire_pipeline.mismatch.report.result import EffectReport, HeldOutFit, OutputFit, Remainder
+from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
+from tire_pipeline.mismatch.report.result import EffectReport, HeldOutFit
 from tire_pipeline.mismatch.report.words import figure, in_words, newtons, place
 
 _FEW_STRETCHES = 3

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm
 from tire_pipeline.mismatch.effects import Effect, catalogue
-from tire_pipeline.mismatch.report.result import GaussianForm
 
 _UNITS = {
     "slip_angle": (57.29578, "deg", "slip angle"),
@@ -43,21 +43,6 @@ def figure(axis: str, value: float, size: float | None = None) -> str:
     """Return a value of an axis without its unit, which is that for values of some size."""
     factor = unit_of(axis, value if size is None else size)[0]
     return "0" if abs(value) < _FINEST.get(axis, 0.0) else f"{value * factor:.3g}"
-
-
-_AMOUNTS = {
-    "1": (100.0, "%"),
-    "rad": (57.29578, "deg"),
-    "s": (1e3, "ms"),
-    "rad/N": (57.29578e3, "deg/kN"),
-    "rad/rad": (1.0, "deg/deg"),
-}
-
-
-def amount(value: float, unit: str, digits: int = 2) -> str:
-    """Return the size of a parameter in the unit that engineers use."""
-    factor, name = _AMOUNTS.get(unit, (1.0, unit))
-    return f"{value * factor:.{digits}g} {name}"
 
 
 def label(axis: str) -> str:

@@ -1,0 +1,91 @@
+"""What is measured of an explanation: errors on sweeps left out, what is left, what could be seen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm
+from tire_pipeline.mismatch.proof.locate import Located
+
+
+@dataclass(frozen=True)
+class OutputFit:
+    """Errors of one output on sweeps that were left out of the fit, N (moments: no fit has seen them, N m).
+
+    Parameters
+    ----------
+    noise_floor : float
+    rms_before, rms_after : float
+    rms_after_low, rms_after_high : float
+        95% interval by resampling sweeps.
+    recovered : float
+        Share of the squared error above the noise floor that is gone.
+    held_out_condition : str
+        One condition left out as a whole, and ``rms_condition_before``, ``rms_condition_after``.
+    """
+
+    noise_floor: float
+    rms_before: float
+    rms_after: float
+    rms_after_low: float
+    rms_after_high: float
+    recovered: float
+    held_out_condition: str = ""
+    rms_condition_before: float = float("nan")
+    rms_condition_after: float = float("nan")
+
+
+@dataclass(frozen=True)
+class Visible:
+    """What this recording can say about one parameter of one effect, named or not.
+
+    Parameters
+    ----------
+    name, parameter, unit : str
+        The parameter is empty where nothing can be said, or where an effect shows without a size.
+    seen : float
+        Smallest size that would have been named, alone or with alternatives, in 95% of repetitions; NaN where
+        no size that is possible would have been.
+    ruled_out : float
+        Sizes above this one are ruled out (95%); NaN if it is named, or if nothing is ruled out.
+    text : str
+        The same in words.
+    form : dict
+        What else was assumed: the reference of a temperature, the moment of a change.
+    """
+
+    name: str
+    parameter: str
+    unit: str
+    seen: float
+    ruled_out: float
+    text: str
+    form: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Remainder:
+    """The unexplained residual: what is left above the noise.
+
+    Parameters
+    ----------
+    size : dict
+        Output -> RMS above noise, N.
+    located : list of Located
+    form : str
+        A sparse equation for it (PySINDy), or nothing.
+    significant : bool
+        Whether it counts.
+    statistic, nats : float
+        Its power over that of noise at the worst scale, and what that is worth.
+    gaussian : list of GaussianForm
+        The output first in which most is left.
+    """
+
+    size: dict[str, float]
+    located: list[Located]
+    form: str
+    significant: bool
+    statistic: float = 0.0
+    nats: float = 0.0
+    gaussian: list[GaussianForm] = field(default_factory=list)
