@@ -10,7 +10,7 @@ import pandas as pd
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.corrected.as_recorded import as_recorded
+from tire_pipeline.mismatch.corrected.as_recorded import as_recorded, never_worse, with_unnamed
 from tire_pipeline.mismatch.corrected.model import CorrectedModel, force_limits
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
@@ -33,11 +33,13 @@ from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.checks import Prepared, prepare
 from tire_pipeline.mismatch.report.result import EffectReport, MismatchReport
-from tire_pipeline.mismatch.report.sentences import summary
+from tire_pipeline.mismatch.report.sentences import on_unnamed, summary
 from tire_pipeline.mismatch.report.words import not_looked_for
+from tire_pipeline.mismatch.unnamed_physics.search import unnamed_physics
 from tire_pipeline.progress import track
 
 Array = np.ndarray
+_SOMETHING_LEFT = ("unexplained", "partly explained")
 
 
 def explain_mismatch(tire: Any, recording: pd.DataFrame) -> MismatchReport:
@@ -173,6 +175,10 @@ def _report(prepared: Prepared, search: Search, recording: pd.DataFrame) -> Mism
         cleaned={c.channel: c.removed for c in prepared.cleaned if c.smoothed},
     ).cleaned_where_it_helps(recording)
     fit = as_recorded({**fit, **prove_moments(search)}, search, corrected, recording)
+    unnamed = None
+    if verdict in _SOMETHING_LEFT and not data.beside:
+        unnamed, corrected = never_worse(unnamed_physics(search), corrected, recording)
+        fit = with_unnamed(fit, unnamed)
     even = everywhere(data, before, located)
     told = (
         ""
@@ -185,7 +191,10 @@ def _report(prepared: Prepared, search: Search, recording: pd.DataFrame) -> Mism
         fit=fit,
         next_experiment=following,
         corrected=corrected,
-        summary=" ".join(filter(None, ["" if question is None else question.in_words, told])),
+        summary=" ".join(
+            filter(None, ["" if question is None else question.in_words, told, on_unnamed(unnamed)])
+        ),
+        unnamed=unnamed,
         located=located,
         remainder=left,
         notes=[*prepared.notes, *filter(None, [not_looked_for(search.absent)])],

@@ -69,6 +69,17 @@ def explain_recordings(
     if held_out is None:
         return report
     tried = predict_held_out(report.corrected, recordings[held_out], held_out)
+    named = replace(report.corrected, unnamed=None)
+    if report.unnamed is not None and report.corrected.unnamed is not None:
+        plain = predict_held_out(named, recordings[held_out], held_out)
+        if any(
+            tried.errors[o].rms_after >= e.rms_after
+            for o, e in plain.errors.items()
+            if o in report.fit and o in report.corrected.unnamed.equations
+        ):
+            why = f"it predicts {held_out}, which was held out, no better"
+            unnamed = replace(report.unnamed, physics=None, why_not=why)
+            report, tried = replace(report, corrected=named, unnamed=unnamed), plain
     told = report.summary.removesuffix(TRY_IT).rstrip()
     return replace(report, held_out=tried, summary=f"{told} {on_held_out(tried)}")
 
@@ -100,7 +111,7 @@ def predict_held_out(corrected: CorrectedModel, recording: pd.DataFrame, name: s
     """
     usable = _finite(recording)
     after = corrected.predict(usable)
-    before = replace(corrected, changes=()).predict(usable)
+    before = replace(corrected, changes=(), unnamed=None).predict(usable)
     names = [n for n in after.columns if n in usable and np.isfinite(usable[n]).any()]
     if not names:
         raise RecordingError(

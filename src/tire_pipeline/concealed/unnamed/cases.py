@@ -14,7 +14,16 @@ from tire_pipeline.concealed.open_world.world import Nominal, World
 from tire_pipeline.concealed.second import schedule
 from tire_pipeline.concealed.second.causes import CAUSES
 from tire_pipeline.concealed.second.draws import Draw
-from tire_pipeline.concealed.second.rig import ENCODED, Noise, Rig, draw_noise, draw_rig, driven, filtered, sensed
+from tire_pipeline.concealed.second.rig import (
+    ENCODED,
+    Noise,
+    Rig,
+    draw_noise,
+    draw_rig,
+    driven,
+    filtered,
+    sensed,
+)
 from tire_pipeline.concealed.second.roll import FORCES, Course
 from tire_pipeline.concealed.second.run import Placed, Run
 from tire_pipeline.concealed.second.strength import formula_misfit, sized, unit
@@ -130,7 +139,9 @@ def _drawn(
     )
 
 
-def _placed(rng: np.random.Generator, run: Run, levels: np.ndarray, named: Sequence[str]) -> tuple[Placed, ...]:
+def _placed(
+    rng: np.random.Generator, run: Run, levels: np.ndarray, named: Sequence[str]
+) -> tuple[Placed, ...]:
     """Causes of the second simulator's catalogue, each at twice the misfit."""
     if not named:
         return ()
@@ -139,7 +150,9 @@ def _placed(rng: np.random.Generator, run: Run, levels: np.ndarray, named: Seque
     scales = np.sqrt(np.mean(without**2, axis=1))
     out = []
     for name in named:
-        draw = Draw(sign=float(rng.choice([-1.0, 1.0])), channel=1, constant=True, levels=levels, scales=scales)
+        draw = Draw(
+            sign=float(rng.choice([-1.0, 1.0])), channel=1, constant=True, levels=levels, scales=scales
+        )
         size, _ = sized(run, CAUSES[name], draw, without, one, 2.0)
         out.append((CAUSES[name], size, draw))
     return tuple(out)

@@ -18,6 +18,7 @@ from tire_pipeline.mismatch.inference.search import Search
 from tire_pipeline.mismatch.model.forces import simulate_moments
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.measured import OutputFit
+from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
 Array = np.ndarray
 
@@ -100,3 +101,41 @@ def _inside(condition: str, recording: pd.DataFrame) -> Array | None:
     if found is None or found[1] not in recording:
         return None
     return np.abs(recording[found[1]].to_numpy(float)) > float(found[2])
+
+
+def with_unnamed(fit: dict[str, OutputFit], found: UnnamedReport) -> dict[str, OutputFit]:
+    """Return the errors with an equation without a name put in, by what it does on sweeps it has not seen."""
+    if found.physics is None:
+        return fit
+    out = dict(fit)
+    for o in found.physics.equations:
+        before, after, _ = found.unseen[o]
+        ratio = after / max(before, 1e-300)
+        f = fit[o]
+        rms_after = f.rms_after * ratio
+        above = f.rms_before**2 - f.noise_floor**2
+        out[o] = replace(
+            f,
+            rms_after=rms_after,
+            rms_after_low=f.rms_after_low * ratio,
+            rms_after_high=f.rms_after_high * ratio,
+            recovered=float(np.clip((f.rms_before**2 - rms_after**2) / above, -1.0, 1.0))
+            if above > 0.05 * f.noise_floor**2
+            else float("nan"),
+        )
+    return out
+
+
+def never_worse(
+    found: UnnamedReport, corrected: CorrectedModel, recording: pd.DataFrame
+) -> tuple[UnnamedReport, CorrectedModel]:
+    """Put an equation without a name into the model, unless it predicts the recorded rows worse."""
+    if found.physics is None:
+        return found, corrected
+    put_in = replace(corrected, unnamed=found.physics)
+    with_it, without = put_in.predict(recording), corrected.predict(recording)
+    for o in found.physics.equations:
+        if rms(recording[o] - with_it[o]) >= rms(recording[o] - without[o]):
+            why = "it predicts the rows as they were recorded no better"
+            return replace(found, physics=None, why_not=why), corrected
+    return found, put_in

@@ -18,6 +18,8 @@ from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate, 
 from tire_pipeline.mismatch.recording.checks import INPUTS, own_relaxation
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.smoothing import denoise
+from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
+from tire_pipeline.mismatch.unnamed_physics.symbols import table_of
 
 Array = np.ndarray
 _SAME_NOISE = 3.0
@@ -51,6 +53,8 @@ class CorrectedModel:
         What has to be settled before a file may be written from it.
     cleaned : dict of str to float
         Input channel that is cleaned of sensor noise before the effects are put in -> RMS of that noise, SI.
+    unnamed : UnnamedPhysics, optional
+        An equation of physics without a name, put in last.
     """
 
     tire: Any
@@ -63,11 +67,17 @@ class CorrectedModel:
     limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     question: Question | None = None
     cleaned: Mapping[str, float] = field(default_factory=dict)
+    unnamed: UnnamedPhysics | None = None
+
+    @property
+    def _changed(self) -> bool:
+        """Whether anything is put in."""
+        return bool(self.changes) or self.unnamed is not None
 
     @property
     def as_it_came(self) -> CorrectedModel:
         """The model with nothing put in and nothing repaired: ``predict`` gives ``tire.forces``."""
-        return replace(self, changes=(), factors={}, limits={}, cleaned={})
+        return replace(self, changes=(), factors={}, limits={}, cleaned={}, unnamed=None)
 
     def predict(self, recording: pd.DataFrame) -> pd.DataFrame:
         """Return the corrected forces at the samples of a recording.
@@ -83,7 +93,8 @@ class CorrectedModel:
             ``fx``, ``fy`` in N and ``mx``, ``my``, ``mz`` in N m (those that were recorded when the
             model was corrected), index as the recording's. Artefacts are put in, too, wrong signs and
             units and clipping as well: this is what would be recorded. Without effects and repairs it is
-            what ``tire.forces`` gives at the rows as they are.
+            what ``tire.forces`` gives at the rows as they are. ``attrs["notes"]`` says where physics without
+            a name was outside of its range and faded.
 
         Raises
         ------
@@ -97,19 +108,43 @@ class CorrectedModel:
                     f"{name} needs the channel {channel}", where=channel, todo="add the column"
                 )
         forces = simulate(data, self.changes)
+        notes = self._put_unnamed(data, forces)
         if self.moments:
             forces |= simulate_moments(data, self.changes, self.moments)
         recorded = {name: force / self.factors.get(name, 1.0) for name, force in forces.items()}
         for name, (low, high) in self.limits.items():
             recorded[name] = np.clip(recorded[name], low, high)
-        return pd.DataFrame(recorded, index=recording.index)
+        out = pd.DataFrame(recorded, index=recording.index)
+        if notes:
+            out.attrs["notes"] = notes
+        return out
+
+    def _put_unnamed(self, data: Data, forces: dict[str, Array]) -> list[str]:
+        """Add what has no name to the forces, and say where it fades."""
+        if self.unnamed is None:
+            return []
+        for channel in self.unnamed.channels:
+            if channel not in data.channels and not (channel == "time" and data.time is not None):
+                raise RecordingError(
+                    f"{self.unnamed.title} needs the channel {channel}", where=channel, todo="add the column"
+                )
+        table, _ = table_of(data, self.changes, self.unnamed.nominal)
+        for name, change in self.unnamed.change(table).items():
+            if name in forces:
+                forces[name] = forces[name] + change
+        faded = float(np.mean(self.unnamed.weight(table) < 1.0))
+        return (
+            [f"{self.unnamed.title}: faded outside of its range at {faded:.1%} of the samples"]
+            if faded
+            else []
+        )
 
     def cleaned_where_it_helps(self, recording: pd.DataFrame) -> CorrectedModel:
         """Return the model with the noise of the recording that was explained, as it was recorded.
 
         Without any cleaning if the forces of that recording are predicted no better with it.
         """
-        if not (self.cleaned and self.changes and "time" in recording):
+        if not (self.cleaned and self._changed and "time" in recording):
             return self
         plain = replace(self, cleaned={})
         channels = plain._data(recording).channels
@@ -136,7 +171,7 @@ class CorrectedModel:
         start = _pieces(time, n)
         for name in ("slip_angle", "slip_ratio", "camber"):
             channels.setdefault(name, np.zeros(n))
-        if time is not None and self.changes:
+        if time is not None and self._changed:
             for name, noise in self.cleaned.items():
                 channels[name] = _without_noise(channels[name], start, noise)
         beside = None
@@ -158,7 +193,7 @@ class CorrectedModel:
             start=start,
             present={c for c in channels if c in recording.columns},
             beside=beside,
-            fixed={**self.reference, "own_relaxation": own_relaxation(self.tire) if self.changes else None},
+            fixed={**self.reference, "own_relaxation": own_relaxation(self.tire) if self._changed else None},
         )
 
     def tire_model(self) -> tuple[Any, dict[str, dict[str, object]]]:
@@ -189,6 +224,8 @@ class CorrectedModel:
                         k: v for k, v in self.reference.items() if isinstance(v, (int, float, dict))
                     },
                 }
+        if self.unnamed is not None:
+            sidecar["unnamed"] = self.unnamed.to_sidecar()
         return tire, sidecar
 
     def _comments(self, sidecar: Mapping[str, object]) -> list[str]:

@@ -206,18 +206,30 @@ def rescale(search: Search) -> None:
 
 
 def _inflation(search: Search) -> float:
+    """How many whitened samples make one independent one, of what is left beside loose coefficients."""
+    left = search.loose.left(residual(search.data, search.fit.changes), search.fit.columns or None)
+    return inflation_of(left, in_time=search.data.time is not None)
+
+
+def inflation_of(left: dict[str, Array], *, in_time: bool) -> float:
     """How many whitened samples make one independent one: size and colour that the noise model missed.
 
     The size is that of the power, not of the middle: what real rigs leave has longer tails than normal noise,
     and each sample counts by its square.
+
+    Parameters
+    ----------
+    left : dict of ndarray, shape (n,)
+        Whitened residual of each output, in the order of time.
+    in_time : bool
+        Whether neighbours are neighbours in time.
     """
-    left = search.loose.left(residual(search.data, search.fit.changes), search.fit.columns or None)
     total, weight = 0.0, 0.0
     for white in left.values():
         size = float(np.median(white**2) / 0.4549)
         x = np.clip(white, -4.0 * np.sqrt(size), 4.0 * np.sqrt(size))
         colour = 1.0
-        if search.data.time is not None:
+        if in_time:
             lags = [float(np.mean(x[k:] * x[:-k])) / max(float(np.mean(x**2)), 1e-12) for k in range(1, 13)]
             for value in lags:
                 if value < 0.02:

@@ -176,6 +176,22 @@ def drawings(report: MismatchReport) -> list[dict[str, Any]]:
     return out
 
 
+def unnamed_curve(report: MismatchReport) -> Markup | None:
+    """Draw what is left over the first factor of the equation without a name, beside the equation."""
+    curve = None if report.unnamed is None else report.unnamed.curve
+    if not curve:
+        return None
+    with matplotlib.rc_context(_STYLE):
+        figure = Figure(figsize=(9.0, 2.9), layout="constrained")
+        axes = figure.subplots()
+        axes.plot(curve["x"], curve["left"], "o", ms=3.5, color=_BEFORE, label="left unexplained")
+        axes.plot(curve["x"], curve["fitted"], color=_AFTER, label="equation")
+        axes.set_xlabel(curve["label"])
+        axes.set_ylabel(f"{curve['output'].capitalize()} along the force (N)")
+        axes.legend(frameon=False)
+    return svg(figure)
+
+
 def _has_gaps(report: MismatchReport) -> bool:
     time = report.series["time"]
     return bool(_broken(time, time)[0].size > time.size)

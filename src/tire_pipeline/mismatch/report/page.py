@@ -14,9 +14,10 @@ from tire_pipeline.drawing import page_style
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount
 from tire_pipeline.mismatch.proof.measured import Visible
-from tire_pipeline.mismatch.report.figures import drawings
+from tire_pipeline.mismatch.report.figures import drawings, unnamed_curve
 from tire_pipeline.mismatch.report.result import EffectReport, MismatchReport
 from tire_pipeline.mismatch.report.words import condition, gaussian, in_words, interval
+from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.safe_page import page_environment, policy
 
 _TOO_LITTLE = {"does not pay for itself": "too little evidence for its parameters"}
@@ -56,7 +57,17 @@ def render(report: MismatchReport, *, pages: Sequence[tuple[str, str]] = ()) -> 
         next_experiment=in_words(report.next_experiment),
         visible=seen,
         silent=silent,
+        unnamed=report.unnamed,
+        unnamed_symbols=_symbols(report.unnamed),
+        unnamed_figure=unnamed_curve(report),
     )
+
+
+def _symbols(found: UnnamedReport | None) -> list[tuple[str, str]]:
+    """Symbols of an equation without a name, and what they mean."""
+    if found is None or found.physics is None:
+        return []
+    return list(found.physics.to_sidecar()["symbols"].items())
 
 
 def number(value: Any, digits: int = 3) -> str:

@@ -13,6 +13,7 @@ import numpy as np
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder, Visible
+from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -117,6 +118,7 @@ class MismatchReport:
     held_out: HeldOutFit | None = None
     assumed: list[str] = field(default_factory=list)
     visible: list[Visible] = field(default_factory=list)
+    unnamed: UnnamedReport | None = None
 
     @property
     def sets(self) -> list[tuple[tuple[str, ...], float]]:
@@ -172,6 +174,7 @@ class MismatchReport:
             "visible": [asdict(v) for v in self.visible],
             "recordings": list(self.recordings),
             "held_out": None if self.held_out is None else asdict(self.held_out),
+            "unnamed": None if self.unnamed is None else asdict(self.unnamed),
             "corrected": [{"name": n, "parameters": dict(p)} for n, p in self.corrected.changes],
         }
         return json.loads(json.dumps(_plain(raw)))

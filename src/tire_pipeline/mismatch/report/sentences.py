@@ -11,6 +11,7 @@ from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.report.result import EffectReport, HeldOutFit
 from tire_pipeline.mismatch.report.words import figure, in_words, newtons, place
+from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
 _FEW_STRETCHES = 3
 """More stretches of time are not listed in the summary; the report has them all."""
@@ -75,6 +76,22 @@ def on_held_out(fit: HeldOutFit) -> str:
         else:
             parts.append(f"{output.capitalize()} is about the same as before ({sizes})")
     return f"In {fit.recording}, which was held out, the RMS error of {', that of '.join(parts)}."
+
+
+def on_unnamed(found: UnnamedReport | None) -> str:
+    """Return what is known of the part without a name, in a sentence or two; empty where nothing is."""
+    if found is None or found.physics is None:
+        return ""
+    errors = [
+        f"{o.capitalize()} from {newtons(found.unseen[o][0])} N to {newtons(found.unseen[o][1])} N"
+        for o in found.physics.equations
+    ]
+    drivers = ", ".join(found.physics.depends_on)
+    return (
+        f"The unexplained part has no name, but it depends on {drivers}, and an equation of it is in the "
+        f"corrected model: on sweeps that neither its choice nor its fit has seen, it takes the RMS error of "
+        f"{', that of '.join(errors)}."
+    )
 
 
 def _agreement(fit: dict[str, OutputFit]) -> str:

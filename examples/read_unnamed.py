@@ -1,0 +1,79 @@
+"""Evaluate an equation without a name: python read_unnamed.py tire.tir.sidecar.json table_of_symbols.csv."""
+
+import csv
+import json
+import math
+import re
+import sys
+from itertools import accumulate, pairwise
+from pathlib import Path
+from statistics import median
+
+_TOKEN = re.compile(r"\d+(?:\.\d*)?(?:[eE][+-]?\d{1,3})?|[A-Za-z_]\w*|[-+*/^(),]")
+_PAIRS = {"+": float.__add__, "-": float.__sub__, "*": float.__mul__, "/": float.__truediv__}
+_PLAIN = {"abs": abs, "sqrt": math.sqrt, "sin": math.sin, "cos": math.cos, "exp": math.exp, "tanh": math.tanh}
+
+
+def _value(text, table, clock):
+    tokens = _TOKEN.findall(text)
+    if "".join(tokens) != re.sub(r"\s", "", text) or len(text) > 2000:
+        raise ValueError(f"not of the grammar: {text[:60]}")
+
+    def taken(*signs):
+        return tokens.pop(0) if tokens and tokens[0] in signs else ""
+
+    def chain(signs, lower):
+        left = lower()
+        while sign := taken(*signs):
+            left = [_PAIRS[sign](a, b) for a, b in zip(left, lower(), strict=True)]
+        return left
+
+    def power():
+        factor, x = (-1.0 if taken("-") else 1.0), part()
+        exponent = ((-1.0 if taken("-") else 1.0) * float(tokens.pop(0))) if taken("^") else 1.0
+        return [factor * v**exponent for v in x]
+
+    def part():
+        word = tokens.pop(0)
+        if word[0].isdigit() or (word != "(" and not taken("(")):
+            return [float(word)] * len(clock) if word[0].isdigit() else table[word]
+        x = chain("+-", lambda: chain("*/", power))
+        number = float(tokens.pop(0)) if taken(",") else 0.0
+        tokens.remove(")") if tokens and tokens[0] == ")" else sys.exit("a bracket is missing")
+        return x if word == "(" else [_PLAIN[word](v) for v in x] if word in _PLAIN else past(word, x, number)
+
+    def past(name, x, number):
+        y, out = x[0], []
+        for v, (step, way, start) in zip(x, clock, strict=True):
+            if name in ("lag", "lagway"):
+                y = v if start else y - math.expm1(-(step if name == "lag" else way) / number) * (v - y)
+            else:
+                y = max(y, v) if name == "highest" else min(max(v if start else y, v - number), v + number)
+            out.append(y)
+        return out
+
+    return chain("+-", lambda: chain("*/", power))
+
+
+def _added(entry, table):
+    steps = [b - a for a, b in pairwise(table["time"])]
+    usual = median(steps)
+    starts = [True, *(d > 3.5 * usual or d <= 0.0 for d in steps)]
+    steps = [0.0 if start else d for start, d in zip(starts, [0.0, *steps], strict=True)]
+    ways = [d * abs(v) for d, v in zip(steps, table.get("speed", [0.0] * len(steps)), strict=True)]
+    nominal = {name: [float(v)] * len(steps) for name, v in entry["nominal"].items()}
+    table = {**nominal, "way": list(accumulate(ways)), **table}
+    clock = list(zip(steps, ways, starts, strict=True))
+    out = {o: _value(text, table, clock) for o, text in entry["equation"].items()}
+    for symbol, (low, high) in entry["range"].items():
+        width = max(entry["fade"] * (high - low), 1e-12)
+        fade = [max(1.0 - max(low - x, x - high, 0.0) / width, 0.0) for x in table[symbol]]
+        out = {o: [f * w for f, w in zip(force, fade, strict=True)] for o, force in out.items()}
+    return out
+
+
+if __name__ == "__main__":
+    entry = json.loads(Path(sys.argv[1]).read_text("utf-8"))["effects"]["unnamed"]
+    rows = list(csv.DictReader(Path(sys.argv[2]).read_text("utf-8").splitlines()))
+    found = _added(entry, {name: [float(row[name]) for row in rows] for name in rows[0]})
+    print(",".join(found), *(",".join(map(repr, row)) for row in zip(*found.values(), strict=True)), sep="\n")

@@ -1,0 +1,167 @@
+"""Evidence of sets of terms, in closed form, and the posterior of what they depend on."""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from tire_pipeline.mismatch.unnamed_physics.library import Term
+from tire_pipeline.mismatch.unnamed_physics.products import Reduced
+
+Array = np.ndarray
+PRIOR_SIZE = 0.05
+"""Standard deviation of what a term does, root mean square over the largest force."""
+EACH_DRIVER = 2.0
+"""Log evidence that a driver costs."""
+WRONG_FORM = 0.15
+"""How wrong the form of a term may be, as a share of it: differences of evidence below the square of it, of
+all the evidence, say nothing."""
+MOST_TERMS = 3
+
+
+@dataclass(frozen=True)
+class Model:
+    """A set of terms and its log evidence over that of no term, prior included."""
+
+    terms: tuple[int, ...]
+    evidence: float
+    score: float
+
+
+def cost(terms: Sequence[Term], library: int) -> float:
+    """Minus log prior of a set: which term of the library, how long, how many drivers."""
+    drivers = frozenset[str]().union(*(t.drivers for t in terms))
+    each = sum(t.cost for t in terms) + len(terms) * math.log(max(library, 2))
+    return each + EACH_DRIVER * len(drivers)
+
+
+def gains(reduced: Sequence[Reduced], sets: Array) -> Array:
+    """Log evidence of sets of terms over that of none, shape (sets,).
+
+    Parameters
+    ----------
+    reduced : sequence of Reduced
+    sets : ndarray of int, shape (sets, k)
+    """
+    k = sets.shape[1]
+    if k == 1 and reduced and reduced[0].information.ndim == 1:
+        return _single_gains(reduced)[sets[:, 0]]
+    out = np.full(len(sets), -np.inf)
+    inverse = np.eye(k) / PRIOR_SIZE**2
+    for r in reduced:
+        a = r.information[sets[:, :, None], sets[:, None, :]] + inverse
+        b = r.score[sets]
+        x = np.linalg.solve(a, b[:, :, None])[:, :, 0]
+        _, determinant = np.linalg.slogdet(a)
+        gain = 0.5 * np.einsum("ij,ij->i", b, x) - 0.5 * determinant - k * np.log(PRIOR_SIZE)
+        out = np.logaddexp(out, r.log_weight + gain)
+    return out
+
+
+def _single_gains(reduced: Sequence[Reduced]) -> Array:
+    """The same of terms that were looked at one by one, shape (m,)."""
+    out: Array = np.full(reduced[0].score.size, -np.inf)
+    for r in reduced:
+        a = r.information + 1.0 / PRIOR_SIZE**2
+        gain = 0.5 * r.score**2 / a - 0.5 * np.log(a) - np.log(PRIOR_SIZE)
+        out = np.logaddexp(out, r.log_weight + gain)
+    return out
+
+
+def coefficients(reduced: Sequence[Reduced], terms: Sequence[int]) -> tuple[Array, Array]:
+    """Posterior mean and covariance of a set's coefficients at the likeliest size of the misfit."""
+    i = np.asarray(terms, int)
+    best, found = -np.inf, (np.zeros(i.size), np.zeros((i.size, i.size)))
+    for r in reduced:
+        a = r.information[np.ix_(i, i)] + np.eye(i.size) / PRIOR_SIZE**2
+        mean = np.linalg.solve(a, r.score[i])
+        weight = r.log_weight + 0.5 * float(r.score[i] @ mean) - 0.5 * float(np.linalg.slogdet(a)[1])
+        if weight > best:
+            best, found = weight, (mean, np.linalg.inv(a))
+    return found
+
+
+def enumerate_models(
+    terms: Sequence[Term], reduced: Sequence[Reduced], *, pairs_of: int = 60, triples_of: int = 12
+) -> list[Model]:
+    """Return single terms, pairs and triples, the likeliest first.
+
+    All singles, all pairs of the likeliest singles, and the likeliest pairs with each third term.
+    """
+    singles = np.arange(len(terms))[:, None]
+    models = _judged(terms, reduced, singles)
+    best = [m.terms[0] for m in models[:pairs_of]]
+    pairs = np.array(list(combinations(best, 2)), int).reshape(-1, 2)
+    models += _judged(terms, reduced, pairs) if len(pairs) else []
+    two = sorted((m for m in models if len(m.terms) == 2), key=lambda m: -m.score)[:triples_of]
+    three = {tuple(sorted((*m.terms, j))) for m in two for j in best if j not in m.terms}
+    triples = np.array(sorted(three), int).reshape(-1, 3)
+    models += _judged(terms, reduced, triples) if len(triples) else []
+    return sorted(models, key=lambda m: -m.score)
+
+
+def _judged(terms: Sequence[Term], reduced: Sequence[Reduced], sets: Array) -> list[Model]:
+    found = gains(reduced, sets)
+    models = [
+        Model(tuple(int(i) for i in row), float(g), float(g - cost([terms[i] for i in row], len(terms))))
+        for row, g in zip(sets, found, strict=True)
+        if np.isfinite(g)
+    ]
+    return sorted(models, key=lambda m: -m.score)
+
+
+def tolerance(models: Sequence[Model]) -> float:
+    """Log evidence by which models have to differ to be told apart: forms are never quite right."""
+    most = max((m.evidence for m in models), default=0.0)
+    return max(1.0, WRONG_FORM**2 * most)
+
+
+def shortest(models: Sequence[Model], terms: Sequence[Term]) -> Model | None:
+    """Return the model to name: fewer terms, then fewer drivers, if as good within tolerance."""
+    if not models or models[0].score <= 0.0:
+        return None
+    most, near = models[0], tolerance(models)
+
+    def price(m: Model) -> float:
+        """What it lacks, less what its shortness is worth: forms are never quite right."""
+        terms_less = len(most.terms) - len(m.terms)
+        drivers_less = len(drivers_of(most, terms) - drivers_of(m, terms))
+        return most.score - m.score - near * (0.5 * terms_less + drivers_less)
+
+    return min((m for m in models if m.score > 0.0), key=price)
+
+
+def drivers_of(model: Model, terms: Sequence[Term]) -> frozenset[str]:
+    """What a model depends on."""
+    return frozenset[str]().union(*(terms[i].drivers for i in model.terms))
+
+
+def driver_posterior(
+    models: Sequence[Model], terms: Sequence[Term]
+) -> tuple[dict[frozenset[str], float], dict[str, float]]:
+    """Return the posterior of the sets of drivers, and of each driver.
+
+    Tempered by the tolerance: of the forms in the library none is quite right.
+    """
+    if not models:
+        return {}, {}
+    heat = tolerance(models)
+    most = models[0].score
+    mass: dict[frozenset[str], float] = defaultdict(float)
+    for m in models:
+        weight = np.exp((m.score - most) / heat)
+        key = drivers_of(m, terms)
+        mass[key] = max(mass[key], float(weight))
+    nothing = float(np.exp(-most / heat))
+    total = sum(mass.values()) + nothing
+    sets = {k: w / total for k, w in sorted(mass.items(), key=lambda item: -item[1])}
+    each: dict[str, float] = defaultdict(float)
+    for key, w in sets.items():
+        for driver in key:
+            each[driver] += w
+    return sets, dict(sorted(each.items(), key=lambda item: -item[1]))

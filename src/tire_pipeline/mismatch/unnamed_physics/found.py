@@ -1,0 +1,200 @@
+"""An equation that was found: its text, range of validity, and what it adds to a force."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import numpy as np
+
+from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, Table, evaluate, parse
+from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, MEANING, Nominal
+
+Array = np.ndarray
+FORMAT = "unnamed physics 1"
+FADE = 0.25
+"""Outside of its range an equation goes to nothing over this part of the range's width."""
+_SIZES = {"sidecar": 20_000}
+
+
+@dataclass(frozen=True)
+class UnnamedPhysics:
+    """Physics without a name, as an equation.
+
+    Parameters
+    ----------
+    equations : dict of str to str
+        Output -> what it adds, N, in the grammar of :mod:`.grammar`.
+    depends_on : tuple of str
+    acts_on : str
+    ranges : dict of str to (low, high)
+        Symbol -> the range in which the equation holds; it fades outside.
+    nominal : Nominal
+    """
+
+    equations: Mapping[str, str]
+    depends_on: tuple[str, ...]
+    acts_on: str
+    ranges: Mapping[str, tuple[float, float]]
+    nominal: Nominal
+
+    @property
+    def title(self) -> str:
+        """``unnamed: depends on ...``."""
+        return f"unnamed: depends on {', '.join(self.depends_on) or 'the force itself'}"
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """Channels without which it cannot be put in."""
+        used = frozenset[str]().union(*(parse(text).symbols for text in self.equations.values()))
+        needed = {CHANNEL[s] for s in (*used, *self.ranges) if s in CHANNEL}
+        needed |= {"time", "speed"} & ({"time", "speed"} if "way" in used or self._by_way else set())
+        return tuple(sorted(needed | ({"time"} if self._remembers else set())))
+
+    @property
+    def _by_way(self) -> bool:
+        return any("lagway(" in text for text in self.equations.values())
+
+    @property
+    def _remembers(self) -> bool:
+        return any(name in text for text in self.equations.values() for name in ("lag(", "play(", "highest("))
+
+    def weight(self, table: Table) -> Array:
+        """Return how much of the equation holds at each sample, 0 to 1, shape (n,)."""
+        out = np.ones(table.size)
+        for symbol, (low, high) in self.ranges.items():
+            x, width = table.columns[symbol], max(FADE * (high - low), 1e-12)
+            outside = np.maximum(np.maximum(low - x, x - high), 0.0) / width
+            out = out * np.maximum(1.0 - outside, 0.0)
+        return out
+
+    def change(self, table: Table) -> dict[str, Array]:
+        """Return what it adds to each output, N."""
+        weight = self.weight(table)
+        return {o: evaluate(parse(text), table) * weight for o, text in self.equations.items()}
+
+    def to_sidecar(self) -> dict[str, Any]:
+        """Return what a reader needs, as JSON can hold it."""
+        used = frozenset[str]().union(*(parse(text).symbols for text in self.equations.values()))
+        return {
+            "format": FORMAT,
+            "title": self.title,
+            "equation": dict(self.equations),
+            "unit": "N, added to the force of the same name",
+            "symbols": {s: MEANING[s] for s in MEANING if s in used | set(self.ranges)},
+            "nominal": asdict(self.nominal),
+            "range": {s: [float(low), float(high)] for s, (low, high) in self.ranges.items()},
+            "outside": f"goes to nothing in a straight line over {FADE:g} of the range's width",
+            "fade": FADE,
+            "depends_on": list(self.depends_on),
+            "acts_on": self.acts_on,
+        }
+
+
+def from_sidecar(content: object) -> UnnamedPhysics:
+    """Read an equation from a sidecar; everything in it is checked first.
+
+    Raises
+    ------
+    EquationError
+        It is not of the format; nothing in it is run.
+    """
+    try:
+        if not isinstance(content, Mapping) or len(json.dumps(content)) > _SIZES["sidecar"]:
+            raise ValueError("it is no short mapping")
+        if content.get("format") != FORMAT or content.get("fade") != FADE:
+            raise ValueError(f"its format is not {FORMAT!r}")
+        equations = {str(o): str(text) for o, text in content["equation"].items()}
+        if not equations or set(equations) - {"fx", "fy"}:
+            raise ValueError("its equations are not of fx and fy")
+        for text in equations.values():
+            unknown = parse(text).symbols - set(MEANING)
+            if unknown:
+                raise ValueError(f"it uses {', '.join(sorted(unknown))}")
+        ranges = {str(s): (float(r[0]), float(r[1])) for s, r in content["range"].items()}
+        if any(
+            s not in MEANING or not (np.isfinite([a, b]).all() and a <= b) for s, (a, b) in ranges.items()
+        ):
+            raise ValueError("its ranges are not ranges of known symbols")
+        nominal = Nominal(**{k: float(v) for k, v in content["nominal"].items()})
+        if not all(np.isfinite(v) for v in asdict(nominal).values()) or min(nominal.F0, nominal.V0) <= 0.0:
+            raise ValueError("its nominal values are not numbers above zero")
+        depends_on = tuple(str(d)[:60] for d in content["depends_on"])[:9]
+        return UnnamedPhysics(equations, depends_on, str(content["acts_on"])[:200], ranges, nominal)
+    except EquationError:
+        raise
+    except (ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError) as error:
+        raise EquationError(
+            f"the sidecar's unnamed physics is refused: {error}",
+            where="sidecar, unnamed",
+            todo="write the file again with this version, or take that entry out",
+        ) from error
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """Another equation that is as good, within what forms get wrong."""
+
+    equations: Mapping[str, str]
+    depends_on: tuple[str, ...]
+    evidence: float
+
+
+@dataclass(frozen=True)
+class Idea:
+    """Physics that the drivers and the way to act resemble: to be tested, not found."""
+
+    name: str
+    why: str
+    experiment: str
+    source: str
+
+
+@dataclass(frozen=True)
+class UnnamedReport:
+    """What was found about the part that has no name.
+
+    Parameters
+    ----------
+    physics : UnnamedPhysics or None
+        None if no equation made unseen sweeps better.
+    why_not : str
+        Why there is none.
+    drivers : dict of str to float
+        Driver -> posterior probability that the unexplained part depends on it.
+    sets : list of (drivers, probability)
+    where : str
+        ``tire`` or ``rig``, and by what.
+    coefficients : list of (value, standard error)
+        Of the equation's terms, in their order.
+    evidence : float
+        Log evidence over no equation.
+    alternatives : list of Alternative
+    unseen : dict of str to (before, after, ceiling)
+        Output -> RMS error on sweeps that neither choice nor fit has seen, N: without it, with it, and with a
+        Gaussian process in the same drivers.
+    better, sweeps : int
+        Sweeps that it makes better, of all.
+    p_value : float
+        Wilcoxon, over sweeps.
+    ideas : list of Idea
+    curve : dict of list
+        ``x`` (driver or term), ``left`` and ``fitted`` by bins, for the figure.
+    """
+
+    physics: UnnamedPhysics | None
+    why_not: str = ""
+    drivers: dict[str, float] = field(default_factory=dict)
+    sets: list[tuple[tuple[str, ...], float]] = field(default_factory=list)
+    where: str = ""
+    coefficients: list[tuple[float, float]] = field(default_factory=list)
+    evidence: float = 0.0
+    alternatives: list[Alternative] = field(default_factory=list)
+    unseen: dict[str, tuple[float, float, float]] = field(default_factory=dict)
+    better: int = 0
+    sweeps: int = 0
+    p_value: float = 1.0
+    ideas: list[Idea] = field(default_factory=list)
+    curve: dict[str, Any] = field(default_factory=dict)

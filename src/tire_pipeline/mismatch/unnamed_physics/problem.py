@@ -1,0 +1,104 @@
+"""What an engine hands over: what is left, and the likelihood in which it was weighed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tire_pipeline.mismatch.discrepancy.gram import System
+from tire_pipeline.mismatch.inference.search import Search
+from tire_pipeline.mismatch.inference.search_state import nuisance_scale
+from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.unnamed_physics.grammar import Table
+from tire_pipeline.mismatch.unnamed_physics.symbols import Nominal, table_of
+
+Array = np.ndarray
+Outputs = Mapping[str, Array]
+_OTHERS = ((0.002, 0.0002), (0.006, 0.01), (0.013, 0.002))
+"""Sizes of the formula's misfit and of its dependence on the way, over the largest force, beside the sizes
+that the engine has learnt: a part that has no name must not have to pass for misfit."""
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is left unexplained and how it is weighed; all that the search for unnamed physics is given.
+
+    Parameters
+    ----------
+    table : Table
+        Symbols that an equation may use.
+    nominal : Nominal
+    moves : frozenset of str
+        Channels that vary, and ``time`` if there is a time line.
+    rest : mapping of ndarray, shape (n,)
+        Output -> recorded force without what the model and the named effects give, N.
+    largest : mapping of float
+        Output -> largest force, N.
+    block : ndarray of int, shape (n,)
+        Sweep of each sample.
+    order : ndarray of int, shape (n,)
+        Rows in the order in which ``whiten`` returns them.
+    whiten : callable
+        Output, columns (n, k) in N -> the same with unit white noise, in ``order``.
+    nuisance : mapping of ndarray, shape (n, q)
+        Columns of what may be wrong without anything being left out, whitened, in ``order``.
+    sizes : sequence of mapping of ndarray, shape (q,)
+        Prior standard deviations of their coefficients: alternatives, the engine's own first.
+    inflation : float
+        Whitened samples that make one independent one.
+    """
+
+    table: Table
+    nominal: Nominal
+    moves: frozenset[str]
+    rest: Outputs
+    largest: Mapping[str, float]
+    block: Array
+    order: Array
+    whiten: Callable[[str, Array], Array]
+    nuisance: Outputs
+    sizes: Sequence[Outputs]
+    inflation: float
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """Forces that were recorded."""
+        return tuple(self.rest)
+
+
+def problem_of(search: Search) -> Problem:
+    """Return what the search leaves; the parameters of its effects may move by what they are known to."""
+    data, fit = search.data, search.fit
+    system, known = _beside_effects(search)
+    order = np.argsort(search.block, kind="stable")
+    sizes = [system.scale]
+    for share, path in _OTHERS:
+        scale = nuisance_scale(search.sizes, share, path)
+        sizes.append({o: np.concatenate([s, known[o]]) for o, s in scale.items()})
+    table, nominal = table_of(data, fit.changes)
+    moves = {n for n in data.present if data.varies(n)} | ({"time"} if data.time is not None else set())
+    return Problem(
+        table=table,
+        nominal=nominal,
+        moves=frozenset(moves),
+        rest=residual(data, fit.changes),
+        largest=search.largest,
+        block=search.block,
+        order=order,
+        whiten=lambda o, x: search.noise[o].whiten(x, data.start)[order],
+        nuisance=system.white,
+        sizes=sizes,
+        inflation=search.inflation,
+    )
+
+
+def _beside_effects(search: Search) -> tuple[System, dict[str, Array]]:
+    """The system with the effects' columns as far as their parameters are uncertain, and those sizes."""
+    fit, outputs = search.fit, search.data.outputs
+    if not fit.labels:
+        return search.system, {o: np.zeros(0) for o in outputs}
+    errors = np.sqrt(np.maximum(np.diag(fit.covariance), 0.0) * search.inflation)
+    known = {o: errors for o in outputs}
+    return search.system.extended({o: fit.columns[o] for o in outputs}, known), known

@@ -1,0 +1,152 @@
+"""The proof of an equation: sweeps that neither its choice nor its fit has seen.
+
+The folds interleave sweeps. For each fold the whole choice (screen, products, sets) is repeated without it,
+and the equation so found predicts it, in newtons, as it will be used: without the formula's misfit beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+from tire_pipeline.mismatch.unnamed_physics.choose import Choice, choose
+from tire_pipeline.mismatch.unnamed_physics.evidence import coefficients
+from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
+from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
+
+Array = np.ndarray
+LEAST_SHARE = 0.03
+"""Least share of the squared mismatch that has to go on unseen sweeps."""
+LEVEL = 0.05
+"""Of the Wilcoxon test over sweeps."""
+
+
+@dataclass(frozen=True)
+class Proven:
+    """What equations chosen without a fold do there.
+
+    Parameters
+    ----------
+    predicted : mapping of ndarray, shape (n,)
+        Output -> what they add, N, each sample by the equation that has not seen it.
+    choices : int
+        Folds in which an equation was chosen at all.
+    better, sweeps : int
+    p_value : float
+    share : float
+        Of the squared mismatch that goes, mean of the outputs that are acted on.
+    outputs : tuple of str
+        Those that become better.
+    """
+
+    predicted: Mapping[str, Array]
+    choices: int
+    better: int
+    sweeps: int
+    p_value: float
+    share: float
+    outputs: tuple[str, ...]
+
+    @property
+    def holds(self) -> bool:
+        """Whether the equation is kept."""
+        return bool(
+            self.outputs
+            and self.choices > FOLDS // 2
+            and self.share >= LEAST_SHARE
+            and self.p_value < LEVEL
+            and 2 * self.better > self.sweeps
+        )
+
+
+def proven(columns: Columns) -> Proven:
+    """Choose without each fold in turn, and predict it."""
+    problem = columns.problem
+    predicted = {o: np.zeros(problem.table.size) for o in problem.outputs}
+    choices = 0
+    for fold in range(FOLDS):
+        choice = choose(columns, np.arange(FOLDS) != fold, refine=False)
+        model = choice.best
+        if model is None:
+            continue
+        choices += 1
+        rows = columns.folds == fold
+        for o, force in forces_of(columns, choice, model.terms).items():
+            predicted[o][rows] = force[rows]
+    return judged(columns, predicted, choices)
+
+
+def judged(columns: Columns, predicted: Mapping[str, Array], choices: int) -> Proven:
+    """Compare the errors with and without what was predicted, sweep by sweep."""
+    problem = columns.problem
+    acts = [o for o in problem.outputs if np.any(predicted[o])]
+    before = {o: problem.rest[o] ** 2 for o in acts}
+    after = {o: (problem.rest[o] - predicted[o]) ** 2 for o in acts}
+    gone = {o: 1.0 - float(after[o].mean() / max(before[o].mean(), 1e-300)) for o in acts}
+    good = tuple(o for o in acts if gone[o] > 0.0)
+    if not good:
+        return Proven(predicted, choices, 0, 0, 1.0, 0.0, ())
+    sweeps = int(problem.block.max()) + 1
+    weight = {o: 1.0 / max(float(before[o].mean()), 1e-300) for o in good}
+    gain = sum(weight[o] * np.bincount(problem.block, before[o] - after[o], sweeps) for o in good)
+    p_value = float(scipy.stats.wilcoxon(gain, alternative="greater").pvalue) if sweeps > 5 else 1.0
+    share = float(np.mean([gone[o] for o in good]))
+    return Proven(predicted, choices, int(np.sum(gain > 0.0)), sweeps, p_value, share, good)
+
+
+def forces_of(columns: Columns, choice: Choice, terms: tuple[int, ...]) -> dict[str, Array]:
+    """Return what a set of terms adds, N, with its fitted coefficients."""
+    values = fitted(choice, terms)[0]
+    out = {o: np.zeros(columns.problem.table.size) for o in columns.problem.outputs}
+    for i, value in zip(terms, values, strict=True):
+        column = columns.of(choice.terms[i])
+        assert column is not None  # it has sums
+        for o in out:
+            out[o] = out[o] + value * column[o]
+    return out
+
+
+def fitted(choice: Choice, terms: tuple[int, ...]) -> tuple[Array, Array]:
+    """Coefficients of a set of terms and their standard errors."""
+    mean, covariance = coefficients(choice.reduced, terms)
+    size = choice.sums.size[list(terms)]
+    return mean / size, np.sqrt(np.maximum(np.diag(covariance), 0.0)) / size
+
+
+def ceiling(columns: Columns, drivers: frozenset[str], way_terms: list[Term]) -> dict[str, Array]:
+    """Predict each fold by a Gaussian process in the same drivers from the other folds, N.
+
+    Squared-exponential over the factors of the equation's terms, each over its spread, times what the terms
+    multiply; 60 inducing points (Nystrom), ridge of the noise. What no equation in these drivers can exceed
+    by much.
+    """
+    problem = columns.problem
+    out = {o: np.zeros(problem.table.size) for o in problem.outputs}
+    inputs = [columns.part(f.written) for t in way_terms for f in t.factors]
+    live = [x for x in inputs if x is not None and np.std(x) > 0.0]
+    if not live:
+        return out
+    x = np.column_stack([(c - c.mean()) / c.std() for c in live])
+    rng = np.random.default_rng(0)
+    centres = x[rng.choice(len(x), min(60, len(x)), replace=False)]
+    near = np.exp(-0.5 * ((x[:, None, :] - centres[None]) ** 2).sum(axis=2))
+    near = np.column_stack([near, np.ones(len(x))])
+    for o in out:
+        bases = [columns.part(_base(t, o)) for t in way_terms[:1] if _base(t, o)]
+        if not bases or bases[0] is None:
+            continue
+        design = near * bases[0][:, None]
+        design = design / max(float(np.sqrt(np.mean(design**2))), 1e-12)
+        for fold in range(FOLDS):
+            seen = columns.folds != fold
+            a = design[seen].T @ design[seen] + 1e-3 * seen.sum() * np.eye(design.shape[1])
+            c = np.linalg.solve(a, design[seen].T @ problem.rest[o][seen])
+            out[o][~seen] = design[~seen] @ c
+    return out
+
+
+def _base(term: Term, output: str) -> str:
+    return WAY[term.way].base.get(output, "")

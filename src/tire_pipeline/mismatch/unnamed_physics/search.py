@@ -1,0 +1,181 @@
+"""From what a search leaves to an equation that is proved, with its drivers, alternatives and ideas."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tire_pipeline.mismatch.inference.search import Search
+from tire_pipeline.mismatch.unnamed_physics.choose import Choice, choose
+from tire_pipeline.mismatch.unnamed_physics.evidence import (
+    Model,
+    driver_posterior,
+    drivers_of,
+    tolerance,
+)
+from tire_pipeline.mismatch.unnamed_physics.found import Alternative, UnnamedPhysics, UnnamedReport
+from tire_pipeline.mismatch.unnamed_physics.grammar import number, parse
+from tire_pipeline.mismatch.unnamed_physics.ideas import matching
+from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
+from tire_pipeline.mismatch.unnamed_physics.problem import Problem, problem_of
+from tire_pipeline.mismatch.unnamed_physics.products import Columns
+from tire_pipeline.mismatch.unnamed_physics.prove import Proven, ceiling, fitted, forces_of, proven
+from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL
+
+Array = np.ndarray
+_SHOWN = 3
+_BINS = 30
+_NOT_PROVED = "no equation makes sweeps better that neither its choice nor its fit has seen"
+
+
+def unnamed_physics(search: Search) -> UnnamedReport:
+    """Look for an equation of what a search leaves unexplained, and prove it.
+
+    Parameters
+    ----------
+    search : Search
+        After the search, with something left.
+    """
+    return find(problem_of(search))
+
+
+def find(problem: Problem) -> UnnamedReport:
+    """The same from what any engine leaves."""
+    columns = Columns(problem)
+    choice = choose(columns)
+    best = choice.best
+    sets, each = driver_posterior(choice.models, choice.terms)
+    shown = [(tuple(sorted(k)), p) for k, p in list(sets.items())[:5]]
+    if best is None:
+        return UnnamedReport(None, "nothing in the library is worth its length", drivers=each, sets=shown)
+    proof = proven(columns)
+    terms = [choice.terms[i] for i in best.terms]
+    physics = _physics(columns, choice, best, proof.outputs) if proof.holds else None
+    values, errors = fitted(choice, best.terms)
+    drivers = drivers_of(best, choice.terms)
+    return UnnamedReport(
+        physics=physics,
+        why_not="" if physics is not None else _NOT_PROVED,
+        drivers=each,
+        sets=shown,
+        where=_where(terms),
+        coefficients=[(float(v), float(e)) for v, e in zip(values, errors, strict=True)],
+        evidence=best.evidence,
+        alternatives=_alternatives(choice, best),
+        unseen=_unseen(columns, proof, drivers, terms),
+        better=proof.better,
+        sweeps=proof.sweeps,
+        p_value=proof.p_value,
+        ideas=matching(drivers, terms),
+        curve=_curve(columns, choice, best),
+    )
+
+
+def equations(choice: Choice, model: Model, outputs: tuple[str, ...]) -> dict[str, str]:
+    """Return the text of a set of terms with its coefficients, for each output."""
+    values, _ = fitted(choice, model.terms)
+    out = {}
+    for o in outputs:
+        parts = [
+            f"{number(float(value))}*{choice.terms[i].text(o)}"
+            for i, value in zip(model.terms, values, strict=True)
+            if choice.terms[i].text(o)
+        ]
+        if parts:
+            out[o] = " + ".join(parts)
+    return out
+
+
+def _physics(
+    columns: Columns, choice: Choice, model: Model, outputs: tuple[str, ...]
+) -> UnnamedPhysics | None:
+    texts = equations(choice, model, outputs)
+    if not texts:
+        return None
+    used = frozenset[str]().union(*(parse(text).symbols for text in texts.values()))
+    table = columns.problem.table
+    symbols = sorted(s for s in used | ({"t"} if "way" in used else set()) if s in CHANNEL)
+    ranges = {}
+    for symbol in symbols:
+        x = table.columns[symbol]
+        low, high = (x.min(), x.max()) if symbol == "t" else np.quantile(x, [0.001, 0.999])
+        ranges[symbol] = (float(low), float(high))
+    if "t" in ranges and not ("t" in used or "way" in used):
+        del ranges["t"]
+    terms = [choice.terms[i] for i in model.terms]
+    acts = ", ".join(dict.fromkeys(WAY[t.way].acts_on for t in terms))
+    drivers = tuple(sorted(drivers_of(model, choice.terms)))
+    return UnnamedPhysics(texts, drivers, acts, ranges, columns.problem.nominal)
+
+
+def _where(terms: list[Term]) -> str:
+    """Whether it turns with slip and load, as a tire does, or with the clock, the way or a channel."""
+    drivers = frozenset[str]().union(*(t.drivers for t in terms))
+    kinds = {f.kind for t in terms for f in t.factors}
+    if "path" in kinds:
+        return "rig or wheel: it turns with the way rolled"
+    if "time" in drivers:
+        return "rig or surface: it goes with the clock"
+    of_tire = {"slip_angle", "slip_ratio", "normal_load", "camber"}
+    if all(d.removeprefix("memory of ") in of_tire | {"fx", "fy"} for d in drivers):
+        return "tire or its mounting: it turns with slip and load"
+    return f"it follows {', '.join(sorted(d for d in drivers if d not in of_tire))}"
+
+
+def _alternatives(choice: Choice, best: Model) -> list[Alternative]:
+    """Other equations within what forms get wrong, of other drivers or ways first."""
+    near = tolerance(choice.models)
+    own = {best.terms}
+    out = []
+    for m in choice.models:
+        if m.terms in own or m.score < best.score - near or len(m.terms) > len(best.terms):
+            continue
+        own.add(m.terms)
+        drivers = tuple(sorted(drivers_of(m, choice.terms)))
+        out.append(Alternative(equations(choice, m, ("fx", "fy")), drivers, m.evidence))
+        if len(out) == _SHOWN:
+            break
+    return out
+
+
+def _unseen(
+    columns: Columns, proof: Proven, drivers: frozenset[str], terms: list[Term]
+) -> dict[str, tuple[float, float, float]]:
+    problem = columns.problem
+    most = ceiling(columns, drivers, terms)
+
+    def rms(x: Array) -> float:
+        return float(np.sqrt(np.mean(x**2)))
+
+    return {
+        o: (rms(problem.rest[o]), rms(problem.rest[o] - proof.predicted[o]), rms(problem.rest[o] - most[o]))
+        for o in problem.outputs
+    }
+
+
+def _curve(columns: Columns, choice: Choice, model: Model) -> dict[str, object]:
+    """Means of what is left and of the fitted form over the equation's first factor."""
+    problem = columns.problem
+    forces = forces_of(columns, choice, model.terms)
+    output = max(forces, key=lambda o: float(np.mean(forces[o] ** 2)))
+    term = choice.terms[model.terms[0]]
+    x = columns.part(term.factors[-1].written)
+    base = columns.part(WAY[term.way].base[output]) if output in WAY[term.way].base else None
+    if x is None or base is None:
+        return {}
+    sign = np.sign(base)
+    edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, _BINS + 1)))
+    if edges.size < 3:
+        return {}
+    at = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, edges.size - 2)
+    count = np.maximum(np.bincount(at, minlength=edges.size - 1), 1)
+
+    def mean(values: Array) -> list[float]:
+        return [float(v) for v in np.bincount(at, values, edges.size - 1) / count]
+
+    return {
+        "output": output,
+        "label": term.factors[-1].written,
+        "x": mean(x),
+        "left": mean(problem.rest[output] * sign),
+        "fitted": mean(forces[output] * sign),
+    }

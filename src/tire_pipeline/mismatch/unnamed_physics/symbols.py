@@ -1,0 +1,142 @@
+"""Symbols of the equations: dimensionless groups of the channels, and the model's forces and slopes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
+from tire_pipeline.mismatch.unnamed_physics.grammar import Table
+
+Array = np.ndarray
+SPAN = 20.0
+"""degC that one of ``h`` stands for."""
+_STEP = 2e-3
+_LOAD_STEP = 0.01
+MEANING = {
+    "s": "tan(slip_angle)",
+    "k": "slip_ratio",
+    "g": "camber, rad",
+    "L": "normal_load / F0",
+    "v": "speed / V0",
+    "p": "pressure / P0",
+    "h": "(tread_temperature - T0) / 20 K",
+    "t": "time, s",
+    "way": "way rolled since the first sample, m: the sum of |speed| times the time step",
+    "fx": "longitudinal force of the tire model with the named effects, N",
+    "fy": "lateral force of the same, N",
+    "fx_slip": "d fx / d slip_ratio of the tire model, N (central difference, step 0.002)",
+    "fy_slip": "d fy / d slip_angle of the tire model, N/rad (central difference, step 0.002 rad)",
+    "fx_load": "normal_load d fx / d normal_load of the tire model, N (central difference, step 1%)",
+    "fy_load": "normal_load d fy / d normal_load of the tire model, N (central difference, step 1%)",
+    "F0": "nominal load, N",
+    "R0": "radius, m",
+    "V0": "nominal speed, m/s",
+}
+CHANNEL = {
+    "s": "slip_angle",
+    "k": "slip_ratio",
+    "g": "camber",
+    "L": "normal_load",
+    "v": "speed",
+    "p": "pressure",
+    "h": "tread_temperature",
+    "t": "time",
+}
+"""Symbol -> the channel that it is of."""
+
+
+@dataclass(frozen=True)
+class Nominal:
+    """What the groups are made dimensionless with: N, m, m/s, Pa, degC."""
+
+    F0: float
+    R0: float
+    V0: float
+    P0: float
+    T0: float
+
+
+def table_of(data: Any, changes: Sequence[Change], nominal: Nominal | None = None) -> tuple[Table, Nominal]:
+    """Return the symbols at the samples of a recording.
+
+    Parameters
+    ----------
+    data : Data
+    changes : sequence of (name, parameters)
+        Effects that are in.
+    nominal : Nominal, optional
+        As another recording was explained with; taken from this one if left out.
+    """
+    nominal = _nominal(data) if nominal is None else nominal
+    forces = simulate(data, changes)
+    return table_from(data.channels, data.time, data.start, {**forces, **_slopes(data)}, nominal), nominal
+
+
+def table_from(
+    channels: Mapping[str, Array],
+    time: Array | None,
+    start: Array,
+    forces: Mapping[str, Array],
+    nominal: Nominal,
+) -> Table:
+    """Return the symbols of channels in SI; one that was not recorded has none."""
+    step = np.zeros(start.size)
+    if time is not None:
+        step[1:] = np.maximum(np.diff(time), 0.0)
+        step[start] = 0.0
+    way = step * np.abs(channels["speed"]) if "speed" in channels else np.zeros(start.size)
+    columns = {**forces, **asdict(nominal)}
+    columns = {n: np.broadcast_to(np.asarray(x, float), start.shape) for n, x in columns.items()}
+    of: dict[str, tuple[str, Callable[[Array], Array]]] = {
+        "s": ("slip_angle", np.tan),
+        "k": ("slip_ratio", np.asarray),
+        "g": ("camber", np.asarray),
+        "L": ("normal_load", lambda x: x / nominal.F0),
+        "v": ("speed", lambda x: x / nominal.V0),
+        "p": ("pressure", lambda x: x / nominal.P0),
+        "h": ("tread_temperature", lambda x: (x - nominal.T0) / SPAN),
+    }
+    for symbol, (name, group) in of.items():
+        if name in channels:
+            columns[symbol] = group(channels[name])
+    if time is not None:
+        columns["t"] = time
+        if "speed" in channels:
+            columns["way"] = np.cumsum(way)
+    return Table(columns, step, way, start)
+
+
+def _nominal(data: Any) -> Nominal:
+    def middle(name: str, otherwise: float) -> float:
+        return float(np.median(data.channels[name])) if name in data.present else otherwise
+
+    return Nominal(
+        F0=data.load_nominal,
+        R0=data.radius,
+        V0=max(float(data.speed_nominal), 1e-3) if "speed" in data.present else 1.0,
+        P0=float(data.pressure_nominal) if "pressure" in data.present else 1.0,
+        T0=round(middle("tread_temperature", 0.0), 1),
+    )
+
+
+def _slopes(data: Any) -> dict[str, Array]:
+    """The tire model's own slopes along the recording."""
+    names = ("slip_angle", "slip_ratio", "camber", "normal_load")
+    more = {"speed": data.model_speed, "pressure": data.model_pressure}
+
+    def at(**moved: Array) -> dict[str, Array]:
+        return plain_forces(data.tire, **{**{n: data.get(n) for n in names}, **moved}, **more)
+
+    out = {}
+    for force, slip in (("fx", "slip_ratio"), ("fy", "slip_angle")):
+        up, down = (at(**{slip: data.get(slip) + sign * _STEP})[force] for sign in (1.0, -1.0))
+        out[f"{force}_slip"] = (up - down) / (2.0 * _STEP)
+    load = data.get("normal_load")
+    up_load, down_load = (at(normal_load=load * (1.0 + sign * _LOAD_STEP)) for sign in (1.0, -1.0))
+    for force in ("fx", "fy"):
+        out[f"{force}_load"] = (up_load[force] - down_load[force]) / (2.0 * _LOAD_STEP)
+    return out

@@ -1,0 +1,212 @@
+"""Physics without a name: the grammar, its reader, hostile sidecars, and what is found and proved."""
+
+import importlib.util
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, from_sidecar
+from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
+from tire_pipeline.mismatch.unnamed_physics.problem import Problem
+from tire_pipeline.mismatch.unnamed_physics.search import find
+from tire_pipeline.mismatch.unnamed_physics.symbols import Nominal, table_from
+
+NOMINAL = Nominal(F0=4000.0, R0=0.31, V0=16.0, P0=2.2e5, T0=45.0)
+READER = Path(__file__).parents[2] / "examples" / "read_unnamed.py"
+EQUATIONS = (
+    "0.012*fy*v^2/L",
+    "(-3.1)*fy*(g^2)*(L) + 0.2*F0*L*(L^2)",
+    "0.4*fy*(lag(v*(abs(s*fy) + abs(k*fx))/F0, 7.4))",
+    "0.1*fy_slip*(play(fy/(F0*L), 0.15) - fy/(F0*L))",
+    "0.05*fx*sin(way/0.85) - 0.01*fx*cos(way/0.85)",
+    "fy*highest(abs(s))*exp(-tanh(L))*sqrt(p) + lagway(s, 0.4)*2e2 - -h^3",
+)
+
+
+def table(n=900, seed=0):
+    rng = np.random.default_rng(seed)
+    time = np.arange(n) * 0.02
+    time[n // 2 :] += 5.0
+    start = np.zeros(n, bool)
+    start[[0, n // 2]] = True
+    slip = 0.12 * np.sin(1.3 * time)
+    load = 4000.0 + 1500.0 * np.sign(np.sin(0.31 * time))
+    channels = {
+        "slip_angle": slip,
+        "slip_ratio": 0.05 * np.sin(0.9 * time),
+        "camber": 0.04 * np.sign(np.sin(0.17 * time)),
+        "normal_load": load,
+        "speed": 16.0 + 6.0 * np.sin(0.11 * time) + rng.normal(0.0, 0.01, n),
+        "pressure": np.full(n, 2.2e5),
+        "tread_temperature": 45.0 + 10.0 * np.sin(0.05 * time),
+    }
+    stiff = 12.0 * load
+    forces = {
+        "fy": load * np.tanh(12.0 * slip),
+        "fx": load * np.tanh(15.0 * channels["slip_ratio"]),
+        "fy_slip": stiff / np.cosh(12.0 * slip) ** 2,
+        "fx_slip": 15.0 * load,
+        "fy_load": load * np.tanh(12.0 * slip),
+        "fx_load": load * np.tanh(15.0 * channels["slip_ratio"]),
+    }
+    return table_from(channels, time, start, forces, NOMINAL), channels, time
+
+
+def physics(text, ranges=None):
+    return UnnamedPhysics({"fy": text}, ("speed",), "force", ranges or {"v": (0.8, 1.2)}, NOMINAL)
+
+
+@pytest.mark.parametrize("text", EQUATIONS)
+def test_a_reader_without_our_code_gives_the_same_force(text):
+    columns, channels, time = table()
+    found = physics(text)
+    spec = importlib.util.spec_from_file_location("read_unnamed", READER)
+    reader = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(reader)
+    entry = json.loads(json.dumps(found.to_sidecar()))
+    names = {n: columns.columns[n].tolist() for n in columns.columns if n not in asdict(NOMINAL)}
+    given = {**names, "time": time.tolist(), "speed": channels["speed"].tolist()}
+    given.pop("way")
+    read = np.array(reader._added(entry, given)["fy"])
+    own = found.change(columns)["fy"]
+    assert np.max(np.abs(own)) > 1.0
+    np.testing.assert_allclose(read, own, rtol=1e-9, atol=1e-9 * np.max(np.abs(own)))
+
+
+def test_the_reader_is_short_and_evaluates_nothing():
+    lines = READER.read_text(encoding="utf-8").splitlines()
+    assert len(lines) <= 80
+    assert not any(word in "\n".join(lines) for word in ("eval(", "exec(", "__import__"))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "__import__('os').system('true')",
+        "fy.__class__",
+        "open(fy)",
+        "fy; fx",
+        "lag(fy, -1)",
+        "lag(fy)",
+        "1e999",
+        "fy**2",
+        "(" * 60 + "fy" + ")" * 60,
+        "+".join(["fy"] * 2000),
+        "fy)",
+        "",
+    ],
+)
+def test_what_is_not_of_the_grammar_is_refused(text):
+    with pytest.raises(EquationError):
+        parse(text)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"equation": {"fy": "secret*fy"}},
+        {"equation": {"mz": "fy"}},
+        {"equation": {}},
+        {"equation": "fy"},
+        {"range": {"v": [2.0, 1.0]}},
+        {"range": {"v": [float("nan"), 1.0]}},
+        {"range": {"x": [0.0, 1.0]}},
+        {"nominal": {"F0": 0.0}},
+        {"nominal": {**asdict(NOMINAL), "F0": -1.0}},
+        {"format": "other"},
+        {"fade": 1e9},
+        {"depends_on": 5},
+        {"acts_on": "x" * 30_000},
+    ],
+)
+def test_a_hostile_sidecar_is_refused(change):
+    entry = physics("0.1*fy*v").to_sidecar()
+    assert from_sidecar(entry).equations == {"fy": "0.1*fy*v"}
+    with pytest.raises(EquationError):
+        from_sidecar({**entry, **change})
+
+
+def test_a_value_that_is_not_finite_is_refused():
+    columns, _, _ = table()
+    with pytest.raises(EquationError):
+        evaluate(parse("fy/(L - L)"), columns)
+
+
+def test_outside_of_its_range_it_fades_to_nothing():
+    columns, _, _ = table()
+    v = columns.columns["v"]
+    found = physics("100*v", {"v": (0.9, 1.1)})
+    change = found.change(columns)["fy"]
+    inside, far = (v >= 0.9) & (v <= 1.1), (v < 0.84) | (v > 1.16)
+    assert inside.any()
+    assert far.any()
+    np.testing.assert_allclose(change[inside], 100.0 * v[inside])
+    assert np.all(change[far] == 0.0)
+
+
+def problem(added, seed=1, noise=20.0):
+    """What an engine hands over: white noise, and a formula whose gain and offset may be a little off."""
+    columns, _, time = table(2400)
+    rng = np.random.default_rng(seed)
+    fx, fy = columns.columns["fx"], columns.columns["fy"]
+    rest = {
+        "fx": rng.normal(0.0, noise, fx.size) + 0.001 * fx,
+        "fy": rng.normal(0.0, noise, fy.size) - 0.002 * fy + added(columns),
+    }
+    block = (time // 2.0).astype(int)
+    block = np.unique(block, return_inverse=True)[1]
+    nuisance = {o: np.column_stack([f, np.full(f.size, 40.0)]) / noise for o, f in (("fx", fx), ("fy", fy))}
+    return Problem(
+        table=columns,
+        nominal=NOMINAL,
+        moves=frozenset("slip_angle slip_ratio camber normal_load speed tread_temperature time".split()),
+        rest=rest,
+        largest={"fx": 3000.0, "fy": 5000.0},
+        block=block,
+        order=np.argsort(block, kind="stable"),
+        whiten=lambda o, x: x[np.argsort(block, kind="stable")] / noise,
+        nuisance=nuisance,
+        sizes=[{o: np.full(2, 0.01) for o in rest}],
+        inflation=1.0,
+    )
+
+
+def test_speed_is_found_as_the_driver_and_its_square_as_the_form():
+    found = find(problem(lambda t: -0.05 * t.columns["fy"] * t.columns["v"] ** 2))
+    assert found.physics is not None
+    assert found.physics.depends_on == ("speed",)
+    assert "v^2" in found.physics.equations["fy"]
+    assert "fx" not in found.physics.equations
+    before, after, _ = found.unseen["fy"]
+    assert after < 0.3 * before
+    value, error = found.coefficients[0]
+    assert abs(value + 0.05) < 4.0 * error + 0.002
+
+
+def test_a_memory_is_found_where_the_force_follows_what_was():
+    def added(columns):
+        return -0.3 * columns.columns["fy"] * evaluate(parse("lag(abs(s), 2) - abs(s)"), columns)
+
+    found = find(problem(added))
+    assert found.physics is not None
+    assert found.physics.depends_on == ("memory of slip_angle",)
+
+
+def test_noise_alone_gives_no_equation():
+    found = find(problem(lambda t: 0.0 * t.columns["fy"]))
+    assert found.physics is None
+    assert found.why_not
+
+
+def test_what_is_never_seen_twice_is_not_kept():
+    """A jolt in one sweep is a driver of nothing: it must not come into the model."""
+
+    def added(columns):
+        out = np.zeros(columns.size)
+        out[300:360] = 900.0
+        return out
+
+    assert find(problem(added)).physics is None
