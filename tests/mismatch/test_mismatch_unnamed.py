@@ -12,9 +12,9 @@ from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, from_si
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.problem import Problem
 from tire_pipeline.mismatch.unnamed_physics.search import find
-from tire_pipeline.mismatch.unnamed_physics.symbols import Nominal, table_from
+from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues, table_from
 
-NOMINAL = Nominal(F0=4000.0, R0=0.31, V0=16.0, P0=2.2e5, T0=45.0)
+NOMINAL = NominalValues(F0=4000.0, R0=0.31, V0=16.0, P0=2.2e5, T0=45.0)
 READER = Path(__file__).parents[2] / "examples" / "read_unnamed.py"
 EQUATIONS = (
     "0.012*fy*v^2/L",

@@ -31,7 +31,7 @@ from tire_pipeline.concealed.second.tire import Tire, draw_tire
 from tire_pipeline.magic_formula import TireModel, fit_magic_formula
 
 VARIED = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
-PRESSURES = 0.2
+_PRESSURES = 0.2
 """Either way, where a mechanism needs the pressure to change."""
 HELD_OUT = 0.25
 """Rows that follow the recording and that nobody is shown, over those of the recording."""
@@ -118,7 +118,7 @@ def _drawn(
     course = driven(schedule.played(sections, tire), rig, tire, rng)
     levels = schedule.pattern(sections, rng)
     if pressures:
-        course = course._replace(pressure=course.pressure * (1.0 + PRESSURES * levels))
+        course = course._replace(pressure=course.pressure * (1.0 + _PRESSURES * levels))
     run = Run(tire, rig, course, float(rng.choice([-15.0, 15.0])))
     placed = _placed(rng, run, levels, named)
     world = _world(run, placed)

@@ -41,7 +41,7 @@ Ranked = list[tuple[float, Term]]
 
 
 @dataclass(frozen=True)
-class Choice:
+class ChosenModels:
     """Terms that were looked at in full, and the models made of them.
 
     Parameters
@@ -65,7 +65,7 @@ class Choice:
         return shortest(self.models, self.terms)
 
 
-def choose(columns: Columns, kept: Array = EVERYTHING, *, refine: bool = True) -> Choice:
+def choose(columns: Columns, kept: Array = EVERYTHING, *, refine: bool = True) -> ChosenModels:
     """Look for an equation of what is left.
 
     Parameters
@@ -92,7 +92,7 @@ def choose(columns: Columns, kept: Array = EVERYTHING, *, refine: bool = True) -
         terms = list(dict.fromkeys([*_refined(columns, terms, inflation, kept), *terms]))
     terms, sums = columns.products(terms)
     reduced = columns.reduced(sums, inflation, kept)
-    return Choice(terms, sums, reduced, enumerate_models(terms, reduced))
+    return ChosenModels(terms, sums, reduced, enumerate_models(terms, reduced))
 
 
 def _screened(columns: Columns, terms: Sequence[Term], inflation: float, kept: Array) -> Ranked:
@@ -194,4 +194,4 @@ def _strongest_radius(signal: Array, way: Array) -> float:
     return 1.0 / best
 
 
-__all__ = ["EVERYTHING", "Choice", "choose"]
+__all__ = ["EVERYTHING", "ChosenModels", "choose"]

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, Table, evaluate, parse
-from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, MEANING, Nominal
+from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, SymbolTable, evaluate, parse
+from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, MEANING, NominalValues
 
 Array = np.ndarray
 FORMAT = "unnamed physics 1"
@@ -31,14 +31,14 @@ class UnnamedPhysics:
     acts_on : str
     ranges : dict of str to (low, high)
         Symbol -> the range in which the equation holds; it fades outside.
-    nominal : Nominal
+    nominal : NominalValues
     """
 
     equations: Mapping[str, str]
     depends_on: tuple[str, ...]
     acts_on: str
     ranges: Mapping[str, tuple[float, float]]
-    nominal: Nominal
+    nominal: NominalValues
 
     @property
     def title(self) -> str:
@@ -61,7 +61,7 @@ class UnnamedPhysics:
     def _remembers(self) -> bool:
         return any(name in text for text in self.equations.values() for name in ("lag(", "play(", "highest("))
 
-    def weight(self, table: Table) -> Array:
+    def weight(self, table: SymbolTable) -> Array:
         """Return how much of the equation holds at each sample, 0 to 1, shape (n,)."""
         out = np.ones(table.size)
         for symbol, (low, high) in self.ranges.items():
@@ -70,7 +70,7 @@ class UnnamedPhysics:
             out = out * np.maximum(1.0 - outside, 0.0)
         return out
 
-    def change(self, table: Table) -> dict[str, Array]:
+    def change(self, table: SymbolTable) -> dict[str, Array]:
         """Return what it adds to each output, N."""
         weight = self.weight(table)
         return {o: evaluate(parse(text), table) * weight for o, text in self.equations.items()}
@@ -118,7 +118,7 @@ def from_sidecar(content: object) -> UnnamedPhysics:
             s not in MEANING or not (np.isfinite([a, b]).all() and a <= b) for s, (a, b) in ranges.items()
         ):
             raise ValueError("its ranges are not ranges of known symbols")
-        nominal = Nominal(**{k: float(v) for k, v in content["nominal"].items()})
+        nominal = NominalValues(**{k: float(v) for k, v in content["nominal"].items()})
         if not all(np.isfinite(v) for v in asdict(nominal).values()) or min(nominal.F0, nominal.V0) <= 0.0:
             raise ValueError("its nominal values are not numbers above zero")
         depends_on = tuple(str(d)[:60] for d in content["depends_on"])[:9]

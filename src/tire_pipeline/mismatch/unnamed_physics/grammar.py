@@ -27,7 +27,7 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.mismatch.unnamed_physics.memories import lag, play
 
 Array = np.ndarray
-PLAIN = ("abs", "sqrt", "sin", "cos", "exp", "tanh", "highest")
+FUNCTIONS = ("abs", "sqrt", "sin", "cos", "exp", "tanh", "highest")
 MEMORIES = ("lag", "lagway", "play")
 LONGEST = 2000
 """Characters of an equation."""
@@ -168,7 +168,7 @@ class _Reader:
         if kind == "number":
             return Node("number", value=self._number())
         self.at += 1
-        if kind == "name" and text in PLAIN + MEMORIES:
+        if kind == "name" and text in FUNCTIONS + MEMORIES:
             return self._function(text, depth)
         if kind == "name":
             return Node("symbol", name=text)
@@ -191,7 +191,7 @@ class _Reader:
 
 
 @dataclass(frozen=True)
-class Table:
+class SymbolTable:
     """What an equation is evaluated on.
 
     Parameters
@@ -217,7 +217,7 @@ class Table:
         return int(self.start.size)
 
 
-def evaluate(tree: Node, table: Table) -> Array:
+def evaluate(tree: Node, table: SymbolTable) -> Array:
     """Return the value at each sample, shape (n,).
 
     Raises
@@ -237,7 +237,7 @@ def evaluate(tree: Node, table: Table) -> Array:
     return out
 
 
-def _value(node: Node, table: Table) -> Array:
+def _value(node: Node, table: SymbolTable) -> Array:
     if node.kind == "number":
         return np.array(node.value)
     if node.kind == "symbol":

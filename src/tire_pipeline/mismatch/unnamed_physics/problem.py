@@ -11,8 +11,8 @@ from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.inference.search import Search
 from tire_pipeline.mismatch.inference.search_state import nuisance_scale
 from tire_pipeline.mismatch.model.residual import residual
-from tire_pipeline.mismatch.unnamed_physics.grammar import Table
-from tire_pipeline.mismatch.unnamed_physics.symbols import Nominal, table_of
+from tire_pipeline.mismatch.unnamed_physics.grammar import SymbolTable
+from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues, table_of
 
 Array = np.ndarray
 Outputs = Mapping[str, Array]
@@ -27,9 +27,9 @@ class Problem:
 
     Parameters
     ----------
-    table : Table
+    table : SymbolTable
         Symbols that an equation may use.
-    nominal : Nominal
+    nominal : NominalValues
     moves : frozenset of str
         Channels that vary, and ``time`` if there is a time line.
     rest : mapping of ndarray, shape (n,)
@@ -50,8 +50,8 @@ class Problem:
         Whitened samples that make one independent one.
     """
 
-    table: Table
-    nominal: Nominal
+    table: SymbolTable
+    nominal: NominalValues
     moves: frozenset[str]
     rest: Outputs
     largest: Mapping[str, float]

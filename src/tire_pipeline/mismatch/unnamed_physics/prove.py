@@ -12,15 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from tire_pipeline.mismatch.unnamed_physics.choose import Choice, choose
+from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import coefficients
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
 from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 
 Array = np.ndarray
-LEAST_SHARE = 0.03
+_LEAST_SHARE = 0.03
 """Least share of the squared mismatch that has to go on unseen sweeps."""
-LEVEL = 0.05
+_LEVEL = 0.05
 """Of the Wilcoxon test over sweeps."""
 
 
@@ -56,8 +56,8 @@ class Proven:
         return bool(
             self.outputs
             and self.choices > FOLDS // 2
-            and self.share >= LEAST_SHARE
-            and self.p_value < LEVEL
+            and self.share >= _LEAST_SHARE
+            and self.p_value < _LEVEL
             and 2 * self.better > self.sweeps
         )
 
@@ -97,7 +97,7 @@ def judged(columns: Columns, predicted: Mapping[str, Array], choices: int) -> Pr
     return Proven(predicted, choices, int(np.sum(gain > 0.0)), sweeps, p_value, share, good)
 
 
-def forces_of(columns: Columns, choice: Choice, terms: tuple[int, ...]) -> dict[str, Array]:
+def forces_of(columns: Columns, choice: ChosenModels, terms: tuple[int, ...]) -> dict[str, Array]:
     """Return what a set of terms adds, N, with its fitted coefficients."""
     values = fitted(choice, terms)[0]
     out = {o: np.zeros(columns.problem.table.size) for o in columns.problem.outputs}
@@ -109,7 +109,7 @@ def forces_of(columns: Columns, choice: Choice, terms: tuple[int, ...]) -> dict[
     return out
 
 
-def fitted(choice: Choice, terms: tuple[int, ...]) -> tuple[Array, Array]:
+def fitted(choice: ChosenModels, terms: tuple[int, ...]) -> tuple[Array, Array]:
     """Coefficients of a set of terms and their standard errors."""
     mean, covariance = coefficients(choice.reduced, terms)
     size = choice.sums.size[list(terms)]

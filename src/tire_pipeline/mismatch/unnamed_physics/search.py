@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.mismatch.inference.search import Search
-from tire_pipeline.mismatch.unnamed_physics.choose import Choice, choose
+from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
     Model,
     driver_posterior,
@@ -70,7 +70,7 @@ def find(problem: Problem) -> UnnamedReport:
     )
 
 
-def equations(choice: Choice, model: Model, outputs: tuple[str, ...]) -> dict[str, str]:
+def equations(choice: ChosenModels, model: Model, outputs: tuple[str, ...]) -> dict[str, str]:
     """Return the text of a set of terms with its coefficients, for each output."""
     values, _ = fitted(choice, model.terms)
     out = {}
@@ -86,7 +86,7 @@ def equations(choice: Choice, model: Model, outputs: tuple[str, ...]) -> dict[st
 
 
 def _physics(
-    columns: Columns, choice: Choice, model: Model, outputs: tuple[str, ...]
+    columns: Columns, choice: ChosenModels, model: Model, outputs: tuple[str, ...]
 ) -> UnnamedPhysics | None:
     texts = equations(choice, model, outputs)
     if not texts:
@@ -121,7 +121,7 @@ def _where(terms: list[Term]) -> str:
     return f"it follows {', '.join(sorted(d for d in drivers if d not in of_tire))}"
 
 
-def _alternatives(choice: Choice, best: Model) -> list[Alternative]:
+def _alternatives(choice: ChosenModels, best: Model) -> list[Alternative]:
     """Other equations within what forms get wrong, of other drivers or ways first."""
     near = tolerance(choice.models)
     own = {best.terms}
@@ -152,7 +152,7 @@ def _unseen(
     }
 
 
-def _curve(columns: Columns, choice: Choice, model: Model) -> dict[str, object]:
+def _curve(columns: Columns, choice: ChosenModels, model: Model) -> dict[str, object]:
     """Means of what is left and of the fitted form over the equation's first factor."""
     problem = columns.problem
     forces = forces_of(columns, choice, model.terms)

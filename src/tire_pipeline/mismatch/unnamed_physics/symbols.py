@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
-from tire_pipeline.mismatch.unnamed_physics.grammar import Table
+from tire_pipeline.mismatch.unnamed_physics.grammar import SymbolTable
 
 Array = np.ndarray
 SPAN = 20.0
@@ -50,7 +50,7 @@ CHANNEL = {
 
 
 @dataclass(frozen=True)
-class Nominal:
+class NominalValues:
     """What the groups are made dimensionless with: N, m, m/s, Pa, degC."""
 
     F0: float
@@ -60,7 +60,9 @@ class Nominal:
     T0: float
 
 
-def table_of(data: Any, changes: Sequence[Change], nominal: Nominal | None = None) -> tuple[Table, Nominal]:
+def table_of(
+    data: Any, changes: Sequence[Change], nominal: NominalValues | None = None
+) -> tuple[SymbolTable, NominalValues]:
     """Return the symbols at the samples of a recording.
 
     Parameters
@@ -68,7 +70,7 @@ def table_of(data: Any, changes: Sequence[Change], nominal: Nominal | None = Non
     data : Data
     changes : sequence of (name, parameters)
         Effects that are in.
-    nominal : Nominal, optional
+    nominal : NominalValues, optional
         As another recording was explained with; taken from this one if left out.
     """
     nominal = _nominal(data) if nominal is None else nominal
@@ -81,8 +83,8 @@ def table_from(
     time: Array | None,
     start: Array,
     forces: Mapping[str, Array],
-    nominal: Nominal,
-) -> Table:
+    nominal: NominalValues,
+) -> SymbolTable:
     """Return the symbols of channels in SI; one that was not recorded has none."""
     step = np.zeros(start.size)
     if time is not None:
@@ -107,14 +109,14 @@ def table_from(
         columns["t"] = time
         if "speed" in channels:
             columns["way"] = np.cumsum(way)
-    return Table(columns, step, way, start)
+    return SymbolTable(columns, step, way, start)
 
 
-def _nominal(data: Any) -> Nominal:
+def _nominal(data: Any) -> NominalValues:
     def middle(name: str, otherwise: float) -> float:
         return float(np.median(data.channels[name])) if name in data.present else otherwise
 
-    return Nominal(
+    return NominalValues(
         F0=data.load_nominal,
         R0=data.radius,
         V0=max(float(data.speed_nominal), 1e-3) if "speed" in data.present else 1.0,
