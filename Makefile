@@ -1,4 +1,4 @@
-# make run | make test | make docs | make viz | make long | make bench | make lint | make coverage | make audit | make build | make schedule
+# make run | make cluster | make test | make docs | make viz | make long | make bench | make lint | make coverage | make audit | make build | make schedule
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
@@ -7,7 +7,7 @@ DIST := dist
 export OMP_NUM_THREADS ?= 2
 export PYTHONUNBUFFERED = 1
 
-.PHONY: run test docs lint long bench coverage audit build sbom viz viz-page schedule install
+.PHONY: run cluster test docs lint long bench coverage audit build sbom viz viz-page schedule install
 
 run: install
 	@if [ -z "$$(find $(DATA)/01_raw/tir -iname '*.tir' -print -quit 2>/dev/null)" ]; then \
@@ -74,6 +74,16 @@ viz-page: install
 	$(BIN)/kedro viz build --include-previews
 	$(BIN)/python -m tire_pipeline.lineage.one_page build $(DATA)/08_reporting/lineage.html
 	@rm -rf build
+
+# A Dask scheduler and two workers of one thread on this machine, for `kedro run --env cluster`; Ctrl-C ends them.
+# Loopback only: Dask runs whatever it is sent. Its dashboard: http://127.0.0.1:8787
+cluster: install
+	@echo "scheduler tcp://127.0.0.1:8786, dashboard http://127.0.0.1:8787"
+	@export DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES=2; \
+	$(BIN)/python -m dask scheduler --host 127.0.0.1 --port 8786 --dashboard-address 127.0.0.1:8787 & scheduler=$$!; \
+	$(BIN)/python -m dask worker tcp://127.0.0.1:8786 --host 127.0.0.1 --nworkers 2 --nthreads 1 \
+		--memory-limit 1.5GiB --no-dashboard & workers=$$!; \
+	trap 'kill $$workers $$scheduler 2>/dev/null; wait' INT TERM EXIT; wait
 
 # Retraining when .tir files arrive and every night; http://127.0.0.1:3000
 schedule: install

@@ -13,7 +13,7 @@ def code_hash(*packages: str) -> str:
     Parameters
     ----------
     *packages : str
-        Folders below ``tire_pipeline``.
+        Folders below ``tire_pipeline``; ``.`` is all of it.
     """
     root = Path(__file__).resolve().parent
     total = hashlib.sha256()
@@ -25,5 +25,7 @@ def code_hash(*packages: str) -> str:
 def _sources(root: Path, packages: tuple[str, ...]) -> Iterator[Path]:
     for package in packages:
         for path in sorted((root / package).rglob("*")):
+            if "__pycache__" in path.parts:  # code that is made at first use lies there
+                continue
             if path.is_file() and path.suffix in (".py", ".json", ".html"):
                 yield path

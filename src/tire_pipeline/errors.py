@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from tire_pipeline.file_names import printable
 
 
@@ -27,6 +29,18 @@ class TirePipelineError(Exception):
     def __str__(self) -> str:
         text = f"{self.where}: {self.what}" if self.where else self.what
         return printable(f"{text} -> {self.todo}" if self.todo else text)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Errors cross from one process to another with all that they say."""
+        return _restored, (type(self), self.args, self.__dict__)
+
+
+def _restored(
+    cls: type[TirePipelineError], args: tuple[Any, ...], state: dict[str, Any]
+) -> TirePipelineError:
+    error = cls.__new__(cls, *args)
+    error.__dict__.update(state)
+    return error
 
 
 class TirError(TirePipelineError, ValueError):

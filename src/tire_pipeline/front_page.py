@@ -2,31 +2,52 @@
 
 from __future__ import annotations
 
+import os
+import tempfile
 from pathlib import Path
 from typing import Any
 
 from kedro.framework.hooks import hook_impl
 
+from tire_pipeline.data_place import data_place
 from tire_pipeline.datasets import HtmlPageDataset
+from tire_pipeline.objects import Objects
 from tire_pipeline.reporting.front import FRONT, front_page
+
+_REPORTS = "08_reporting"
+_BEGINNING = 40_000
+
+
+def _beginnings(reports: Objects, folder: Path) -> None:
+    """The reports' names, and of pages as much as the front page quotes."""
+    for name, date in reports.dates().items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(reports.read(name, _BEGINNING) if name.endswith(".html") else b"")
+        os.utime(path, (date, date))
 
 
 class FrontPageHooks:
     """Writes ``data/08_reporting/index.html``, which links all reports."""
 
     def __init__(self) -> None:
-        self._folder: Path | None = None
+        self._folder: Path | Objects | None = None
 
     @hook_impl
     def after_context_created(self, context: Any) -> None:
         """Remember where the reports lie."""
-        data = context.config_loader["globals"].get("data", "data")
-        self._folder = Path(context.project_path) / data / "08_reporting"
+        data = data_place(context)
+        self._folder = data.below(_REPORTS) if isinstance(data, Objects) else data / _REPORTS
 
     @hook_impl(trylast=True)
     def after_pipeline_run(self) -> None:
         """Link what is there now, and say where."""
-        if self._folder is not None:
+        if isinstance(self._folder, Objects):
+            with tempfile.TemporaryDirectory() as copy:
+                _beginnings(self._folder, Path(copy))
+                self._folder.write(FRONT, front_page(Path(copy)).encode())
+            print(f"all reports: {self._folder.address}/{FRONT}")
+        elif self._folder is not None:
             self._folder.mkdir(parents=True, exist_ok=True)
             page = self._folder / FRONT
             HtmlPageDataset(filepath=str(page)).save(front_page(self._folder))

@@ -13,10 +13,20 @@ from kedro.io.core import AbstractVersionedDataset
 from pydantic import Field, ValidationError
 
 from tire_pipeline.atomic import check_before_replacing
+from tire_pipeline.data_place import data_place
 from tire_pipeline.datasets.text_folder import TextFolderDataset
 from tire_pipeline.errors import DomainError
+from tire_pipeline.objects import Objects
 from tire_pipeline.parameters import Parameters
-from tire_pipeline.runs import Ticket, take_back, take_turn
+from tire_pipeline.runs import (
+    ObjectLedger,
+    ObjectTicket,
+    Ticket,
+    take_back,
+    take_back_objects,
+    take_turn,
+)
+from tire_pipeline.runs.ticket import BEAT_SECONDS
 from tire_pipeline.runs.turn import EXPIRY_SECONDS
 
 
@@ -30,7 +40,7 @@ class TurnParameters(Parameters):
     expiry_seconds : float
         After how long without a sign of life a run on another machine counts as dead.
     alongside : bool
-        Run beside others. For runs that write different things, such as shares of one work.
+        Run beside others. For runs that write different things.
     """
 
     wait_seconds: float = Field(0.0, ge=0.0)
@@ -38,15 +48,15 @@ class TurnParameters(Parameters):
     alongside: bool = False
 
 
-def _local_versions(catalog: Any, pipeline: Any, version: str) -> list[Path]:
-    """Folders into which this run writes versioned results, on the local disk."""
+def _versions(catalog: Any, pipeline: Any, version: str, protocol: str) -> list[Path]:
+    """Folders into which this run writes versioned results, of one kind of file system."""
     folders = []
     for name in sorted(pipeline.outputs() | pipeline.all_inputs() | pipeline.all_outputs()):
         if name.startswith(("params:", "parameters")) or name not in catalog:
             continue
         dataset = catalog.get(name)
         inside = isinstance(dataset, AbstractVersionedDataset) and dataset._version is not None
-        if inside and getattr(dataset, "_protocol", "file") == "file":
+        if inside and getattr(dataset, "_protocol", "file") == protocol:
             folders.append(Path(str(dataset._filepath)) / version)
     return folders
 
@@ -60,18 +70,15 @@ class RunLedgerHooks:
     """
 
     def __init__(self) -> None:
-        self._ticket: Ticket | None = None
+        self._ticket: Ticket | ObjectTicket | None = None
         self._stop_checking: Callable[[], None] = lambda: None
 
     @hook_impl
     def after_context_created(self, context: Any) -> None:
         """Remember where the data lies and how long to wait."""
-        data = context.config_loader["globals"].get("data", "data")
-        self._data = Path(context.project_path) / data
+        self._data = data_place(context)
         parameters = context.config_loader["parameters"]
         chosen = dict(parameters.get("one_run_at_a_time") or {})
-        if parameters.get("share"):  # of a work that other runs share
-            chosen["alongside"] = True
         try:
             self._turn = TurnParameters.model_validate(chosen)
         except ValidationError as error:
@@ -85,14 +92,11 @@ class RunLedgerHooks:
     ) -> Generator[None, Any, Any]:
         """Take this run's turn before any other hook reads or writes."""
         self._end()  # of a run in this process that was interrupted
-        version = run_params["run_id"]
-        places = [_relative(each, self._data) for each in _local_versions(catalog, pipeline, version)]
-        self._ticket = Ticket.draw(
-            self._data / ".runs", run=version, places=places, alongside=self._turn.alongside
-        )
+        self._ticket, ledger = self._drawn(catalog, pipeline, run_params["run_id"])
         try:
             take_turn(
                 self._ticket,
+                ledger=ledger,
                 wait_seconds=self._turn.wait_seconds,
                 expiry_seconds=self._turn.expiry_seconds,
             )
@@ -101,6 +105,23 @@ class RunLedgerHooks:
         except BaseException:
             self._end()
             raise
+
+    def _drawn(
+        self, catalog: Any, pipeline: Any, version: str
+    ) -> tuple[Ticket | ObjectTicket, ObjectLedger | None]:
+        """A ticket on the data folder, and how the others there are watched."""
+        common: dict[str, Any] = {"run": version, "alongside": self._turn.alongside}
+        if isinstance(self._data, Objects):
+            protocol = self._data.address.partition("://")[0]
+            found = _versions(catalog, pipeline, version, protocol)
+            root = Path(self._data.root)
+            places = [str(each.relative_to(root)) for each in found if each.is_relative_to(root)]
+            beat = min(BEAT_SECONDS, self._turn.expiry_seconds / 6.0)
+            ticket = ObjectTicket.draw(self._data, places=places, beat_seconds=beat, **common)
+            return ticket, ObjectLedger(ticket, self._turn.expiry_seconds)
+        data = self._data
+        local = [_relative(each, data) for each in _versions(catalog, pipeline, version, "file")]
+        return Ticket.draw(data / ".runs", places=local, **common), None
 
     @hook_impl
     def before_dataset_saved(self) -> None:
@@ -134,7 +155,10 @@ class RunLedgerHooks:
         """Take back what the run wrote, and give its ticket back."""
         self._stop_checking()
         if self._ticket is not None:
-            take_back(self._data, self._ticket.note)
+            if isinstance(self._data, Objects):
+                take_back_objects(self._data, self._ticket.note)
+            else:
+                take_back(self._data, self._ticket.note)
             self._ticket.end()
             self._ticket = None
 
@@ -151,7 +175,10 @@ class FolderHooks:
     @hook_impl
     def after_context_created(self, context: Any) -> None:
         """Make the data folder if need be; say so plainly if that is not possible."""
-        data = Path(context.project_path) / context.config_loader["globals"].get("data", "data")
+        data = data_place(context)
+        if isinstance(data, Objects):
+            data.names(".runs")  # says now, in one line, if the bucket cannot be reached
+            return
         try:
             data.mkdir(parents=True, exist_ok=True)
         except OSError as error:

@@ -10,6 +10,8 @@ from kedro.framework.hooks import hook_impl
 from kedro.io.core import AbstractVersionedDataset
 
 from tire_pipeline.atomic import replaced_file
+from tire_pipeline.data_place import data_place
+from tire_pipeline.objects import Objects
 
 FOLDER = "tables"
 
@@ -18,13 +20,14 @@ class NewestTablesHooks:
     """Copies the CSV tables that a run made to ``data/08_reporting/tables``."""
 
     def __init__(self) -> None:
-        self._folder: Path | None = None
+        self._folder: Path | Objects | None = None
 
     @hook_impl
     def after_context_created(self, context: Any) -> None:
         """Remember where the reports lie."""
-        data = context.config_loader["globals"].get("data", "data")
-        self._folder = Path(context.project_path) / data / "08_reporting" / FOLDER
+        data = data_place(context)
+        below = f"08_reporting/{FOLDER}"
+        self._folder = data.below(below) if isinstance(data, Objects) else data / below
 
     @hook_impl
     def after_pipeline_run(self, pipeline: Any, catalog: Any) -> None:
@@ -32,11 +35,28 @@ class NewestTablesHooks:
         if self._folder is None:
             return
         for name in sorted(pipeline.all_outputs()):
+            if isinstance(self._folder, Objects):
+                _copy_object(catalog.get(name) if name in catalog else None, self._folder)
+                continue
             newest = _newest_csv(catalog.get(name)) if name in catalog else None
             if newest is not None:
                 self._folder.mkdir(parents=True, exist_ok=True)
                 with replaced_file(str(self._folder / newest.name)) as temporary:
                     shutil.copyfile(newest, temporary)
+
+
+def _copy_object(dataset: Any, folder: Objects) -> None:
+    if not isinstance(dataset, AbstractVersionedDataset) or dataset._version is None:
+        return
+    path = str(dataset._filepath)
+    protocol = getattr(dataset, "_protocol", "file")
+    if not path.endswith(".csv") or protocol == "file":
+        return
+    versions = Objects(f"{protocol}://{path}")
+    name = path.rsplit("/", 1)[-1]
+    newest = max((each for each in versions.names() if each.endswith(f"/{name}")), default=None)
+    if newest is not None:
+        folder.write(name, versions.read(newest))
 
 
 def _newest_csv(dataset: Any) -> Path | None:

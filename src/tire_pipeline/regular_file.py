@@ -15,6 +15,10 @@ class NotRegularError(OSError):
     def __init__(self, path: str) -> None:
         super().__init__(errno.EINVAL, "is not a regular file", path)
 
+    def __reduce__(self) -> tuple[type[NotRegularError], tuple[str]]:
+        """Pickled, it is made anew from the path."""
+        return NotRegularError, (str(self.filename),)
+
 
 def open_regular(path: str | os.PathLike[str]) -> BinaryIO:
     """Open a file for reading; a FIFO that nobody writes into does not block.

@@ -1,5 +1,8 @@
 """Kedro settings: which hooks run, and where configuration lies."""
 
+from omegaconf.resolvers import oc
+
+from tire_pipeline.cluster import ClusterHooks
 from tire_pipeline.front_page import FrontPageHooks
 from tire_pipeline.hooks import FolderHooks, RunLedgerHooks, SignpostHooks
 from tire_pipeline.newest_tables import NewestTablesHooks
@@ -11,6 +14,7 @@ HOOKS = (
     UnknownParameterHooks(),
     FolderHooks(),
     RunLedgerHooks(),
+    ClusterHooks(),
     NodeProgressHooks(),
     NewestTablesHooks(),
     SignpostHooks(),
@@ -25,6 +29,7 @@ CONFIG_LOADER_ARGS = {
     "base_env": "base",
     "default_run_env": "local",
     "merge_strategy": {"parameters": "soft"},  # an environment names only what differs
+    "custom_resolvers": {"oc.env": oc.env},  # where a cluster is, in conf/cluster
     "config_patterns": {
         "catalog": ["catalog*", "catalog*/**", "**/catalog*"],
         "parameters": ["parameters*", "parameters*/**", "**/parameters*"],

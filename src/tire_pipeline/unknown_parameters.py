@@ -10,6 +10,7 @@ from typing import Any
 
 from kedro.config import OmegaConfigLoader
 from kedro.framework.hooks import hook_impl
+from omegaconf.resolvers import oc
 
 from tire_pipeline.errors import DomainError
 
@@ -36,6 +37,7 @@ def known_names(loader: OmegaConfigLoader) -> set[str]:
         default_run_env=loader.default_run_env,
         config_patterns=loader.config_patterns,
         merge_strategy=loader.merge_strategy,
+        custom_resolvers={"oc.env": oc.env},
     )
     names = {str(name) for name in plain["parameters"]}
     for file in Path(loader.conf_source).rglob("*.yml"):

@@ -8,7 +8,6 @@ from kedro.io import DatasetError
 
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.datasets import ComputedFolderDataset, RecordingFolderDataset
-from tire_pipeline.errors import DomainError
 
 
 def _count(folder: Path, name: str, fails: bool = False) -> bytes:
@@ -20,7 +19,7 @@ def _count(folder: Path, name: str, fails: bool = False) -> bytes:
 
 
 def _dataset(tmp_path: Path) -> ComputedFolderDataset:
-    return ComputedFolderDataset(path=str(tmp_path / "out"), processes=1)
+    return ComputedFolderDataset(path=str(tmp_path / "out"), one_after_another=True)
 
 
 def test_what_is_there_is_not_computed_again(tmp_path):
@@ -46,27 +45,6 @@ def test_only_what_was_asked_for_last_is_loaded(tmp_path):
     _dataset(tmp_path).save({"old": partial(_count, tmp_path, "old")})
     _dataset(tmp_path).save({"new": partial(_count, tmp_path, "new")})
     assert list(_dataset(tmp_path).load()) == ["new"]
-
-
-def test_shares_are_computed_side_by_side_and_the_whole_finds_them(tmp_path):
-    work = {name: partial(_count, tmp_path, name) for name in "abcde"}
-    dataset = partial(ComputedFolderDataset, path=str(tmp_path / "out"), processes=1)
-    dataset(share="2/3").save(work)
-    assert {p.name for p in (tmp_path / "out").iterdir()} == {"b", "e"}
-    assert not dataset().exists()  # a share is not the whole
-    dataset(share="1/3").save(work)
-    dataset(share="3/3").save(work)
-    dataset().save(work)
-    assert list(dataset().load()) == list("abcde")
-    assert [(tmp_path / f"{n}.calls").read_text() for n in "abcde"] == ["x"] * 5
-    dataset(share="1/3").save(work)
-    assert dataset().exists()
-
-
-@pytest.mark.parametrize("share", ["0/3", "4/3", "1/0", "x", "1/3/5", "-1/3", 3])
-def test_no_share(tmp_path, share):
-    with pytest.raises(DomainError, match="no share"):
-        ComputedFolderDataset(path=str(tmp_path), share=share)
 
 
 def test_the_hash_follows_the_source():

@@ -14,7 +14,7 @@ from conftest_kedro import ROOT, kedro
 
 from tire_pipeline.datasets.recording_folder import RecordingFolderDataset
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.reporting.explained_recordings import ExplainParameters, explain_all
+from tire_pipeline.reporting.explained_recordings import ExplainParameters, collect_explained, explain_each
 
 pytestmark = pytest.mark.slow
 EXAMPLES = ROOT.parent / "shared" / "recordings" / "concealed_examples"
@@ -55,6 +55,10 @@ def test_a_recording_gets_a_report_a_page_and_a_verdict(tmp_path):
     assert (place.parent / asked[0]).is_file()
 
 
+def _explain(loaders, parameters):
+    return collect_explained(explain_each(loaders, parameters))
+
+
 @pytest.fixture
 def halves(tmp_path):
     """A folder with the first and the second part of a recording, and their tire."""
@@ -71,7 +75,7 @@ def halves(tmp_path):
 def test_recordings_of_one_folder_are_explained_together_and_one_is_held_out(halves):
     loaders = RecordingFolderDataset(path=str(halves)).load()
     parameters = ExplainParameters(together=True, hold_out="two*")
-    reports, overview, pages, _ = explain_all(loaders, parameters)
+    reports, overview, pages, _ = _explain(loaders, parameters)
     report = reports["tire/together"]
     (effect,) = report["effects"]
     assert "force_offset" in (effect["name"], *effect["alternatives"])
@@ -86,11 +90,11 @@ def test_recordings_of_one_folder_are_explained_together_and_one_is_held_out(hal
 def test_what_cannot_be_explained_together_is_said(halves):
     loaders = RecordingFolderDataset(path=str(halves)).load()
     with pytest.raises(RecordingError, match="matches no recording of a folder"):
-        explain_all(loaders, ExplainParameters(together=True, hold_out="four*"))
+        _explain(loaders, ExplainParameters(together=True, hold_out="four*"))
     with pytest.raises(RecordingError, match="together to true"):
-        explain_all(loaders, ExplainParameters(hold_out="two*"))
+        _explain(loaders, ExplainParameters(hold_out="two*"))
     shutil.copy(halves / "tire" / "model.tir", halves / "tire" / "two.tir")
     (halves / "tire" / "model.tir").rename(halves / "tire" / "one.tir")
     (halves / "tire" / "three.csv").unlink()
     with pytest.raises(RecordingError, match="belong to several tires"):
-        explain_all(RecordingFolderDataset(path=str(halves)).load(), ExplainParameters(together=True))
+        _explain(RecordingFolderDataset(path=str(halves)).load(), ExplainParameters(together=True))

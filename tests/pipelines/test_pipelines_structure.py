@@ -10,6 +10,8 @@ from kedro.framework.project import pipelines
 from kedro.framework.session import KedroSession
 from kedro.framework.startup import bootstrap_project
 
+from tire_pipeline.datasets import ComputedFolderDataset
+
 ROOT = Path(__file__).resolve().parents[2]
 EIGHT = [
     "ingest_tir",
@@ -76,6 +78,8 @@ def test_everything_between_the_eight_is_versioned(catalog):
     between = _datasets(default) - default.inputs() - default.outputs()
     assert {"agent", "our_agent", "translator"} <= between
     for name in sorted(between):
+        if isinstance(catalog.get(name), ComputedFolderDataset):
+            continue  # its files are named by all that they depend on
         assert catalog.get(name)._version is not None, name
 
 

@@ -20,7 +20,7 @@ from tire_pipeline.folder_walk import walk
 from tire_pipeline.retraining import Manifest, Store, difference, ingest, look_at, settled_difference
 from tire_pipeline.retraining.scan import fingerprint
 from tire_pipeline.tir import read_tir
-from tire_pipeline.tire_table.read_files import IngestParameters, read_files
+from tire_pipeline.tire_table.read_files import IngestParameters, join_files, read_files
 
 LATIN = os.fsdecode(b"M\xfcnchen.tir")
 root = pytest.mark.skipif(os.geteuid() != 0, reason="needs root to drop rights")
@@ -115,7 +115,7 @@ def test_a_name_that_is_not_utf8_is_kept_and_shown(folder, tmp_path):
     again, _ = Manifest.from_json(store.manifest.to_json())
     assert not difference(folder, again)
     partitions = TirFolderDataset(path=str(folder)).load()
-    table, report, _ = read_files(partitions, IngestParameters())
+    table, report, _ = _ingest(partitions, IngestParameters())
     table.to_parquet(tmp_path / "raw.parquet")
     report.to_csv(tmp_path / "ingest.csv")
     assert table["file"].tolist() == expected
@@ -137,7 +137,7 @@ def test_fifos_sockets_and_devices_are_told_and_never_opened(folder, tmp_path):
             os.chdir(here)
         store, status, reason = _update(folder)
         partitions = TirFolderDataset(path=str(folder)).load()
-        _, report, summary = read_files(partitions, IngestParameters(most_failed_share=1.0))
+        _, report, summary = _ingest(partitions, IngestParameters(most_failed_share=1.0))
     assert store.table["file"].tolist() == ["B/2.tir"]
     assert reason["A/pipe.tir"] == reason["A/link.tir"] == "a FIFO, not a regular file"
     assert reason["A/zero.tir"] == "a device, not a regular file"
@@ -153,6 +153,10 @@ def test_fifos_sockets_and_devices_are_told_and_never_opened(folder, tmp_path):
 def test_a_fifo_that_takes_a_files_place_while_it_is_hashed_does_not_block(tmp_path):
     os.mkfifo(tmp_path / "late.tir")
     assert len(fingerprint(tmp_path / "late.tir")) == 64
+
+
+def _ingest(partitions, parameters):
+    return join_files(read_files(partitions), parameters)
 
 
 def _as_nobody(work) -> None:

@@ -152,42 +152,16 @@ def test_a_partition_runs_its_own_cell_only(asked):
     assert asked == [("reproduce_thesis", {"namespaces": [f"agents.{cell}"]})]
 
 
-def test_a_partition_explains_its_own_case_only(asked):
-    keys = schedule.cases.partitions_def.get_partition_keys()
-    assert len(keys) == 400
-    assert schedule.cases.execute_in_process(partition_key=keys[2]).success
-    assert asked == [("prove_concealed", {"nodes": schedule.CASE_NODES, "share": "3/400"})]
+@pytest.mark.parametrize(
+    ("job", "pipeline", "nodes"),
+    [("cases", "prove_concealed", "CASE_NODES"), ("tuning", "reproduce_thesis", "TUNING_NODES")],
+)
+def test_a_job_runs_its_own_nodes_which_the_cluster_divides(asked, job, pipeline, nodes):
+    assert getattr(schedule, job).execute_in_process().success
+    assert asked == [(pipeline, {"nodes": getattr(schedule, nodes)})]
 
 
-def test_a_partition_tunes_its_own_networks_only(asked):
-    keys = schedule.tuning.partitions_def.get_partition_keys()
-    assert schedule.tuning.execute_in_process(partition_key=keys[-1]).success
-    assert asked == [("reproduce_thesis", {"nodes": schedule.TUNING_NODES, "share": "18/18"})]
-
-
-def test_the_partitions_are_as_many_as_there_are_parts(small_table):
-    from tire_pipeline.classifiers.tuning import ann_combinations
-    from tire_pipeline.concealed.proof import explain_by_baselines, explain_cases
-    from tire_pipeline.thesis.experiment_files import network_parts
-
-    parts = {**network_parts("random", small_table, "random", ann_combinations(), 1)}
-    assert 2 * len(parts) == schedule.TUNING_PARTS
-    shown = {f"code/{case:03d}.zip": bytes for case in range(schedule.CASES)}
-    parameters = schedule.ProveConcealedParameters(seed=10_000)
-    # each share holds one case, and the same one of every method
-    for work in (explain_cases(shown), explain_by_baselines(shown, parameters)):
-        share = list(work)[2 :: schedule.CASES]
-        assert {name.split("/")[-1] for name in share} == {"002.zip"}
-
-
-@pytest.fixture
-def small_table():
-    import pandas as pd
-
-    return pd.DataFrame({"file": ["a"], "category": ["A"]})
-
-
-def test_the_nodes_of_the_partitions_exist_and_a_run_takes_the_share(monkeypatch):
+def test_the_nodes_of_the_jobs_exist_and_a_run_takes_the_cluster(monkeypatch):
     from pathlib import Path
 
     from kedro.framework.project import pipelines
@@ -201,14 +175,10 @@ def test_the_nodes_of_the_partitions_exist_and_a_run_takes_the_share(monkeypatch
     seen = {}
 
     def run(self, **part):
-        catalog = self.load_context().catalog
-        seen.update(
-            {name: catalog.get(name)._share for name in ("concealed_reports", "experiments.ann_grid")}
-        )
-        seen["made"] = catalog.get("concealed_made")._share
+        seen.update(self.load_context().params["cluster"])
 
     monkeypatch.setattr(KedroSession, "run", run)
     monkeypatch.setattr(schedule, "ROOT", root)
-    schedule.kedro_run(schedule.KedroRun(), "prove_concealed", nodes=schedule.CASE_NODES, share="3/400")
-    every = slice(2, None, 400)
-    assert seen == {"concealed_reports": every, "experiments.ann_grid": every, "made": None}
+    monkeypatch.setenv("TIRE_PIPELINE_SCHEDULER", "tcp://127.0.0.1:9999")
+    schedule.kedro_run(schedule.KedroRun(env="cluster"), "prove_concealed", nodes=schedule.CASE_NODES)
+    assert seen["scheduler"] == "tcp://127.0.0.1:9999"

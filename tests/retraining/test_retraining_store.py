@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -193,7 +194,7 @@ def _going_back(shelf):
 
 
 def _file(shelf, name):
-    return shelf._model(name)
+    return Path(shelf._path) / "models" / f"{name}.npz"
 
 
 def _rolled_back(shelf):

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
+from functools import partial
+from itertools import product
 from typing import Any
 
 import numpy as np
 import pandas as pd
-from joblib import Parallel, delayed
 
 from tire_pipeline.classifiers.evaluate import ClassifierScores, evaluate_classifier
 from tire_pipeline.classifiers.parameters import TrainClassifierParameters
-from tire_pipeline.progress import track
+from tire_pipeline.tasks import Map, all_done, in_turn
 
 SPLITS = ("random", "by_tire")
 NAMES = ("ann", "random_forest", "naive_bayes")
-PROCESSES = 2
 _NOT_FEATURES = ["file", "category", "tire_id"]
 
 
@@ -25,7 +25,12 @@ def split_rows(table: pd.DataFrame, splits: pd.DataFrame, split: str) -> tuple[n
 
 
 def score_classifiers(
-    features: pd.DataFrame, splits: pd.DataFrame, parameters: TrainClassifierParameters, seed: int
+    features: pd.DataFrame,
+    splits: pd.DataFrame,
+    parameters: TrainClassifierParameters,
+    seed: int,
+    *,
+    work: Map = in_turn,
 ) -> pd.DataFrame:
     """Accuracy and weighted F1 of each classifier on both splits (thesis, Table 5.6).
 
@@ -37,6 +42,8 @@ def score_classifiers(
         ``file, random, by_tire``.
     parameters : TrainClassifierParameters
     seed : int
+    work : Map
+        Does the trainings.
 
     Returns
     -------
@@ -45,17 +52,17 @@ def score_classifiers(
     """
     values, labels = _arrays(features)
     seeds = range(seed, seed + parameters.trainings)
-
-    def score(name: str, split: str) -> dict[str, Any]:
-        train, test = split_rows(features, splits, split)
-        options = parameters.options(name)
-        result = evaluate_classifier(name, values, labels, train, test, seeds=seeds, **options)
-        return _score_row("as they are", name, split, parameters, result)
-
-    pairs = [(name, split) for name in NAMES for split in SPLITS]
-    parallel = Parallel(n_jobs=PROCESSES, return_as="generator")
-    rows = parallel(delayed(score)(*pair) for pair in pairs)
-    return pd.DataFrame(list(track(rows, "training classifiers", total=len(pairs))))
+    tasks = {}
+    for name, split in product(NAMES, SPLITS):
+        rows = split_rows(features, splits, split)
+        options = {"seeds": seeds, **parameters.options(name)}
+        tasks[f"{name}, {split}"] = partial(evaluate_classifier, name, values, labels, *rows, **options)
+    done = all_done(work, tasks, "training classifiers").values()
+    scored = [
+        _score_row("as they are", name, split, parameters, each.result())
+        for (name, split), each in zip(product(NAMES, SPLITS), done, strict=True)
+    ]
+    return pd.DataFrame(scored)
 
 
 def train_forest(

@@ -6,10 +6,8 @@ given. SMOTE, if asked for, is applied to the training part of each fold.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor
+from functools import partial
 from itertools import product
-from multiprocessing import get_context
 from typing import Any
 
 import numpy as np
@@ -17,7 +15,7 @@ import pandas as pd
 
 from tire_pipeline.classifiers.ann import network_probabilities, standard_scale
 from tire_pipeline.classifiers.oversampling import oversample
-from tire_pipeline.progress import track
+from tire_pipeline.tasks import Map, all_done, in_turn
 
 TUNING_FOLDS = 4
 
@@ -88,7 +86,7 @@ def tune_ann(
     seed: int = 0,
     tires: np.ndarray | None = None,
     smote: bool = False,
-    processes: int = 1,
+    work: Map = in_turn,
 ) -> pd.DataFrame:
     """Cross-validate combinations of hyperparameters, many networks side by side.
 
@@ -107,8 +105,8 @@ def tune_ann(
     tires : ndarray, optional
         Physical tire of each row: folds by tire.
     smote : bool
-    processes : int
-        At most so many at once.
+    work : Map
+        Trains the networks, some together.
 
     Returns
     -------
@@ -120,20 +118,21 @@ def tune_ann(
         _fold(np.asarray(features, dtype=float), numbers, train, test, smote, seed)
         for train, test in folds_of(numbers, seed=seed, tires=tires)
     ]
-    work = combinations.copy()
-    work["trained_loss"] = work["loss"].replace("NLLLoss", "CrossEntropyLoss")
+    tried = combinations.copy()
+    tried["trained_loss"] = tried["loss"].replace("NLLLoss", "CrossEntropyLoss")
     jobs = []
-    for (batch, optimizer, loss), group in work.groupby(["batch_size", "optimizer", "trained_loss"]):
+    for (batch, optimizer, loss), group in tried.groupby(["batch_size", "optimizer", "trained_loss"]):
         pairs = list(product(set(zip(group["learning_rate"], group["weight_decay"], strict=True)), parts))
         pairs.sort(key=lambda pair: pair[0])
         epochs = sorted({int(number) for number in group["epochs"]})
         for start in range(0, len(pairs), _BLOCK):
             block = pairs[start : start + _BLOCK]
             jobs.append((int(batch), optimizer, loss, epochs, block, len(classes), seed))
-    rows = [row for block in _run(jobs, processes) for row in block]
+    tasks = {f"{number}": partial(_train_block, *job) for number, job in enumerate(jobs)}
+    rows = [row for done in all_done(work, tasks, "tuning the ANN").values() for row in done.result()]
     keys = ["batch_size", "optimizer", "trained_loss", "learning_rate", "weight_decay", "epochs"]
     means = pd.DataFrame(rows).groupby(keys, as_index=False)[["accuracy", "f1"]].mean()
-    scored = work.merge(means, on=keys, how="left").drop(columns="trained_loss")
+    scored = tried.merge(means, on=keys, how="left").drop(columns="trained_loss")
     return scored.sort_values(["accuracy", "f1"], ascending=False, ignore_index=True)
 
 
@@ -238,15 +237,6 @@ def _fold(
     rows, wanted = oversample(features[train], numbers[train], smote=smote, seed=seed)
     mean, scale = standard_scale(rows)
     return (rows - mean) / scale, wanted, (features[test] - mean) / scale, numbers[test]
-
-
-def _run(jobs: Sequence[tuple[Any, ...]], processes: int) -> Iterable[list[dict[str, Any]]]:
-    if processes <= 1:
-        yield from (_train_block(*job) for job in track(jobs, "tuning the ANN"))
-        return
-    with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
-        futures: list[Future[list[dict[str, Any]]]] = [pool.submit(_train_block, *job) for job in jobs]
-        yield from (future.result() for future in track(futures, "tuning the ANN"))
 
 
 def _train_block(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -17,6 +16,7 @@ from tire_pipeline.concealed.baselines import BASELINES, with_all_inputs
 from tire_pipeline.concealed.real import RealPlan, make_real_case
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.packed import as_parquet, pack, unpack
 from tire_pipeline.tir import read_tir, tir_bytes
 
 STORED_FORCES = ["fx", "fy", "mx", "my", "mz"]
@@ -37,8 +37,8 @@ def _packed(case: Case, answer: Answer) -> bytes:
     return pack(
         {
             "model.tir": tir_bytes(case.tire),
-            "recording.parquet": _parquet(case.recording),
-            "held_out.parquet": _parquet(case.held_out),
+            "recording.parquet": as_parquet(case.recording),
+            "held_out.parquet": as_parquet(case.held_out),
             "answer.json": json.dumps(answer.to_dict()).encode(),
             "case_id": case.case_id.encode(),
         }
@@ -51,7 +51,7 @@ def shown_part(read: Read) -> bytes:
     held_out = pd.read_parquet(io.BytesIO(made["held_out.parquet"]))
     inputs = held_out.drop(columns=[name for name in STORED_FORCES if name in held_out])
     shown = {name: made[name] for name in ("model.tir", "recording.parquet", "case_id")}
-    return pack({**shown, "inputs.parquet": _parquet(inputs)})
+    return pack({**shown, "inputs.parquet": as_parquet(inputs)})
 
 
 def held_out_part(read: Read) -> bytes:
@@ -92,31 +92,10 @@ def explained(read: Read, method: str) -> bytes:
     return pack(
         {
             "report.json": json.dumps(kept, default=_plain).encode(),
-            "prediction.parquet": _parquet(prediction),
+            "prediction.parquet": as_parquet(prediction),
             "case_id": shown["case_id"],
         }
     )
-
-
-def pack(members: dict[str, bytes]) -> bytes:
-    """Files as one ZIP."""
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, content in members.items():
-            archive.writestr(name, content)
-    return buffer.getvalue()
-
-
-def unpack(content: bytes) -> dict[str, bytes]:
-    """The files of one ZIP."""
-    with zipfile.ZipFile(io.BytesIO(content)) as archive:
-        return {name: archive.read(name) for name in archive.namelist()}
-
-
-def _parquet(frame: pd.DataFrame) -> bytes:
-    buffer = io.BytesIO()
-    frame.to_parquet(buffer)
-    return buffer.getvalue()
 
 
 def _plain(value: object) -> object:

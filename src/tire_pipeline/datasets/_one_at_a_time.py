@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.objects import ConflictError, Objects
 from tire_pipeline.runs.system_lock import system_lock
 
 
@@ -25,7 +26,25 @@ def locked(folder: Path) -> Iterator[None]:
             lock.release()
 
 
-def refuse_other_revision(found: int, expected: int, where: Path) -> None:
+def replace_unless_changed(folder: Objects, name: str, content: bytes, stamp: str | None) -> None:
+    """Replace the object that says what counts, if it is still the one that was read.
+
+    Raises
+    ------
+    DomainError
+        Another run has stored meanwhile.
+    """
+    try:
+        folder.replace(name, content, stamp)
+    except ConflictError as error:
+        raise DomainError(
+            "another run has stored meanwhile",
+            where=f"{folder}/{name}",
+            todo="nothing was changed: run again",
+        ) from error
+
+
+def refuse_other_revision(found: int, expected: int, where: Path | str) -> None:
     """Stop before writing over what another run stored meanwhile.
 
     Raises

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from joblib import Parallel, delayed
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.atomic import replaced_file
+from tire_pipeline.cluster import work_map
+from tire_pipeline.datasets.files_at import Files, files_at
 from tire_pipeline.datasets.text_folder import _inside
+from tire_pipeline.datasets.text_objects import KEPT
 from tire_pipeline.errors import DomainError
-from tire_pipeline.progress import track
+from tire_pipeline.objects import Objects
+from tire_pipeline.tasks import LostTaskError
 
 Compute = Callable[[], bytes]
 
@@ -21,89 +23,101 @@ Compute = Callable[[], bytes]
 class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Compute]]):
     """Saves ``{name: function that gives bytes}``: each file whole, several at a time, resumable.
 
-    A file that exists is right, because its name must say all that it depends on (seed, settings,
-    version of the code): put :func:`.code_hash.code_hash` into them. So a long computation that was
-    interrupted, or killed, goes on where it stopped. Files of other names are left alone on saving and on
-    loading: only those of the last save are loaded.
+    A file that exists is right, because its name must say all that it depends on (seed, settings, content,
+    version of the code): put :func:`.code_hash.code_hash` into them. So a long computation that
+    was interrupted, or killed, goes on where it stopped. Functions are done by the run's workers
+    (:mod:`tire_pipeline.cluster`); only this process writes. Files of other names are left alone on saving
+    and on loading: only those of the last save are loaded.
 
     Parameters
     ----------
     path : str
         The folder.
-    processes : int
-        How many files are computed at the same time.
-    share : str, optional
-        ``k/n``: compute the k-th of n shares of the files only, and do not count the folder as saved. So
-        n machines work side by side; a run without a share then finds all files there, and goes on.
+    what : str, optional
+        Is said while they are computed.
+    one_after_another : bool
+        Without a cluster one function after another is done in this process: for what takes less time than
+        starting processes.
+    only_the_last : bool
+        Delete files of other names: for results that are no longer wanted when what they depend on changes.
     metadata : dict, optional
         For kedro-viz.
-
-    Raises
-    ------
-    DomainError
-        ``share`` is not of that form.
     """
 
     _INDEX = "index.txt"
+    _AGAIN = "again.txt"
 
     def __init__(
         self,
         *,
         path: str,
-        processes: int = 2,
-        share: str | None = None,
+        what: str | None = None,
+        one_after_another: bool = False,
+        only_the_last: bool = False,
         metadata: dict[str, Any] | None = None,
     ) -> None:
         self._path = path
-        self._processes = processes
-        self._share = None if share is None else _share(share)
+        self._what = what or f"computing {Path(path).name}"
+        self._one_after_another = one_after_another
+        self._only_the_last = only_the_last
         self.metadata = metadata
 
     def save(self, data: Mapping[str, Compute]) -> None:
         """Compute and write what is not there yet."""
-        folder = Path(self._path)
-        paths = {name: folder / _inside(name) for name in data}
-        if self._share is None:
-            (folder / self._INDEX).unlink(missing_ok=True)
-        else:
-            paths = dict(list(paths.items())[self._share])
-        missing = [name for name, path in paths.items() if not path.exists()]
-        work = (delayed(_write)(data[name], paths[name]) for name in missing)
-        done = Parallel(n_jobs=self._processes, return_as="generator_unordered")(work)
-        what = f"computing {folder.name}"
-        if len(missing) < len(paths):
-            what += f" ({len(paths) - len(missing)} of {len(paths)} are there already)"
-        for _ in track(done, what, total=len(missing)):
-            pass
-        if self._share is None:
-            with replaced_file(folder / self._INDEX) as temporary:
-                temporary.write_text("\n".join(data), encoding="utf-8")
+        folder = files_at(self._path)
+        places = {name: str(_inside(name)) for name in data}
+        self._forget(folder)
+        there = set(folder.names())
+        missing = {name: data[name] for name, place in places.items() if place not in there}
+        what = self._what
+        if len(missing) < len(places):
+            what += f" ({len(places) - len(missing)} of {len(places)} are there already)"
+        self._compute(folder, missing, places, what)
+        folder.write(self._INDEX, "\n".join(data).encode("utf-8"))
+        if self._only_the_last:
+            kept = {*places.values(), self._INDEX, self._AGAIN}
+            folder.delete(name for name in there - kept if name.rsplit("/", 1)[-1] not in KEPT)
+
+    def _compute(
+        self, folder: Files | Objects, missing: Mapping[str, Compute], places: Mapping[str, str], what: str
+    ) -> None:
+        lost: list[str] = []
+        work = work_map(without_cluster=1 if self._one_after_another else None)
+        for done in work(missing, what):
+            if isinstance(done.error, LostTaskError):
+                lost.append(f"{done.name}: {done.error}")
+                continue
+            content = done.result()
+            if getattr(content, "passing", False):
+                self._note(folder, done.name)
+            folder.write(places[done.name], bytes(content))
+        if lost:
+            raise DomainError(
+                f"{len(lost)} of {len(places)} could not be computed; the first: {lost[0]}",
+                where=self._path,
+                todo="all others are stored; run again when that is mended",
+            )
+
+    def _forget(self, folder: Files | Objects) -> None:
+        """The index goes before anything changes, and with it what counted for the last run only."""
+        folder.delete([self._INDEX])
+        if folder.exists(self._AGAIN):
+            names = folder.read(self._AGAIN).decode("utf-8").splitlines()
+            folder.delete([*(str(_inside(name)) for name in names), self._AGAIN])
+
+    def _note(self, folder: Files | Objects, name: str) -> None:
+        """Before the file is there: a kill in between leaves a name too many, not one too few."""
+        before = folder.read(self._AGAIN) if folder.exists(self._AGAIN) else b""
+        folder.write(self._AGAIN, before + f"{name}\n".encode())
 
     def load(self) -> dict[str, Compute]:
         """Name to the function that reads the file, for the files of the last save."""
-        folder = Path(self._path)
-        names = (folder / self._INDEX).read_text(encoding="utf-8").splitlines()
-        return {name: (folder / _inside(name)).read_bytes for name in names}
+        folder = files_at(self._path)
+        names = folder.read(self._INDEX).decode("utf-8").splitlines()
+        return {name: partial(folder.read, str(_inside(name))) for name in names}
 
     def _exists(self) -> bool:
-        return (Path(self._path) / self._INDEX).exists()
+        return files_at(self._path).exists(self._INDEX)
 
     def _describe(self) -> dict[str, Any]:
-        return {"path": self._path, "processes": self._processes}
-
-
-def _share(text: str) -> slice:
-    """``2/3`` is every third name from the second on."""
-    found = re.fullmatch(r"([1-9]\d{0,5})/([1-9]\d{0,5})", str(text))
-    number, count = map(int, found.groups()) if found else (1, 0)
-    if number > count:
-        raise DomainError(
-            f"share={text!r} is no share", todo="give k/n with k from 1 to n, for example 3/400"
-        )
-    return slice(number - 1, None, count)
-
-
-def _write(compute: Compute, path: Path) -> None:
-    content = compute()
-    with replaced_file(path) as temporary:
-        temporary.write_bytes(content)
+        return {"path": self._path}

@@ -8,6 +8,7 @@ from typing import Any, NoReturn
 from kedro.io.core import AbstractDataset
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.objects import is_remote
 
 
 class FolderDataset(AbstractDataset[NoReturn, Path]):
@@ -31,6 +32,12 @@ class FolderDataset(AbstractDataset[NoReturn, Path]):
 
     def load(self) -> Path:
         """The path."""
+        if is_remote(self._path):
+            raise DomainError(
+                "new files are recognised by the dates of a local or mounted folder",
+                where=self._path,
+                todo="set tir_folder to one; the other pipelines read from an object store",
+            )
         path = Path(self._path)
         if not path.is_dir():
             raise DomainError(

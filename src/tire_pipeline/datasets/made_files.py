@@ -8,7 +8,9 @@ from typing import Any, NoReturn
 from kedro.io.core import AbstractDataset
 
 from tire_pipeline.datasets.text_folder import made_here
+from tire_pipeline.datasets.text_objects import made_there
 from tire_pipeline.errors import DomainError
+from tire_pipeline.objects import Objects, is_remote
 
 
 class MadeFilesDataset(AbstractDataset[NoReturn, list[str]]):
@@ -28,6 +30,8 @@ class MadeFilesDataset(AbstractDataset[NoReturn, list[str]]):
 
     def load(self) -> list[str]:
         """Paths relative to the folder."""
+        if is_remote(self._path):
+            return sorted(made_there(Objects(self._path)))
         return sorted(made_here(Path(self._path)))
 
     def save(self, data: NoReturn) -> None:
@@ -35,6 +39,8 @@ class MadeFilesDataset(AbstractDataset[NoReturn, list[str]]):
         raise DomainError("this dataset only reads", where=self._path)
 
     def _exists(self) -> bool:
+        if is_remote(self._path):
+            return True
         return Path(self._path).exists()
 
     def _describe(self) -> dict[str, Any]:

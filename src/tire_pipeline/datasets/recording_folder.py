@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
+import tempfile
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from functools import partial
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any, NoReturn
 
 import pandas as pd
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.errors import DomainError, RecordingError
+from tire_pipeline.errors import DomainError, RecordingError, TirePipelineError
 from tire_pipeline.folder_walk import walk
 from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.objects import Objects, is_remote
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.recordings.read import SUFFIXES
+from tire_pipeline.regular_file import open_regular
 from tire_pipeline.tir import read_tir
 
 Pair = tuple[TireModel | None, pd.DataFrame]
@@ -46,12 +52,17 @@ class RecordingFolderDataset(AbstractDataset[None, dict[str, Callable[[], Pair]]
 
     def load(self) -> dict[str, Callable[[], Pair]]:
         """Relative path of each recording to the function that reads it and its tire."""
+        if is_remote(self._path):
+            return self._checked(_on_objects(Objects(self._path)))
         found = walk(self._path, lambda name: Path(name).suffix.lower() in SUFFIXES)
         recordings: dict[str, Callable[[], Pair]] = {
-            name: partial(read_pair, Path(path), root=Path(self._path)) for name, path in found.files.items()
+            name: RecordingLoader(Path(path), Path(self._path)) for name, path in found.files.items()
         }
         for name, reason in found.aside.items():
             recordings[name] = partial(_refuse, str(Path(self._path, name)), reason)
+        return self._checked(recordings)
+
+    def _checked(self, recordings: dict[str, Callable[..., Pair]]) -> dict[str, Callable[..., Pair]]:
         if not recordings:
             raise DomainError(
                 "there are no recordings below this folder",
@@ -65,10 +76,105 @@ class RecordingFolderDataset(AbstractDataset[None, dict[str, Callable[[], Pair]]
         raise DomainError("recordings of the user are never changed", where=self._path)
 
     def _exists(self) -> bool:
+        if is_remote(self._path):
+            return bool(Objects(self._path).names())
         return Path(self._path).exists()
 
     def _describe(self) -> dict[str, Any]:
         return {"path": self._path}
+
+
+@dataclass(frozen=True)
+class RecordingLoader:
+    """Reads one recording and its tire.
+
+    Attributes
+    ----------
+    path, root : Path
+        The recording, and the folder of all recordings.
+    """
+
+    path: Path
+    root: Path
+
+    def __call__(self, **how: Any) -> Pair:
+        """As :func:`read_pair`."""
+        return read_pair(self.path, root=self.root, **how)
+
+    def fingerprint(self, tir: str = "") -> str:
+        """A hash of the contents of the recording and of all models that could belong to it.
+
+        Parameters
+        ----------
+        tir : str
+            As for :func:`read_pair`.
+        """
+        stated = [self.path.parent / tir, self.root / tir] if tir else []
+        beside = sorted(p for p in self.path.parent.iterdir() if p.suffix.lower() == ".tir")
+        total = hashlib.sha256()
+        for path in (self.path, *stated, *beside):
+            for each in (path, Path(f"{path}.sidecar.json")):
+                total.update(f"{each.name}\0{_content_hash(each)}\0".encode(errors="surrogateescape"))
+        return total.hexdigest()
+
+
+@dataclass(frozen=True)
+class ObjectRecording:
+    """Reads one recording and its tire from an object store: copied to this machine, read, deleted.
+
+    Attributes
+    ----------
+    folder : Objects
+        Of all recordings.
+    name : str
+        Of the recording.
+    stamps : tuple of (str, str)
+        Name and stamp of the recording and of all models that could belong to it.
+    """
+
+    folder: Objects
+    name: str
+    stamps: tuple[tuple[str, str], ...]
+
+    def __call__(self, **how: Any) -> Pair:
+        """As :func:`read_pair`."""
+        with tempfile.TemporaryDirectory() as copy:
+            root = Path(copy)
+            for name, _ in self.stamps:
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_bytes(self.folder.read(name))
+            try:
+                tire, recording = read_pair(root / self.name, root=root, **how)
+            except TirePipelineError as error:
+                error.where = str(error.where or "").replace(copy, str(self.folder))
+                raise
+            if tire is not None:
+                tire = replace(tire, path=str(tire.path).replace(copy, str(self.folder)))
+        return tire, recording
+
+    def fingerprint(self, tir: str = "") -> str:
+        """Changes when the recording or a model does."""
+        return json.dumps([*self.stamps, tir])
+
+
+def _on_objects(folder: Objects) -> dict[str, Callable[..., Pair]]:
+    stamps = folder.stamps()
+    tirs = [name for name in stamps if name.lower().endswith((".tir", ".tir.sidecar.json"))]
+    found: dict[str, Callable[..., Pair]] = {}
+    for name in stamps:
+        place = PurePosixPath(name)
+        if place.suffix.lower() in SUFFIXES and not any(part.startswith(".") for part in place.parts):
+            near = [each for each in tirs if PurePosixPath(each).parent in (place.parent, PurePosixPath("."))]
+            found[name] = ObjectRecording(folder, name, tuple((each, stamps[each]) for each in [name, *near]))
+    return found
+
+
+def _content_hash(path: Path) -> str:
+    try:
+        with open_regular(path) as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError as error:
+        return f"errno {error.errno}"
 
 
 def read_pair(

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import json
 import re
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.atomic import write_bytes
-from tire_pipeline.datasets._one_at_a_time import locked, refuse_other_revision
+from tire_pipeline.datasets._one_at_a_time import locked, refuse_other_revision, replace_unless_changed
+from tire_pipeline.datasets.files_at import Files, files_at
 from tire_pipeline.errors import DomainError
+from tire_pipeline.objects import Objects
 from tire_pipeline.retraining.model import CategoryModel
 from tire_pipeline.retraining.release import KEPT_MODELS, Release, Shelf
 from tire_pipeline.state_files import pack_state, unpack_state
 
+_RECORD = "record.json"
 _NAME = re.compile(r"[0-9A-Za-z][0-9A-Za-z.\-]*").fullmatch
 
 
@@ -23,7 +26,8 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
     """A folder with ``record.json`` and ``models/<name>.npz``.
 
     A model is written before the record names it; renaming the record is the single step that puts it in
-    use. Loading gives the model in use.
+    use. In an object store the record is replaced only if it is still the one that was read. Loading gives
+    the model in use.
 
     Parameters
     ----------
@@ -45,12 +49,13 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
         self, *, path: str, for_going_back: bool = False, metadata: dict[str, Any] | None = None
     ) -> None:
         self._path = path
+        self._files = files_at(path)
         self._for_going_back = for_going_back
         self.metadata = metadata
 
     def load(self) -> Shelf:
         """The record and the model in use; an empty shelf if nothing was released."""
-        release = self._record()
+        release, _ = self._record()
         if self._for_going_back:
             return Shelf(release, unusable=self._unusable(release))
         if release.current is None:
@@ -58,23 +63,23 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
         return Shelf(release, self._load_model(release.current))
 
     def _load_model(self, name: str) -> CategoryModel:
-        path = self._model(name)
+        path = f"{self._path}/{_model(name)}"
         todo = "`kedro run --pipeline rollback` puts the last one back whose file is whole; or bring it back"
         try:
-            state = unpack_state(path.read_bytes(), where=str(path))
+            state = unpack_state(self._files.read(_model(name)), where=path)
         except FileNotFoundError as error:
-            raise DomainError("the model in use is gone", where=str(path), todo=todo) from error
+            raise DomainError("the model in use is gone", where=path, todo=todo) from error
         except DomainError as error:
             what = f"{error.what} (the one in use); it is not loaded"
-            raise DomainError(what, where=str(path), todo=todo) from error
+            raise DomainError(what, where=path, todo=todo) from error
         return CategoryModel.from_state(state)
 
     def _unusable(self, release: Release) -> dict[str, str]:
         found: dict[str, str] = {}
         for name in release.models:
-            path = self._model(name)
+            path = f"{self._path}/{_model(name)}"
             try:
-                unpack_state(path.read_bytes(), where=str(path))
+                unpack_state(self._files.read(_model(name)), where=path)
             except OSError as error:
                 found[name] = f"gone ({path}: {error.strerror})"
             except DomainError:
@@ -83,46 +88,50 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
 
     def save(self, data: Shelf) -> None:
         """Store the model if it is new, then the record."""
-        folder = Path(self._path)
-        with locked(folder):
-            present = self._record()
+        folder = self._files
+        with locked(Path(self._path)) if isinstance(folder, Files) else nullcontext():
+            present, stamp = self._record()
             if data.release == present:
                 return
-            refuse_other_revision(present.revision, data.release.revision - 1, folder)
+            refuse_other_revision(present.revision, data.release.revision - 1, self._path)
             current = data.release.current
             if current is not None and current not in present.models:
                 if data.model is None:
-                    raise DomainError(f"there is no model for {current}", where=str(folder))
-                self._model(current).parent.mkdir(parents=True, exist_ok=True)
-                write_bytes(self._model(current), pack_state(data.model.to_state()))
-            text = json.dumps(data.release.to_dict(), indent=1)
-            write_bytes(folder / "record.json", text.encode())
-            for old in sorted((folder / "models").glob("*.npz"))[:-KEPT_MODELS]:
-                if old.stem not in data.release.models:
-                    old.unlink(missing_ok=True)
+                    raise DomainError(f"there is no model for {current}", where=self._path)
+                folder.write(_model(current), pack_state(data.model.to_state()))
+            content = json.dumps(data.release.to_dict(), indent=1).encode()
+            if isinstance(folder, Objects):
+                replace_unless_changed(folder, _RECORD, content, stamp)
+            else:
+                folder.write(_RECORD, content)
+            models = [name for name in folder.names() if name.startswith("models/") and name.endswith(".npz")]
+            kept = {_model(name) for name in data.release.models}
+            folder.delete(name for name in models[:-KEPT_MODELS] if name not in kept)
 
-    def _record(self) -> Release:
-        path = Path(self._path) / "record.json"
+    def _record(self) -> tuple[Release, str | None]:
+        path, stamp = f"{self._path}/{_RECORD}", None
         try:
-            content = path.read_bytes()
+            if isinstance(self._files, Objects):
+                content, stamp = self._files.read_stamped(_RECORD)
+            else:
+                content = self._files.read(_RECORD)
         except FileNotFoundError:
-            return Release()
+            return Release(), None
         try:
             release = Release.from_dict(json.loads(content))
             if not all(_NAME(name) for name in release.models):
                 raise ValueError("name")
         except (ValueError, KeyError, TypeError) as error:
             todo = "bring it back from a copy, or move the folder away to begin anew"
-            raise DomainError(
-                "the record of released models is damaged", where=str(path), todo=todo
-            ) from error
-        return release
-
-    def _model(self, name: str) -> Path:
-        return Path(self._path) / "models" / f"{name}.npz"
+            raise DomainError("the record of released models is damaged", where=path, todo=todo) from error
+        return release, stamp
 
     def _exists(self) -> bool:
-        return (Path(self._path) / "record.json").exists()
+        return self._files.exists(_RECORD)
 
     def _describe(self) -> dict[str, Any]:
         return {"path": self._path}
+
+
+def _model(name: str) -> str:
+    return f"models/{name}.npz"

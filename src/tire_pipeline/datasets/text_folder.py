@@ -11,17 +11,17 @@ from typing import Any
 from kedro.io.core import AbstractDataset
 
 from tire_pipeline.atomic import replaced_folder
+from tire_pipeline.datasets import text_objects
+from tire_pipeline.datasets.text_objects import HEAD, KEPT, MARKER, Content, as_bytes
 from tire_pipeline.errors import DomainError
+from tire_pipeline.objects import Objects, is_remote
 from tire_pipeline.progress import track
 
-MARKER = ".made_by_tire_pipeline"
-_HEAD = "Replaced as a whole on the next run. Made:"
-_KEPT = (".gitkeep", "README.md")
 _LONGEST = 255
 
 
-class TextFolderDataset(AbstractDataset[Mapping[str, str | bytes], dict[str, bytes]]):
-    """Saves ``{relative path: text}`` as files; loads them back as bytes.
+class TextFolderDataset(AbstractDataset[Mapping[str, Content], dict[str, bytes]]):
+    """Saves ``{relative path: text, or a function that gives it}`` as files; loads them back as bytes.
 
     The folder is replaced whole, or, with ``keep``, what earlier runs made stays beside what is new. A folder
     that holds anything this project did not make is never touched.
@@ -48,23 +48,34 @@ class TextFolderDataset(AbstractDataset[Mapping[str, str | bytes], dict[str, byt
 
     def load(self) -> dict[str, bytes]:
         """Read every file; an absent folder is an empty dictionary."""
+        if is_remote(self._path):
+            return text_objects.load(Objects(self._path), self._suffix)
         folder = Path(self._path)
         files = sorted(p for p in folder.rglob(f"*{self._suffix}") if p.is_file())
         return {str(p.relative_to(folder).as_posix()): p.read_bytes() for p in files if p.name != MARKER}
 
     def check(self) -> None:
         """Refuse, before any work is done, a folder that belongs to the user."""
-        folder = Path(self._path)
-        if _belongs_to_user(folder):
+        if is_remote(self._path):
+            folder: Path | Objects = Objects(self._path)
+            foreign = text_objects.belongs_to_user(folder)
+        else:
+            folder = Path(self._path)
+            foreign = _belongs_to_user(folder)
+        if foreign:
             raise DomainError(
                 "this folder holds files that were not made by this project",
                 where=str(folder),
                 todo="move them elsewhere (or set another folder); they are never overwritten",
             )
 
-    def save(self, data: Mapping[str, str | bytes]) -> None:
+    def save(self, data: Mapping[str, Content]) -> None:
         """Write all files, or none."""
         self.check()
+        if is_remote(self._path):
+            content = {str(_inside(name)): text for name, text in data.items()}
+            text_objects.save(Objects(self._path), content, keep=self._keep)
+            return
         folder = Path(self._path)
         with replaced_folder(folder) as temporary:
             if self._keep and folder.exists():
@@ -72,15 +83,17 @@ class TextFolderDataset(AbstractDataset[Mapping[str, str | bytes], dict[str, byt
             for name, text in track(data.items(), f"writing {folder.name}", total=len(data)):
                 target = temporary / _inside(name)
                 target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(text if isinstance(text, bytes) else text.encode("utf-8"))
-            for name in _KEPT:
+                target.write_bytes(as_bytes(text))
+            for name in KEPT:
                 if (folder / name).exists():
                     shutil.copy2(folder / name, temporary / name)
             earlier = made_here(folder) if self._keep else set()
             made = sorted({str(_inside(name)) for name in data} | earlier)
-            (temporary / MARKER).write_text("\n".join([_HEAD, *made, ""]), encoding="utf-8")
+            (temporary / MARKER).write_text("\n".join([HEAD, *made, ""]), encoding="utf-8")
 
     def _exists(self) -> bool:
+        if is_remote(self._path):
+            return bool(Objects(self._path).names())
         return Path(self._path).exists()
 
     def _describe(self) -> dict[str, Any]:
@@ -90,7 +103,7 @@ class TextFolderDataset(AbstractDataset[Mapping[str, str | bytes], dict[str, byt
 def _belongs_to_user(folder: Path) -> bool:
     if not folder.exists() or (folder / MARKER).exists():
         return False
-    return any(p.is_file() and p.name not in _KEPT for p in folder.rglob("*"))
+    return any(p.is_file() and p.name not in KEPT for p in folder.rglob("*"))
 
 
 def made_here(folder: Path) -> set[str]:

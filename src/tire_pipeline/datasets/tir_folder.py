@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import logging
 import os
+import tempfile
 from collections.abc import Callable
-from functools import partial
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, NoReturn
 
 from kedro_datasets.partitions import PartitionedDataset
@@ -13,7 +15,10 @@ from kedro_datasets.partitions import PartitionedDataset
 from tire_pipeline.datasets.tir_file import TirDataset
 from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.folder_walk import walk
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.objects import Objects
 from tire_pipeline.tir import read_tir
+from tire_pipeline.tir.sidecar import SUFFIX
 
 _LOG = logging.getLogger(__name__)
 
@@ -47,12 +52,6 @@ class TirFolderDataset(PartitionedDataset):
         super().__init__(path=path, dataset={"type": TirDataset}, metadata=metadata)
         self._may_be_absent = may_be_absent
 
-    def _list_partitions(self) -> list[str]:
-        if self._cached_partitions is None:
-            found = self._filesystem.find(self._normalized_path)
-            self._cached_partitions = sorted(p for p in found if _is_tir(p))
-        return self._cached_partitions
-
     def load(self) -> dict[str, Callable[[], Any]]:
         """Partition name (``category/file.tir``) to a function that reads it."""
         partitions = self._local() if self._protocol == "file" else self._remote()
@@ -72,17 +71,19 @@ class TirFolderDataset(PartitionedDataset):
         for name, other in found.again.items():
             _LOG.info("%s is a link to %s, which is taken already.", name, other)
         partitions: dict[str, Callable[[], Any]] = {
-            name: partial(read_tir, path) for name, path in found.files.items()
+            name: TirLoader(path) for name, path in found.files.items()
         }
         for name, reason in found.aside.items():
-            partitions[name] = partial(_refuse, os.path.join(self._path, name), reason)
+            partitions[name] = Refused(os.path.join(self._path, name), reason)
         return dict(sorted(partitions.items()))
 
     def _remote(self) -> dict[str, Callable[[], Any]]:
-        self._invalidate_caches()
+        folder = Objects(self._path)
+        stamps = folder.stamps()
         return {
-            self._path_to_partition(path): TirDataset(filepath=self._join_protocol(path)).load
-            for path in self._list_partitions()
+            name: ObjectLoader(folder, name, stamp, stamps.get(name + SUFFIX))
+            for name, stamp in stamps.items()
+            if _is_tir(name) and not any(part.startswith(".") for part in name.split("/"))
         }
 
     def save(self, data: dict[str, Any]) -> None:
@@ -100,5 +101,85 @@ def _is_tir(name: str) -> bool:
     return name.lower().endswith(".tir")
 
 
-def _refuse(path: str, reason: str) -> NoReturn:
-    raise TirError(reason, path=path, todo="take it out, or put a .tir file there")
+@dataclass(frozen=True)
+class TirLoader:
+    """Reads one file.
+
+    Attributes
+    ----------
+    path : str
+    """
+
+    path: str
+
+    def __call__(self) -> TireModel:
+        """The model."""
+        return read_tir(self.path)
+
+    def fingerprint(self) -> str:
+        """Changes when the file or its sidecar does: size, dates and inode, without opening it."""
+        return " ".join(map(_look, (self.path, f"{self.path}.sidecar.json")))
+
+
+@dataclass(frozen=True)
+class ObjectLoader:
+    """Reads one file from an object store.
+
+    Attributes
+    ----------
+    folder : Objects
+    name, stamp : str
+        Of the object.
+    sidecar : str or None
+        Stamp of its sidecar.
+    """
+
+    folder: Objects
+    name: str
+    stamp: str
+    sidecar: str | None
+
+    def __call__(self) -> TireModel:
+        """The model."""
+        address = f"{self.folder}/{self.name}"
+        if self.sidecar is None:
+            return read_tir(self.folder.read(self.name), path=address)
+        with tempfile.TemporaryDirectory() as copy:
+            place = Path(copy) / "tire.tir"
+            for suffix in ("", SUFFIX):
+                Path(f"{place}{suffix}").write_bytes(self.folder.read(self.name + suffix))
+            model = read_tir(place)
+        return replace(model, path=address)
+
+    def fingerprint(self) -> str:
+        """Changes when the object or its sidecar does."""
+        return f"{self.stamp} {self.sidecar}"
+
+
+@dataclass(frozen=True)
+class Refused:
+    """Stands for an entry that is no file to read.
+
+    Attributes
+    ----------
+    path, reason : str
+    """
+
+    path: str
+    reason: str
+
+    def __call__(self) -> NoReturn:
+        """Say why."""
+        raise TirError(self.reason, path=self.path, todo="take it out, or put a .tir file there")
+
+    def fingerprint(self) -> str:
+        """The reason."""
+        return self.reason
+
+
+def _look(path: str) -> str:
+    try:
+        found = os.stat(path)
+    except OSError as error:
+        return f"errno {error.errno}"
+    return f"{found.st_size}/{found.st_mtime_ns}/{found.st_ctime_ns}/{found.st_ino}"

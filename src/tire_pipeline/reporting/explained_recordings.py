@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
-import tempfile
+import json
+import logging
 from collections.abc import Callable, Mapping
 from difflib import get_close_matches
 from fnmatch import fnmatch
 from functools import partial
-from pathlib import Path, PurePosixPath
+from pathlib import PurePosixPath
 from typing import Any, Literal
 
 import pandas as pd
 from pydantic import Field
 
-from tire_pipeline.errors import RecordingError, TirePipelineError
-from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.mismatch import MismatchReport, explain_recordings
+from tire_pipeline.code_hash import code_hash
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.packed import unpack
 from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.progress import track
 from tire_pipeline.recordings.groups import by_folder, matching
+from tire_pipeline.reporting.explain_task import COLUMNS, ExplainTask, Load
 
-_COLUMNS = ("recording", "verdict", "summary", "effects", "alternatives", "held_out", "problem")
-Pairs = Mapping[str, Callable[[], tuple[TireModel | None, pd.DataFrame]]]
+Pairs = Mapping[str, Load]
+LOG = logging.getLogger(__name__)
 
 
 class RecordingRule(Parameters):
@@ -85,10 +87,8 @@ class ExplainParameters(Parameters):
         return {key: value for key, value in found.items() if value}
 
 
-def explain_all(
-    recordings: Pairs, parameters: ExplainParameters
-) -> tuple[dict[str, Any], pd.DataFrame, dict[str, str], dict[str, bytes]]:
-    """Explain every recording.
+def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, ExplainTask]:
+    """Say how each recording is explained; what is stored and has not changed is not explained again.
 
     Parameters
     ----------
@@ -96,14 +96,42 @@ def explain_all(
         Relative path to the function that reads the recording and its tire.
     parameters : ExplainParameters
 
+    Raises
+    ------
+    RecordingError
+        None matches ``only``, ``hold_out`` or a rule.
+    """
+    recordings = _chosen(recordings, parameters)
+    groups = by_folder(recordings) if parameters.together else {name: [name] for name in recordings}
+    held_out = _held_out(groups, parameters)
+    code = code_hash("mismatch", "magic_formula", "tir", "recordings", "reporting")
+    tasks = {}
+    for name, members in groups.items():
+        loads = {each: recordings[each] for each in members}
+        how = {each: parameters.how(each) for each in members}
+        task = ExplainTask(name, loads, how, held_out.get(name))
+        tasks[f"{code}/{task.key}.zip"] = task
+    return tasks
+
+
+def collect_explained(
+    explained: Mapping[str, Callable[[], bytes]],
+) -> tuple[dict[str, Any], pd.DataFrame, dict[str, Callable[[], bytes]], dict[str, bytes]]:
+    """Put together what was explained.
+
+    Parameters
+    ----------
+    explained : mapping
+        What :func:`explain_each` gave, done.
+
     Returns
     -------
     reports : dict
         ``MismatchReport.to_dict()`` by recording, or ``folder/together``.
     overview : DataFrame
         ``recording, verdict, summary, effects, alternatives, held_out, problem``.
-    pages : dict of str to str
-        One HTML page a report.
+    pages : dict
+        One HTML page a report, by the function that reads it: they are never in memory together.
     corrected : dict of str to bytes
         ``.tir`` files with the missing physics put in, and sidecars for what the format cannot hold. None
         for a recording that leaves a question open on which all of it rests (its axes).
@@ -111,49 +139,34 @@ def explain_all(
     Raises
     ------
     RecordingError
-        If not one recording could be explained, or none matches ``hold_out``.
+        If not one recording could be explained.
     """
-    recordings = _chosen(recordings, parameters)
-    groups = by_folder(recordings) if parameters.together else {name: [name] for name in recordings}
-    held_out = _held_out(groups, parameters)
-    reports, rows = dict[str, Any](), list[dict[str, str]]()
-    pages, corrected = dict[str, str](), dict[str, bytes]()
-    for name, members in track(groups.items(), "explaining recordings", total=len(groups)):
-        loaders = {each: partial(recordings[each], **parameters.how(each)) for each in members}
-        try:
-            tire, runs = _read(loaders)
-            report = explain_recordings(tire, runs, held_out=held_out.get(name))
-        except TirePipelineError as error:
-            rows.append({**dict.fromkeys(_COLUMNS, ""), "recording": name, "problem": str(error)})
+    reports: dict[str, Any] = {}
+    rows: list[dict[str, str]] = []
+    pages: dict[str, Callable[[], bytes]] = {}
+    corrected: dict[str, bytes] = {}
+    for read in track(explained.values(), "collecting reports", total=len(explained)):
+        members = unpack(read())
+        row = json.loads(members.pop("row.json"))
+        rows.append(row)
+        report = json.loads(members.pop("report.json"))
+        if report is None:
+            LOG.warning("%s could not be explained: %s", row["recording"], row["problem"])
             continue
-        reports[name] = report.to_dict()
-        rows.append(_row(name, report))
-        page, files = _files(report, PurePosixPath(name), tire)
-        pages |= page
-        corrected |= files
-    _check_any(reports, rows)
-    return reports, pd.DataFrame(rows), pages, corrected
-
-
-def _check_any(reports: Mapping[str, Any], rows: list[dict[str, str]]) -> None:
+        reports[row["recording"]] = report
+        del members["page.html"]
+        pages[str(PurePosixPath(row["recording"]).with_suffix(".html"))] = partial(_page_of, read)
+        corrected |= members
     if not reports:
         raise RecordingError(
             f"not one of {len(rows)} recordings could be explained; the first: {rows[0]['problem']}",
             todo="correct that, then run again",
         )
+    return reports, pd.DataFrame(rows, columns=list(COLUMNS)), pages, corrected
 
 
-def _row(name: str, report: MismatchReport) -> dict[str, str]:
-    """One recording's row of the overview."""
-    return {
-        "recording": name,
-        "verdict": report.verdict,
-        "summary": report.summary,
-        "effects": ", ".join(effect.name for effect in report.effects),
-        "alternatives": ", ".join(a for effect in report.effects for a in effect.alternatives),
-        "held_out": report.held_out.recording if report.held_out else "",
-        "problem": "",
-    }
+def _page_of(read: Callable[[], bytes]) -> bytes:
+    return unpack(read())["page.html"]
 
 
 def _chosen(recordings: Pairs, parameters: ExplainParameters) -> Pairs:
@@ -196,38 +209,3 @@ def _held_out(groups: Mapping[str, list[str]], parameters: ExplainParameters) ->
             todo="correct the pattern, and set explain_mismatch.together to true",
         )
     return held_out
-
-
-def _read(
-    loaders: Mapping[str, Callable[[], tuple[TireModel | None, pd.DataFrame]]],
-) -> tuple[TireModel | None, dict[str, pd.DataFrame]]:
-    """The tire that all recordings belong to, and the recordings."""
-    pairs = {name: load() for name, load in loaders.items()}
-    tires = {None if tire is None else tire.path: tire for tire, _ in pairs.values()}
-    if len(tires) > 1:
-        raise RecordingError(
-            f"the recordings belong to several tires ({', '.join(map(str, tires))})",
-            where=", ".join(loaders),
-            todo="keep the recordings of each tire in a folder of their own",
-        )
-    return next(iter(tires.values())), {name: recording for name, (_, recording) in pairs.items()}
-
-
-def _files(
-    report: MismatchReport, place: PurePosixPath, tire: TireModel | None
-) -> tuple[dict[str, str], dict[str, bytes]]:
-    """The page, and the corrected .tir with its sidecar where there is something to correct."""
-    with tempfile.TemporaryDirectory() as folder:
-        page = Path(folder) / "page.html"
-        up = "../" * len(place.parts)
-        pages = [(f"{up}index.html", "All reports"), (f"{up}mismatch.html", "All recordings")]
-        report.to_html(page, pages=pages)
-        text = page.read_text(encoding="utf-8")
-        files: dict[str, bytes] = {}
-        physics = [effect for effect in report.effects if effect.kind == "physics"]
-        if tire is not None and physics and report.corrected.question is None:
-            target = Path(folder) / "tir" / f"{place.stem}_corrected.tir"
-            target.parent.mkdir()
-            report.corrected.to_tir(target)
-            files = {str(place.parent / p.name): p.read_bytes() for p in target.parent.iterdir()}
-    return {str(place.with_suffix(".html")): text}, files

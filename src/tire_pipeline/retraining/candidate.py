@@ -33,6 +33,7 @@ from tire_pipeline.retraining import (
 from tire_pipeline.retraining.compare import CANDIDATE, RELEASED, balanced_accuracy
 from tire_pipeline.retraining.release import UNCHANGED, check_split
 from tire_pipeline.retraining.scan import check_removed
+from tire_pipeline.tasks import Map, in_turn
 from tire_pipeline.tire_table.binned_features import BinParameters
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 
@@ -70,7 +71,7 @@ class RetrainParameters(Parameters):
 
 
 def read_new_files(
-    ingested: Store, tir_folder: Path, parameters: RetrainParameters
+    ingested: Store, tir_folder: Path, parameters: RetrainParameters, *, work: Map = in_turn
 ) -> tuple[Store, pd.DataFrame, pd.DataFrame]:
     """Read new and changed files, and none of the others.
 
@@ -80,6 +81,8 @@ def read_new_files(
         As the last run left it.
     tir_folder : Path
     parameters : RetrainParameters
+    work : Map
+        Does the reading.
 
     Returns
     -------
@@ -98,7 +101,7 @@ def read_new_files(
         rehash_all=parameters.rehash_all,
     )
     check_removed(found, ingested.manifest, parameters.most_removed_share, str(tir_folder))
-    store, report = ingest(ingested, tir_folder, found)
+    store, report = ingest(ingested, tir_folder, found, work=work)
     return store, store.table, report
 
 

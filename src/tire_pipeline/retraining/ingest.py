@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 
 import pandas as pd
@@ -11,9 +12,9 @@ import pandas as pd
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.file_names import path_of, printable
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.progress import track
 from tire_pipeline.retraining.manifest import Manifest, ManifestEntry
 from tire_pipeline.retraining.scan import FolderDifference, fingerprint
+from tire_pipeline.tasks import Map, in_blocks, in_turn
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import from_models, physical_tire_ids
 
@@ -42,6 +43,7 @@ def ingest(
     folder: str | Path,
     found: FolderDifference,
     read: Callable[[str | Path], TireModel] = read_tir,
+    work: Map = in_turn,
 ) -> tuple[Store, pd.DataFrame]:
     """Read what is new, drop what is gone, keep all the rest as it is.
 
@@ -56,6 +58,8 @@ def ingest(
         Of this folder against the store's manifest.
     read : callable
         Reads one file.
+    work : Map
+        Does the reading.
 
     Returns
     -------
@@ -74,7 +78,9 @@ def ingest(
     rows += [_row(name, GROWING, "changed too lately; left for the next run") for name in found.growing]
     rows += [_row(name, ASIDE, reason) for name, reason in found.aside.items()]
     rows += [_row(name, AGAIN, f"a link to {other}") for name, other in found.again.items()]
-    new = from_models(_models(Path(folder), {**found.added, **found.changed}, files, rows, number, read))
+    new = from_models(
+        _models(Path(folder), {**found.added, **found.changed}, files, rows, number, read, work)
+    )
     reported = {row["file"] for row in rows}
     rows += [_row(n, PENDING, e.reason) for n, e in files.items() if e.pending and n not in reported]
     report = pd.DataFrame(rows, columns=INGEST_COLUMNS, dtype="str").sort_values("file", ignore_index=True)
@@ -117,8 +123,12 @@ def _models(
     rows: list[dict[str, str]],
     number: int,
     read: Callable[[str | Path], TireModel],
+    work: Map,
 ) -> Iterator[tuple[str, str, TireModel]]:
-    for name, (look, digest) in track(wanted.items(), "reading new .tir files", total=len(wanted)):
+    tasks = {name: partial(_read, read, path_of(folder, name), wanted[name][1]) for name in wanted}
+    for done in in_blocks(work, tasks, "reading new .tir files"):
+        name = done.name
+        look, digest = wanted[name]
         before = files.get(name)
         entry = ManifestEntry(
             digest,
@@ -128,20 +138,25 @@ def _models(
             look.ctime_ns,  # type: ignore[attr-defined]
             before.sequence if before else number,
         )
-        try:
-            tire = read(path_of(folder, name))
-        except (TirePipelineError, OSError) as error:
-            reason = printable(str(error))
+        if isinstance(done.error, TirePipelineError | OSError):
+            reason = printable(str(done.error))
             files[name] = replace(entry, reason=reason)
             stays = "; an earlier reading stays" if entry.row_sha256 else ""
             rows.append(_row(name, PENDING, f"{reason}{stays}"))
             continue
-        if fingerprint(path_of(folder, name)) != digest:
+        tire = done.result()
+        if tire is None:
             rows.append(_row(name, GROWING, "changed while it was read; left for the next run"))
             continue
         files[name] = replace(entry, row_sha256=digest, sequence=number)
         rows.append(_row(name, READ, ""))
         yield name, category_of(name), tire
+
+
+def _read(read: Callable[[str | Path], TireModel], path: Path, digest: str) -> TireModel | None:
+    """The model; nothing if the file changed while it was read."""
+    tire = read(path)
+    return tire if fingerprint(path) == digest else None
 
 
 def category_of(name: str) -> str:

@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Protocol
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.runs.system_lock import is_held
@@ -76,9 +77,67 @@ class Watch:
         return ALIVE if moved else UNKNOWN
 
 
+class Ledger(Protocol):
+    """What other runs on a data folder say of themselves, and what becomes of the dead."""
+
+    @property
+    def where(self) -> str:
+        """The data folder."""
+        ...
+
+    def look(self) -> list[tuple[Note, str]]:
+        """Every note with a lower number and whether its run is ALIVE, DEAD or still UNKNOWN."""
+        ...
+
+    def bury(self, note: Note) -> None:
+        """Take a dead run's results back, unless it has ended meanwhile."""
+        ...
+
+    def again(self) -> None:
+        """Take back what runs wrote that were declared dead and were not."""
+        ...
+
+
+class OwnTicket(Protocol):
+    """A run's own ticket, wherever it lies."""
+
+    @property
+    def note(self) -> Note:
+        """What it says."""
+        ...
+
+    def check(self) -> None:
+        """Raise if another run has taken over."""
+        ...
+
+
+class FolderLedger:
+    """The notes in a folder of a local or mounted disk."""
+
+    def __init__(
+        self, ticket: Ticket, expiry_seconds: float, monotonic: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._folder = ticket.folder
+        self._watch = Watch(ticket.folder, ticket.note, expiry_seconds, monotonic)
+        self.where = str(ticket.folder.parent)
+
+    def look(self) -> list[tuple[Note, str]]:
+        """As :meth:`Watch.look`."""
+        return self._watch.look()
+
+    def bury(self, note: Note) -> None:
+        """As in :class:`Ledger`."""
+        _bury(self._folder, note)
+
+    def again(self) -> None:
+        """As in :class:`Ledger`."""
+        _take_back_again(self._folder)
+
+
 def take_turn(
-    ticket: Ticket,
+    ticket: OwnTicket,
     *,
+    ledger: Ledger | None = None,
     wait_seconds: float = 0.0,
     expiry_seconds: float = EXPIRY_SECONDS,
     monotonic: Callable[[], float] = time.monotonic,
@@ -90,8 +149,10 @@ def take_turn(
 
     Parameters
     ----------
-    ticket : Ticket
+    ticket : Ticket or ObjectTicket
         This run's own.
+    ledger : Ledger, optional
+        Of the other runs; that of the ticket's folder if left out.
     wait_seconds : float
         How long to wait for a living run.
     expiry_seconds : float
@@ -106,21 +167,23 @@ def take_turn(
     LostTicketError
         This process stood still for so long that another run has taken over.
     """
-    watch = Watch(ticket.folder, ticket.note, expiry_seconds, monotonic)
+    if ledger is None:
+        assert isinstance(ticket, Ticket)
+        ledger = FolderLedger(ticket, expiry_seconds, monotonic)
     last = monotonic() + wait_seconds
     said: set[str] = set()
     while True:
-        states = watch.look()
+        states = ledger.look()
         for note in (note for note, state in states if state == DEAD):
-            _bury(ticket.folder, note)
+            ledger.bury(note)
         living = [n for n, state in states if state == ALIVE and not (n.alongside or ticket.note.alongside)]
         unknown = [note for note, state in states if state == UNKNOWN]
         if not living and not unknown:
             ticket.check()
-            _take_back_again(ticket.folder)
+            ledger.again()
             return
         if living and monotonic() >= last:
-            raise _refusal(living[0], ticket.folder.parent)
+            raise _refusal(living[0], ledger.where)
         line = f"Waiting for {living[0]} to end." if living else f"Is {unknown[0]} still alive? Watching."
         if line not in said:
             said.add(line)
@@ -158,10 +221,10 @@ def _take_back_again(folder: Path) -> None:
     prune(folder)
 
 
-def _refusal(note: Note, data: Path) -> DomainError:
+def _refusal(note: Note, data: str) -> DomainError:
     since = f" since {note.started}" if note.started else ""
     return DomainError(
         f"{note} has held this data folder{since} and is alive",
-        where=str(data),
+        where=data,
         todo="wait for it to end, or let this run wait: --params one_run_at_a_time.wait_seconds=600",
     )

@@ -1,1 +1,1 @@
-"""Dagster: a run when files arrive, one every night, and partitions (extra ``schedule``)."""
+"""Dagster: a run when files arrive, one every night, and jobs that a cluster divides (extra ``schedule``)."""

@@ -10,8 +10,6 @@ from kedro.framework.session import KedroSession
 from kedro.framework.startup import bootstrap_project
 from pydantic import Field
 
-from tire_pipeline.classifiers.tuning import ANN_GRID
-from tire_pipeline.concealed.proof import ProveConcealedParameters
 from tire_pipeline.run_errors import one_line
 from tire_pipeline.schedule.arrivals import new_files_of
 from tire_pipeline.thesis.parameters import GridParameters
@@ -28,19 +26,12 @@ UNDERWAY = [
 
 TURN_SECONDS = 3600  # how long a run waits for another one on the same data folder
 TUNING_NODES = ["experiments.search_the_grid"]
-TUNING_PARTS = 2 * len(ANN_GRID["batch_size"]) * len(ANN_GRID["optimizer"])  # on both kinds of folds
 CASE_NODES = [
     "mismatch.explain_cases",
     "mismatch.explain_by_baselines",
     "mismatch.explain_real_cases",
     "mismatch.explain_real_by_baselines",
 ]
-CASES = ProveConcealedParameters.model_fields["cases"].default
-
-
-def shares(count: int) -> dg.StaticPartitionsDefinition:
-    """Partitions ``1_of_n`` to ``n_of_n``."""
-    return dg.StaticPartitionsDefinition([f"{k}_of_{count}" for k in range(1, count + 1)])
 
 
 class KedroRun(dg.Config):
@@ -67,24 +58,18 @@ def kedro_run(
     *,
     namespaces: list[str] | None = None,
     nodes: list[str] | None = None,
-    share: str | None = None,
 ) -> None:
     """Run one registered pipeline or a part of it, as ``kedro run --pipeline`` does.
 
-    ``share`` is ``k/n``: of the files that the nodes compute, the k-th of n shares only. Parts of a pipeline
-    run beside each other; a whole one waits for its turn on the data folder.
+    Parts of a pipeline run beside each other; a whole one waits for its turn on the data folder.
     """
     bootstrap_project(ROOT)
-    turn = {"alongside": True} if namespaces or share else {"wait_seconds": TURN_SECONDS}
+    turn = {"alongside": True} if namespaces else {"wait_seconds": TURN_SECONDS}
     with KedroSession.create(
         project_path=ROOT,
         env=config.env,
         conf_source=config.conf_source,
-        runtime_params={
-            "one_run_at_a_time": turn,
-            **config.parameters,
-            **({"share": share} if share else {}),
-        },
+        runtime_params={"one_run_at_a_time": turn, **config.parameters},
     ) as session:
         session.run(pipeline_names=[pipeline], namespaces=namespaces, node_names=nodes)
 
@@ -136,29 +121,27 @@ def agents() -> None:
 
 
 @dg.op
-def tune_part(context: dg.OpExecutionContext, config: KedroRun) -> None:
-    """Train the networks of one batch size and optimizer of the ANN's grid, on one kind of folds."""
-    kedro_run(
-        config, "reproduce_thesis", nodes=TUNING_NODES, share=context.partition_key.replace("_of_", "/")
-    )
+def tune(config: KedroRun) -> None:
+    """Train the networks of the ANN's grid, on both kinds of folds."""
+    kedro_run(config, "reproduce_thesis", nodes=TUNING_NODES)
 
 
-@dg.job(partitions_def=shares(TUNING_PARTS))
+@dg.job
 def tuning() -> None:
-    """The tuning of the ANN, one partition a batch size, optimizer and kind of folds."""
-    tune_part()
+    """The tuning of the ANN; the run's cluster divides it (docs/how-to/cluster.md)."""
+    tune()
 
 
 @dg.op
-def explain_case(context: dg.OpExecutionContext, config: KedroRun) -> None:
-    """Explain one concealed case, by ``explain_mismatch`` and by the baselines."""
-    kedro_run(config, "prove_concealed", nodes=CASE_NODES, share=context.partition_key.replace("_of_", "/"))
+def explain(config: KedroRun) -> None:
+    """Explain the concealed cases, by ``explain_mismatch`` and by the baselines."""
+    kedro_run(config, "prove_concealed", nodes=CASE_NODES)
 
 
-@dg.job(partitions_def=shares(CASES))
+@dg.job
 def cases() -> None:
-    """The concealed cases, one partition each."""
-    explain_case()
+    """The concealed cases; the run's cluster divides them."""
+    explain()
 
 
 nightly = dg.ScheduleDefinition(

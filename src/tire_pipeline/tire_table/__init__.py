@@ -2,7 +2,7 @@
 
 from tire_pipeline.tire_table.bins import Binning
 from tire_pipeline.tire_table.dedupe import IDENTICAL, NO_VALUE, TOO_SMALL, dedupe_and_filter
-from tire_pipeline.tire_table.from_models import KNOWN_COEFFICIENTS, METADATA, from_models
+from tire_pipeline.tire_table.from_models import KNOWN_COEFFICIENTS, METADATA, from_models, join_tables
 from tire_pipeline.tire_table.normalize import normalize_table
 from tire_pipeline.tire_table.physical_tire import SIZE_KEYS, physical_tire_ids
 from tire_pipeline.tire_table.splits import random_split, split_by_tire, split_table
@@ -17,6 +17,7 @@ __all__ = [
     "Binning",
     "dedupe_and_filter",
     "from_models",
+    "join_tables",
     "normalize_table",
     "physical_tire_ids",
     "random_split",

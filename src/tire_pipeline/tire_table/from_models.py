@@ -94,6 +94,30 @@ def from_models(models: Iterable[tuple[str, str, TireModel]]) -> pd.DataFrame:
     return table.sort_values("file", ignore_index=True)
 
 
+def join_tables(parts: Iterable[pd.DataFrame]) -> pd.DataFrame:
+    """Tables of different files as one: as if :func:`from_models` had been given all their models at once.
+
+    Parameters
+    ----------
+    parts : iterable of DataFrame
+
+    Raises
+    ------
+    DomainError
+        A file stands in two of them.
+    """
+    some = [part.drop(columns="tire_id") for part in parts if len(part)]
+    if not some:
+        return from_models([])
+    columns = [*TEXTS, *_column_order(tuple(part.columns[len(TEXTS) :]) for part in some)]
+    table = pd.concat([part.reindex(columns=columns) for part in some], ignore_index=True)
+    if table["file"].duplicated().any():
+        twice = table.loc[table["file"].duplicated(), "file"].iloc[0]
+        raise DomainError("a file stands in two tables", where=twice, todo="give each file once")
+    table["tire_id"] = physical_tire_ids(table)
+    return table.sort_values("file", ignore_index=True)
+
+
 def _column_order(groups: Iterable[tuple[str, ...]]) -> list[str]:
     found = {*ALWAYS}.union(*groups)
     first = [name for name in KNOWN_COEFFICIENTS if name in found]

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+import logging
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import pandas as pd
 from pydantic import Field
 
-from tire_pipeline.errors import DomainError, TirePipelineError, chain
-from tire_pipeline.file_names import printable
+from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.parameters import Parameters
-from tire_pipeline.progress import track
-from tire_pipeline.tire_table import from_models
+from tire_pipeline.tire_table.from_models import join_tables
+from tire_pipeline.tire_table.read_blocks import ReadBlock, blocks_of, unpacked
+
+LOG = logging.getLogger(__name__)
+_SAID = 20
 
 
 class IngestParameters(Parameters):
@@ -28,15 +31,26 @@ class IngestParameters(Parameters):
     most_failed_share: float = Field(0.5, ge=0.0, le=1.0)
 
 
-def read_files(
-    tir_files: Mapping[str, Callable[[], TireModel]], parameters: IngestParameters
-) -> tuple[pd.DataFrame, pd.DataFrame, dict[str, Any]]:
-    """Read all files into one table.
+def read_files(tir_files: Mapping[str, Callable[[], TireModel]]) -> dict[str, ReadBlock]:
+    """Read all files, some at a time; what is stored and has not changed is not read again.
 
     Parameters
     ----------
     tir_files : mapping
         ``category/.../name.tir`` to the function that reads it.
+    """
+    return blocks_of(tir_files)
+
+
+def join_files(
+    blocks: Mapping[str, Callable[[], bytes]], parameters: IngestParameters
+) -> tuple[pd.DataFrame, pd.DataFrame, dict[str, Any]]:
+    """Put what was read into one table.
+
+    Parameters
+    ----------
+    blocks : mapping
+        What :func:`read_files` gave, done.
     parameters : IngestParameters
 
     Returns
@@ -53,49 +67,21 @@ def read_files(
     DomainError
         If more than ``most_failed_share`` of the files cannot be read.
     """
-    rows: list[dict[str, Any]] = []
-    table = from_models(_read(tir_files, rows))
-    report = pd.DataFrame(rows).sort_values("file", ignore_index=True)
+    parts = [unpacked(read()) for read in blocks.values()]
+    report = pd.DataFrame([row for _, rows in parts for row in rows])
+    report = report.sort_values("file", ignore_index=True)
     summary = _summary(report)
+    aside = report[report["status"] == "set aside"]
+    for file, reason in aside[["file", "reason"]].head(_SAID).itertuples(index=False):
+        LOG.warning("%s is set aside: %s", file, reason)
     if summary["set_aside"] > parameters.most_failed_share * summary["files"]:
-        first = report.loc[report["status"] == "set aside"].iloc[0]
         raise DomainError(
             f"{summary['set_aside']} of {summary['files']} files cannot be read; the first: "
-            f"{first['file']}: {first['reason']}",
+            f"{aside.iloc[0]['file']}: {aside.iloc[0]['reason']}",
             where="ingest_tir",
             todo="correct or remove those files, or raise ingest_tir.most_failed_share",
         )
-    return table, report, summary
-
-
-def _read(
-    tir_files: Mapping[str, Callable[[], TireModel]], rows: list[dict[str, Any]]
-) -> Iterator[tuple[str, str, TireModel]]:
-    for file, load in track(tir_files.items(), "reading .tir files", total=len(tir_files)):
-        category = file.split("/", 1)[0] if "/" in file else ""
-        row = {"file": file, "category": category, "status": "read", "version": "", "line": None}
-        row |= {"reason": "", "defaulted": "", "notes": ""}
-        rows.append(row)
-        try:
-            tire = load()
-        except Exception as error:  # a loader may wrap what went wrong
-            cause = _cause(error)
-            if cause is None:
-                raise
-            row |= {"status": "set aside", "reason": printable(str(cause))}
-            row["line"] = getattr(cause, "line", None)
-            continue
-        notes = tire.metadata.get("warnings", ())
-        row["version"] = tire.version
-        row["defaulted"] = " ".join(sorted(tire.defaulted))
-        row["notes"] = " | ".join(map(str, notes)) if isinstance(notes, list | tuple) else str(notes)
-        yield file, category, tire
-
-
-def _cause(error: BaseException) -> BaseException | None:
-    """The first in the chain that is of the file, not of the program; None if there is none."""
-    wanted = (each for each in chain(error) if isinstance(each, TirePipelineError | OSError))
-    return next(wanted, None)
+    return join_tables(table for table, _ in parts), report, summary
 
 
 def _summary(report: pd.DataFrame) -> dict[str, Any]:

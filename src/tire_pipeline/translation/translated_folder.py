@@ -19,7 +19,7 @@ from tire_pipeline.classifiers.suppliers import (
 )
 from tire_pipeline.errors import DomainError, TirePipelineError
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.progress import track
+from tire_pipeline.tasks import Map, in_blocks, in_turn
 from tire_pipeline.tir import COMPUTED_DIGITS, tir_bytes
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
@@ -38,6 +38,8 @@ def read_sources(
     parameters: TranslateParameters,
     normalize: NormalizeParameters,
     seed: int,
+    *,
+    work: Map = in_turn,
 ) -> tuple[dict[str, TireModel], pd.DataFrame, pd.DataFrame]:
     """Read the files to translate, and say of each who supplied it.
 
@@ -50,6 +52,8 @@ def read_sources(
     parameters : TranslateParameters
     normalize : NormalizeParameters
     seed : int
+    work : Map
+        Does the reading.
 
     Returns
     -------
@@ -66,7 +70,7 @@ def read_sources(
         If not one file could be read, or none is of those that were asked for.
     """
     wanted = chosen_files(files_to_translate, parameters.only)
-    models, problems = _read(wanted, parameters.trials)
+    models, problems = _read(wanted, parameters.trials, work)
     known = set(normalized_table["category"])
     own = from_models((file, category_of(file, known), model) for file, model in models.items())
     sources = normalize_table(own, normalize.nominal_load)
@@ -162,18 +166,20 @@ def _named_suppliers(result: TranslationResult, source: pd.DataFrame) -> Transla
     return replace(result, report=report)
 
 
-def _read(files: Files, most: int) -> tuple[dict[str, TireModel], list[dict[str, str]]]:
+def _read(files: Files, most: int, work: Map) -> tuple[dict[str, TireModel], list[dict[str, str]]]:
     models: dict[str, TireModel] = {}
     problems = []
-    wanted = list(files.items())[: most or None]
-    for file, load in track(wanted, "reading files to translate", total=len(wanted)):
-        try:
-            models[file] = load()
-        except Exception as error:
-            cause = error if isinstance(error, TirePipelineError) else error.__cause__ or error
-            if not isinstance(cause, TirePipelineError | OSError):
-                raise
-            problems.append({"file": file, "verdict": "refused", "reason": f"cannot be read: {cause}"})
+    wanted = dict(list(files.items())[: most or None])
+    done = {each.name: each for each in in_blocks(work, wanted, "reading files to translate")}
+    for file in wanted:
+        error = done[file].error
+        if error is None:
+            models[file] = done[file].result()
+            continue
+        cause = error if isinstance(error, TirePipelineError) else error.__cause__ or error
+        if not isinstance(cause, TirePipelineError | OSError):
+            raise error
+        problems.append({"file": file, "verdict": "refused", "reason": f"cannot be read: {cause}"})
     if not models:
         raise DomainError(
             f"not one of {len(wanted)} files could be read; the first: {problems[0]['reason']}",

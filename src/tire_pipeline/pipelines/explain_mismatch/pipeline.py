@@ -2,7 +2,7 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.reporting.explained_recordings import explain_all
+from tire_pipeline.reporting.explained_recordings import collect_explained, explain_each
 from tire_pipeline.reporting.mismatch_overview import draw_overview
 
 
@@ -11,10 +11,16 @@ def create_pipeline(**_: object) -> Pipeline:
     return Pipeline(
         [
             Node(
-                explain_all,
+                explain_each,
                 inputs=["recordings", "params:explain_mismatch"],
-                outputs=["mismatch_reports", "mismatch_overview", "mismatch_pages", "corrected_tir"],
+                outputs="mismatch_explained",
                 name="explain_recordings",
+            ),
+            Node(
+                collect_explained,
+                inputs="mismatch_explained",
+                outputs=["mismatch_reports", "mismatch_overview", "mismatch_pages", "corrected_tir"],
+                name="collect_reports",
             ),
             Node(
                 draw_overview,

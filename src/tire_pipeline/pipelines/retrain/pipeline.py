@@ -2,6 +2,7 @@
 
 from kedro.pipeline import Node, Pipeline
 
+from tire_pipeline.cluster import given_map
 from tire_pipeline.pipelines.dedupe_filter import create_pipeline as dedupe_filter
 from tire_pipeline.pipelines.normalize import create_pipeline as normalize
 from tire_pipeline.reporting.retraining_page import build_retraining_report
@@ -27,7 +28,7 @@ def create_pipeline(**_: object) -> Pipeline:
     """Retrain on what has arrived; the steps from table to table are those of the other pipelines."""
     reading = [
         Node(
-            read_new_files,
+            given_map(read_new_files, without_cluster=1),
             inputs=["ingested", "tir_folder", "params:retrain"],
             outputs=["ingested_updated", "ingested_table", "retraining_files"],
             name="read_new_files",

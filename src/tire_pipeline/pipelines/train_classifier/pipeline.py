@@ -3,6 +3,7 @@
 from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline.classifiers.scores import join_scores, score_classifiers, train_forest
+from tire_pipeline.cluster import given_map
 from tire_pipeline.reporting.training_figures import confusion_figure
 
 
@@ -11,7 +12,7 @@ def create_pipeline(**_: object) -> Pipeline:
     return Pipeline(
         [
             Node(
-                score_classifiers,
+                given_map(score_classifiers),
                 inputs=["features", "splits", "params:train_classifier", "params:seed"],
                 outputs="scores_of_features",
                 name="score_classifiers",

@@ -2,6 +2,7 @@
 
 from kedro.pipeline import Node, Pipeline
 
+from tire_pipeline.cluster import given_map
 from tire_pipeline.reporting.translated_folder_page import translate_page
 from tire_pipeline.translation.fitted import fit_translator
 from tire_pipeline.translation.translated_folder import read_sources, translate_all
@@ -12,7 +13,7 @@ def create_pipeline(**_: object) -> Pipeline:
     return Pipeline(
         [
             Node(
-                read_sources,
+                given_map(read_sources, without_cluster=1),
                 inputs=[
                     "files_to_translate",
                     "normalized_table",

@@ -1,0 +1,94 @@
+"""Which workers a run takes: those of its configuration (docs/how-to/cluster.md)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial, update_wrapper
+from typing import Any, TypeVar
+
+from kedro.framework.hooks import hook_impl
+from pydantic import ValidationError
+
+from tire_pipeline.cluster.parameters import ClusterParameters
+from tire_pipeline.errors import DomainError
+from tire_pipeline.tasks import Done, Map, Task, in_processes
+
+T = TypeVar("T")
+_CHOSEN = {"parameters": ClusterParameters()}
+
+
+def work_map(*, without_cluster: int | None = None) -> Map:
+    """Give the run's map.
+
+    Parameters
+    ----------
+    without_cluster : int, optional
+        How many processes are used where there is no cluster; the run's parameter if left out.
+    """
+    chosen = _CHOSEN["parameters"]
+    if chosen.scheduler:
+        from tire_pipeline.cluster.dask_map import dask_map
+
+        return dask_map(chosen)
+    return in_processes(without_cluster or chosen.processes)
+
+
+@dataclass(frozen=True)
+class _RunMap:
+    """The run's map: which one it is, is known when it is called."""
+
+    without_cluster: int | None
+
+    def __call__(self, tasks: Mapping[str, Task[T]], what: str) -> Iterator[Done[T]]:
+        return work_map(without_cluster=self.without_cluster)(tasks, what)
+
+
+def given_map(function: Callable[..., T], *, without_cluster: int | None = None) -> Callable[..., T]:
+    """Give a node's function the run's map as its argument ``work``.
+
+    Parameters
+    ----------
+    function : callable
+        Takes ``work`` by name.
+    without_cluster : int, optional
+        As in :func:`work_map`.
+    """
+
+    return update_wrapper(partial(function, work=_RunMap(without_cluster)), function)
+
+
+class ClusterHooks:
+    """Takes the parameter ``cluster`` of the run, and lets go of the cluster when the run ends."""
+
+    @hook_impl
+    def after_context_created(self, context: Any) -> None:
+        """Read the parameters; a wrong one stops the run before it begins."""
+        given = context.config_loader["parameters"].get("cluster") or {}
+        try:
+            _CHOSEN["parameters"] = ClusterParameters.model_validate(given)
+        except ValidationError as error:
+            raise DomainError(
+                str(error), where="cluster", todo="correct it in conf/*/parameters.yml or --params"
+            ) from error
+
+    @hook_impl
+    def before_pipeline_run(self) -> None:
+        """Find out at once whether the cluster is there."""
+        work_map()
+
+    @hook_impl
+    def after_pipeline_run(self) -> None:
+        """Close the connection."""
+        self._close()
+
+    @hook_impl
+    def on_pipeline_error(self) -> None:
+        """Close the connection; what is still under way is given up."""
+        self._close()
+
+    def _close(self) -> None:
+        if _CHOSEN["parameters"].scheduler:
+            from tire_pipeline.cluster.dask_map import close
+
+            close()

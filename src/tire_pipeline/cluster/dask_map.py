@@ -1,0 +1,255 @@
+"""Tasks by the workers of a Dask cluster: the one place that knows Dask.
+
+Workers read the same files as this process, at the same paths (a shared folder, or object storage). Results
+come back to this process, and it alone writes them: a run that has lost its data folder writes nothing more.
+"""
+
+from __future__ import annotations
+
+import ipaddress
+import itertools
+import logging
+import os
+import uuid
+from collections.abc import Iterator, Mapping
+from concurrent.futures import CancelledError
+from typing import TYPE_CHECKING, Any, TypeVar
+from urllib.parse import urlsplit
+
+from tire_pipeline.errors import DomainError
+from tire_pipeline.tasks import Done, LostTaskError, Map, Task, attempt, shown
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
+
+    from tire_pipeline.cluster.parameters import ClusterParameters
+
+T = TypeVar("T")
+LOG = logging.getLogger(__name__)
+_AHEAD = 3
+"""So many tasks a thread are with the scheduler at once; a million of them would fill its memory."""
+_COMPUTING = ("numpy", "pandas", "pyarrow", "scikit-learn", "scipy", "numba", "torch")
+_OPEN: dict[ClusterParameters, Client] = {}
+_DEATHS = "its worker died three times while doing it"
+
+
+def dask_map(chosen: ClusterParameters) -> Map:
+    """Connect to a scheduler, once a run, and give a map over its workers.
+
+    Parameters
+    ----------
+    chosen : ClusterParameters
+
+    Raises
+    ------
+    DomainError
+        The address is neither on this machine nor encrypted, nothing answers there, there is no worker, or a
+        worker runs another version of this project.
+    """
+    client = _OPEN.get(chosen)
+    if client is None or client.status != "running":
+        client = _OPEN[chosen] = _connected(chosen)
+    return _DaskMap(client, str(chosen.scheduler))
+
+
+def close() -> None:
+    """Close all connections."""
+    while _OPEN:
+        _OPEN.popitem()[1].close(timeout=2)
+
+
+def check_address(chosen: ClusterParameters) -> bool:
+    """Whether the connection is encrypted; whatever a scheduler sends is unpickled, so it must be trusted.
+
+    Raises
+    ------
+    DomainError
+        Neither on this machine nor encrypted, or a file is missing.
+    """
+    address = str(chosen.scheduler)
+    parts = urlsplit(address if "://" in address else f"tcp://{address}")
+    files = {n: getattr(chosen, n) for n in ("tls_ca", "tls_certificate", "tls_key")}
+    if parts.scheme == "tls":
+        for name, file in files.items():
+            if not file or not os.path.isfile(file):
+                raise DomainError(
+                    f"cluster.{name} is no file" if file else f"cluster.{name} is not given",
+                    where=address,
+                    todo="give tls_ca, tls_certificate and tls_key (docs/how-to/cluster.md)",
+                )
+        return True
+    if not _loopback(parts.hostname or ""):
+        raise DomainError(
+            "a scheduler on another machine is only taken with TLS: Dask runs whatever it is sent",
+            where=address,
+            todo="use tls://... with cluster.tls_ca, tls_certificate and tls_key (docs/how-to/cluster.md)",
+        )
+    return False
+
+
+def _loopback(host: str) -> bool:
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host == "localhost"
+
+
+def _connected(chosen: ClusterParameters) -> Client:
+    try:
+        from distributed import Client, Security
+    except ImportError as error:
+        raise DomainError("Dask is not installed", todo='pip install -e ".[cluster]"') from error
+    security = None
+    if check_address(chosen):
+        security = Security(
+            tls_ca_file=chosen.tls_ca,
+            tls_client_cert=chosen.tls_certificate,
+            tls_client_key=chosen.tls_key,
+            require_encryption=True,
+        )
+    todo = "start it (`make cluster`), or set cluster.scheduler"
+    where = str(chosen.scheduler)
+    try:
+        client = Client(chosen.scheduler, security=security, timeout=chosen.wait_seconds)
+    except (OSError, TimeoutError, ValueError) as error:
+        raise DomainError("no Dask scheduler answers there", where=where, todo=todo) from error
+    except RuntimeError as error:  # Dask's own configuration asks for encryption
+        raise DomainError(f"Dask does not connect: {error}", where=where, todo=todo) from error
+    try:
+        client.wait_for_workers(1, timeout=chosen.wait_seconds)
+    except TimeoutError as error:
+        client.close()
+        raise DomainError("this scheduler has no workers", where=where, todo=todo) from error
+    _same_code(client, where)
+    LOG.info("%d Dask workers at %s; their dashboard: %s", _workers(client), where, client.dashboard_link)
+    return client
+
+
+def _same_code(client: Client, where: str) -> None:
+    own = code_version()
+    for worker, other in client.run(code_version).items():
+        if other != own:
+            client.close()
+            raise DomainError(
+                f"the worker {worker} runs another version of this project",
+                where=where,
+                todo="install the same version there, and start the workers again",
+            )
+
+
+def code_version() -> str:
+    """A hash of this project's source and of the versions of what computes."""
+    from importlib.metadata import version
+
+    from tire_pipeline.code_hash import code_hash
+
+    return " ".join([code_hash("."), *map(version, _COMPUTING)])
+
+
+def _workers(client: Client) -> int:
+    return len(client.scheduler_info(n_workers=-1)["workers"])
+
+
+def run_task(name: str, task: Task[T]) -> Done[T]:
+    """On a worker: do a task, or raise; what fails within it is told on the dashboard's page of logs.
+
+    The value comes in a wrapper: Dask sends bytes of a special class as plain ones.
+    """
+    value = attempt(name, task).result()
+    for file, reason in getattr(value, "failures", {}).items():
+        logging.getLogger("distributed.worker").warning("%s: %s", file, reason)
+    return Done(name, value)
+
+
+class _DaskMap:
+    def __init__(self, client: Client, address: str) -> None:
+        self._client = client
+        self._address = address
+
+    def __call__(self, tasks: Mapping[str, Task[T]], what: str) -> Iterator[Done[T]]:
+        yield from shown(self._done(tasks, what), what, len(tasks))
+
+    def _done(self, tasks: Mapping[str, Task[T]], what: str) -> Iterator[Done[T]]:
+        from distributed import KilledWorker, as_completed
+
+        waiting = iter(tasks)
+        running: dict[str, str] = {}
+        lost: list[str] = []
+        futures = as_completed()
+        try:
+            self._submit(futures, running, itertools.islice(waiting, self._room(running)), tasks, what)
+            for future in futures:
+                name = running.pop(future.key)
+                done = self._outcome(name, future)
+                future.release()
+                self._submit(futures, running, itertools.islice(waiting, self._room(running)), tasks, what)
+                if isinstance(done.error, KilledWorker):
+                    LOG.warning("%s: %s: its worker died; it is tried alone", what, name)
+                    lost.append(name)
+                else:
+                    yield done
+        finally:  # the caller may have enough, or an error: what is under way is given up
+            for future in list(futures.futures):
+                future.cancel()
+        for name in lost:
+            yield self._alone(name, tasks[name], what)
+
+    def _room(self, running: Mapping[str, str]) -> int:
+        threads = sum(self._client.nthreads().values())
+        return max(_AHEAD * max(threads, 1) - len(running), 0)
+
+    def _submit(
+        self,
+        futures: Any,
+        running: dict[str, str],
+        names: Iterator[str],
+        tasks: Mapping[str, Task[T]],
+        what: str,
+    ) -> None:
+        for name in names:
+            future = self._future(name, tasks[name], what)
+            running[future.key] = name
+            futures.add(future)
+
+    def _future(self, name: str, task: Task[T], what: str) -> Future[Done[T]]:
+        key = f"{what.replace(' ', '_').replace('-', '_')}-{name}-{uuid.uuid4().hex[:8]}"
+        return self._client.submit(run_task, name, task, key=key, pure=False)
+
+    def _outcome(self, name: str, future: Future[Done[T]]) -> Done[T]:
+        try:
+            error = future.exception()
+            if error is None:
+                return future.result()
+        except (CancelledError, OSError, TimeoutError) as lost:
+            raise self._gone() from lost
+        if isinstance(error, CancelledError):
+            raise self._gone() from error
+        return Done(name, error=error)
+
+    def _gone(self) -> DomainError:
+        return DomainError(
+            "the Dask scheduler is gone",
+            where=self._address,
+            todo="start it again, then run again: what was stored is not done again",
+        )
+
+    def _alone(self, name: str, task: Task[T], what: str) -> Done[T]:
+        """Do a task whose worker died with no other task under way, so that the death is its own.
+
+        A task of several files is divided, until the file is found.
+        """
+        from distributed import KilledWorker
+
+        parts: Mapping[str, Task[T]] = getattr(task, "split", dict)()
+        if len(parts) > 1:
+            done = [self._alone(each, part, what).result() for each, part in parts.items()]
+            return Done(name, task.join(done))  # type: ignore[attr-defined]
+        outcome = self._outcome(name, self._future(name, task, what))
+        if not isinstance(outcome.error, KilledWorker):
+            return outcome
+        only = next(iter(parts), name)
+        LOG.warning("%s: %s is set aside: %s", what, only, _DEATHS)
+        if hasattr(task, "lost"):
+            return Done(name, task.lost(_DEATHS))
+        todo = "take it out, or give the workers more memory"
+        return Done(name, error=LostTaskError(_DEATHS, where=only, todo=todo))

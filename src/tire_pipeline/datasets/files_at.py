@@ -1,0 +1,54 @@
+"""Whole files by their names, in a folder or below an address of an object store."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from tire_pipeline.atomic import replaced_file
+from tire_pipeline.objects import Objects, is_remote
+
+
+@dataclass(frozen=True)
+class Files:
+    """The files below a local folder, as :class:`tire_pipeline.objects.Objects` below an address.
+
+    Attributes
+    ----------
+    root : Path
+    """
+
+    root: Path
+
+    def read(self, name: str) -> bytes:
+        """The content of a file."""
+        return (self.root / name).read_bytes()
+
+    def write(self, name: str, content: bytes) -> None:
+        """Put a file in place in one step."""
+        with replaced_file(self.root / name) as temporary:
+            temporary.write_bytes(content)
+
+    def exists(self, name: str) -> bool:
+        """Whether it is there."""
+        return (self.root / name).exists()
+
+    def names(self) -> list[str]:
+        """Names of all files; those that are being written are left out."""
+        found = (path for path in self.root.rglob("*") if path.suffix != ".part" and path.is_file())
+        return sorted(path.relative_to(self.root).as_posix() for path in found)
+
+    def delete(self, names: Iterable[str]) -> None:
+        """Take files away, and folders that are empty then."""
+        for name in names:
+            path = self.root / name
+            path.unlink(missing_ok=True)
+            while path.parent != self.root and not any(path.parent.iterdir()):
+                path = path.parent
+                path.rmdir()
+
+
+def files_at(path: str) -> Files | Objects:
+    """The files below a path or an address."""
+    return Objects(path) if is_remote(path) else Files(Path(path))

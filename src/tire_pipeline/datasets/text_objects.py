@@ -1,0 +1,95 @@
+"""A folder of texts in an object store, where files change one by one.
+
+The marker says what the folder holds. It is replaced by one that says *being written* before anything else
+changes, and by the new one after all else has: what a killed run leaves is never taken for results.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Mapping
+
+from tire_pipeline.errors import DomainError
+from tire_pipeline.objects import Objects
+from tire_pipeline.progress import track
+
+MARKER = ".made_by_tire_pipeline"
+HEAD = "Replaced as a whole on the next run. Made:"
+_TOGETHER = 50
+KEPT = (".gitkeep", "README.md")
+_BROKEN = "Being written. Nothing here counts until that is done. Of this project:"
+Content = str | bytes | Callable[[], bytes]
+
+
+def as_bytes(content: Content) -> bytes:
+    """A text, or what the function gives, as bytes."""
+    if callable(content):
+        return content()
+    return content if isinstance(content, bytes) else content.encode("utf-8")
+
+
+def belongs_to_user(folder: Objects) -> bool:
+    """Whether anything lies there that this project did not make."""
+    if folder.exists(MARKER):
+        return False
+    return any(name.rsplit("/", 1)[-1] not in KEPT for name in folder.names())
+
+
+def made_there(folder: Objects) -> set[str]:
+    """Names of the objects that this project has put there, whole or not."""
+    return set(_marker(folder)[1])
+
+
+def load(folder: Objects, suffix: str) -> dict[str, bytes]:
+    """Every text with this ending; an absent folder is an empty dictionary.
+
+    Raises
+    ------
+    DomainError
+        The run that wrote them was killed, or one of them was changed since.
+    """
+    broken, made = _marker(folder)
+    if broken:
+        raise DomainError(
+            "the run that wrote this folder was stopped before it was done",
+            where=str(folder),
+            todo="run it again; what lies there is not used",
+        )
+    found = {name: folder.read(name) for name in sorted(made) if name.endswith(suffix)}
+    for name, content in found.items():
+        if made[name] and hashlib.sha256(content).hexdigest() != made[name]:
+            raise DomainError(
+                "this was changed since it was written", where=f"{folder}/{name}", todo="run again"
+            )
+    return found
+
+
+def save(folder: Objects, data: Mapping[str, Content], *, keep: bool) -> None:
+    """Write all texts; with ``keep`` those of earlier runs stay."""
+    broken, before = _marker(folder)
+    known = {**before, **dict.fromkeys(data, "")}
+    folder.write(MARKER, _marker_text(_BROKEN, known))
+    made = dict(before) if keep and not broken else {}
+    names = list(data)
+    some = [names[start : start + _TOGETHER] for start in range(0, len(names), _TOGETHER)]
+    for part in track(some, f"writing {folder.root.rsplit('/', 1)[-1]}", total=len(some)):
+        contents = {name: as_bytes(data[name]) for name in part}
+        folder.write_many(contents)
+        made |= {name: hashlib.sha256(plain).hexdigest() for name, plain in contents.items()}
+    folder.delete(name for name in before if name not in made)
+    folder.write(MARKER, _marker_text(HEAD, made))
+
+
+def _marker_text(head: str, made: Mapping[str, str]) -> bytes:
+    lines = [f"{name}\t{digest}" for name, digest in sorted(made.items())]
+    return "\n".join([head, *lines, ""]).encode()
+
+
+def _marker(folder: Objects) -> tuple[bool, dict[str, str]]:
+    """Whether the last write was not finished; name -> SHA-256 of what it made."""
+    try:
+        head, *lines = folder.read(MARKER).decode("utf-8", errors="replace").splitlines()
+    except FileNotFoundError:
+        return False, {}
+    parted = (line.partition("\t") for line in lines)
+    return head == _BROKEN, {name: digest for name, _, digest in parted}

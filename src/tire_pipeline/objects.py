@@ -1,0 +1,200 @@
+"""Objects below one address of an object store (``s3://bucket/folder``), where there is no renaming.
+
+Each object is written whole or not at all. What must not be lost between two writers is written under the
+condition that the object is absent, or is still the one that was read. Keys come from the environment only.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from tire_pipeline.errors import DomainError
+
+_REFUSED = ("PreconditionFailed", "pre-conditions", "ConditionalRequestConflict")
+
+
+class ConflictError(Exception):
+    """The object is not the one that was read: another run has written it."""
+
+
+def is_remote(path: object) -> bool:
+    """Whether a path is an address of an object store rather than a local path."""
+    text = str(path)
+    return "://" in text and not text.startswith("file://")
+
+
+class Objects:
+    """The objects below an address.
+
+    Parameters
+    ----------
+    address : str
+        ``s3://bucket/folder``.
+
+    Raises
+    ------
+    DomainError
+        Keys stand in the address, or what is needed to reach it is not installed.
+    """
+
+    def __init__(self, address: str) -> None:
+        protocol, _, rest = address.partition("://")
+        if "@" in rest.split("/", 1)[0]:
+            raise DomainError(
+                "an address may not hold keys",
+                where=f"{protocol}://...",
+                todo="give them in the environment (docs/how-to/cluster.md)",
+            )
+        import fsspec
+
+        try:
+            self._fs: Any = fsspec.filesystem(protocol, use_listings_cache=False)
+        except ImportError as error:
+            raise DomainError(
+                f"what is needed for {protocol}:// is not installed",
+                where=address,
+                todo='pip install -e ".[s3]"',
+            ) from error
+        self.address = f"{protocol}://{rest.strip('/')}"
+        self.root = rest.strip("/")
+
+    def __str__(self) -> str:
+        return self.address
+
+    def below(self, name: str) -> Objects:
+        """The objects below ``address/name``."""
+        return Objects(f"{self.address}/{name}")
+
+    def _key(self, name: str) -> str:
+        return f"{self.root}/{name}" if name and self.root else self.root or name
+
+    def read(self, name: str, most: int | None = None) -> bytes:
+        """The content of an object, or so many bytes of its beginning.
+
+        Raises
+        ------
+        FileNotFoundError
+        """
+        with self._plain_errors(name):
+            return bytes(self._fs.cat_file(self._key(name), start=None if most is None else 0, end=most))
+
+    def read_stamped(self, name: str) -> tuple[bytes, str]:
+        """The content and the stamp of that very content, for :meth:`replace`.
+
+        Raises
+        ------
+        FileNotFoundError
+        """
+        with self._plain_errors(name):
+            bucket, _, key = self._key(name).partition("/")
+            found = self._fs.call_s3("head_object", Bucket=bucket, Key=key)
+            content = bytes(self._fs.cat_file(self._key(name)))
+            again = self._fs.call_s3("head_object", Bucket=bucket, Key=key)
+            if found["ETag"] != again["ETag"]:
+                return self.read_stamped(name)
+            return content, str(found["ETag"])
+
+    def write(self, name: str, content: bytes) -> None:
+        """Put an object in place, whatever was there."""
+        with self._plain_errors(name, writing=True):
+            self._fs.pipe_file(self._key(name), content)
+
+    def write_many(self, contents: Mapping[str, bytes]) -> None:
+        """Put objects in place, many at once; a kill leaves any of them."""
+        with self._plain_errors("", writing=True):
+            self._fs.pipe({self._key(name): content for name, content in contents.items()})
+
+    def create(self, name: str, content: bytes) -> None:
+        """Put an object in place that is not there yet.
+
+        Raises
+        ------
+        ConflictError
+            It is there.
+        """
+        with self._plain_errors(name, writing=True):
+            try:
+                self._fs.pipe_file(self._key(name), content, mode="create")
+            except FileExistsError as error:
+                raise ConflictError(name) from error
+
+    def replace(self, name: str, content: bytes, stamp: str | None) -> None:
+        """Put an object in place of the one that was read; with no stamp, where there was none.
+
+        Raises
+        ------
+        ConflictError
+            Another one is there.
+        """
+        if stamp is None:
+            self.create(name, content)
+            return
+        bucket, _, key = self._key(name).partition("/")
+        with self._plain_errors(name, writing=True):
+            try:
+                self._fs.call_s3("put_object", Bucket=bucket, Key=key, Body=content, IfMatch=stamp)
+            except OSError as error:
+                if any(word in str(error) for word in _REFUSED):
+                    raise ConflictError(name) from error
+                raise
+
+    def exists(self, name: str) -> bool:
+        """Whether an object of this name is there."""
+        with self._plain_errors(name):
+            return bool(self._fs.isfile(self._key(name)))
+
+    def glob(self, pattern: str) -> list[str]:
+        """Names that match a pattern such as ``model.npz/*/model.npz``."""
+        with self._plain_errors(pattern):
+            start = len(self.root) + 1 if self.root else 0
+            return [path[start:] for path in self._fs.glob(self._key(pattern))]
+
+    def stamps(self, under: str = "") -> dict[str, str]:
+        """Name -> stamp (changes with the content) of all objects below ``address/under``."""
+        with self._plain_errors(under):
+            try:
+                found = self._fs.find(self._key(under), detail=True)
+            except FileNotFoundError:
+                return {}
+        start = len(self.root) + 1 if self.root else 0
+        return {path[start:]: str(info.get("ETag", info["size"])) for path, info in sorted(found.items())}
+
+    def names(self, under: str = "") -> list[str]:
+        """Names of all objects below ``address/under``, sorted."""
+        return list(self.stamps(under))
+
+    def dates(self) -> dict[str, float]:
+        """Name -> when it was written, s since 1970, of all objects."""
+        with self._plain_errors(""):
+            found = self._fs.find(self.root, detail=True)
+        start = len(self.root) + 1
+        return {path[start:]: info["LastModified"].timestamp() for path, info in found.items()}
+
+    def delete(self, names: Iterable[str]) -> None:
+        """Take objects away; those that are gone already do not matter."""
+        keys = [self._key(name) for name in names]
+        if keys:
+            with contextlib.suppress(FileNotFoundError):
+                self._fs.rm(keys)
+
+    @contextlib.contextmanager
+    def _plain_errors(self, name: str, *, writing: bool = False) -> Iterator[None]:
+        """Whatever the library raises, in one sentence without addresses of requests or keys."""
+        try:
+            yield
+        except (ConflictError, DomainError):
+            raise
+        except FileNotFoundError:
+            if not writing:
+                raise
+            todo = "make it, or correct the address"
+            raise DomainError("there is no such bucket", where=self.address, todo=todo) from None
+        except Exception as error:
+            kind = type(error).__name__
+            raise DomainError(
+                f"the object store did not do what was asked ({kind})",
+                where=f"{self.address}/{name}",
+                todo="are bucket, permissions, keys and endpoint in the environment right?",
+            ) from None

@@ -1,0 +1,114 @@
+"""One recording, or several of one tire: explained, as the bytes of one stored file."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import tempfile
+import uuid
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+import pandas as pd
+
+from tire_pipeline.errors import RecordingError, TirePipelineError
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.mismatch import MismatchReport, explain_recordings
+from tire_pipeline.packed import Passing, pack
+
+COLUMNS = ("recording", "verdict", "summary", "effects", "alternatives", "held_out", "problem")
+Load = Callable[..., tuple[TireModel | None, pd.DataFrame]]
+
+
+@dataclass(frozen=True)
+class ExplainTask:
+    """Explains recordings together.
+
+    Attributes
+    ----------
+    name : str
+        Of the recording, or ``folder/together``.
+    loads : mapping
+        Recording -> the function that reads it and its tire.
+    how : mapping
+        Recording -> what is stated of it: ``axes``, ``units``, ``names``, ``tir``.
+    held_out : str, optional
+        The recording that takes no part and is predicted.
+    """
+
+    name: str
+    loads: Mapping[str, Load]
+    how: Mapping[str, Mapping[str, Any]]
+    held_out: str | None
+
+    @property
+    def key(self) -> str:
+        """A hash of all that the result depends on; another one each time where a reader cannot tell."""
+        total = hashlib.sha256(f"{self.name}\0{self.held_out}\0".encode())
+        for each, load in self.loads.items():
+            own = getattr(load, "fingerprint", None)
+            content = uuid.uuid4().hex if own is None else own(self.how[each].get("tir", ""))
+            stated = json.dumps(self.how[each], sort_keys=True)
+            total.update(f"{each}\0{content}\0{stated}\0".encode())
+        return total.hexdigest()[:24]
+
+    def __call__(self) -> bytes:
+        """``row.json``, ``report.json`` (null: it could not be explained), ``page.html``, corrected files."""
+        row = dict.fromkeys(COLUMNS, "") | {"recording": self.name}
+        loads = {each: partial(load, **self.how[each]) for each, load in self.loads.items()}
+        try:
+            tire, runs = _read(loads)
+            report = explain_recordings(tire, runs, held_out=self.held_out)
+        except TirePipelineError as error:
+            return Passing(self.lost(str(error)))
+        row["verdict"] = report.verdict
+        row["summary"] = report.summary
+        row["effects"] = ", ".join(effect.name for effect in report.effects)
+        row["alternatives"] = ", ".join(a for effect in report.effects for a in effect.alternatives)
+        row["held_out"] = report.held_out.recording if report.held_out else ""
+        page, files = _files(report, PurePosixPath(self.name), tire)
+        head = {"row.json": json.dumps(row), "report.json": json.dumps(report.to_dict()), "page.html": page}
+        return pack({**{name: text.encode() for name, text in head.items()}, **files})
+
+    def lost(self, reason: str) -> bytes:
+        """What is stored of recordings that cannot be explained."""
+        row = dict.fromkeys(COLUMNS, "") | {"recording": self.name, "problem": reason}
+        return pack({"row.json": json.dumps(row).encode(), "report.json": b"null"})
+
+
+def _read(
+    loaders: Mapping[str, Callable[[], tuple[TireModel | None, pd.DataFrame]]],
+) -> tuple[TireModel | None, dict[str, pd.DataFrame]]:
+    """The tire that all recordings belong to, and the recordings."""
+    pairs = {name: load() for name, load in loaders.items()}
+    tires = {None if tire is None else tire.path: tire for tire, _ in pairs.values()}
+    if len(tires) > 1:
+        raise RecordingError(
+            f"the recordings belong to several tires ({', '.join(map(str, tires))})",
+            where=", ".join(loaders),
+            todo="keep the recordings of each tire in a folder of their own",
+        )
+    return next(iter(tires.values())), {name: recording for name, (_, recording) in pairs.items()}
+
+
+def _files(
+    report: MismatchReport, place: PurePosixPath, tire: TireModel | None
+) -> tuple[str, dict[str, bytes]]:
+    """The page, and the corrected .tir with its sidecar where there is something to correct."""
+    with tempfile.TemporaryDirectory() as folder:
+        page = Path(folder) / "page.html"
+        up = "../" * len(place.parts)
+        pages = [(f"{up}index.html", "All reports"), (f"{up}mismatch.html", "All recordings")]
+        report.to_html(page, pages=pages)
+        text = page.read_text(encoding="utf-8")
+        files: dict[str, bytes] = {}
+        physics = [effect for effect in report.effects if effect.kind == "physics"]
+        if tire is not None and physics and report.corrected.question is None:
+            target = Path(folder) / "tir" / f"{place.stem}_corrected.tir"
+            target.parent.mkdir()
+            report.corrected.to_tir(target)
+            files = {str(place.parent / p.name): p.read_bytes() for p in target.parent.iterdir()}
+    return text, files

@@ -1,0 +1,190 @@
+"""Many independent pieces of work, each with a name: what code that knows no cluster asks for."""
+
+from __future__ import annotations
+
+import logging
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, cast
+
+from tire_pipeline.errors import DomainError
+from tire_pipeline.progress import track
+
+if TYPE_CHECKING:
+    from threadpoolctl import ThreadpoolController
+
+T = TypeVar("T")
+T_co = TypeVar("T_co", covariant=True)
+LOG = logging.getLogger(__name__)
+
+
+class LostTaskError(DomainError):
+    """A task has ended the process that did it, again and again."""
+
+
+class Task(Protocol[T_co]):
+    """A piece of work: a function without arguments that can be pickled."""
+
+    def __call__(self) -> T_co:
+        """Do it."""
+        ...
+
+
+@dataclass(frozen=True)
+class Done(Generic[T]):
+    """What became of a task.
+
+    Attributes
+    ----------
+    name : str
+    value : object
+    error : Exception or None
+        What the task raised.
+    """
+
+    name: str
+    value: T | None = None
+    error: Exception | None = None
+
+    def result(self) -> T:
+        """The value; raises what the task raised."""
+        if self.error is not None:
+            raise self.error
+        return cast(T, self.value)
+
+
+class Map(Protocol):
+    """Does tasks, one after another or many at once, and gives each when it is done, in any order."""
+
+    def __call__(self, tasks: Mapping[str, Task[T]], what: str) -> Iterator[Done[T]]:
+        """Do the tasks; ``what`` is said of them while they are done."""
+        ...
+
+
+def attempt(name: str, task: Task[T]) -> Done[T]:
+    """Do one task with one thread: its result does not depend on where it is done.
+
+    Parameters
+    ----------
+    name : str
+    task : callable
+    """
+    try:
+        with _pools(len(sys.modules)).limit(limits=1):
+            return Done(name, task())
+    except Exception as error:
+        return Done(name, error=error)
+
+
+@lru_cache(maxsize=1)
+def _pools(modules: int) -> ThreadpoolController:
+    """The thread pools of this process; looking for them takes milliseconds, so only after imports."""
+    from threadpoolctl import ThreadpoolController
+
+    return ThreadpoolController()
+
+
+def shown(done: Iterator[Done[T]], what: str, total: int) -> Iterator[Done[T]]:
+    """The same, with progress in the terminal, and a line for each task that failed."""
+    for each in track(done, what, total=total):
+        if each.error is not None:
+            LOG.warning("%s: %s: %s", what, each.name, each.error)
+        yield each
+
+
+def in_turn(tasks: Mapping[str, Task[T]], what: str) -> Iterator[Done[T]]:
+    """Do tasks one after another in this process.
+
+    Examples
+    --------
+    >>> [(each.name, each.result()) for each in in_turn({"a": lambda: 1}, "counting")]
+    [('a', 1)]
+    """
+    yield from shown((attempt(name, task) for name, task in tasks.items()), what, len(tasks))
+
+
+def in_processes(count: int) -> Map:
+    """Give a map that does so many tasks at once in processes of this machine.
+
+    Parameters
+    ----------
+    count : int
+        One: :func:`in_turn`.
+    """
+    if count <= 1:
+        return in_turn
+
+    def work(tasks: Mapping[str, Callable[[], T]], what: str) -> Iterator[Done[T]]:
+        if len(tasks) <= 1:
+            yield from in_turn(tasks, what)
+            return
+        from joblib import Parallel, delayed
+
+        parallel = Parallel(n_jobs=count, return_as="generator_unordered")
+        done = parallel(delayed(attempt)(name, task) for name, task in tasks.items())
+        yield from shown(done, what, len(tasks))
+
+    return work
+
+
+def all_done(work: Map, tasks: Mapping[str, Task[T]], what: str) -> dict[str, Done[T]]:
+    """Do all tasks; what became of each, in the tasks' own order."""
+    found = {each.name: each for each in work(tasks, what)}
+    return {name: found[name] for name in tasks}
+
+
+@dataclass(frozen=True)
+class Block(Generic[T]):
+    """Several short tasks as one, so that handing them over costs less than doing them.
+
+    Attributes
+    ----------
+    tasks : mapping
+        Name -> task.
+    """
+
+    tasks: Mapping[str, Task[T]]
+
+    def __call__(self) -> dict[str, Done[T]]:
+        """Do all; one that fails does not stop the others."""
+        found = {}
+        for name, task in self.tasks.items():
+            try:
+                found[name] = Done(name, task())
+            except Exception as error:
+                found[name] = Done(name, error=error)
+        return found
+
+    def split(self) -> dict[str, Block[T]]:
+        """Each task as a block of its own: to find the one that ends its process."""
+        return {name: Block({name: task}) for name, task in self.tasks.items()}
+
+    def join(self, parts: list[dict[str, Done[T]]]) -> dict[str, Done[T]]:
+        """What the blocks of :meth:`split` gave, as if this one had been done."""
+        return {name: done for part in parts for name, done in part.items()}
+
+    def lost(self, reason: str) -> dict[str, Done[T]]:
+        """What a block of one task gives that ends its process."""
+        return {name: Done(name, error=LostTaskError(reason)) for name in self.tasks}
+
+
+def in_blocks(work: Map, tasks: Mapping[str, Task[T]], what: str, size: int = 100) -> Iterator[Done[T]]:
+    """Do short tasks, so many together; each outcome by its own name, in the tasks' order within a block.
+
+    Parameters
+    ----------
+    work : Map
+    tasks : mapping
+    what : str
+    size : int
+        Of a block. Results do not depend on it.
+    """
+    names = list(tasks)
+    blocks = {
+        names[start]: Block({name: tasks[name] for name in names[start : start + size]})
+        for start in range(0, len(names), size)
+    }
+    for done in work(blocks, what):
+        yield from done.result().values()

@@ -1,0 +1,164 @@
+"""Files that are read together, as the bytes of one stored part of the table."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import pandas as pd
+
+from tire_pipeline.code_hash import code_hash
+from tire_pipeline.errors import TirePipelineError, chain
+from tire_pipeline.file_names import printable
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.packed import as_parquet, from_parquet, pack, unpack
+from tire_pipeline.tire_table.from_models import from_models, join_tables
+
+Load = Callable[[], TireModel]
+FILES = 250
+"""So many files are read together, about a second's work."""
+
+
+class Part(bytes):
+    """A part of the table and its rows of the report, packed; ``failures`` are told as they come."""
+
+    @property
+    def failures(self) -> dict[str, str]:
+        """File -> why it was set aside."""
+        return {row["file"]: row["reason"] for row in unpacked(self)[1] if row["status"] == "set aside"}
+
+
+class PassingPart(Part):
+    """A part with a file that could not be opened: the next run reads it again."""
+
+    passing = True
+
+
+@dataclass(frozen=True)
+class ReadBlock:
+    """Reads some files.
+
+    Attributes
+    ----------
+    files : mapping
+        ``category/.../name.tir`` to the function that reads it.
+    """
+
+    files: Mapping[str, Load]
+
+    def __call__(self) -> Part:
+        """Read them; one that cannot be read has its reason in the report."""
+        rows: list[dict[str, Any]] = []
+        models: list[tuple[str, str, TireModel]] = []
+        kept = Part
+        for file, load in self.files.items():
+            row = _row(file)
+            rows.append(row)
+            try:
+                tire = load()
+            except Exception as error:  # a loader may wrap what went wrong
+                cause = _cause(error)
+                if cause is None:
+                    raise
+                _set_aside(row, str(cause), getattr(cause, "line", None))
+                if not isinstance(cause, TirePipelineError):
+                    kept = PassingPart
+                continue
+            _describe(row, tire)
+            models.append((file, row["category"], tire))
+        return _packed(from_models(models), rows, kept)
+
+    def split(self) -> dict[str, ReadBlock]:
+        """One file each: to find the one that ends its process."""
+        return {file: ReadBlock({file: load}) for file, load in self.files.items()}
+
+    def join(self, parts: list[bytes]) -> Part:
+        """What the blocks of :meth:`split` gave, as if this one had been done."""
+        found = [unpacked(part) for part in parts]
+        kept = PassingPart if any(isinstance(part, PassingPart) for part in parts) else Part
+        return _packed(
+            join_tables(table for table, _ in found), [row for _, rows in found for row in rows], kept
+        )
+
+    def lost(self, reason: str) -> Part:
+        """What a block of one file gives that ends its process."""
+        rows = [_row(file) for file in self.files]
+        for row in rows:
+            _set_aside(row, reason, None)
+        return _packed(from_models([]), rows, Part)
+
+
+def blocks_of(files: Mapping[str, Load]) -> dict[str, ReadBlock]:
+    """Divide files into blocks by their names: a file that is new changes one block only.
+
+    Returns
+    -------
+    dict
+        A name that says all that the block's part depends on -> the block. Files that cannot say whether
+        they have changed (:meth:`.TirLoader.fingerprint`) are read every time.
+    """
+    code = code_hash("tir", "magic_formula", "tire_table")
+    count = 1
+    while count * FILES < len(files):
+        count *= 2
+    members: list[dict[str, Load]] = [{} for _ in range(count)]
+    for file in sorted(files):
+        members[int(hashlib.sha256(file.encode()).hexdigest()[:8], 16) % count][file] = files[file]
+    return {
+        f"{code}/{number:06d}-{_digest(block)}.zip": ReadBlock(block)
+        for number, block in enumerate(members)
+        if block
+    }
+
+
+def unpacked(part: bytes) -> tuple[pd.DataFrame, list[dict[str, Any]]]:
+    """The table and the rows of the report."""
+    members = unpack(part)
+    return from_parquet(members["table.parquet"]), json.loads(members["rows.json"])
+
+
+def _packed(table: pd.DataFrame, rows: list[dict[str, Any]], kept: type[Part]) -> Part:
+    content = {"table.parquet": as_parquet(table), "rows.json": json.dumps(rows).encode()}
+    return kept(pack(content))
+
+
+def _digest(block: Mapping[str, Load]) -> str:
+    total = hashlib.sha256()
+    for file, load in block.items():
+        total.update(f"{file}\0{_fingerprint(load)}\0".encode())
+    return total.hexdigest()[:16]
+
+
+def _fingerprint(load: Load) -> str:
+    own = getattr(load, "fingerprint", None)
+    if own is not None:
+        return str(own())
+    import uuid
+
+    return uuid.uuid4().hex
+
+
+def _row(file: str) -> dict[str, Any]:
+    category = file.split("/", 1)[0] if "/" in file else ""
+    row = {"file": file, "category": category, "status": "read", "version": "", "line": None}
+    return row | {"reason": "", "defaulted": "", "notes": ""}
+
+
+def _set_aside(row: dict[str, Any], reason: str, line: int | None) -> None:
+    row |= {"status": "set aside", "reason": printable(reason), "line": line}
+
+
+def _describe(row: dict[str, Any], tire: TireModel) -> None:
+    notes = tire.metadata.get("warnings", ())
+    row["version"] = tire.version
+    row["defaulted"] = " ".join(sorted(tire.defaulted))
+    row["notes"] = " | ".join(map(str, notes)) if isinstance(notes, list | tuple) else str(notes)
+
+
+def _cause(error: BaseException) -> BaseException | None:
+    """The first in the chain that is of the file, not of the program; None if there is none."""
+    wanted = (each for each in chain(error) if isinstance(each, TirePipelineError | OSError))
+    return next(wanted, None)

@@ -1,0 +1,99 @@
+"""Tasks by a scheduler and two workers: what comes back, what is set aside, what is refused."""
+
+from __future__ import annotations
+
+import math
+import os
+import pickle
+from functools import partial
+
+import cluster_tasks as tasks
+import pytest
+
+from tire_pipeline.cluster.dask_map import check_address, dask_map
+from tire_pipeline.cluster.parameters import ClusterParameters
+from tire_pipeline.errors import DomainError, TirError
+from tire_pipeline.tasks import Block, LostTaskError, all_done, in_blocks, in_processes, in_turn
+
+
+def test_every_result_comes_back_by_its_name(work):
+    wanted = {str(n): partial(tasks.double, n) for n in range(50)}
+    assert {n: d.result() for n, d in all_done(work, wanted, "counting").items()} == {
+        n: d.result() for n, d in all_done(in_turn, wanted, "counting").items()
+    }
+
+
+@pytest.mark.parametrize("where", ["here", "processes", "cluster"])
+def test_an_error_crosses_with_all_that_it_says(where, request):
+    how = {"here": in_turn, "processes": in_processes(2)}
+    chosen = how[where] if where in how else request.getfixturevalue("work")
+    wanted = {"good": partial(tasks.double, 1), "bad": partial(tasks.fails, "a.tir")}
+    done = all_done(chosen, wanted, "counting")
+    assert done["good"].result() == 2
+    error = done["bad"].error
+    assert type(error) is TirError
+    assert (error.line, str(error)) == (3, "a.tir:3: no tire -> mend it")
+
+
+def test_a_worker_that_dies_is_replaced_and_all_is_done(work, tmp_path):
+    wanted = {str(n): partial(tasks.dies_once, tmp_path / "once", n) for n in range(20)}
+    assert sorted(d.result() for d in work(wanted, "counting")) == list(range(20))
+    assert (tmp_path / "once").read_text()
+
+
+def test_a_task_that_kills_its_worker_is_set_aside_by_its_name(work, tmp_path):
+    wanted = {str(n): partial(tasks.double, n) for n in range(20)}
+    wanted["killer"] = partial(tasks.dies, tmp_path / "log")
+    done = all_done(work, wanted, "counting")
+    assert [done[str(n)].result() for n in range(20)] == [2 * n for n in range(20)]
+    assert isinstance(done["killer"].error, LostTaskError)
+    assert "killer" in str(done["killer"].error)
+
+
+def test_the_one_killer_of_a_block_is_found_and_the_others_are_done(work, tmp_path):
+    wanted = {str(n): partial(tasks.double, n) for n in range(7)}
+    wanted["3"] = partial(tasks.dies, tmp_path / "log")
+    done = {d.name: d for d in in_blocks(work, wanted, "counting", size=4)}
+    assert [done[n].result() for n in wanted if n != "3"] == [0, 2, 4, 8, 10, 12]
+    assert isinstance(done["3"].error, LostTaskError)
+
+
+def test_a_block_is_what_its_tasks_are():
+    block = Block({"a": partial(tasks.double, 1), "b": partial(tasks.fails, "b")})
+    parts = [part() for part in block.split().values()]
+    assert pickle.dumps([d.value for d in block.join(parts).values()]) == pickle.dumps(
+        [d.value for d in block().values()]
+    )
+
+
+def test_one_thread_wherever_it_is_done(work):
+    wanted = {"sum": partial(math.fsum, [0.1] * 10)}
+    assert all_done(work, wanted, "adding")["sum"].result() == 1.0
+
+
+def test_a_scheduler_elsewhere_needs_tls(tmp_path):
+    for address in ("tcp://10.0.0.1:8786", "10.0.0.1:8786", "tcp://example.org:8786", "tcp://0.0.0.0:1"):
+        with pytest.raises(DomainError, match="only taken with TLS"):
+            check_address(ClusterParameters(scheduler=address))
+    for address in ("tcp://127.0.0.1:8786", "tcp://[::1]:8786", "localhost:8786"):
+        assert not check_address(ClusterParameters(scheduler=address))
+    with pytest.raises(DomainError, match="tls_ca is not given"):
+        check_address(ClusterParameters(scheduler="tls://10.0.0.1:8786"))
+    files = {name: str(tmp_path / name) for name in ("tls_ca", "tls_certificate", "tls_key")}
+    with pytest.raises(DomainError, match="tls_ca is no file"):
+        check_address(ClusterParameters(scheduler="tls://10.0.0.1:8786", **files))
+    for file in files.values():
+        open(file, "w").close()
+    assert check_address(ClusterParameters(scheduler="tls://10.0.0.1:8786", **files))
+
+
+def test_where_nothing_answers_a_run_says_so():
+    pytest.importorskip("distributed")
+    from dask_processes import free_port
+
+    address = f"tcp://127.0.0.1:{free_port()}"
+    with pytest.raises(DomainError, match="no Dask scheduler answers") as found:
+        dask_map(ClusterParameters(scheduler=address, wait_seconds=1))
+    assert address in str(found.value)
+    assert "make cluster" in str(found.value)
+    assert os.environ.get("DASK_SCHEDULER_ADDRESS") is None

@@ -1,0 +1,159 @@
+"""Whole runs on a cluster: the same results, nothing done twice, bad files by name."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import threading
+import time
+from functools import partial
+from pathlib import Path
+
+import cluster_tasks as tasks
+import pytest
+
+from tire_pipeline.cluster import work_map
+from tire_pipeline.datasets import ComputedFolderDataset, RecordingFolderDataset, TirFolderDataset
+from tire_pipeline.reporting.explained_recordings import (
+    ExplainParameters,
+    collect_explained,
+    explain_each,
+)
+from tire_pipeline.tire_table.read_files import IngestParameters, join_files, read_files
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture
+def chosen(cluster):
+    """The run's parameters name the cluster, as a run's hook does it."""
+    from tire_pipeline.cluster import chosen
+    from tire_pipeline.cluster.dask_map import close
+
+    chosen._CHOSEN["parameters"] = chosen.ClusterParameters(scheduler=cluster.address, wait_seconds=120)
+    yield
+    close()
+    chosen._CHOSEN["parameters"] = chosen.ClusterParameters()
+
+
+@pytest.fixture
+def raw(tmp_path):
+    """Some tires, three that are none, and two recordings."""
+    sys.path.insert(0, str(ROOT / "tests" / "retraining"))
+    from retraining_files import put, tir_text
+
+    for number in range(12):
+        put(tmp_path / "tir", f"{'AB'[number % 2]}/{number}.tir", tir_text(number))
+    for number in range(3):
+        put(tmp_path / "tir", f"A/bad{number}.tir", "no tire")
+    for number, name in enumerate(("rig_1", "rig_2")):
+        place = tmp_path / "recordings" / name
+        place.mkdir(parents=True)
+        shutil.copy(ROOT / "examples" / "tire.tir", place / "model.tir")
+        head, *lines = (ROOT / "examples" / "rig_run.csv").read_text().splitlines(keepends=True)
+        (place / "recording.csv").write_text(head + "".join(lines[number:400:2]))
+    (tmp_path / "recordings" / "bad").mkdir()
+    (tmp_path / "recordings" / "bad" / "recording.csv").write_text("time,slip_angle\n0,0.01\n")
+    return tmp_path
+
+
+def _stored(raw: Path, folder: Path) -> dict[str, bytes]:
+    """Read all files and explain all recordings with the run's workers; every file that this leaves."""
+    files = TirFolderDataset(path=str(raw / "tir")).load()
+    recordings = RecordingFolderDataset(path=str(raw / "recordings")).load()
+    blocks = ComputedFolderDataset(path=str(folder / "blocks"), one_after_another=True)
+    blocks.save(read_files(files))
+    table, report, _ = join_files(blocks.load(), IngestParameters())
+    assert list(table["file"]) == sorted(f for f in files if "bad" not in f)
+    assert (report["status"] == "set aside").sum() == 3
+    explained = ComputedFolderDataset(path=str(folder / "explained"))
+    explained.save(explain_each(recordings, ExplainParameters()))
+    reports, overview, pages, _ = collect_explained(explained.load())
+    assert list(reports) == ["rig_1/recording.csv", "rig_2/recording.csv"]
+    assert overview.set_index("recording").loc["bad/recording.csv", "problem"]
+    assert all(b"<html" in read() for read in pages.values())
+    return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
+
+
+def test_results_are_the_same_to_the_last_bit(raw, request):
+    alone = _stored(raw, raw / "alone")
+    request.getfixturevalue("chosen")
+    assert work_map().__class__.__name__ == "_DaskMap"
+    assert _stored(raw, raw / "clustered") == alone
+    assert len(alone) >= 6
+
+
+@pytest.mark.slow
+def test_a_run_of_the_environment_cluster(raw, cluster):
+    conf = raw / "conf"
+    shutil.copytree(ROOT / "conf", conf)
+    (conf / "cluster" / "globals.yml").write_text(f"data: {raw}/data\ntir_folder: {raw}/tir\n")
+    command = [sys.executable, "-m", "kedro", "run", "--env", "cluster", "--conf-source", str(conf)]
+    here = {**os.environ, "OMP_NUM_THREADS": "1", "TIRE_PIPELINE_SCHEDULER": cluster.address}
+    arguments = ["--pipeline", "ingest_tir", "--params", "cluster.wait_seconds=120"]
+    done = subprocess.run(
+        [*command, *arguments], cwd=ROOT, env=here, capture_output=True, text=True, check=False, timeout=500
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "Dask workers at" in done.stdout + done.stderr
+    assert "A/bad0.tir is set aside" in " ".join((done.stdout + done.stderr).split())
+
+
+def test_a_killed_scheduler_costs_what_was_under_way_only(tmp_path, chosen, cluster):
+    from dask_processes import Processes
+
+    from tire_pipeline.cluster import chosen as module
+
+    own = Processes(tmp_path)
+    module._CHOSEN["parameters"] = module.ClusterParameters(scheduler=own.address, wait_seconds=120)
+    dataset = ComputedFolderDataset(path=str(tmp_path / "out"))
+    work = {f"{n:02d}": partial(tasks.slow_bytes, tmp_path / f"calls{n:02d}", n) for n in range(40)}
+
+    def kill() -> None:
+        while not (tmp_path / "out" / "05").exists():
+            time.sleep(0.02)
+        own.kill_scheduler()
+
+    killer = threading.Thread(target=kill)
+    killer.start()
+    try:
+        with pytest.raises(Exception, match="the Dask scheduler is gone") as found:
+            dataset.save(work)
+    finally:
+        killer.join()
+        own.end()
+    assert "run again" in str(found.value)
+    done = {path.name for path in (tmp_path / "out").glob("??")}
+    assert 0 < len(done) < 40
+    assert not dataset.exists()
+    module._CHOSEN["parameters"] = module.ClusterParameters(scheduler=cluster.address, wait_seconds=120)
+    dataset.save(work)
+    assert [read() for read in dataset.load().values()] == [str(n).encode() for n in range(40)]
+    assert all((tmp_path / f"calls{name}").read_text() == "x" for name in done)
+
+
+def test_a_file_that_ends_its_reader_is_in_the_report_by_name(tmp_path, chosen):
+    from tire_pipeline.datasets.tir_folder import TirLoader
+
+    good = ROOT / "examples" / "tire.tir"
+    files = {f"A/{n}.tir": TirLoader(str(good)) for n in range(3)}
+    files["A/killer.tir"] = partial(tasks.dies, tmp_path / "log")
+    dataset = ComputedFolderDataset(path=str(tmp_path / "blocks"), one_after_another=True)
+    dataset.save(read_files(files))
+    table, report, summary = join_files(dataset.load(), IngestParameters())
+    assert table["file"].tolist() == ["A/0.tir", "A/1.tir", "A/2.tir"]
+    assert summary["set_aside"] == 1
+    row = report.set_index("file").loc["A/killer.tir"]
+    assert row["status"] == "set aside"
+    assert "died three times" in row["reason"]
+
+
+def test_work_that_may_not_miss_a_part_names_it_after_all_else_is_stored(tmp_path, chosen):
+
+    work = {f"{n}": partial(tasks.slow_bytes, tmp_path / f"calls{n}", n) for n in range(5)}
+    work["killer"] = partial(tasks.dies, tmp_path / "log")
+    with pytest.raises(Exception, match="1 of 6 could not be computed; the first: killer"):
+        ComputedFolderDataset(path=str(tmp_path / "out")).save(work)
+    assert {path.name for path in (tmp_path / "out").iterdir()} == set("01234")

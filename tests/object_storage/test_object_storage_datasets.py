@@ -1,0 +1,242 @@
+"""Datasets in a bucket: whole or not at all, and never over what another run has written."""
+
+from __future__ import annotations
+
+import os
+import pickle
+from functools import partial
+
+import pandas as pd
+import pytest
+from kedro.io import DatasetError, Version
+
+from tire_pipeline.datasets import (
+    ComputedFolderDataset,
+    HtmlPageDataset,
+    IngestStoreDataset,
+    MadeFilesDataset,
+    RecordingFolderDataset,
+    ReleaseDataset,
+    StateDataset,
+    TextFolderDataset,
+    TirFolderDataset,
+)
+from tire_pipeline.datasets.folder import FolderDataset
+from tire_pipeline.errors import DomainError
+from tire_pipeline.objects import ConflictError, Objects
+from tire_pipeline.retraining import Manifest, Store
+from tire_pipeline.retraining.release import Release, Shelf
+from tire_pipeline.runs import LostTicketError, ObjectLedger, ObjectTicket, take_turn
+
+
+@pytest.fixture
+def folder(bucket):
+    return Objects(f"{bucket}/data")
+
+
+def test_one_of_two_writers_wins(folder):
+    folder.create("note", b"1")
+    with pytest.raises(ConflictError):
+        folder.create("note", b"2")
+    content, stamp = folder.read_stamped("note")
+    folder.replace("note", b"3", stamp)
+    with pytest.raises(ConflictError):
+        folder.replace("note", b"4", stamp)
+    with pytest.raises(ConflictError):
+        folder.replace("note", b"5", None)
+    assert (content, folder.read("note")) == (b"1", b"3")
+
+
+def test_keys_are_neither_taken_from_an_address_nor_told(bucket, monkeypatch):
+    with pytest.raises(DomainError) as found:
+        Objects("s3://KEY:sEcReT@bucket/data")
+    assert "sEcReT" not in str(found.value)
+    monkeypatch.setenv("AWS_ENDPOINT_URL", "http://127.0.0.1:9")
+    import s3fs
+
+    s3fs.S3FileSystem.clear_instance_cache()
+    with pytest.raises(DomainError, match="environment right") as found:
+        Objects(f"{bucket}/data").read("x")
+    assert os.environ["AWS_SECRET_ACCESS_KEY"] not in str(found.value)
+    assert found.value.__cause__ is None
+    s3fs.S3FileSystem.clear_instance_cache()
+
+
+def test_no_folder_called_s3_is_made_here(folder, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    HtmlPageDataset(filepath=f"{folder}/page.html").save("<p>")
+    StateDataset(filepath=f"{folder}/model.npz").save({"a": 1})
+    TextFolderDataset(path=f"{folder}/texts").save({"a/b.txt": "text"})
+    assert list(tmp_path.iterdir()) == []
+    assert HtmlPageDataset(filepath=f"{folder}/page.html").load() == "<p>"
+    assert StateDataset(filepath=f"{folder}/model.npz").load() == {"a": 1}
+    assert TextFolderDataset(path=f"{folder}/texts").load() == {"a/b.txt": b"text"}
+    assert MadeFilesDataset(path=f"{folder}/texts").load() == ["a/b.txt"]
+
+
+def test_the_newest_version_of_a_model_is_loaded(folder):
+    for number in (1, 2):
+        version = Version(None, f"2026-01-0{number}T00.00.00.000Z")
+        StateDataset(filepath=f"{folder}/model.npz", version=version).save({"number": number})
+    assert StateDataset(filepath=f"{folder}/model.npz", version=Version(None, None)).load() == {"number": 2}
+
+
+def test_a_folder_of_texts_is_replaced_and_a_users_folder_is_not(folder):
+    texts = TextFolderDataset(path=f"{folder}/texts", suffix=".txt")
+    texts.save({"a.txt": "1", "b.txt": b"2"})
+    texts.save({"b.txt": lambda: b"3"})
+    assert texts.load() == {"b.txt": b"3"}
+    assert folder.names("texts") == ["texts/.made_by_tire_pipeline", "texts/b.txt"]
+    kept = TextFolderDataset(path=f"{folder}/texts", suffix=".txt", keep=True)
+    kept.save({"c.txt": "4"})
+    assert kept.load() == {"b.txt": b"3", "c.txt": b"4"}
+    folder.write("own/mine.txt", b"mine")
+    with pytest.raises(DatasetError, match="not made by this project"):
+        TextFolderDataset(path=f"{folder}/own").save({"a.txt": "1"})
+    assert folder.names("own") == ["own/mine.txt"]
+
+
+def test_a_folder_of_texts_whose_write_was_killed_is_not_used(folder):
+    texts = TextFolderDataset(path=f"{folder}/texts")
+    texts.save({"a.txt": "1", "b.txt": "2"})
+
+    def killed() -> bytes:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        texts.save({"a.txt": "3", "b.txt": killed})
+    with pytest.raises(DatasetError, match="stopped before it was done"):
+        texts.load()
+    texts.save({"a.txt": "5"})
+    assert texts.load() == {"a.txt": b"5"}
+    folder.write("texts/a.txt", b"changed")
+    with pytest.raises(DatasetError, match="changed since"):
+        texts.load()
+
+
+def test_what_is_computed_is_not_computed_again(folder, tmp_path):
+    def count(name: str) -> bytes:
+        with (tmp_path / name).open("a") as file:
+            file.write("x")
+        return name.encode()
+
+    dataset = ComputedFolderDataset(path=f"{folder}/out", one_after_another=True)
+    dataset.save({"k/a": partial(count, "a")})
+    dataset.save({"k/a": partial(count, "a"), "k/b": partial(count, "b")})
+    reads = pickle.loads(pickle.dumps(dataset.load()))  # workers read, too
+    assert {name: read() for name, read in reads.items()} == {"k/a": b"a", "k/b": b"b"}
+    assert [(tmp_path / name).read_text() for name in "ab"] == ["x", "x"]
+
+
+def test_the_store_of_files_counts_when_its_manifest_does(folder):
+    dataset = IngestStoreDataset(path=f"{folder}/ingested")
+    assert len(dataset.load().table) == 0
+    one = Store(Manifest(sequence=1), pd.DataFrame({"file": ["a"]}))
+    dataset.save(one)
+    assert dataset.load().table["file"].tolist() == ["a"]
+    with pytest.raises(DatasetError, match="another run has stored"):
+        dataset.save(one)  # began before the first was stored
+    before = dataset.load()
+    folder.write("ingested/table-000009-stray.parquet", b"of a run that was killed")
+    assert dataset.load().table["file"].tolist() == ["a"]
+    dataset.save(
+        Store(Manifest(revision=before.manifest.revision, sequence=2), pd.DataFrame({"file": ["b"]}))
+    )
+    assert dataset.load().table["file"].tolist() == ["b"]
+    assert len(folder.names("ingested")) == 2
+
+
+def test_a_store_that_changes_during_the_write_is_left_as_it_is(folder, monkeypatch):
+    dataset = IngestStoreDataset(path=f"{folder}/ingested")
+    dataset.save(Store(Manifest(sequence=1), pd.DataFrame({"file": ["a"]})))
+    before = dataset.load()
+    write = Objects.write
+
+    def meanwhile(self, name, content):
+        write(self, name, content)
+        if name.startswith("table-"):
+            monkeypatch.setattr(Objects, "write", write)
+            own = IngestStoreDataset(path=f"{folder}/ingested")
+            manifest = Manifest(revision=before.manifest.revision, sequence=2)
+            own.save(Store(manifest, pd.DataFrame({"file": ["other"]})))
+
+    monkeypatch.setattr(Objects, "write", meanwhile)
+    manifest = Manifest(revision=before.manifest.revision, sequence=2)
+    with pytest.raises(DatasetError, match="another run has stored meanwhile"):
+        dataset.save(Store(manifest, pd.DataFrame({"file": ["mine"]})))
+    assert dataset.load().table["file"].tolist() == ["other"]
+
+
+def test_the_record_of_releases_is_replaced_by_one_run_only(folder):
+    dataset = ReleaseDataset(path=f"{folder}/released")
+    assert dataset.load() == Shelf()
+    event = {"event": "refused", "time": "now", "model": "m", "reason": "worse"}
+    first = Release()._with(event)
+    dataset.save(Shelf(first))
+    assert dataset.load().release == Release.from_dict(first.to_dict())
+    with pytest.raises(DatasetError, match="another run has stored"):
+        dataset.save(Shelf(Release()._with({**event, "model": "other"})))
+
+
+def test_files_of_a_bucket_are_read_with_their_sidecars(folder, tmp_path):
+    from pathlib import Path
+
+    example = Path(__file__).resolve().parents[2] / "examples" / "tire.tir"
+    folder.write("A/one.tir", example.read_bytes())
+    folder.write("A/.hidden.tir", b"no")
+    folder.write("A/bad.TIR", b"no tire")
+    loaders = TirFolderDataset(path=str(folder)).load()
+    assert list(loaders) == ["A/bad.TIR", "A/one.tir"]
+    assert loaders["A/one.tir"]().path == f"{folder}/A/one.tir"
+    before = loaders["A/one.tir"].fingerprint()
+    assert TirFolderDataset(path=str(folder)).load()["A/one.tir"].fingerprint() == before
+    folder.write("A/one.tir", example.read_bytes() + b"\n")
+    assert TirFolderDataset(path=str(folder)).load()["A/one.tir"].fingerprint() != before
+    with pytest.raises(DatasetError, match="local or mounted"):
+        FolderDataset(path=str(folder)).load()
+
+
+def test_a_recording_of_a_bucket_finds_its_tire(folder):
+    from pathlib import Path
+
+    examples = Path(__file__).resolve().parents[2] / "examples"
+    folder.write("rig/model.tir", (examples / "tire.tir").read_bytes())
+    folder.write("rig/run.csv", (examples / "rig_run.csv").read_bytes())
+    folder.write("alone/run.csv", (examples / "rig_run.csv").read_bytes())
+    loaders = RecordingFolderDataset(path=str(folder)).load()
+    tire, recording = loaders["rig/run.csv"]()
+    assert tire.path == f"{folder}/rig/model.tir"
+    assert len(recording) > 100
+    with pytest.raises(Exception, match=f"{folder}/alone/run.csv: 0 .tir files"):
+        loaders["alone/run.csv"]()
+
+
+def test_a_killed_runs_results_go_and_a_living_run_is_named(folder):
+    place = "07/x.csv/v1"
+    dead = ObjectTicket.draw(folder, run="v1", places=[place, "../other"], beat_seconds=0.05)
+    folder.write(f"{place}/x.csv", b"half")
+    folder.write("07/x.csv/v0/x.csv", b"whole")
+    living = ObjectTicket.draw(folder, run="v2", beat_seconds=0.05)
+    with pytest.raises(DomainError, match="is alive"):
+        take_turn(living, ledger=ObjectLedger(living, 5.0))
+    dead._stop.set()  # as if its process had been killed
+    take_turn(living, ledger=ObjectLedger(living, 0.5), wait_seconds=60)
+    assert folder.names("07") == ["07/x.csv/v0/x.csv"]
+    with pytest.raises(LostTicketError):
+        dead.check()
+    living.check()
+    living.end()
+
+
+def test_a_run_that_was_declared_dead_and_wakes_is_cleared_again(folder):
+    place = "07/x.csv/v1"
+    slept = ObjectTicket.draw(folder, run="v1", places=[place], beat_seconds=0.05)
+    slept._stop.set()
+    second = ObjectTicket.draw(folder, run="v2", beat_seconds=0.05)
+    take_turn(second, ledger=ObjectLedger(second, 0.5))
+    folder.write(f"{place}/x.csv", b"the write that was under way")
+    second.end()
+    third = ObjectTicket.draw(folder, run="v3", beat_seconds=0.05)
+    take_turn(third, ledger=ObjectLedger(third, 0.5))
+    assert folder.names("07") == []
+    third.end()

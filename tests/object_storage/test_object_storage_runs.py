@@ -1,0 +1,124 @@
+"""Whole runs from a bucket to the same bucket."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from kedro.framework.session import KedroSession
+from kedro.framework.startup import bootstrap_project
+from moto_keys import KEY, SECRET
+
+from tire_pipeline.objects import Objects
+
+pytestmark = pytest.mark.slow
+ROOT = Path(__file__).resolve().parents[2]
+QUICK = "one_run_at_a_time.expiry_seconds=3"
+
+
+@pytest.fixture
+def data(bucket):
+    return Objects(f"{bucket}/tires")
+
+
+@pytest.fixture
+def kedro(data, tmp_path):
+    """Starts ``kedro run --env small`` with all data in the bucket."""
+    conf = tmp_path / "conf"
+    shutil.copytree(ROOT / "conf", conf)
+    text = f"data: {data}\ntir_folder: {data}/01_raw/tir\n"
+    (conf / "small" / "globals.yml").write_text(text)
+    said = []
+
+    def start(*arguments: str) -> subprocess.Popen[str]:
+        command = [sys.executable, "-m", "kedro", "run", "--env", "small", "--conf-source", str(conf)]
+        log = (tmp_path / f"log{len(said)}").open("w+")
+        said.append(log)
+        here = {**os.environ, "OMP_NUM_THREADS": "1"}
+        command += arguments
+        process = subprocess.Popen(command, cwd=ROOT, env=here, stdout=log, stderr=log, text=True)
+        process.said = lambda: Path(log.name).read_text()
+        return process
+
+    yield start
+    for log in said:
+        text = Path(log.name).read_text()
+        assert SECRET not in text
+        assert KEY not in text
+    assert not (ROOT / "s3:").exists()
+
+
+def _done(process) -> str:
+    assert process.wait(timeout=500) == 0, process.said()
+    return process.said()
+
+
+def _run(conf: Path, *pipelines: str, **parameters: object) -> None:
+    """The same in this process: a run takes long to start."""
+    bootstrap_project(ROOT)
+    with KedroSession.create(
+        project_path=ROOT, env="small", conf_source=str(conf), runtime_params=parameters
+    ) as session:
+        session.run(pipeline_names=list(pipelines))
+
+
+def test_files_and_recordings_go_from_bucket_to_bucket(kedro, data, tmp_path, capsys):
+    conf = tmp_path / "conf"
+    _run(conf, "make_fleet")
+    _run(conf, "ingest_tir", "dedupe_filter", "normalize", "translate", translate={"trials": 12})
+    for name, source in (("model.tir", "tire.tir"), ("recording.csv", "rig_run.csv")):
+        data.write(f"01_raw/recordings/rig/{name}", (ROOT / "examples" / source).read_bytes())
+    _run(conf, "explain_mismatch")
+    said = capsys.readouterr()
+    assert SECRET not in said.out + said.err
+    names = data.names()
+    front = data.read("08_reporting/index.html").decode()
+    for wanted in (
+        "08_reporting/translated_files.html",
+        "08_reporting/mismatch.html",
+        "08_reporting/mismatch/rig/recording.html",
+        "08_reporting/tables/translation_report.csv",
+    ):
+        assert wanted in names
+        assert wanted.removeprefix("08_reporting/") in front
+    assert any(name.startswith("07_model_output/translated/") and name.endswith(".tir") for name in names)
+    assert any(name.startswith("06_models/translator.npz/") for name in names)
+    for name in names:
+        content = data.read(name)
+        assert SECRET.encode() not in content
+        assert KEY.encode() not in content
+
+
+def test_what_a_killed_run_wrote_is_taken_back(kedro, data):
+    example = (ROOT / "examples" / "tire.tir").read_bytes()
+    for number in range(3):
+        data.write(f"01_raw/tir/A/{number}.tir", example.replace(b"\n", f"\n$ {number}\n".encode(), 1))
+    few = f"{QUICK},dedupe_filter.minimum_per_category=1"
+    first = kedro("--pipelines", "ingest_tir,dedupe_filter", "--params", few)
+    while not any("tire_table_raw.parquet" in name for name in data.names("02_intermediate")):
+        assert first.poll() is None, first.said()
+        time.sleep(0.05)
+    first.send_signal(signal.SIGKILL)
+    first.wait()
+    half = {name for name in data.names("02_intermediate") if "tire_table_raw" in name}
+    assert half
+    said = _done(kedro("--pipeline", "ingest_tir", "--params", QUICK))
+    assert "its results are taken back" in " ".join(said.split())
+    left = {name for name in data.names("02_intermediate") if "tire_table_raw" in name}
+    assert len(left) == 1
+    assert not left & half
+
+
+def test_a_bucket_that_is_not_there_is_one_line(kedro, tmp_path):
+    conf = tmp_path / "conf" / "small" / "globals.yml"
+    conf.write_text("data: s3://no-such-bucket/x\ntir_folder: s3://no-such-bucket/x\n")
+    process = kedro("--pipeline", "ingest_tir")
+    assert process.wait(timeout=300) == 1
+    assert "Traceback" not in process.said()
+    assert "s3://no-such-bucket" in process.said()
