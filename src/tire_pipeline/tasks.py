@@ -15,25 +15,25 @@ from tire_pipeline.progress import track
 if TYPE_CHECKING:
     from threadpoolctl import ThreadpoolController
 
-T = TypeVar("T")
-T_co = TypeVar("T_co", covariant=True)
-LOG = logging.getLogger(__name__)
+_T = TypeVar("_T")
+_T_co = TypeVar("_T_co", covariant=True)
+_LOG = logging.getLogger(__name__)
 
 
 class LostTaskError(DomainError):
     """A task has ended the process that did it, again and again."""
 
 
-class Task(Protocol[T_co]):
+class Task(Protocol[_T_co]):
     """A piece of work: a function without arguments that can be pickled."""
 
-    def __call__(self) -> T_co:
+    def __call__(self) -> _T_co:
         """Do it."""
         ...
 
 
 @dataclass(frozen=True)
-class Done(Generic[T]):
+class Done(Generic[_T]):
     """What became of a task.
 
     Attributes
@@ -45,25 +45,25 @@ class Done(Generic[T]):
     """
 
     name: str
-    value: T | None = None
+    value: _T | None = None
     error: Exception | None = None
 
-    def result(self) -> T:
+    def result(self) -> _T:
         """The value; raises what the task raised."""
         if self.error is not None:
             raise self.error
-        return cast(T, self.value)
+        return cast(_T, self.value)
 
 
 class Map(Protocol):
     """Does tasks, one after another or many at once, and gives each when it is done, in any order."""
 
-    def __call__(self, tasks: Mapping[str, Task[T]], what: str) -> Iterator[Done[T]]:
+    def __call__(self, tasks: Mapping[str, Task[_T]], what: str) -> Iterator[Done[_T]]:
         """Do the tasks; ``what`` is said of them while they are done."""
         ...
 
 
-def attempt(name: str, task: Task[T]) -> Done[T]:
+def attempt(name: str, task: Task[_T]) -> Done[_T]:
     """Do one task with one thread: its result does not depend on where it is done.
 
     Parameters
@@ -86,15 +86,15 @@ def _pools(modules: int) -> ThreadpoolController:
     return ThreadpoolController()
 
 
-def shown(done: Iterator[Done[T]], what: str, total: int) -> Iterator[Done[T]]:
+def shown(done: Iterator[Done[_T]], what: str, total: int) -> Iterator[Done[_T]]:
     """The same, with progress in the terminal, and a line for each task that failed."""
     for each in track(done, what, total=total):
         if each.error is not None:
-            LOG.warning("%s: %s: %s", what, each.name, each.error)
+            _LOG.warning("%s: %s: %s", what, each.name, each.error)
         yield each
 
 
-def in_turn(tasks: Mapping[str, Task[T]], what: str) -> Iterator[Done[T]]:
+def in_turn(tasks: Mapping[str, Task[_T]], what: str) -> Iterator[Done[_T]]:
     """Do tasks one after another in this process.
 
     Examples
@@ -116,7 +116,7 @@ def in_processes(count: int) -> Map:
     if count <= 1:
         return in_turn
 
-    def work(tasks: Mapping[str, Callable[[], T]], what: str) -> Iterator[Done[T]]:
+    def work(tasks: Mapping[str, Callable[[], _T]], what: str) -> Iterator[Done[_T]]:
         if len(tasks) <= 1:
             yield from in_turn(tasks, what)
             return
@@ -129,14 +129,14 @@ def in_processes(count: int) -> Map:
     return work
 
 
-def all_done(work: Map, tasks: Mapping[str, Task[T]], what: str) -> dict[str, Done[T]]:
+def all_done(work: Map, tasks: Mapping[str, Task[_T]], what: str) -> dict[str, Done[_T]]:
     """Do all tasks; what became of each, in the tasks' own order."""
     found = {each.name: each for each in work(tasks, what)}
     return {name: found[name] for name in tasks}
 
 
 @dataclass(frozen=True)
-class Block(Generic[T]):
+class Block(Generic[_T]):
     """Several short tasks as one, so that handing them over costs less than doing them.
 
     Attributes
@@ -145,9 +145,9 @@ class Block(Generic[T]):
         Name -> task.
     """
 
-    tasks: Mapping[str, Task[T]]
+    tasks: Mapping[str, Task[_T]]
 
-    def __call__(self) -> dict[str, Done[T]]:
+    def __call__(self) -> dict[str, Done[_T]]:
         """Do all; one that fails does not stop the others."""
         found = {}
         for name, task in self.tasks.items():
@@ -157,20 +157,20 @@ class Block(Generic[T]):
                 found[name] = Done(name, error=error)
         return found
 
-    def split(self) -> dict[str, Block[T]]:
+    def split(self) -> dict[str, Block[_T]]:
         """Each task as a block of its own: to find the one that ends its process."""
         return {name: Block({name: task}) for name, task in self.tasks.items()}
 
-    def join(self, parts: list[dict[str, Done[T]]]) -> dict[str, Done[T]]:
+    def join(self, parts: list[dict[str, Done[_T]]]) -> dict[str, Done[_T]]:
         """What the blocks of :meth:`split` gave, as if this one had been done."""
         return {name: done for part in parts for name, done in part.items()}
 
-    def lost(self, reason: str) -> dict[str, Done[T]]:
+    def lost(self, reason: str) -> dict[str, Done[_T]]:
         """What a block of one task gives that ends its process."""
         return {name: Done(name, error=LostTaskError(reason)) for name in self.tasks}
 
 
-def in_blocks(work: Map, tasks: Mapping[str, Task[T]], what: str, size: int = 100) -> Iterator[Done[T]]:
+def in_blocks(work: Map, tasks: Mapping[str, Task[_T]], what: str, size: int = 100) -> Iterator[Done[_T]]:
     """Do short tasks, so many together; each outcome by its own name, in the tasks' order within a block.
 
     Parameters

@@ -14,7 +14,7 @@ from tire_pipeline.cluster.parameters import ClusterParameters
 from tire_pipeline.errors import DomainError
 from tire_pipeline.tasks import Done, Map, Task, in_processes
 
-T = TypeVar("T")
+_T = TypeVar("_T")
 _CHOSEN = {"parameters": ClusterParameters()}
 
 
@@ -40,11 +40,11 @@ class _RunMap:
 
     without_cluster: int | None
 
-    def __call__(self, tasks: Mapping[str, Task[T]], what: str) -> Iterator[Done[T]]:
+    def __call__(self, tasks: Mapping[str, Task[_T]], what: str) -> Iterator[Done[_T]]:
         return work_map(without_cluster=self.without_cluster)(tasks, what)
 
 
-def given_map(function: Callable[..., T], *, without_cluster: int | None = None) -> Callable[..., T]:
+def given_map(function: Callable[..., _T], *, without_cluster: int | None = None) -> Callable[..., _T]:
     """Give a node's function the run's map as its argument ``work``.
 
     Parameters

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
     from tire_pipeline.cluster.parameters import ClusterParameters
 
-T = TypeVar("T")
-LOG = logging.getLogger(__name__)
+_T = TypeVar("_T")
+_LOG = logging.getLogger(__name__)
 _AHEAD = 3
 """So many tasks a thread are with the scheduler at once; a million of them would fill its memory."""
 _COMPUTING = ("numpy", "pandas", "pyarrow", "scikit-learn", "scipy", "numba", "torch")
@@ -121,7 +121,7 @@ def _connected(chosen: ClusterParameters) -> Client:
         client.close()
         raise DomainError("this scheduler has no workers", where=where, todo=todo) from error
     _same_code(client, where)
-    LOG.info("%d Dask workers at %s; their dashboard: %s", _workers(client), where, client.dashboard_link)
+    _LOG.info("%d Dask workers at %s; their dashboard: %s", _workers(client), where, client.dashboard_link)
     return client
 
 
@@ -150,7 +150,7 @@ def _workers(client: Client) -> int:
     return len(client.scheduler_info(n_workers=-1)["workers"])
 
 
-def run_task(name: str, task: Task[T]) -> Done[T]:
+def run_task(name: str, task: Task[_T]) -> Done[_T]:
     """On a worker: do a task, or raise; what fails within it is told on the dashboard's page of logs.
 
     The value comes in a wrapper: Dask sends bytes of a special class as plain ones.
@@ -166,10 +166,10 @@ class _DaskMap:
         self._client = client
         self._address = address
 
-    def __call__(self, tasks: Mapping[str, Task[T]], what: str) -> Iterator[Done[T]]:
+    def __call__(self, tasks: Mapping[str, Task[_T]], what: str) -> Iterator[Done[_T]]:
         yield from shown(self._done(tasks, what), what, len(tasks))
 
-    def _done(self, tasks: Mapping[str, Task[T]], what: str) -> Iterator[Done[T]]:
+    def _done(self, tasks: Mapping[str, Task[_T]], what: str) -> Iterator[Done[_T]]:
         from distributed import KilledWorker, as_completed
 
         waiting = iter(tasks)
@@ -184,7 +184,7 @@ class _DaskMap:
                 future.release()
                 self._submit(futures, running, itertools.islice(waiting, self._room(running)), tasks, what)
                 if isinstance(done.error, KilledWorker):
-                    LOG.warning("%s: %s: its worker died; it is tried alone", what, name)
+                    _LOG.warning("%s: %s: its worker died; it is tried alone", what, name)
                     lost.append(name)
                 else:
                     yield done
@@ -203,7 +203,7 @@ class _DaskMap:
         futures: Any,
         running: dict[str, str],
         names: Iterator[str],
-        tasks: Mapping[str, Task[T]],
+        tasks: Mapping[str, Task[_T]],
         what: str,
     ) -> None:
         for name in names:
@@ -211,11 +211,11 @@ class _DaskMap:
             running[future.key] = name
             futures.add(future)
 
-    def _future(self, name: str, task: Task[T], what: str) -> Future[Done[T]]:
+    def _future(self, name: str, task: Task[_T], what: str) -> Future[Done[_T]]:
         key = f"{what.replace(' ', '_').replace('-', '_')}-{name}-{uuid.uuid4().hex[:8]}"
         return self._client.submit(run_task, name, task, key=key, pure=False)
 
-    def _outcome(self, name: str, future: Future[Done[T]]) -> Done[T]:
+    def _outcome(self, name: str, future: Future[Done[_T]]) -> Done[_T]:
         try:
             error = future.exception()
             if error is None:
@@ -233,14 +233,14 @@ class _DaskMap:
             todo="start it again, then run again: what was stored is not done again",
         )
 
-    def _alone(self, name: str, task: Task[T], what: str) -> Done[T]:
+    def _alone(self, name: str, task: Task[_T], what: str) -> Done[_T]:
         """Do a task whose worker died with no other task under way, so that the death is its own.
 
         A task of several files is divided, until the file is found.
         """
         from distributed import KilledWorker
 
-        parts: Mapping[str, Task[T]] = getattr(task, "split", dict)()
+        parts: Mapping[str, Task[_T]] = getattr(task, "split", dict)()
         if len(parts) > 1:
             done = [self._alone(each, part, what).result() for each, part in parts.items()]
             return Done(name, task.join(done))  # type: ignore[attr-defined]
@@ -248,7 +248,7 @@ class _DaskMap:
         if not isinstance(outcome.error, KilledWorker):
             return outcome
         only = next(iter(parts), name)
-        LOG.warning("%s: %s is set aside: %s", what, only, _DEATHS)
+        _LOG.warning("%s: %s is set aside: %s", what, only, _DEATHS)
         if hasattr(task, "lost"):
             return Done(name, task.lost(_DEATHS))
         todo = "take it out, or give the workers more memory"

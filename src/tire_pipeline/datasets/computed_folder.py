@@ -12,7 +12,7 @@ from kedro.io.core import AbstractDataset
 from tire_pipeline.cluster import work_map
 from tire_pipeline.datasets.files_at import Files, files_at
 from tire_pipeline.datasets.text_folder import _inside
-from tire_pipeline.datasets.text_objects import KEPT
+from tire_pipeline.datasets.text_objects import NEVER_DELETED
 from tire_pipeline.errors import DomainError
 from tire_pipeline.objects import Objects
 from tire_pipeline.tasks import LostTaskError
@@ -76,7 +76,7 @@ class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Com
         folder.write(self._INDEX, "\n".join(data).encode("utf-8"))
         if self._only_the_last:
             kept = {*places.values(), self._INDEX, self._AGAIN}
-            folder.delete(name for name in there - kept if name.rsplit("/", 1)[-1] not in KEPT)
+            folder.delete(name for name in there - kept if name.rsplit("/", 1)[-1] not in NEVER_DELETED)
 
     def _compute(
         self, folder: Files | Objects, missing: Mapping[str, Compute], places: Mapping[str, str], what: str

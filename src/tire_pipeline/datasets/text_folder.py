@@ -12,7 +12,7 @@ from kedro.io.core import AbstractDataset
 
 from tire_pipeline.atomic import replaced_folder
 from tire_pipeline.datasets import text_objects
-from tire_pipeline.datasets.text_objects import HEAD, KEPT, MARKER, Content, as_bytes
+from tire_pipeline.datasets.text_objects import HEAD, MARKER, NEVER_DELETED, Content, as_bytes
 from tire_pipeline.errors import DomainError
 from tire_pipeline.objects import Objects, is_remote
 from tire_pipeline.progress import track
@@ -84,7 +84,7 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content], dict[str, bytes]]
                 target = temporary / _inside(name)
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_bytes(as_bytes(text))
-            for name in KEPT:
+            for name in NEVER_DELETED:
                 if (folder / name).exists():
                     shutil.copy2(folder / name, temporary / name)
             earlier = made_here(folder) if self._keep else set()
@@ -103,7 +103,7 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content], dict[str, bytes]]
 def _belongs_to_user(folder: Path) -> bool:
     if not folder.exists() or (folder / MARKER).exists():
         return False
-    return any(p.is_file() and p.name not in KEPT for p in folder.rglob("*"))
+    return any(p.is_file() and p.name not in NEVER_DELETED for p in folder.rglob("*"))
 
 
 def made_here(folder: Path) -> set[str]:

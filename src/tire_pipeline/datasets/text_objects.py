@@ -16,7 +16,7 @@ from tire_pipeline.progress import track
 MARKER = ".made_by_tire_pipeline"
 HEAD = "Replaced as a whole on the next run. Made:"
 _TOGETHER = 50
-KEPT = (".gitkeep", "README.md")
+NEVER_DELETED = (".gitkeep", "README.md")
 _BROKEN = "Being written. Nothing here counts until that is done. Of this project:"
 Content = str | bytes | Callable[[], bytes]
 
@@ -32,7 +32,7 @@ def belongs_to_user(folder: Objects) -> bool:
     """Whether anything lies there that this project did not make."""
     if folder.exists(MARKER):
         return False
-    return any(name.rsplit("/", 1)[-1] not in KEPT for name in folder.names())
+    return any(name.rsplit("/", 1)[-1] not in NEVER_DELETED for name in folder.names())
 
 
 def made_there(folder: Objects) -> set[str]:

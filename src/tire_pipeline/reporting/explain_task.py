@@ -20,6 +20,7 @@ from tire_pipeline.mismatch import MismatchReport, explain_recordings
 from tire_pipeline.packed import Passing, pack
 
 COLUMNS = ("recording", "verdict", "summary", "effects", "alternatives", "held_out", "problem")
+PAGE = "page.html"
 Load = Callable[..., tuple[TireModel | None, pd.DataFrame]]
 
 
@@ -70,7 +71,7 @@ class ExplainTask:
         row["alternatives"] = ", ".join(a for effect in report.effects for a in effect.alternatives)
         row["held_out"] = report.held_out.recording if report.held_out else ""
         page, files = _files(report, PurePosixPath(self.name), tire)
-        head = {"row.json": json.dumps(row), "report.json": json.dumps(report.to_dict()), "page.html": page}
+        head = {"row.json": json.dumps(row), "report.json": json.dumps(report.to_dict()), PAGE: page}
         return pack({**{name: text.encode() for name, text in head.items()}, **files})
 
     def lost(self, reason: str) -> bytes:

@@ -20,10 +20,10 @@ from tire_pipeline.packed import unpack
 from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.progress import track
 from tire_pipeline.recordings.groups import by_folder, matching
-from tire_pipeline.reporting.explain_task import COLUMNS, ExplainTask, Load
+from tire_pipeline.reporting.explain_task import COLUMNS, PAGE, ExplainTask, Load
 
 Pairs = Mapping[str, Load]
-LOG = logging.getLogger(__name__)
+_LOG = logging.getLogger(__name__)
 
 
 class RecordingRule(Parameters):
@@ -116,7 +116,7 @@ def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, 
 
 def collect_explained(
     explained: Mapping[str, Callable[[], bytes]],
-) -> tuple[dict[str, Any], pd.DataFrame, dict[str, Callable[[], bytes]], dict[str, bytes]]:
+) -> tuple[dict[str, Any], pd.DataFrame, dict[str, Callable[[], bytes]], dict[str, Callable[[], bytes]]]:
     """Put together what was explained.
 
     Parameters
@@ -132,41 +132,42 @@ def collect_explained(
         ``recording, verdict, summary, effects, alternatives, held_out, problem``.
     pages : dict
         One HTML page a report, by the function that reads it: they are never in memory together.
-    corrected : dict of str to bytes
-        ``.tir`` files with the missing physics put in, and sidecars for what the format cannot hold. None
-        for a recording that leaves a question open on which all of it rests (its axes).
+    corrected : dict
+        In the same way, ``.tir`` files with the missing physics put in, and sidecars for what the format
+        cannot hold. None for a recording that leaves a question open on which all of it rests (its axes).
 
     Raises
     ------
     RecordingError
         If not one recording could be explained.
     """
-    reports: dict[str, Any] = {}
-    rows: list[dict[str, str]] = []
-    pages: dict[str, Callable[[], bytes]] = {}
-    corrected: dict[str, bytes] = {}
+    reports, rows = dict[str, Any](), list[dict[str, str]]()
+    pages, corrected = dict[str, Callable[[], bytes]](), dict[str, Callable[[], bytes]]()
     for read in track(explained.values(), "collecting reports", total=len(explained)):
         members = unpack(read())
-        row = json.loads(members.pop("row.json"))
+        row, report = json.loads(members.pop("row.json")), json.loads(members.pop("report.json"))
         rows.append(row)
-        report = json.loads(members.pop("report.json"))
         if report is None:
-            LOG.warning("%s could not be explained: %s", row["recording"], row["problem"])
+            _LOG.warning("%s could not be explained: %s", row["recording"], row["problem"])
             continue
         reports[row["recording"]] = report
-        del members["page.html"]
-        pages[str(PurePosixPath(row["recording"]).with_suffix(".html"))] = partial(_page_of, read)
-        corrected |= members
+        del members[PAGE]
+        pages[str(PurePosixPath(row["recording"]).with_suffix(".html"))] = partial(_member, read, PAGE)
+        corrected |= {name: partial(_member, read, name) for name in members}
+    _check_any(reports, rows)
+    return reports, pd.DataFrame(rows, columns=list(COLUMNS)), pages, corrected
+
+
+def _check_any(reports: Mapping[str, Any], rows: list[dict[str, str]]) -> None:
     if not reports:
         raise RecordingError(
             f"not one of {len(rows)} recordings could be explained; the first: {rows[0]['problem']}",
             todo="correct that, then run again",
         )
-    return reports, pd.DataFrame(rows, columns=list(COLUMNS)), pages, corrected
 
 
-def _page_of(read: Callable[[], bytes]) -> bytes:
-    return unpack(read())["page.html"]
+def _member(read: Callable[[], bytes], name: str) -> bytes:
+    return unpack(read())[name]
 
 
 def _chosen(recordings: Pairs, parameters: ExplainParameters) -> Pairs:

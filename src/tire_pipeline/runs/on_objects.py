@@ -22,9 +22,9 @@ from tire_pipeline.objects import ConflictError, Objects
 from tire_pipeline.runs.ticket import BEAT_SECONDS, LostTicketError, Note
 from tire_pipeline.runs.turn import ALIVE, DEAD, UNKNOWN
 
-LOG = logging.getLogger(__name__)
-FOLDER = ".runs"
-_NAME = re.compile(rf"{re.escape(FOLDER)}/(\d+)\.(json|beat|over)").fullmatch
+_LOG = logging.getLogger(__name__)
+TICKETS = ".runs"
+_NAME = re.compile(rf"{re.escape(TICKETS)}/(\d+)\.(json|beat|over)").fullmatch
 _KEPT = 50
 _BEATS = 4.0
 
@@ -159,7 +159,7 @@ class ObjectLedger:
             self.ticket.data.create(_name(note.number, "over"), b"taken")
         except ConflictError:  # it has ended meanwhile, or another was faster
             return
-        LOG.warning("An earlier run (%s) was killed; its results are taken back.", note.run or note.number)
+        _LOG.warning("An earlier run (%s) was killed; its results are taken back.", note.run or note.number)
         take_back_objects(self.ticket.data, note)
 
     def again(self) -> None:
@@ -191,11 +191,11 @@ def prune(data: Objects) -> None:
 def _states(data: Objects) -> dict[int, set[str]]:
     """Number -> which of its three objects are there."""
     found: dict[int, set[str]] = {}
-    for name in data.names(FOLDER):
+    for name in data.names(TICKETS):
         if match := _NAME(name):
             found.setdefault(int(match[1]), set()).add(match[2])
     return found
 
 
 def _name(number: int, kind: str) -> str:
-    return f"{FOLDER}/{number:06d}.{kind}"
+    return f"{TICKETS}/{number:06d}.{kind}"

@@ -22,7 +22,7 @@ FILES = 250
 """So many files are read together, about a second's work."""
 
 
-class Part(bytes):
+class TablePart(bytes):
     """A part of the table and its rows of the report, packed; ``failures`` are told as they come."""
 
     @property
@@ -31,7 +31,7 @@ class Part(bytes):
         return {row["file"]: row["reason"] for row in unpacked(self)[1] if row["status"] == "set aside"}
 
 
-class PassingPart(Part):
+class PassingPart(TablePart):
     """A part with a file that could not be opened: the next run reads it again."""
 
     passing = True
@@ -49,11 +49,11 @@ class ReadBlock:
 
     files: Mapping[str, Load]
 
-    def __call__(self) -> Part:
+    def __call__(self) -> TablePart:
         """Read them; one that cannot be read has its reason in the report."""
         rows: list[dict[str, Any]] = []
         models: list[tuple[str, str, TireModel]] = []
-        kept = Part
+        kept = TablePart
         for file, load in self.files.items():
             row = _row(file)
             rows.append(row)
@@ -75,20 +75,20 @@ class ReadBlock:
         """One file each: to find the one that ends its process."""
         return {file: ReadBlock({file: load}) for file, load in self.files.items()}
 
-    def join(self, parts: list[bytes]) -> Part:
+    def join(self, parts: list[bytes]) -> TablePart:
         """What the blocks of :meth:`split` gave, as if this one had been done."""
         found = [unpacked(part) for part in parts]
-        kept = PassingPart if any(isinstance(part, PassingPart) for part in parts) else Part
+        kept = PassingPart if any(isinstance(part, PassingPart) for part in parts) else TablePart
         return _packed(
             join_tables(table for table, _ in found), [row for _, rows in found for row in rows], kept
         )
 
-    def lost(self, reason: str) -> Part:
+    def lost(self, reason: str) -> TablePart:
         """What a block of one file gives that ends its process."""
         rows = [_row(file) for file in self.files]
         for row in rows:
             _set_aside(row, reason, None)
-        return _packed(from_models([]), rows, Part)
+        return _packed(from_models([]), rows, TablePart)
 
 
 def blocks_of(files: Mapping[str, Load]) -> dict[str, ReadBlock]:
@@ -120,7 +120,7 @@ def unpacked(part: bytes) -> tuple[pd.DataFrame, list[dict[str, Any]]]:
     return from_parquet(members["table.parquet"]), json.loads(members["rows.json"])
 
 
-def _packed(table: pd.DataFrame, rows: list[dict[str, Any]], kept: type[Part]) -> Part:
+def _packed(table: pd.DataFrame, rows: list[dict[str, Any]], kept: type[TablePart]) -> TablePart:
     content = {"table.parquet": as_parquet(table), "rows.json": json.dumps(rows).encode()}
     return kept(pack(content))
 

@@ -15,7 +15,7 @@ from tire_pipeline.parameters import Parameters
 from tire_pipeline.tire_table.from_models import join_tables
 from tire_pipeline.tire_table.read_blocks import ReadBlock, blocks_of, unpacked
 
-LOG = logging.getLogger(__name__)
+_LOG = logging.getLogger(__name__)
 _SAID = 20
 
 
@@ -73,7 +73,7 @@ def join_files(
     summary = _summary(report)
     aside = report[report["status"] == "set aside"]
     for file, reason in aside[["file", "reason"]].head(_SAID).itertuples(index=False):
-        LOG.warning("%s is set aside: %s", file, reason)
+        _LOG.warning("%s is set aside: %s", file, reason)
     if summary["set_aside"] > parameters.most_failed_share * summary["files"]:
         raise DomainError(
             f"{summary['set_aside']} of {summary['files']} files cannot be read; the first: "
