@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def cluster(tmp_path_factory):
     pytest.importorskip("distributed", reason='the extra is not installed: pip install -e ".[cluster]"')
     from dask_processes import Processes

@@ -17,7 +17,7 @@ from moto_keys import KEY, SECRET
 
 from tire_pipeline.objects import Objects
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 ROOT = Path(__file__).resolve().parents[2]
 QUICK = "one_run_at_a_time.expiry_seconds=3"
 
