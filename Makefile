@@ -82,7 +82,7 @@ cluster: install
 	@export DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES=2; \
 	$(BIN)/python -m dask scheduler --host 127.0.0.1 --port 8786 --dashboard-address 127.0.0.1:8787 & scheduler=$$!; \
 	$(BIN)/python -m dask worker tcp://127.0.0.1:8786 --host 127.0.0.1 --nworkers 2 --nthreads 1 \
-		--memory-limit 1.5GiB --no-dashboard & workers=$$!; \
+		--memory-limit 1.5GiB --dashboard-address 127.0.0.1:0 & workers=$$!; \
 	trap 'kill $$workers $$scheduler 2>/dev/null; wait' INT TERM EXIT; wait
 
 # Retraining when .tir files arrive and every night; http://127.0.0.1:3000

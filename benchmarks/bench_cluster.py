@@ -156,14 +156,14 @@ def processes(workers: int, place: Path) -> Iterator[Map]:
         port = one.getsockname()[1]
     address = f"tcp://127.0.0.1:{port}"
     parts = (
-        ("scheduler", "--port", str(port), "--no-dashboard"),
-        ("worker", address, "--nworkers", str(workers), "--nthreads", "1", "--no-dashboard"),
+        ("scheduler", "--port", str(port)),
+        ("worker", address, "--nworkers", str(workers), "--nthreads", "1"),
     )
     log = (place / "dask.log").open("ab")
     command = [sys.executable, "-m", "dask"]
     started = [
         subprocess.Popen(
-            [*command, what, "--host", "127.0.0.1", *more],
+            [*command, what, "--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:0", *more],
             stdout=log,
             stderr=log,
             cwd=place,

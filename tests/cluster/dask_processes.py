@@ -13,6 +13,9 @@ from pathlib import Path
 
 DEATHS = {"DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "2"}
 
+LOOPBACK = ("--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:0")
+"""Both are needed: without the second a worker's page of health listens on every address."""
+
 
 def free_port() -> int:
     with closing(socket.socket()) as one:
@@ -27,16 +30,16 @@ class Processes:
         self.port = port or free_port()
         self.address = f"tcp://127.0.0.1:{self.port}"
         self.folder = folder
-        self.scheduler = self._start("scheduler", "--port", str(self.port), "--no-dashboard")
+        self.scheduler = self._start("scheduler", "--port", str(self.port))
         self._wait_for_port()
         self.workers = self._start(
-            "worker", self.address, "--nworkers", "2", "--nthreads", "1", "--no-dashboard",
+            "worker", self.address, "--nworkers", "2", "--nthreads", "1",
             "--local-directory", str(folder), "--death-timeout", "20",
         )  # fmt: skip
 
     def _start(self, what: str, *arguments: str) -> subprocess.Popen[bytes]:
         log = (self.folder / f"{what}.log").open("ab")
-        command = [sys.executable, "-m", "dask", what, "--host", "127.0.0.1", *arguments]
+        command = [sys.executable, "-m", "dask", what, *LOOPBACK, *arguments]
         here = {**os.environ, **DEATHS, "PYTHONPATH": os.pathsep.join([*sys.path])}
         return subprocess.Popen(command, stdout=log, stderr=log, env=here, start_new_session=True)
 

@@ -71,6 +71,17 @@ def test_one_thread_wherever_it_is_done(work):
     assert all_done(work, wanted, "adding")["sum"].result() == 1.0
 
 
+def test_nothing_listens_but_on_loopback(cluster, work):
+    """What listens elsewhere would let others run code here."""
+    import psutil
+
+    every = [psutil.Process(each.pid) for each in (cluster.scheduler, cluster.workers)]
+    every += [child for each in every for child in each.children(recursive=True)]
+    found = [each for process in every for each in process.net_connections() if each.status == "LISTEN"]
+    assert len(found) >= 5  # scheduler, nannies, workers
+    assert {each.laddr.ip for each in found} == {"127.0.0.1"}
+
+
 def test_a_scheduler_elsewhere_needs_tls(tmp_path):
     for address in ("tcp://10.0.0.1:8786", "10.0.0.1:8786", "tcp://example.org:8786", "tcp://0.0.0.0:1"):
         with pytest.raises(DomainError, match="only taken with TLS"):

@@ -83,7 +83,7 @@ def test_recordings_of_one_folder_are_explained_together_and_one_is_held_out(hal
     error = report["held_out"]["errors"]["fy"]
     assert 0.0 < error["rms_after"] < error["rms_before"]
     assert overview["held_out"].tolist() == ["tire/two.csv"]
-    assert "Tested on a held-out recording" in pages["tire/together.html"]
+    assert b"Tested on a held-out recording" in pages["tire/together.html"]()
 
 
 @pytest.mark.skipif(not EXAMPLES.exists() and "CI" not in os.environ, reason="../shared is not here")

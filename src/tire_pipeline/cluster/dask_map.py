@@ -127,13 +127,17 @@ def _connected(chosen: ClusterParameters) -> Client:
 
 def _same_code(client: Client, where: str) -> None:
     own = code_version()
-    for worker, other in client.run(code_version).items():
+    todo = "install the same version there, and start the workers again"
+    try:
+        versions = client.run(code_version)
+    except Exception as error:  # whatever it is that a worker cannot import
+        client.close()
+        raise DomainError(f"the workers cannot run this project: {error}", where=where, todo=todo) from None
+    for worker, other in versions.items():
         if other != own:
             client.close()
             raise DomainError(
-                f"the worker {worker} runs another version of this project",
-                where=where,
-                todo="install the same version there, and start the workers again",
+                f"the worker {worker} runs another version of this project", where=where, todo=todo
             )
 
 
