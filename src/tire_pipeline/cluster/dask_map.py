@@ -212,7 +212,7 @@ class _DaskMap:
     ) -> None:
         for name in names:
             future = self._future(name, tasks[name], what)
-            running[future.key] = name
+            running[str(future.key)] = name
             futures.add(future)
 
     def _future(self, name: str, task: Task[_T], what: str) -> Future[Done[_T]]:
