@@ -32,7 +32,7 @@ def measure(size: float, seed: int, names: list[str]) -> pd.DataFrame:
     """Measure the bands of each translator on one additive fleet."""
     target, training, judges = load_fleet("additive", size, seed, ("tuning",))
     judge = judges["tuning"]
-    actors = judge.inputs["category"].to_numpy(str)
+    organisations = judge.inputs["category"].to_numpy(str)
     rows = []
     for name in names:
         translator = labelled(name).fit(training, target=target, seed=seed)
@@ -44,14 +44,14 @@ def measure(size: float, seed: int, names: list[str]) -> pd.DataFrame:
             place = model.space.slices[part]
             along = model.space.back[part].mean(axis=1) * UNIT[PARTS[part].group]
             true = np.expm1((theirs - source)[:, place] @ along)
-            for actor in np.unique(actors):
-                own = actors == actor
+            for organisation in np.unique(organisations):
+                own = organisations == organisation
                 low, high = band.low[own, k], band.high[own, k]
                 mean = true[own].mean()
                 rows.append(
                     {
                         "translator": name,
-                        "actor": actor,
+                        "organisation": organisation,
                         "part": part,
                         "true_bias": mean,
                         "low": low.mean(),

@@ -1,4 +1,4 @@
-"""RQ4 on fleets of several seeds: the reported bias of every pair of actors beside the sealed truth.
+"""RQ4 on fleets of several seeds: the reported bias of every pair of organisations beside the sealed truth.
 
 Writes ``benchmarks/results/translation_bias.csv`` and ``translation_bias_truth.csv``, for the page. The truth
 is the mean over 100 tires and so has an error, too: how many biases lie inside is said without and with it.

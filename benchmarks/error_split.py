@@ -1,12 +1,12 @@
 """Where the error of the translator with pairs comes from, on tuning tires: parts of it put right by truth,
-and how it shrinks with more tires that all actors measured.
+and how it shrinks with more tires that all organisations measured.
 
     python benchmarks/error_split.py           # prints
     python benchmarks/error_split.py --write   # puts the table into docs/explanation/translation_results.md
 
 Biases put right are fitted on the sealed truth of the tires that are not judged; parts put right are the
 tire's own truth: nothing of that is a translator. Rows with more pairs are: they have the first measurement
-of such tires by all actors beside the training files, and nothing else. Other tires than those judged.
+of such tires by all organisations beside the training files, and nothing else. Other tires than those judged.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ PARTS = ("cornering stiffness", "lateral friction", "lateral shape")
 JUDGED = 200
 """Tires that are judged; the others teach what truth could tell, or serve as further pairs."""
 MORE_PAIRS = (8, 24, 56)
-"""Tires that all actors measured, beyond the fleet's own eight."""
+"""Tires that all organisations measured, beyond the fleet's own eight."""
 
 
 class Errors:

@@ -115,7 +115,11 @@ def test_show_says_version_ranges_and_what_is_missing(folder):
 def test_a_warning_is_a_line_and_said_once(folder):
     without = {name: value for name, value in COEFFICIENTS.items() if name != "UNLOADED_RADIUS"}
     write_tir(TireModel.from_coefficients({**without, "QDZ1": 0.1}), "b.tir")
-    lines = run("show", "b.tir", "--no-page").stderr.splitlines()
+    shown = run("show", "b.tir", "--no-page")
+    assert "there is no UNLOADED_RADIUS" in shown.stdout
+    assert "relaxation lengths: forces follow" not in shown.stdout
+    assert shown.stderr == ""
+    lines = run("compare", "a.tir", "b.tir", "--no-page").stderr.splitlines()
     assert any("UNLOADED_RADIUS" in line for line in lines)
     assert all(line.startswith("warning: ") for line in lines)
     assert len(set(lines)) == len(lines)

@@ -1,4 +1,4 @@
-"""The true bias between actors, on tires whose bias is put in by hand."""
+"""The true bias between organisations, on tires whose bias is put in by hand."""
 
 import numpy as np
 import pandas as pd
@@ -17,15 +17,22 @@ def sealed(stiffness: float, friction: float) -> pd.DataFrame:
     """Three tires, measured by A as they are and by B with other stiffness and friction."""
     rows = []
     for number, own in enumerate((0.9, 1.0, 1.2)):
-        for actor, k, mu in (("A", 1.0, 1.0), ("B", stiffness, friction)):
+        for organisation, k, mu in (("A", 1.0, 1.0), ("B", stiffness, friction)):
             tire = {**BASE, "PKY1": BASE["PKY1"] * own * k, "PDY1": own * mu, "PDY2": BASE["PDY2"] * own * mu}
-            rows.append({"file": f"hidden/{actor}/{number}.tir", "category": actor, "version": "5.2", **tire})
+            rows.append(
+                {
+                    "file": f"hidden/{organisation}/{number}.tir",
+                    "category": organisation,
+                    "version": "5.2",
+                    **tire,
+                }
+            )
     return pd.DataFrame(rows)
 
 
 def test_the_bias_put_in_comes_out():
     bias = measured_bias(sealed(1.10, 0.95), LOADS).set_index("region")
-    assert set(bias["actor"]) == {"B"}
+    assert set(bias["organisation"]) == {"B"}
     assert set(bias["reference"]) == {"A"}
     assert len(bias) == 4
     for load in ("2000 N", "4000 N"):
@@ -37,7 +44,7 @@ def test_the_bias_put_in_comes_out():
 def test_reported_intervals_hold_the_truth_or_do_not():
     reported = pd.DataFrame(
         {
-            "actor": "B",
+            "organisation": "B",
             "reference": "A",
             "output": ["lateral", "lateral", "longitudinal"],
             "region": ["cornering stiffness, 2000 N", "friction level, 2000 N", "friction level, 2000 N"],

@@ -72,7 +72,7 @@ def test_a_translator_that_was_not_measured_has_no_goal():
 def test_bias_and_truth_are_shown_with_intervals():
     bias = pd.DataFrame(
         {
-            "actor": ["B", "C", "C"],
+            "organisation": ["B", "C", "C"],
             "reference": "A",
             "output": "lateral",
             "region": ["friction level, 4000 N", "cornering stiffness, 4000 N", "ply steer"],

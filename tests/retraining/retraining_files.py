@@ -1,4 +1,4 @@
-"""Small .tir files for the retraining tests: two actors that measure the same tires with another bias."""
+"""Small .tir files for the retraining tests: two organisations measure the same tires with their own bias."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ LATERAL = {"PCY1": 1.3, "PDY1": 0.95, "PDY2": -0.2, "PEY1": -0.7, "PEY2": -0.5, 
 LATERAL |= {"PHY1": 0.003, "PHY2": 0.001, "PVY1": 0.02, "PVY2": -0.01}
 
 
-def tir_text(tire: int, actor: str = "D", shift: float = 0.0) -> str:
-    """One actor's file of one physical tire; ``shift`` moves all coefficients."""
+def tir_text(tire: int, organisation: str = "D", shift: float = 0.0) -> str:
+    """One organisation's file of one physical tire; ``shift`` moves all coefficients."""
     own = np.random.default_rng(tire)
     size = {"radius": round(0.3 + 0.0001 * (tire % 400), 4), "width": 0.2 + 0.001 * (tire // 400)}
-    scale = 1.0 + 0.02 * own.standard_normal(len(LATERAL)) + BIAS[actor] + shift
+    scale = 1.0 + 0.02 * own.standard_normal(len(LATERAL)) + BIAS[organisation] + shift
     values = dict(zip(LATERAL, np.array(list(LATERAL.values())) * scale, strict=True))
     lines = [f"{name} = {value:.9g}" for name, value in values.items()]
     return HEAD.format(**size, mass=9.0) + "[LATERAL_COEFFICIENTS]\n" + "\n".join(lines) + "\n"
@@ -51,8 +51,8 @@ def put(folder: Path, name: str, text: str | bytes, *, age: float = 3600.0) -> P
     return path
 
 
-def put_fleet(folder: Path, tires: range, actors: str = "ABD", shift: float = 0.0) -> None:
-    """All actors' files of some tires."""
+def put_fleet(folder: Path, tires: range, organisations: str = "ABD", shift: float = 0.0) -> None:
+    """All organisations' files of some tires."""
     for tire in tires:
-        for actor in actors:
-            put(folder, f"{actor}/T{tire:04d}.tir", tir_text(tire, actor, shift))
+        for organisation in organisations:
+            put(folder, f"{organisation}/T{tire:04d}.tir", tir_text(tire, organisation, shift))

@@ -25,7 +25,7 @@ from hypothesis.stateful import (
     rule,
     run_state_machine_as_test,
 )
-from zoo import ACTORS, Zoo
+from zoo import ORGANISATIONS, Zoo
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.run_errors import one_line
@@ -33,7 +33,7 @@ from tire_pipeline.run_errors import one_line
 ROOT = Path(__file__).resolve().parents[2]
 FEW = ",dedupe_filter.minimum_per_category=2"
 NAMES = st.sampled_from(["plain", "latin", "control", "escape", "long"])
-ACTOR = st.sampled_from(ACTORS)
+ORGANISATION = st.sampled_from(ORGANISATIONS)
 DATE = st.sampled_from([None, 0.0, -86400.0, 1.0, 2.0**33])
 NUMBER = st.integers(0, 10**6)
 BAD = st.sampled_from([b"", b"no tire", bytes(range(256)), b"[MODEL]\nFITTYP = 6\n"])
@@ -59,21 +59,23 @@ class Machine(RuleBasedStateMachine):
         self.runs += 1
         return f"v{self.runs:04d}"
 
-    @rule(kind=NAMES, actor=ACTOR, date=DATE, elsewhere=st.booleans())
-    def add(self, kind, actor, date, elsewhere):
+    @rule(kind=NAMES, organisation=ORGANISATION, date=DATE, elsewhere=st.booleans())
+    def add(self, kind, organisation, date, elsewhere):
         name = self.zoo.name(kind)
-        name = name if elsewhere else f"{actor}/{name}"
-        self.zoo.write(name, self.zoo.text(actor), good=True, date=date, elsewhere=elsewhere)
+        name = name if elsewhere else f"{organisation}/{name}"
+        self.zoo.write(name, self.zoo.text(organisation), good=True, date=date, elsewhere=elsewhere)
 
-    @rule(kind=NAMES, actor=ACTOR, number=NUMBER)
-    def copy(self, kind, actor, number):
+    @rule(kind=NAMES, organisation=ORGANISATION, number=NUMBER)
+    def copy(self, kind, organisation, number):
         content, good = self.book.files[self._pick(self.book.files, number)]
-        self.zoo.write(f"{actor}/{self.zoo.name(kind)}", content, good=good, date=None, elsewhere=False)
+        self.zoo.write(
+            f"{organisation}/{self.zoo.name(kind)}", content, good=good, date=None, elsewhere=False
+        )
 
-    @rule(number=NUMBER, actor=ACTOR, date=DATE)
-    def change(self, number, actor, date):
+    @rule(number=NUMBER, organisation=ORGANISATION, date=DATE)
+    def change(self, number, organisation, date):
         name = self._pick(self.book.files, number)
-        self.zoo.write(name, self.zoo.text(actor), good=True, date=date, elsewhere=False)
+        self.zoo.write(name, self.zoo.text(organisation), good=True, date=date, elsewhere=False)
 
     @rule(number=NUMBER, content=BAD, date=DATE)
     def corrupt(self, number, content, date):
@@ -97,14 +99,14 @@ class Machine(RuleBasedStateMachine):
         self.zoo.remove(name, elsewhere=False)
         os.mkfifo(self.zoo.tir / name)
 
-    @rule(number=NUMBER, kind=NAMES, actor=ACTOR)
-    def rename(self, number, kind, actor):
+    @rule(number=NUMBER, kind=NAMES, organisation=ORGANISATION)
+    def rename(self, number, kind, organisation):
         old = self._pick(self.book.files, number)
-        self.zoo.rename(old, f"{actor}/{self.zoo.name(kind)}")
+        self.zoo.rename(old, f"{organisation}/{self.zoo.name(kind)}")
 
-    @rule(circle=LINKS, kind=NAMES, actor=ACTOR, number=NUMBER)
-    def link_in_circles(self, circle, kind, actor, number):
-        name = f"{actor}/{self.zoo.name(kind)}"
+    @rule(circle=LINKS, kind=NAMES, organisation=ORGANISATION, number=NUMBER)
+    def link_in_circles(self, circle, kind, organisation, number):
+        name = f"{organisation}/{self.zoo.name(kind)}"
         to = {
             "itself": Path(name).name,
             "nowhere": "absent.tir",
@@ -115,16 +117,16 @@ class Machine(RuleBasedStateMachine):
         }
         self.zoo.link(name, to[circle])
 
-    @rule(kind=NAMES, actor=ACTOR)
-    def link_elsewhere(self, kind, actor):
-        name = f"{actor}/{self.zoo.name(kind)}"
+    @rule(kind=NAMES, organisation=ORGANISATION)
+    def link_elsewhere(self, kind, organisation):
+        name = f"{organisation}/{self.zoo.name(kind)}"
         self.zoo.link(name, self.zoo.elsewhere)
         self.book.folder_links.add(name)
 
     @precondition(lambda self: self.book.outside)
-    @rule(kind=NAMES, actor=ACTOR, number=NUMBER)
-    def link_a_file_elsewhere(self, kind, actor, number):
-        name, target = f"{actor}/{self.zoo.name(kind)}", self._pick(self.book.outside, number)
+    @rule(kind=NAMES, organisation=ORGANISATION, number=NUMBER)
+    def link_a_file_elsewhere(self, kind, organisation, number):
+        name, target = f"{organisation}/{self.zoo.name(kind)}", self._pick(self.book.outside, number)
         self.zoo.link(name, self.zoo.elsewhere / target)
         self.book.file_links[name] = target
 

@@ -28,7 +28,7 @@ from tire_pipeline.runs import Ticket, take_back, take_turn
 from tire_pipeline.tire_table.binned_features import BinParameters
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters, to_one_nominal_load
 
-ACTORS = "ABD"
+ORGANISATIONS = "ABD"
 PARAMETERS = nodes.RetrainParameters(
     settle_seconds=0.0, most_wait_seconds=0.0, most_removed_share=1.0, held_out_share=0.3
 )
@@ -83,7 +83,7 @@ class Zoo:
     def __init__(self, base: Path) -> None:
         self.base, self.tir, self.elsewhere = base, base / "01_raw/tir", base / "elsewhere"
         self.elsewhere.mkdir(parents=True)
-        put_fleet(self.tir, range(6), ACTORS)
+        put_fleet(self.tir, range(6), ORGANISATIONS)
         found = {path: path.read_bytes() for path in self.tir.rglob("*.tir")}
         self.book = Book({str(p.relative_to(self.tir)): (text, True) for p, text in found.items()})
         self.serial = 0
@@ -93,10 +93,10 @@ class Zoo:
 
     # the folder
 
-    def text(self, actor: str) -> bytes:
+    def text(self, organisation: str) -> bytes:
         """A new tire file; no two have the same content."""
         self.serial += 1
-        return tir_text(100 + self.serial, actor).encode() + b"! %d\n" % self.serial
+        return tir_text(100 + self.serial, organisation).encode() + b"! %d\n" % self.serial
 
     def name(self, kind: str) -> str:
         """A name that is new."""

@@ -67,7 +67,7 @@ def test_kinds_of_tires_follow_from_expectation_and_from_what_is_measured(rng):
     own = rng.normal(size=(50, 2))
     np.testing.assert_allclose(kinds.of(blocks, own) - kind, own @ kinds.turn, atol=1e-12)
     both = with_kinds(blocks, kind)["category_kind"]
-    actor = blocks["category"].argmax(axis=1)
-    np.testing.assert_allclose(both.reshape(50, 2, 2)[np.arange(50), actor], kind)
+    organisation = blocks["category"].argmax(axis=1)
+    np.testing.assert_allclose(both.reshape(50, 2, 2)[np.arange(50), organisation], kind)
     again = TireKinds.from_state(kinds.to_state())
     np.testing.assert_array_equal(again.of(blocks, own), kinds.of(blocks, own))

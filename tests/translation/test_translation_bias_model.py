@@ -116,9 +116,9 @@ def test_violations_name_what_is_broken():
 
 
 def _design(rng, effect, tires=60):
-    actor = rng.integers(0, 3, tires)
+    organisation = rng.integers(0, 3, tires)
     x = rng.normal(size=(tires, 2))
-    indicators = np.eye(3)[actor]
+    indicators = np.eye(3)[organisation]
     response = x @ [0.6, -0.4] + indicators @ np.array([0.0, effect, -effect]) + 0.3 * rng.normal(size=tires)
     blocks = {"level": np.ones((tires, 1)), "metadata": x, "category": indicators}
     return Design(blocks, np.zeros((tires, 0)), rng.integers(1, 5, tires).astype(float)), response

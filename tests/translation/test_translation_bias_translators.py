@@ -365,7 +365,7 @@ def test_tables_without_dates_are_translated_as_before_there_were_any(training, 
 
 def test_bias_report_has_intervals_for_every_pair(paired, training):
     report = bias_report(paired, training, coefficients=False)
-    assert set(zip(report.by_region["actor"], report.by_region["reference"], strict=True)) >= {
+    assert set(zip(report.by_region["organisation"], report.by_region["reference"], strict=True)) >= {
         ("D", "A"),
         ("E", "D"),
     }

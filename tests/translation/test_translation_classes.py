@@ -26,16 +26,16 @@ BIAS = np.array([[0.0, 0.0, 0.0], [0.7, -0.5, 0.2]])
 
 def _question(rng, *, grouped, tires=240):
     """No tire is measured by both categories; which tires a category gets is chance and hence unbalanced."""
-    actor = rng.integers(0, 2, tires)
+    organisation = rng.integers(0, 2, tires)
     x = rng.normal(size=(tires, 1))
     kind = np.digitize(0.5 * x[:, 0] + rng.normal(size=tires), [-0.5, 0.5])
-    response = BIAS[actor] + 0.3 * rng.normal(size=(tires, 3))
+    response = BIAS[organisation] + 0.3 * rng.normal(size=(tires, 3))
     response += CENTRES[kind] if grouped else rng.normal(size=(tires, 3))
     blocks = {
         "level": np.ones((tires, 1)),
         "metadata": x,
         "size": np.zeros((tires, 1)),
-        "category": np.eye(2)[actor],
+        "category": np.eye(2)[organisation],
     }
     question = ClassSearchInput(
         Design(blocks, np.zeros((tires, 0)), np.ones(tires)),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -33,9 +34,11 @@ _FEW = 12
 @output_options()
 def command(file: Path, loads: tuple[float, ...], camber: float, **output: Any) -> None:
     """Show a file."""
+    from tire_pipeline.magic_formula.forces import MissingRadiusWarning
     from tire_pipeline.tir import read_tir
 
     model = read_tir(file)
+    warnings.simplefilter("ignore", MissingRadiusWarning)  # a note of the result says it
     finish(_outcome(model, file, loads, camber), f"{file.stem}_show", **output)
 
 
@@ -51,8 +54,8 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
     missing = dict(model.defaulted)
     if missing:
         lines.append(f"Missing: {_missing(missing)}.")
-    lines += _gaps(model)
-    warnings = [str(text) for text in model.metadata.get("warnings", ())]  # type: ignore[attr-defined]
+    lines += _gaps(model, {figure.name: figure.value for figure in figures})
+    odd = [str(text) for text in model.metadata.get("warnings", ())]  # type: ignore[attr-defined]
     key = Grid(
         ("quantity", "value", "unit"),
         [(f.name, f.value, f.unit) for f in figures],
@@ -66,30 +69,31 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
         "missing": missing,
         "ranges": ranges,
         "key_figures": {f.name: {"value": f.value, "unit": f.unit} for f in figures},
-        "warnings": warnings,
+        "warnings": odd,
     }
     grids = [key, *([valid] if ranges else [])]
 
     def page() -> str:
-        return _page(model, file, lines, grids, warnings, loads, camber)
+        return _page(model, file, lines, grids, odd, loads, camber)
 
-    return CommandOutcome(file.name, lines, data, page, grids, warnings)
+    return CommandOutcome(file.name, lines, data, page, grids, odd)
 
 
-def _gaps(model: TireModel) -> list[str]:
+def _gaps(model: TireModel, figures: dict[str, float]) -> list[str]:
     """What a simulation with this file lacks."""
     gaps = []
+    relaxes = any(value > 0.0 for name, value in figures.items() if "relaxation" in name)
+    if not relaxes and not model.lacks_radius:  # a note says what a missing radius leaves out
+        gaps.append("There are no relaxation lengths: forces follow the slip at once.")
     if all(model.value(name) == 0.0 for name in ("RBX1", "RBY1")):
         gaps.append("There is no combined slip: braking and cornering do not weaken each other.")
-    if all(model.value(name) == 0.0 for name in ("PTX1", "PTY1")):
-        gaps.append("There are no relaxation lengths: forces follow the slip at once.")
     return gaps
 
 
 def _missing(missing: dict[str, float]) -> str:
     names = list(missing)
     more = f" and {len(names) - _FEW} more" if len(names) > _FEW else ""
-    return f"{', '.join(names[:_FEW])}{more} (0, or what leaves the equations neutral, stands in)"
+    return f"{', '.join(names[:_FEW])}{more} (0 is used, or the value that changes nothing)"
 
 
 def _range(name: str, low: float, high: float) -> tuple[str, float, float, str]:
@@ -102,7 +106,7 @@ def _page(
     file: Path,
     lines: list[str],
     grids: list[Grid],
-    warnings: list[str],
+    odd: list[str],
     loads: tuple[float, ...],
     camber: float,
 ) -> str:
@@ -117,14 +121,23 @@ def _page(
     given = pd.DataFrame(
         {"coefficient": list(model.coefficients), "value": list(model.coefficients.values())}
     )
-    absent = pd.DataFrame({"coefficient": list(model.defaulted), "stands in": list(model.defaulted.values())})
+    absent = pd.DataFrame(
+        {"coefficient": list(model.defaulted), "value used": list(model.defaulted.values())}
+    )
     parts: list[Any] = [Text(lines, emphasis=True), Figure(*figure, heading="Curves")]
-    if warnings:
-        parts.append(Text(warnings, heading="What is odd in the file"))
+    if odd:
+        parts.append(Text(odd, heading="What is odd in the file"))
     headings = ("Key figures", "Ranges")
     for grid, heading in zip(grids, headings, strict=False):
         parts.append(Table(pd.DataFrame(grid.rows, columns=list(grid.header)), grid.title, heading))
     if len(absent):
-        parts.append(Table(absent, "Not in the file; what stands in for them.", "Missing", most_rows=400))
+        parts.append(
+            Table(
+                absent,
+                "Not in the file. The value used is 0, or the one that changes nothing in the equations.",
+                "Missing",
+                most_rows=400,
+            )
+        )
     parts.append(Table(given, "SI units.", "All coefficients", digits=8, most_rows=1000))
     return render_page(file.name, parts, footer=f"tire show {file.name}")

@@ -12,7 +12,7 @@ from .curves import EvaluationGrid, curves_of
 
 
 def measured_bias(first: pd.DataFrame, loads: np.ndarray) -> pd.DataFrame:
-    """Mean difference between actors who measured the same evaluation tires.
+    """Mean difference between organisations who measured the same evaluation tires.
 
     Parameters
     ----------
@@ -24,7 +24,8 @@ def measured_bias(first: pd.DataFrame, loads: np.ndarray) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        ``actor``, ``reference``, ``region``, ``true_bias`` (a share) and ``true_error`` (its standard error).
+        ``organisation``, ``reference``, ``region``, ``true_bias`` (a share) and ``true_error`` (its standard
+        error).
     """
     parts = first["file"].str.split("/", expand=True)
     grid = EvaluationGrid(loads=np.asarray(loads), load_axis=np.asarray(loads))
@@ -36,12 +37,12 @@ def measured_bias(first: pd.DataFrame, loads: np.ndarray) -> pd.DataFrame:
     rows = []
     for what, array in values.items():
         logs = pd.DataFrame(np.log(array), index=[parts[1], parts[0] + "/" + parts[2]])
-        for reference, actor in combinations(sorted(parts[1].unique()), 2):
-            gap = (logs.loc[actor] - logs.loc[reference]).dropna().to_numpy()
+        for reference, organisation in combinations(sorted(parts[1].unique()), 2):
+            gap = (logs.loc[organisation] - logs.loc[reference]).dropna().to_numpy()
             error = gap.std(axis=0) / np.sqrt(len(gap))
             for load, mean, doubt in zip(loads, gap.mean(axis=0), error, strict=True):
-                rows.append((actor, reference, f"{what}, {load:.0f} N", np.expm1(mean), doubt))
-    return pd.DataFrame(rows, columns=["actor", "reference", "region", "true_bias", "true_error"])
+                rows.append((organisation, reference, f"{what}, {load:.0f} N", np.expm1(mean), doubt))
+    return pd.DataFrame(rows, columns=["organisation", "reference", "region", "true_bias", "true_error"])
 
 
 def bias_beside_truth(by_region: pd.DataFrame, measured: pd.DataFrame) -> pd.DataFrame:
@@ -60,26 +61,26 @@ def bias_beside_truth(by_region: pd.DataFrame, measured: pd.DataFrame) -> pd.Dat
         Lateral rows of both, with ``inside``: the true bias lies in the reported interval.
     """
     own = by_region[by_region["output"] == "lateral"]
-    both = own.merge(measured, on=["actor", "reference", "region"])
+    both = own.merge(measured, on=["organisation", "reference", "region"])
     return both.assign(inside=(both["true_bias"] >= both["low"]) & (both["true_bias"] <= both["high"]))
 
 
 def regime_differences(
-    regimes: Mapping[str, Mapping[str, float]], actor: str, reference: str
+    regimes: Mapping[str, Mapping[str, float]], organisation: str, reference: str
 ) -> pd.DataFrame:
-    """List what two actors' true protocols do differently (surface, temperature, drum, lag, ranges).
+    """List what two organisations' true protocols do differently (surface, temperature, drum, lag, ranges).
 
     Parameters
     ----------
     regimes : mapping
         The truth's regimes, by ``category/protocol``.
-    actor, reference : str
+    organisation, reference : str
 
     Returns
     -------
     pandas.DataFrame
-        ``field``, ``actor``, ``reference`` for each field that differs.
+        ``field``, ``organisation``, ``reference`` for each field that differs.
     """
-    ours, theirs = regimes[f"{actor}/old"], regimes[f"{reference}/old"]
+    ours, theirs = regimes[f"{organisation}/old"], regimes[f"{reference}/old"]
     rows = [(name, ours[name], theirs[name]) for name in ours if ours[name] != theirs[name]]
-    return pd.DataFrame(rows, columns=["field", actor, reference])
+    return pd.DataFrame(rows, columns=["field", organisation, reference])

@@ -281,5 +281,4 @@ def _largest(bias: pd.DataFrame) -> pd.DataFrame:
     own = own.reindex(own["bias"].abs().sort_values(ascending=False).index).head(45)
     for name in ("bias", "low", "high"):
         own[name] = (100 * own[name]).map("{:+.1f} %".format)
-    own = own[["actor", "reference", "output", "region", "bias", "low", "high"]]
-    return own.rename(columns={"actor": "organisation"})
+    return own[["organisation", "reference", "output", "region", "bias", "low", "high"]]

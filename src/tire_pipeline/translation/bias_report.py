@@ -25,17 +25,17 @@ class BiasReport:
     Attributes
     ----------
     by_region : DataFrame
-        ``actor``, ``reference``, ``output``, ``region``, ``unit``, ``bias``, ``low``, ``high`` (90%
-        interval), ``clear`` (the interval leaves out 0). Bias is ``actor`` less ``reference`` at the mean
-        tire, in the mean of its protocols if an organisation changed them: a share for logarithmic
+        ``organisation``, ``reference``, ``output``, ``region``, ``unit``, ``bias``, ``low``, ``high`` (90%
+        interval), ``clear`` (the interval leaves out 0). Bias is ``organisation`` less ``reference`` at the
+        mean tire, in the mean of its protocols if an organisation changed them: a share for logarithmic
         features (0.05: 5% more), else in the feature's own unit.
     by_metadata : DataFrame
-        ``actor``, ``reference``, ``what``, ``metadata``, ``bias``, ``low``, ``high``, ``clear``: by how much
-        the bias of ``what`` (mean over the loads) grows with one standard deviation of the metadata.
+        ``organisation``, ``reference``, ``what``, ``metadata``, ``bias``, ``low``, ``high``, ``clear``: by
+        how much the bias of ``what`` (mean over the loads) grows with one standard deviation of the metadata.
     by_coefficient : DataFrame
-        ``actor``, ``reference``, ``coefficient``, ``bias``, ``low``, ``high``: mean change of the
-        coefficient when tires of ``reference`` are translated to ``actor``, and the range that 90% of the
-        tires lie in.
+        ``organisation``, ``reference``, ``coefficient``, ``bias``, ``low``, ``high``: mean change of the
+        coefficient when tires of ``reference`` are translated to ``organisation``, and the range that 90% of
+        the tires lie in.
     """
 
     by_region: pd.DataFrame
@@ -46,7 +46,7 @@ class BiasReport:
 def bias_report(
     translator: CurveTranslator, training: pd.DataFrame, *, coefficients: bool = True
 ) -> BiasReport:
-    """Report the bias of every pair of actors.
+    """Report the bias of every pair of organisations.
 
     Parameters
     ----------
@@ -64,9 +64,13 @@ def bias_report(
     model = translator.model
     pairs = list(combinations(model.categories, 2))
     chance = _chance_of_tires(model, training)
-    regions = [_regions(model, actor, reference, chance) for reference, actor in pairs]
-    slopes = [_slopes(model, actor, reference) for reference, actor in pairs]
-    moved = [_moved(translator, training, actor, reference) for reference, actor in pairs if coefficients]
+    regions = [_regions(model, organisation, reference, chance) for reference, organisation in pairs]
+    slopes = [_slopes(model, organisation, reference) for reference, organisation in pairs]
+    moved = [
+        _moved(translator, training, organisation, reference)
+        for reference, organisation in pairs
+        if coefficients
+    ]
     parts = (regions, slopes, moved)
     return BiasReport(*(pd.concat(p, ignore_index=True) if p else pd.DataFrame() for p in parts))
 
@@ -88,13 +92,13 @@ def _chance_of_tires(model: CurveMixedModel, training: pd.DataFrame) -> np.ndarr
     return np.stack(effects) / np.sqrt(len(tires))
 
 
-def _contrast(model: CurveMixedModel, actor: str, reference: str) -> np.ndarray:
+def _contrast(model: CurveMixedModel, organisation: str, reference: str) -> np.ndarray:
     names = np.array(model.categories)
-    return (names == actor).astype(float) - (names == reference).astype(float)
+    return (names == organisation).astype(float) - (names == reference).astype(float)
 
 
-def _regions(model: CurveMixedModel, actor: str, reference: str, chance: np.ndarray) -> pd.DataFrame:
-    contrast = _contrast(model, actor, reference)
+def _regions(model: CurveMixedModel, organisation: str, reference: str, chance: np.ndarray) -> pd.DataFrame:
+    contrast = _contrast(model, organisation, reference)
     mean, variance = difference(model, contrast, columns_of(model, "category"))
     variance = variance + np.tensordot(contrast, chance, axes=1).var(axis=0)
     rows = []
@@ -110,36 +114,40 @@ def _regions(model: CurveMixedModel, actor: str, reference: str, chance: np.ndar
             ends = (middle - width, middle, middle + width)
             low, value, high = (np.expm1(e) if share else e for e in ends)
             unit = "share" if share else "feature"
-            rows.append((actor, reference, group, label.removeprefix("ln "), unit, value, low, high))
+            rows.append((organisation, reference, group, label.removeprefix("ln "), unit, value, low, high))
     table = pd.DataFrame(
-        rows, columns=["actor", "reference", "output", "region", "unit", "bias", "low", "high"]
+        rows, columns=["organisation", "reference", "output", "region", "unit", "bias", "low", "high"]
     )
     return table.assign(clear=(table["low"] > 0.0) | (table["high"] < 0.0))
 
 
-def _slopes(model: CurveMixedModel, actor: str, reference: str) -> pd.DataFrame:
+def _slopes(model: CurveMixedModel, organisation: str, reference: str) -> pd.DataFrame:
     rows = []
-    contrast = _contrast(model, actor, reference)
+    contrast = _contrast(model, organisation, reference)
     for k, name in enumerate(model.metadata.names):
         one = np.zeros((len(model.categories), len(model.metadata.names)))
         one[:, k] = contrast
         mean, variance = difference(model, one.ravel(), columns_of(model, "category_metadata"))
         for part in KEY_PARTS:
             value, half = mean_of_loads(model, part, mean, variance)
-            rows.append((actor, reference, part, name, value, value - half, value + half))
-    table = pd.DataFrame(rows, columns=["actor", "reference", "what", "metadata", "bias", "low", "high"])
+            rows.append((organisation, reference, part, name, value, value - half, value + half))
+    table = pd.DataFrame(
+        rows, columns=["organisation", "reference", "what", "metadata", "bias", "low", "high"]
+    )
     return table.assign(clear=(table["low"] > 0.0) | (table["high"] < 0.0))
 
 
-def _moved(translator: CurveTranslator, training: pd.DataFrame, actor: str, reference: str) -> pd.DataFrame:
+def _moved(
+    translator: CurveTranslator, training: pd.DataFrame, organisation: str, reference: str
+) -> pd.DataFrame:
     tires = training.loc[training["category"] == reference].drop_duplicates("tire_id").head(_MOST_TIRES)
-    toward = translator.with_verdict(target=actor, gate=False)
+    toward = translator.with_verdict(target=organisation, gate=False)
     translated = toward.translate(tires.reset_index(drop=True))
     change = translated[list(COEFFICIENTS)].to_numpy(float) - tires[list(COEFFICIENTS)].to_numpy(float)
     low, high = np.nanquantile(change, [0.05, 0.95], axis=0)
     return pd.DataFrame(
         {
-            "actor": actor,
+            "organisation": organisation,
             "reference": reference,
             "coefficient": COEFFICIENTS,
             "bias": np.nanmean(change, axis=0),

@@ -203,11 +203,11 @@ def fit_curve_space(table: pd.DataFrame) -> tuple[CurveSpace, Cells]:
 def _known(cells: pd.DataFrame) -> np.ndarray:
     """What is known of each cell before it is measured: category and metadata, as regressors."""
     category = cells["category"].to_numpy(dtype=str)
-    actors = (category[:, None] == np.unique(category)[None, :]).astype(float)
+    organisations = (category[:, None] == np.unique(category)[None, :]).astype(float)
     metadata = Metadata.fit(cells)
     size = metadata.size_indicators(cells)
     usual = size.sum(axis=0) >= 5
-    return np.concatenate([actors, metadata.regressors(cells), size[:, usual][:, 1:]], axis=1)
+    return np.concatenate([organisations, metadata.regressors(cells), size[:, usual][:, 1:]], axis=1)
 
 
 def _over_pressure(table: pd.DataFrame) -> np.ndarray:

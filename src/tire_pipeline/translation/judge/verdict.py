@@ -140,8 +140,8 @@ class VerdictRules:
         band = bias_band(model, found)
         broken = violations(moved)
         impossible = (broken & ~violations(rows)).any(axis=1) | broken.drop(columns="curvature").any(axis=1)
-        actors = rows["category"].astype(str).to_numpy()
-        uncertain = np.isin(actors, np.array(model.categories)[self.harm > MOST_HARM])
+        organisations = rows["category"].astype(str).to_numpy()
+        uncertain = np.isin(organisations, np.array(model.categories)[self.harm > MOST_HARM])
         verdict = np.full(len(rows), TRANSLATED, dtype=object)
         reason = np.full(len(rows), "", dtype=object)
         for i in range(len(rows)):
@@ -154,8 +154,10 @@ class VerdictRules:
             elif self.gate and (uncertain[i] or ratio[i] > 1.0 - LEAST_RELATIVE_GAIN):
                 zero = bool(band.holds_zero[i])
                 verdict[i] = UNBIASED if zero else LEFT_ALONE
-                reason[i] = _why_alone(actors[i], self.target, bool(uncertain[i]), zero, ratio[i])
-        said = np.array(describe_changes(encode(rows), encode(moved), actors, self.target), dtype=object)
+                reason[i] = _why_alone(organisations[i], self.target, bool(uncertain[i]), zero, ratio[i])
+        said = np.array(
+            describe_changes(encode(rows), encode(moved), organisations, self.target), dtype=object
+        )
         said[verdict != TRANSLATED] = ""
         return pd.DataFrame(
             {
@@ -201,15 +203,15 @@ def _too_far(target: str, distance: float) -> str:
     return f"{said}, the edge is 1; give training files of such tires, or ask with {most}"
 
 
-def _why_alone(actor: str, target: str, uncertain: bool, holds_zero: bool, ratio: float) -> str:
+def _why_alone(organisation: str, target: str, uncertain: bool, holds_zero: bool, ratio: float) -> str:
     """Say why a file is not translated that could be."""
     if holds_zero:
         return (
-            f"the band of {actor}'s bias against {target} holds zero for such a tire in stiffness "
+            f"the band of {organisation}'s bias against {target} holds zero for such a tire in stiffness "
             f"and friction ({CERTAINTY:.0%} each)"
         )
     if uncertain:
-        return f"{actor}'s bias against {target} cannot be told from chance"
+        return f"{organisation}'s bias against {target} cannot be told from chance"
     return (
         f"too little to gain for such a tire: expected RMS error {np.sqrt(ratio):.0%} of the unchanged file's"
     )

@@ -46,8 +46,10 @@ def describe_changes(
     }
     even, aligning, camber = _other_moves(before, after)
     said = []
-    for i, actor in enumerate(source):
-        sentences = [s for name, move in moves.items() if (s := _sentence(name, move[i], str(actor), target))]
+    for i, organisation in enumerate(source):
+        sentences = [
+            s for name, move in moves.items() if (s := _sentence(name, move[i], str(organisation), target))
+        ]
         if abs(even[i]) > _LEAST:
             more = "more" if even[i] > 0 else "less"
             sentences.append(

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
+from tire_pipeline.progress import track
 from tire_pipeline.translation.population.class_input import ClassSearchInput, per_tire
 from tire_pipeline.translation.population.class_starts import starts
 from tire_pipeline.translation.population.classes import TireClasses, fit_shares, log_density, log_shares
@@ -27,8 +28,8 @@ _LEAST_OWN = 1e-3
 
 def with_classes(blocks: Mapping[str, np.ndarray], coded: np.ndarray) -> dict[str, np.ndarray]:
     """Add the regressors of classes, (n, k), and of what each category does to each class."""
-    actor = blocks["category"]
-    both = (actor[:, :, None] * coded[:, None, :]).reshape(len(actor), -1)
+    organisation = blocks["category"]
+    both = (organisation[:, :, None] * coded[:, None, :]).reshape(len(organisation), -1)
     return {**blocks, "class": coded, "category_class": both}
 
 
@@ -65,7 +66,8 @@ def find_classes(question: ClassSearchInput, seed: int = 0) -> tuple[TireClasses
     for count in COUNTS:
         if count > max(1, tires // _TIRES_A_CLASS):
             break
-        climbed = [refined_classes(question, start) for start in starts(question, count, fewer, seed)]
+        tried = track(list(starts(question, count, fewer, seed)), f"sorting tires into {count} classes")
+        climbed = [refined_classes(question, start) for start in tried]
         found = max(climbed, key=lambda state: state.evidence)
         fewer = found.probability
         if best is None or found.evidence > best.evidence:
@@ -83,9 +85,9 @@ def find_classes(question: ClassSearchInput, seed: int = 0) -> tuple[TireClasses
 
 def _laid_anew(question: ClassSearchInput, state: ClassState) -> ClassState:
     """Forget, one category after the other, which tires are of which class, and climb again."""
-    actor = question.design.blocks["category"].argmax(axis=1)
-    for category in np.unique(actor):
-        own = actor == category
+    organisation = question.design.blocks["category"].argmax(axis=1)
+    for category in np.unique(organisation):
+        own = organisation == category
         probability = state.probability.copy()
         probability[own] = np.exp(log_shares(question.metadata[own], state.shares))
         again = refined_classes(question, probability)

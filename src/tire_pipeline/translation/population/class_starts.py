@@ -41,10 +41,10 @@ def starts(question: ClassSearchInput, count: int, fewer: np.ndarray | None, see
     if count == 1:
         return [np.ones((len(question.response), 1))]
     gap = _unexplained(question)
-    actor = per_tire(question.design.blocks["category"], question.tire)
-    found = [*_of_all(gap, count, seed), *_of_one_category(question, gap, actor, count, seed)]
+    organisation = per_tire(question.design.blocks["category"], question.tire)
+    found = [*_of_all(gap, count, seed), *_of_one_category(question, gap, organisation, count, seed)]
     if fewer is not None and count > 2:
-        found += _split(gap, actor.argmax(axis=1), per_tire(fewer, question.tire), seed)
+        found += _split(gap, organisation.argmax(axis=1), per_tire(fewer, question.tire), seed)
     return [each[question.tire] for each in found]
 
 
@@ -75,12 +75,12 @@ def _of_all(gap: np.ndarray, count: int, seed: int) -> list[np.ndarray]:
 
 
 def _of_one_category(
-    question: ClassSearchInput, gap: np.ndarray, actor: np.ndarray, count: int, seed: int
+    question: ClassSearchInput, gap: np.ndarray, organisation: np.ndarray, count: int, seed: int
 ) -> list[np.ndarray]:
     """Groups within each category that has tires enough; shares by the metadata for everyone else's."""
     metadata = question.metadata[question.one_cell]
     found = []
-    for own in (actor > 0.0).T:
+    for own in (organisation > 0.0).T:
         if own.sum() < _TIRES_A_GROUP * count:
             continue
         groups = _groups(gap[own], count, seed)
@@ -90,7 +90,7 @@ def _of_one_category(
     return found
 
 
-def _split(gap: np.ndarray, actor: np.ndarray, fewer: np.ndarray, seed: int) -> list[np.ndarray]:
+def _split(gap: np.ndarray, organisation: np.ndarray, fewer: np.ndarray, seed: int) -> list[np.ndarray]:
     """Each class in its turn cut in two, by what its tires differ in within their categories."""
     kind = fewer.argmax(axis=1)
     found = []
@@ -99,8 +99,8 @@ def _split(gap: np.ndarray, actor: np.ndarray, fewer: np.ndarray, seed: int) -> 
         if own.size < _LEAST_SPLIT:
             continue
         apart = gap[own]
-        for category in np.unique(actor[own]):
-            mine = actor[own] == category
+        for category in np.unique(organisation[own]):
+            mine = organisation[own] == category
             apart[mine] -= apart[mine].mean(axis=0)
         half = KMeans(2, n_init=_TRIES, random_state=seed).fit_predict(
             apart / np.maximum(apart.std(axis=0), 1e-9)

@@ -79,6 +79,6 @@ def tire_regressors(blocks: Mapping[str, np.ndarray]) -> np.ndarray:
 
 def with_kinds(blocks: Mapping[str, np.ndarray], kind: np.ndarray) -> dict[str, np.ndarray]:
     """Add the regressors of what each category does along each number of the kind, (n, k)."""
-    actor = blocks["category"]
-    both = (actor[:, :, None] * kind[:, None, :]).reshape(len(actor), -1)
+    organisation = blocks["category"]
+    both = (organisation[:, :, None] * kind[:, None, :]).reshape(len(organisation), -1)
     return {**blocks, "category_kind": both} if kind.shape[1] else dict(blocks)

@@ -296,10 +296,10 @@ class CurveMixedModel:
 
 def columns_of(model: CurveMixedModel, block: str) -> slice:
     """Where the weights of ``category``, ``category_metadata`` or ``protocol`` stand."""
-    d, actors = len(model.metadata.names), len(model.categories)
+    d, organisations = len(model.metadata.names), len(model.categories)
     widths = {
-        "category": actors,
-        "category_metadata": actors * d,
+        "category": organisations,
+        "category_metadata": organisations * d,
         "protocol": len(model.protocols.changes),
     }
     start = 1 + d + len(model.metadata.sizes)
@@ -323,12 +323,12 @@ def design_blocks(
     :func:`.class_search.with_classes` and :func:`.kinds.with_kinds` add theirs.
     """
     x = metadata.regressors(table)
-    actor = (category[:, None] == np.array(categories)[None, :]).astype(float)
+    organisation = (category[:, None] == np.array(categories)[None, :]).astype(float)
     return {
         "level": np.ones((len(table), 1)),
         "metadata": x,
         "size": metadata.size_indicators(table),
-        "category": actor,
-        "category_metadata": (actor[:, :, None] * x[:, None, :]).reshape(len(actor), -1),
+        "category": organisation,
+        "category_metadata": (organisation[:, :, None] * x[:, None, :]).reshape(len(organisation), -1),
         **({"protocol": protocol} if protocol.shape[1] else {}),
     }

@@ -169,11 +169,11 @@ def _steps(
 
 
 def _look(
-    actor: np.ndarray, day: np.ndarray, values: Mapping[str, np.ndarray], category: str
+    organisation: np.ndarray, day: np.ndarray, values: Mapping[str, np.ndarray], category: str
 ) -> _Look | None:
     """Weigh a step of ``category`` against none; None if too few dated tires tell."""
-    own = (actor == category) & ~np.isnat(day)
-    others = (actor != category) & ~np.isnat(day)
+    own = (organisation == category) & ~np.isnat(day)
+    others = (organisation != category) & ~np.isnat(day)
     fewest = max(_FEWEST, _LEAST_SHARE * own.sum())
     days = np.unique(day[own])
     after = np.array([(day[own] >= one).sum() for one in days])
@@ -182,8 +182,8 @@ def _look(
         return None
     odds = np.zeros(days.size)
     for part in values.values():
-        step, weight = _steps(part[own], day[own], actor[own], days)
-        there, known = _steps(part[others], day[others], actor[others], days)
+        step, weight = _steps(part[own], day[own], organisation[own], days)
+        there, known = _steps(part[others], day[others], organisation[others], days)
         odds += np.logaddexp(0.0, _log_odds(step, there, 1.0 / weight, 1.0 / np.maximum(known, 1e-9)))
         odds -= np.log(2.0)
     return _Look(days, odds, day[own])
@@ -227,10 +227,10 @@ def _log_odds(own: np.ndarray, others: np.ndarray, noise: np.ndarray, theirs: np
 
 
 def _remove_step(
-    actor: np.ndarray, day: np.ndarray, values: Mapping[str, np.ndarray], category: str, look: _Look
+    organisation: np.ndarray, day: np.ndarray, values: Mapping[str, np.ndarray], category: str, look: _Look
 ) -> None:
     """Take a change that was found out of the values, so that it does not show in the others' comparison."""
-    own = (actor == category) & ~np.isnat(day)
+    own = (organisation == category) & ~np.isnat(day)
     for part in values.values():
         for late in (True, False):
             side = own & ((day >= look.day) == late)

@@ -94,7 +94,7 @@ def _network(inputs: int, outputs: int, hidden: int, *, still: bool = False) -> 
 
 
 def _train(
-    here: torch.Tensor, there: torch.Tensor, scores: int, actors: int, rounds: int, seed: int
+    here: torch.Tensor, there: torch.Tensor, scores: int, organisations: int, rounds: int, seed: int
 ) -> list[np.ndarray]:
     """Train both directions; give the weights of the one to the target."""
     with torch.random.fork_rng():
@@ -110,8 +110,8 @@ def _train(
             b = there[torch.randint(len(there), (BATCH,), generator=generator)]
             context_a, context_b = a[:, scores:], b[:, scores:]
             # a target's file, taken to the category of the source beside it, and the reverse
-            as_a = torch.cat([context_a[:, :actors], context_b[:, actors:]], dim=1)
-            as_b = torch.cat([context_b[:, :actors], context_a[:, actors:]], dim=1)
+            as_a = torch.cat([context_a[:, :organisations], context_b[:, organisations:]], dim=1)
+            as_b = torch.cat([context_b[:, :organisations], context_a[:, organisations:]], dim=1)
             fake_b = a[:, :scores] + go(a)
             fake_a = b[:, :scores] + back(torch.cat([b[:, :scores], as_a], dim=1))
             again_a = fake_b + back(torch.cat([fake_b, context_a], dim=1))

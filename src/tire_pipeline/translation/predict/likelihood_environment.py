@@ -62,16 +62,22 @@ def situation_of(model: CurveMixedModel, table: pd.DataFrame, target: str) -> Si
     )
     surprise = np.clip(found.surprise, -4.0, 4.0)
     category = table["category"].to_numpy(dtype=str)
-    actor = (category[:, None] == np.array(model.categories)[None, :]).astype(float)
+    organisation = (category[:, None] == np.array(model.categories)[None, :]).astype(float)
     metadata = np.clip(model.metadata.regressors(table), -4.0, 4.0)
-    known = [actor, metadata, found.classes, _both(actor, found.classes), model.protocols.code(table)]
+    known = [
+        organisation,
+        metadata,
+        found.classes,
+        _both(organisation, found.classes),
+        model.protocols.code(table),
+    ]
     context = np.concatenate(known, axis=1)
     return Situation(surprise, found.shift / unit, context, unit)
 
 
-def _both(actor: np.ndarray, classes: np.ndarray) -> np.ndarray:
+def _both(organisation: np.ndarray, classes: np.ndarray) -> np.ndarray:
     """Category and class of tire together, (n, categories x classes)."""
-    return (actor[:, :, None] * classes[:, None, :]).reshape(len(actor), -1)
+    return (organisation[:, :, None] * classes[:, None, :]).reshape(len(organisation), -1)
 
 
 def potential(moved: np.ndarray, situation: Situation, rows: np.ndarray) -> np.ndarray:

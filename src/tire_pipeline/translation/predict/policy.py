@@ -12,6 +12,7 @@ import torch
 from stable_baselines3 import PPO
 from torch import nn
 
+from tire_pipeline.training_progress import training_progress
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.curiosity import Curiosity
 from tire_pipeline.translation.predict.likelihood_environment import (
@@ -72,7 +73,8 @@ class PolicyPredictor:
                 seed=seed,
                 device="cpu",
             )
-            agent.learn(self.updates * TIRES * ROLL_OUT)
+            steps = self.updates * TIRES * ROLL_OUT
+            agent.learn(steps, training_progress(steps, TIRES * ROLL_OUT, "training our agent"))
         finally:
             torch.set_num_threads(threads)
         learning = tuple(float(info["r"]) for info in agent.ep_info_buffer or [])

@@ -12,7 +12,7 @@ import pandas as pd
 
 from tire_pipeline.classifiers.compiled_forest import CompiledForest
 from tire_pipeline.errors import DomainError
-from tire_pipeline.progress import track
+from tire_pipeline.training_progress import training_progress
 from tire_pipeline.translation.thesis.policy import GreedyPolicy
 from tire_pipeline.translation.thesis.rules import Rules
 
@@ -72,31 +72,12 @@ def train_agent(
         env = BatchEnv(starts, forest, rules, n_envs=n_envs, seed=seed)
         model = make_model(env, algorithm=algorithm, seed=seed, n_steps=n_steps)
         steps = TOTAL_STEPS[algorithm] if total_steps is None else total_steps
-        model.learn(total_timesteps=steps, callback=_progress(steps, n_steps * n_envs))
+        progress = training_progress(steps, n_steps * n_envs, "training the agent")
+        model.learn(total_timesteps=steps, callback=progress)
     return TrainedAgent(
         policy=GreedyPolicy.from_model(model, rules.n_bins),
         learning_curve=pd.DataFrame(env.episodes, columns=["step", "reward", "length"]),
     )
-
-
-def _progress(total_steps: int, steps_per_update: int) -> object:
-    """Show how many updates are done."""
-    from stable_baselines3.common.callbacks import BaseCallback
-
-    class Progress(BaseCallback):
-        def _on_training_start(self) -> None:
-            self.updates = track(range(-(-total_steps // steps_per_update)), "training the agent")
-
-        def _on_rollout_start(self) -> None:
-            next(self.updates, None)
-
-        def _on_step(self) -> bool:
-            return True
-
-        def _on_training_end(self) -> None:
-            self.updates.close()
-
-    return Progress()
 
 
 def make_model(env: object, *, algorithm: str, seed: int, n_steps: int = N_STEPS) -> Any:
