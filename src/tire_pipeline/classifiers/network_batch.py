@@ -10,17 +10,23 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import torch
 
-from tire_pipeline.classifiers.network_optimizers import make_optimizer
 from tire_pipeline.errors import DomainError
 
 HIDDEN_LAYERS = (128, 128, 64)
 """Nodes of the thesis' three hidden layers."""
 
 LOSSES = ("CrossEntropyLoss", "NLLLoss", "MSELoss")
+
+_OPTIMIZERS: dict[str, tuple[Any, dict[str, bool]]] = {
+    "AdamW": (torch.optim.AdamW, {"fused": True}),
+    "SGD": (torch.optim.SGD, {"fused": True}),
+    "RMSprop": (torch.optim.RMSprop, {}),
+}
 
 Layers = list[tuple[np.ndarray, np.ndarray]]
 
@@ -84,7 +90,7 @@ def train_networks(
     sizes = [width, *hidden, n_classes]
     data, labels, counts = _padded(sets, batch_size)
     network = _Networks(sizes, seeds)
-    step = make_optimizer(optimizer, network.flat, network.gradient, learning_rates, weight_decays)
+    steps = _Steps(optimizer, network, learning_rates, weight_decays)
     shuffles = [np.random.default_rng([seed, 1]) for seed in seeds]
     steps_of = -(-counts // batch_size)
     out: dict[int, list[Layers]] = {}
@@ -97,7 +103,7 @@ def train_networks(
             rows = torch.from_numpy(order[:, number * batch_size : (number + 1) * batch_size])
             inputs = torch.take_along_dim(data, rows[..., None], dim=1)
             network.backward(inputs, torch.take_along_dim(labels, rows, dim=1), loss)
-            step(steps_of > number)
+            steps.take(steps_of > number)
         if epoch in wanted:
             out[epoch] = network.layers()
     return out
@@ -170,6 +176,31 @@ class _Networks:
             ]
             for index in range(len(self.flat))
         ]
+
+
+class _Steps:
+    """An optimiser of torch over all networks, each a group with a rate and a decay of its own."""
+
+    def __init__(
+        self, name: str, network: _Networks, rates: Sequence[float], decays: Sequence[float]
+    ) -> None:
+        if name not in _OPTIMIZERS:
+            raise DomainError(
+                f"there is no optimiser {name!r}", todo=f"choose one of {', '.join(_OPTIMIZERS)}"
+            )
+        kind, options = _OPTIMIZERS[name]
+        self.rows, self.slopes = network.flat.unbind(), network.gradient.unbind()
+        each = zip(self.rows, rates, decays, strict=True)
+        groups: list[dict[str, Any]] = [
+            {"params": [row], "lr": float(rate), "weight_decay": float(decay)} for row, rate, decay in each
+        ]
+        self.optimizer = kind(groups, **options)
+
+    def take(self, active: np.ndarray) -> None:
+        """Move the networks that are active, (M,), one step along their gradients."""
+        for row, slope, moves in zip(self.rows, self.slopes, active, strict=True):
+            row.grad = slope if moves else None
+        self.optimizer.step()
 
 
 def _output_gradient(scores: torch.Tensor, labels: torch.Tensor, loss: str) -> torch.Tensor:
