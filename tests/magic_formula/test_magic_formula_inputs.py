@@ -11,7 +11,16 @@ from hypothesis import strategies as st
 from magic_formula_tires import tire_52, tire_61
 
 from tire_pipeline.errors import TirError, TirShapeError, TirValueError, TirVersionError
-from tire_pipeline.magic_formula import OUTPUTS, DegreesWarning, TireModel, TireRangeWarning
+from tire_pipeline.magic_formula import (
+    OUTPUTS,
+    DegreesWarning,
+    OperatingPoints,
+    TireModel,
+    TireRangeWarning,
+    forces_batch,
+    pack,
+)
+from tire_pipeline.magic_formula.parameters.points import CHANNELS, Channels
 
 TIRES = {"5.2": tire_52(), "6.1": tire_61()}
 anything = st.floats(allow_nan=False, allow_infinity=False)
@@ -207,3 +216,34 @@ def test_only_the_outputs_asked_for_are_there():
     forces = TIRES["5.2"].forces(slip_angle=[0.1], normal_load=3000.0, outputs=("fy",))
     assert forces.fy is not None
     assert forces.mz is None
+
+
+def test_points_are_one_value_or_keywords_and_nothing_between():
+    tire = tire_52()
+    points = OperatingPoints(normal_load=3000.0, slip_angle=[0.02, 0.05], camber=0.03)
+    keywords = {"normal_load": 3000.0, "slip_angle": [0.02, 0.05], "camber": 0.03}
+    assert (tire.forces(points).fy == tire.forces(**keywords).fy).all()
+    names = ["PKY1", "PDY1"]
+    assert (tire.jacobian(names, points)["fy"] == tire.jacobian(names, **keywords)["fy"]).all()
+    matrix = pack(tire)[None, :]
+    assert (forces_batch(matrix, points)["fy"] == forces_batch(matrix, **keywords)["fy"]).all()
+    with pytest.raises(TirValueError, match="slip_angle"):
+        tire.forces(points, slip_angle=0.1)
+    with pytest.raises(TypeError, match="normal_load"):
+        tire.forces(slip_angle=0.1)
+    with pytest.raises(TypeError, match="slipangle"):
+        tire.forces(slipangle=0.1, normal_load=3000.0)
+
+
+def test_fields_of_points_are_the_channels_and_turn_slip():
+    assert {*CHANNELS, "turn_slip"} == set(OperatingPoints._fields) == set(Channels.__annotations__)
+
+
+def test_turn_slip_is_refused_where_it_is_not_known():
+    tire = tire_61()
+    for ask in (
+        lambda: tire.jacobian(["PKY1"], normal_load=3000.0, turn_slip=0.01),
+        lambda: forces_batch(pack(tire)[None, :], normal_load=3000.0, turn_slip=0.01, version="6.1"),
+    ):
+        with pytest.raises(TirValueError, match="turn slip"):
+            ask()

@@ -13,6 +13,7 @@ from tire_pipeline.magic_formula.model import TireModel, model_of
 from tire_pipeline.magic_formula.parameters.axes import AXES
 from tire_pipeline.magic_formula.parameters.coefficients import COEFFICIENT_NAMES
 from tire_pipeline.magic_formula.parameters.inputs import DegreesWarning, TireRangeWarning
+from tire_pipeline.magic_formula.parameters.points import OperatingPoints
 
 if TYPE_CHECKING:
     from tire_pipeline.magic_formula.fitting import FitResult, PoorFitWarning, fit_magic_formula
@@ -24,6 +25,7 @@ __all__ = [
     "DegreesWarning",
     "FitResult",
     "MissingRadiusWarning",
+    "OperatingPoints",
     "PoorFitWarning",
     "TireForces",
     "TireModel",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -19,6 +19,13 @@ from tire_pipeline.magic_formula.parameters.coefficients import (
     pack_mapping,
 )
 from tire_pipeline.magic_formula.parameters.inputs import as_float_arrays
+from tire_pipeline.magic_formula.parameters.points import (
+    CHANNELS,
+    Channels,
+    OperatingPoints,
+    points_of,
+    refuse_turn_slip,
+)
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 _NEUTRAL = {version: pack_mapping({}, missing_defaults({}, version)) for version in ("5.2", "6.1")}
@@ -79,15 +86,11 @@ def pack_matrix(values: Any, names: Sequence[str], version: str = "5.2") -> np.n
 
 def forces_batch(
     matrix: np.ndarray,
+    points: OperatingPoints | None = None,
     *,
-    normal_load: Any,
-    slip_angle: Any = 0.0,
-    slip_ratio: Any = 0.0,
-    camber: Any = 0.0,
-    speed: Any = None,
-    pressure: Any = None,
     version: str = "5.2",
     outputs: Sequence[str] = ("fx", "fy", "mz"),
+    **channels: Unpack[Channels],
 ) -> dict[str, np.ndarray]:
     """Evaluate many tires, each at the same points or each at its own.
 
@@ -95,9 +98,13 @@ def forces_batch(
     ----------
     matrix : ndarray of shape (tires, len(COEFFICIENT_NAMES))
         Packed coefficients (:func:`pack`, :func:`pack_matrix`); all of versions of one family of equations.
-    normal_load, slip_angle, slip_ratio, camber, speed, pressure : float or array_like
-        Broadcast together to (points,), or to (tires, points) where each tire has its own; rad, N, m/s, Pa;
-        ISO W axes. ``speed`` and ``pressure`` left out: each tire's ``LONGVL`` and nominal pressure.
+    points : OperatingPoints, optional
+        In ISO W axes; or give its fields by keyword. They broadcast together to (points,), or to (tires,
+        points) where each tire has its own. Speed and pressure left out: each tire's ``LONGVL`` and nominal
+        pressure. Turn slip is not known here.
+    **channels : float or array_like
+        ``normal_load`` (N), ``slip_angle`` (rad), ``slip_ratio``, ``camber`` (rad), ``speed`` (m/s),
+        ``pressure`` (Pa); see :class:`.OperatingPoints`.
     version : str
         A version of the family: "5.2" (also for PAC2002, 5.0, 5.1) or "6.1" (also for 6.2).
     outputs : sequence of str
@@ -112,6 +119,8 @@ def forces_batch(
     ------
     TirShapeError
         If shapes do not fit.
+    TirValueError
+        For an output that is not known, or points with turn slip.
     """
     matrix = np.ascontiguousarray(matrix, dtype=np.float64)
     if matrix.ndim != 2 or matrix.shape[1] != len(COEFFICIENT_NAMES):
@@ -120,15 +129,11 @@ def forces_batch(
             todo="use pack or pack_matrix",
         )
     wanted = checked_outputs(outputs)
-    given: dict[str, Any] = {
-        "slip_angle": slip_angle,
-        "slip_ratio": slip_ratio,
-        "camber": camber,
-        "normal_load": normal_load,
-        "speed": matrix[:, [INDEX["LONGVL"]]] if speed is None else speed,
-        "pressure": matrix[:, [INDEX["NOMPRES"]]] if pressure is None else pressure,
-    }
-    arrays, shape = as_float_arrays(given)
+    given = points_of(points, channels)
+    refuse_turn_slip(given, "forces of many tires")
+    own = {"speed": matrix[:, [INDEX["LONGVL"]]], "pressure": matrix[:, [INDEX["NOMPRES"]]]}
+    at = given._asdict()
+    arrays, shape = as_float_arrays({name: own[name] if at[name] is None else at[name] for name in CHANNELS})
     tires = len(matrix)
     if len(shape) > 2 or (len(shape) == 2 and shape[0] not in (1, tires)):
         raise TirShapeError(
@@ -136,7 +141,7 @@ def forces_batch(
             todo="give one row a tire",
         )
     full = (tires, shape[-1] if shape else 1)
-    points = [np.broadcast_to(x, full) for x in arrays.values()]
+    rows = [np.broadcast_to(x, full) for x in arrays.values()]
     largest = max(float(np.abs(arrays[name]).max(initial=0.0)) for name in ("slip_angle", "camber"))
-    out = engine.run(matrix, family_of(version), points, _NO_SIGNS, wanted, largest)
+    out = engine.run(matrix, family_of(version), rows, _NO_SIGNS, wanted, largest)
     return {name: out[:, k] for k, name in enumerate(wanted)}

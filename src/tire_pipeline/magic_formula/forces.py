@@ -18,6 +18,7 @@ from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA
 from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.parameters import inputs
 from tire_pipeline.magic_formula.parameters.axes import Signs, is_mirrored, signs_of
+from tire_pipeline.magic_formula.parameters.points import CHANNELS, OperatingPoints
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 _BUFFER = 32768
@@ -32,7 +33,6 @@ _BY_CARCASS = {
     "relaxation_longitudinal": "LONGITUDINAL_STIFFNESS",
 }  # MF 6.1 takes these instead of the radius where it has them
 _STACK_LEVEL = 4
-_POINT = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure", "turn_slip")
 _NUMBERS = frozenset((float, int, np.float64))
 
 
@@ -79,28 +79,16 @@ class TireForces:
 
 def tire_forces(
     model: TireParameters,
+    points: OperatingPoints,
     *,
-    normal_load: Any,
-    slip_angle: Any = 0.0,
-    slip_ratio: Any = 0.0,
-    camber: Any = 0.0,
-    speed: Any = None,
-    pressure: Any = None,
-    turn_slip: Any = 0.0,
     side: str | None = None,
     axes: str = "ISO",
     limits: str = "warn",
     outputs: Sequence[str] | None = None,
 ) -> TireForces:
     """Evaluate a tire model; see :meth:`TireModel.forces`."""
-    sixth = model.family == 6
-    if speed is None:
-        speed = model.value("LONGVL")
-    if not sixth:
-        pressure = 0.0
-    elif pressure is None:
-        pressure = model.value("NOMPRES")
-    point = (slip_angle, slip_ratio, camber, normal_load, speed, pressure)
+    point = model.channels_at(points)
+    turn_slip = points.turn_slip
     if (
         HAVE_NUMBA
         and model.moderate
@@ -114,12 +102,12 @@ def tire_forces(
             return quick
     wanted = checked_outputs(outputs)
     signs = signs_of(axes, is_mirrored(side, model.metadata.get("MODEL.TYRESIDE")))
-    given = dict(zip(_POINT, (*point, turn_slip), strict=True))
-    arrays, shape = inputs.as_float_arrays(given)
+    given = dict(zip(CHANNELS, point, strict=True))
+    arrays, shape = inputs.as_float_arrays({**given, "turn_slip": turn_slip})
     flipped = {name: getattr(signs, name) < 0 for name in ("slip_angle", "camber")}
     arrays, largest = inputs.apply_limits(arrays, model.ranges, limits, flipped)
     turn = arrays.pop("turn_slip")
-    turning = sixth and bool(turn.any() if turn.ndim else turn)
+    turning = model.family == 6 and bool(turn.any() if turn.ndim else turn)
     if model.lacks_radius:
         _warn_of_radius(model, wanted, turning)
     values = _evaluate(
@@ -153,7 +141,9 @@ def _one_point(
             return None
     values = engine.run_point(model.packed, model.family, point)
     if outputs is None:
-        return TireForces(*values)
+        found = object.__new__(TireForces)
+        vars(found).update(zip(OUTPUTS, values, strict=True))  # a frozen dataclass takes three times as long
+        return found
     return TireForces(**{name: values[OUTPUTS.index(name)] for name in checked_outputs(outputs)})
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.magic_formula.forces import tire_forces
+from tire_pipeline.magic_formula.parameters.points import OperatingPoints
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 LARGEST_SLIP_ANGLE = np.deg2rad(15.0)
@@ -64,7 +65,7 @@ def key_figures(model: TireParameters, normal_load: float | None = None) -> list
     load = model.value("FNOMIN") if normal_load is None else float(normal_load)
     side = forces_over(model, "slip_angle", load)
     ahead = forces_over(model, "slip_ratio", load)
-    still = tire_forces(model, normal_load=load, limits="ignore")
+    still = tire_forces(model, OperatingPoints(normal_load=load), limits="ignore")
     angle, force = np.degrees(side["slip"]), np.abs(side["fy"])
     ratio, pull = ahead["slip"], np.abs(ahead["fx"])
     torque = np.abs(side["mz"])
@@ -99,8 +100,8 @@ def forces_over(model: TireParameters, slip: str, normal_load: float, **more: An
         ``slip`` (rad or 1), ``fx``, ``fy`` (N), ``mz`` (N m).
     """
     x = slip_range(model, slip)
-    points: dict[str, Any] = {slip: x, "normal_load": normal_load, **more}
-    found = tire_forces(model, **points, limits="ignore", outputs=("fx", "fy", "mz"))
+    fields: dict[str, Any] = {slip: x, "normal_load": normal_load, **more}
+    found = tire_forces(model, OperatingPoints(**fields), limits="ignore", outputs=("fx", "fy", "mz"))
     return {"slip": x, "fx": found.fx, "fy": found.fy, "mz": found.mz}
 
 

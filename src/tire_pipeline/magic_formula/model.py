@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from tire_pipeline.magic_formula.parameters.coefficients import (
     is_possible,
     missing_defaults,
 )
+from tire_pipeline.magic_formula.parameters.points import Channels, OperatingPoints, points_of
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 if TYPE_CHECKING:
@@ -67,34 +68,23 @@ class TireModel(TireParameters):
 
     def forces(
         self,
+        points: OperatingPoints | None = None,
         *,
-        normal_load: Any,
-        slip_angle: Any = 0.0,
-        slip_ratio: Any = 0.0,
-        camber: Any = 0.0,
-        speed: Any = None,
-        pressure: Any = None,
-        turn_slip: Any = 0.0,
         side: str | None = None,
         axes: str = "ISO",
         limits: str = "warn",
-        outputs: Any = None,
+        outputs: Sequence[str] | None = None,
+        **channels: Unpack[Channels],
     ) -> TireForces:
         """Return forces, moments and what belongs to them at operating points.
 
         Parameters
         ----------
-        normal_load : float or array_like
-            Vertical load (N). A load of zero or less gives zero everywhere.
-        slip_angle, slip_ratio, camber : float or array_like
-            Slip angle (rad), longitudinal slip (-1 is a locked wheel), camber (rad).
-        speed : float or array_like, optional
-            Forward speed (m/s), for the rolling resistance; ``LONGVL`` if left out.
-        pressure : float or array_like, optional
-            Inflation pressure (Pa); the nominal one if left out. Only MF 6.1 and 6.2 use it.
-        turn_slip : float or array_like
-            Curvature of the path (1/m). 0 everywhere switches the turn slip equations off. Only MF 6.1 and
-            6.2.
+        points : OperatingPoints, optional
+            Where to evaluate; or give its fields by keyword:
+        **channels : float or array_like
+            ``normal_load`` (N), ``slip_angle`` (rad), ``slip_ratio``, ``camber`` (rad), ``speed`` (m/s),
+            ``pressure`` (Pa), ``turn_slip`` (1/m); see :class:`.OperatingPoints`.
         side : {None, "left", "right"}
             The side to mount the tire on: if it is not the side it was measured for (``TYRESIDE``, left
             where it is missing), slip angle, camber, Fy, Mx and Mz are mirrored. None: the tire as it was
@@ -140,13 +130,7 @@ class TireModel(TireParameters):
         """
         return tire_forces(
             self,
-            normal_load=normal_load,
-            slip_angle=slip_angle,
-            slip_ratio=slip_ratio,
-            camber=camber,
-            speed=speed,
-            pressure=pressure,
-            turn_slip=turn_slip,
+            points_of(points, channels),
             side=side,
             axes=axes,
             limits=limits,
@@ -180,9 +164,17 @@ class TireModel(TireParameters):
         """Return the tire as a model of another version; see :func:`.convert.to_version`."""
         return to_version(self, version)
 
-    def jacobian(self, names: Sequence[str], **points: Any) -> dict[str, np.ndarray]:
+    def jacobian(
+        self,
+        names: Sequence[str],
+        points: OperatingPoints | None = None,
+        *,
+        outputs: Sequence[str] = ("fx", "fy", "mz"),
+        out: Mapping[str, np.ndarray] | None = None,
+        **channels: Unpack[Channels],
+    ) -> dict[str, np.ndarray]:
         """Return the derivatives of forces with respect to coefficients; see :func:`.jacobian.jacobian`."""
-        return jacobian(self, names, **points)
+        return jacobian(self, names, points_of(points, channels), outputs=outputs, out=out)
 
 
 def model_of(vector: np.ndarray, version: str, metadata: Mapping[str, object] | None = None) -> TireModel:

@@ -10,6 +10,7 @@ import numpy as np
 from tire_pipeline.drawing import colour_of, new_figure
 from tire_pipeline.magic_formula.forces import tire_forces
 from tire_pipeline.magic_formula.key_figures import forces_over, usual_loads
+from tire_pipeline.magic_formula.parameters.points import OperatingPoints
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 if TYPE_CHECKING:
@@ -72,9 +73,8 @@ def _stiffness(
 ) -> None:
     for line, model in zip(_LINES, models.values(), strict=False):
         axis = np.linspace(0.1 * min(loads), 1.2 * max(loads), 200)
-        found = tire_forces(
-            model, normal_load=axis, camber=camber, limits="ignore", outputs=("cornering_stiffness",)
-        )
+        points = OperatingPoints(normal_load=axis, camber=camber)
+        found = tire_forces(model, points, limits="ignore", outputs=("cornering_stiffness",))
         stiffness = np.abs(found.cornering_stiffness) * np.pi / 180.0
         if stiffness.max() > 0.0:
             panel.plot(axis / 1e3, stiffness, line, color="black", lw=1.4)

@@ -15,6 +15,7 @@ from tire_pipeline.magic_formula.equations.numpy_form import SATURATION, relativ
 from tire_pipeline.magic_formula.equations.shapes import clamp
 from tire_pipeline.magic_formula.parameters.coefficients import INDEX, Coefficients
 from tire_pipeline.magic_formula.parameters.inputs import as_float_arrays
+from tire_pipeline.magic_formula.parameters.points import CHANNELS, OperatingPoints, refuse_turn_slip
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 _CHUNK = 4096
@@ -23,13 +24,8 @@ _CHUNK = 4096
 def jacobian(
     model: TireParameters,
     names: Sequence[str],
+    points: OperatingPoints,
     *,
-    normal_load: Any,
-    slip_angle: Any = 0.0,
-    slip_ratio: Any = 0.0,
-    camber: Any = 0.0,
-    speed: Any = None,
-    pressure: Any = None,
     outputs: Sequence[str] = ("fx", "fy", "mz"),
     out: Mapping[str, np.ndarray] | None = None,
 ) -> dict[str, np.ndarray]:
@@ -40,8 +36,8 @@ def jacobian(
     model : TireParameters
     names : sequence of str
         Coefficients, by ``.tir`` name; a column of zeros for one that the output does not depend on.
-    normal_load, slip_angle, slip_ratio, camber, speed, pressure : float or array_like
-        As in :meth:`TireModel.forces`, in ISO W axes. Ranges are not checked, turn slip is not known here.
+    points : OperatingPoints
+        In ISO W axes. Ranges are not checked, turn slip is not known here.
     outputs : sequence of str
         Some of "fx", "fy", "mx", "my", "mz".
     out : mapping of str to ndarray of shape (len(names), number of points), optional
@@ -54,7 +50,7 @@ def jacobian(
     Raises
     ------
     TirValueError
-        For a name that is not a coefficient, or an output without derivatives.
+        For a name that is not a coefficient, an output without derivatives, or points with turn slip.
     TirShapeError
         If the arguments do not broadcast.
 
@@ -63,11 +59,8 @@ def jacobian(
     Analytic: the equations are differentiated backwards once (:mod:`.derive`). At a kink (a bound, a
     magnitude, a sign) it is the derivative of one side.
     """
-    given: tuple[Any, ...] = (slip_angle, slip_ratio, camber, normal_load)
-    given += (model.value("LONGVL") if speed is None else speed,)
-    given += (0.0 if model.family == 5 else model.value("NOMPRES") if pressure is None else pressure,)
-    keys = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
-    arrays, shape = as_float_arrays(dict(zip(keys, given, strict=True)))
+    refuse_turn_slip(points, "derivatives")
+    arrays, shape = as_float_arrays(dict(zip(CHANNELS, model.channels_at(points), strict=True)))
     flat = [np.ascontiguousarray(np.broadcast_to(x, shape)).reshape(-1) for x in arrays.values()]
     found = packed_jacobian(model.packed, model.family, names, flat, outputs, out)
     return {name: value.T.reshape(*shape, len(names)) for name, value in found.items()}

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from tire_pipeline.magic_formula.fitting.coverage import noise_alone, open_coefficients
-from tire_pipeline.magic_formula.fitting.given import INPUTS
 from tire_pipeline.magic_formula.fitting.search import SLACK, StageFit, are_few, judged, least, most_typical
 from tire_pipeline.magic_formula.fitting.solve import Bounds, Problem
 from tire_pipeline.magic_formula.fitting.stages import Stage
@@ -21,6 +20,7 @@ from tire_pipeline.magic_formula.fitting.starts import (
 from tire_pipeline.magic_formula.fitting.typical import pull
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.coefficients import INDEX
+from tire_pipeline.magic_formula.parameters.points import CHANNELS
 
 _EXACT = 1e-4
 """A misfit below this share of the largest force is no misfit."""
@@ -123,7 +123,7 @@ def fit_stage(
             typical[name] = max(typical[name], first[name])
     silent = noise_alone(tuple(names), ranges, model.value("FNOMIN"))
     known = {n for group in closed.values() for n in group}
-    rows = [np.ascontiguousarray(here[name]) for name in INPUTS]
+    rows = [np.ascontiguousarray(here[name]) for name in CHANNELS]
 
     def problem_of(free: Sequence[str]) -> tuple[Problem, Bounds]:
         vector = model.packed.copy()

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.parameters.points import CHANNELS, OperatingPoints
 
-_INPUTS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed")
 _LOAD_STEP = 0.25
 _CAMBER_STEP = np.deg2rad(1.0)
 
@@ -18,12 +17,8 @@ _CAMBER_STEP = np.deg2rad(1.0)
 def _residuals(
     model: TireModel, points: Mapping[str, np.ndarray], forces: Mapping[str, np.ndarray]
 ) -> dict[str, np.ndarray]:
-    at: dict[str, Any] = {
-        name: points[name] for name in ("slip_angle", "slip_ratio", "camber", "normal_load", "speed")
-    }
-    if model.family == 6:
-        at["pressure"] = points["pressure"]
-    computed = model.forces(**at, limits="ignore", outputs=tuple(forces))
+    at = OperatingPoints(**{name: points[name] for name in CHANNELS})
+    computed = model.forces(at, limits="ignore", outputs=tuple(forces))
     return {name: getattr(computed, name) - measured for name, measured in forces.items()}
 
 

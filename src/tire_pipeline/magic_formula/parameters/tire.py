@@ -21,6 +21,7 @@ from tire_pipeline.magic_formula.parameters.coefficients import (
     missing_defaults,
     pack_mapping,
 )
+from tire_pipeline.magic_formula.parameters.points import CHANNELS, OperatingPoints
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -119,8 +120,21 @@ class TireParameters:
     @cached_property
     def range_list(self) -> list[tuple[int, float, float]]:
         """The ranges by the place of the input among the arguments, for quick checks."""
-        order = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
-        return [(order.index(name), low, high) for name, (*_, low, high) in self.ranges.items()]
+        return [(CHANNELS.index(name), low, high) for name, (*_, low, high) in self.ranges.items()]
+
+    def channels_at(self, points: OperatingPoints) -> tuple[Any, ...]:
+        """Return the points in the order of ``CHANNELS``, with the tire's own speed and pressure for None.
+
+        MF 5.2 knows no pressure: its is 0.
+        """
+        normal_load, slip_angle, slip_ratio, camber, speed, pressure, _ = points
+        if speed is None:
+            speed = self.value("LONGVL")
+        if self.family != 6:
+            pressure = 0.0
+        elif pressure is None:
+            pressure = self.value("NOMPRES")
+        return slip_angle, slip_ratio, camber, normal_load, speed, pressure
 
     def value(self, name: str) -> float:
         """Return a coefficient's value, or what stands in for it.
