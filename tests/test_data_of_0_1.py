@@ -15,7 +15,7 @@ from tire_pipeline.command.stored import translator_state
 from tire_pipeline.datasets import IngestStoreDataset, ReleaseDataset
 from tire_pipeline.pipelines.rollback.pipeline import restore_previous
 from tire_pipeline.retraining.compare import balanced_accuracy, compare_models
-from tire_pipeline.tir import read_tir
+from tire_pipeline.tir import TirSyntaxError, read_sidecar, read_tir, sidecar_path, write_tir
 from tire_pipeline.translation import translator_from_state
 from tire_pipeline.translation.parameters import TranslateParameters
 
@@ -73,6 +73,26 @@ def test_a_translator_of_a_former_name_translates_as_it_did(folder):
 def test_translated_files_open(folder):
     for path in (folder / "07_model_output" / "translated").rglob("*.tir"):
         assert read_tir(path).coefficients["FNOMIN"] > 0.0
+
+
+def test_a_corrected_file_has_its_sidecar_and_hands_it_on(folder, tmp_path):
+    stored = folder / "08_reporting" / "corrected" / "corrected.tir"
+    tire = read_tir(stored)
+    effect = tire.metadata["sidecar"]["inflation_pressure"]
+    assert effect["parameters"]["stiffness"] == -0.7847960367506565
+    assert effect["reference"]["pressure_nominal"] == 299970.0
+    assert "inflation_pressure" in stored.read_text().splitlines()[0]
+    written = write_tir(tire, tmp_path / "again.tir")
+    assert read_sidecar(written) == read_sidecar(stored)
+    assert read_tir(written).coefficients == tire.coefficients
+
+
+def test_a_sidecar_of_a_version_that_is_not_known_is_refused_with_what_to_do(folder):
+    stored = folder / "08_reporting" / "corrected" / "corrected.tir"
+    beside = sidecar_path(stored)
+    beside.write_text(beside.read_text().replace('"format_version": 1', '"format_version": 2'))
+    with pytest.raises(TirSyntaxError, match="move it away to read the .tir alone"):
+        read_tir(stored)
 
 
 @pytest.mark.parametrize(
