@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.discrepancy.form_error import shape_columns
 from tire_pipeline.mismatch.discrepancy.nuisance import make_nuisance
 from tire_pipeline.mismatch.discrepancy.repeating import strongest_length
 from tire_pipeline.mismatch.discrepancy.unnamed import forms, play
@@ -12,7 +13,6 @@ from tire_pipeline.mismatch.inference.exchange import exchanged
 from tire_pipeline.mismatch.inference.gates import _least
 from tire_pipeline.mismatch.inference.refit import finish, moved, objective, refit
 from tire_pipeline.mismatch.inference.search import _drop, begin, run, with_shapes
-from tire_pipeline.mismatch.inference.shapes import shape_columns
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.recording.checks import prepare

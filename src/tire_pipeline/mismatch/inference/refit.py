@@ -101,7 +101,7 @@ def refit(
     best = objective(system, changes)
     for step in range(steps):
         changes, best, progress = _step(system, changes, free, best)
-        moved = _scan(system, changes, free, best, 50.0 if step == 0 else 800.0)
+        moved = scan(system, changes, free, best, 50.0 if step == 0 else 800.0)
         if moved is not None:
             changes, gained = moved
             progress = max(progress, best - gained)
@@ -113,7 +113,7 @@ def refit(
 
 def finish(system: System, changes: list[Change], free: list[tuple[str, ...]], best: float) -> Fit:
     """Linearise at the parameters reached: covariance, columns, sums."""
-    labels, columns = _columns(system.data, changes, free)
+    labels, columns = columns_of(system.data, changes, free)
     sums = system.sums(residual(system.data, changes), columns)
     info, _, _ = system.reduce(sums)
     return Fit(
@@ -128,9 +128,10 @@ def finish(system: System, changes: list[Change], free: list[tuple[str, ...]], b
     )
 
 
-def _columns(
+def columns_of(
     data: Data, changes: list[Change], free: list[tuple[str, ...]]
 ) -> tuple[list[tuple[int, str]], dict[str, Array]]:
+    """Return (index of effect, parameter) and d force / d parameter, shape (n, k), of all that float."""
     labels: list[tuple[int, str]] = []
     parts: list[dict[str, Array]] = []
     here = simulate(data, changes)
@@ -155,7 +156,7 @@ def _step(
         tuple(p for p in names if p not in catalogue()[name].scanned)
         for (name, _), names in zip(changes, free, strict=True)
     ]
-    labels, columns = _columns(system.data, changes, smooth)
+    labels, columns = columns_of(system.data, changes, smooth)
     if not labels:
         return changes, best, 0.0
     info, score, _ = system.reduce(system.sums(residual(system.data, changes), columns))
@@ -185,7 +186,7 @@ def moved(changes: Sequence[Change], labels: Sequence[tuple[int, str]], delta: A
     return out
 
 
-def _scan(
+def scan(
     system: System, changes: list[Change], free: list[tuple[str, ...]], best: float, part: float
 ) -> tuple[list[Change], float] | None:
     """Search along parameters whose effect is too far from linear: the moment of a surface change."""

@@ -1,0 +1,70 @@
+"""What the form of an effect may get wrong: columns about its own part of the force."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.forces import Change, simulate
+
+Array = np.ndarray
+_KNOTS = 12
+_WANDER = 2.0
+"""The wheel's angle is integrated from a speed with noise, and wanders: by so many radians times SHAPE_SHARE
+(standard deviation) about each of so many moments."""
+
+
+def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str, Array]:
+    """Columns for what the form of an accepted effect may get wrong.
+
+    Its own part times own inputs, and what other forms of it would do instead.
+    """
+    whole = simulate(data, changes)
+    without = simulate(data, [c for j, c in enumerate(changes) if j != index])
+    name, found = changes[index]
+    effect = catalogue()[name]
+
+    def instead(form: dict[str, float]) -> dict[str, Array]:
+        return simulate(data, [*changes[:index], (name, form), *changes[index + 1 :]])
+
+    others = [instead(form) for form in effect.other_forms(data, found)]
+    later = effect.quarter_turn(found)
+    ahead, hats = (instead(later), _hats(data)) if later else (None, [])
+    load = data.load_excess(data.get("normal_load"))
+    load = load / max(float(np.max(np.abs(load))), 1e-9)
+    out = {}
+    for o in data.outputs:
+        part = whole[o] - without[o]
+        slip = np.abs(data.get("slip_angle" if o == "fy" else "slip_ratio"))
+        use = slip / (slip + max(float(np.quantile(slip, 0.9)) / 3.0, 1e-6))
+        use = 2.0 * use / max(float(use.max()), 1e-9) - 1.0
+        columns = [part * use, part * load, part * (2.0 * use**2 - 1.0), part * use * load, part]
+        if effect.dynamic:
+            shift = 0.5 / settings.SHAPE_SHARE
+            columns += [shift * _change(data, whole[o]), shift * _change(data, part)]
+        columns += [other[o] - whole[o] for other in others]
+        if ahead is not None:
+            columns += [_WANDER * (ahead[o] - without[o]) * hat for hat in hats]
+        out[o] = np.column_stack(columns)
+    return out
+
+
+def _hats(data: Data) -> list[Array]:
+    """Triangles over time whose sum is one."""
+    time = data.time
+    assert time is not None  # asked only of effects that need a time line
+    knots = np.linspace(time[0], time[-1] + 1e-9, _KNOTS)
+    return [np.interp(time, knots, row) for row in np.eye(_KNOTS)]
+
+
+def _change(data: Data, x: Array) -> Array:
+    """Change of a force over one sample: what half a sample of time shift could do, twice."""
+    d = np.zeros_like(x)
+    d[1:-1] = 0.5 * (x[2:] - x[:-2])
+    d[data.start] = 0.0
+    d[np.flatnonzero(data.start)[1:] - 1] = 0.0
+    return d
