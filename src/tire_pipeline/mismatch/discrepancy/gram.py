@@ -164,6 +164,10 @@ class System:
                 self._factors[key] = scipy.linalg.cho_factor(scaled + np.eye(s.size))
             self._chol[o] = self._factors[key]
 
+    def gram(self, output: str) -> Array:
+        """Return the products of the whitened nuisance columns of an output, shape (q, q)."""
+        return self._total[output]
+
     def _leave_out(self, o: str) -> Array:
         """Inverse matrices with each sweep left out, shape (blocks, q, q)."""
         if o not in self._without:

@@ -30,6 +30,12 @@ class Parameter:
         Whether it moves by factors: a fit changes it by no more than a factor of e in one step.
     further : bool
         Whether it only refines what the others do, and has to be sure (``TIE`` of log evidence) to be taken.
+    prior : float
+        Standard deviation about ``zero`` that physics leaves to it where the effect is there; 0 says that
+        every value between the bounds is as likely.
+    prior_in : str
+        What of the recording (``load_nominal``, ``radius``) the prior is a share of; nothing if it is in the
+        parameter's own unit.
     """
 
     name: str
@@ -41,6 +47,8 @@ class Parameter:
     output: str | None = None
     ratio: bool = False
     further: bool = False
+    prior: float = 0.0
+    prior_in: str = ""
 
 
 @dataclass
@@ -112,6 +120,10 @@ class Effect:
         Channels that have to be there and vary.
     used : tuple of str
         Channels that have to be there, but need not vary.
+    family : str
+        Effects of one family are there a little in every recording, by about as much.
+    prior_source : str
+        Where the priors of its parameters come from.
     needs_time : bool
     own_inputs : bool
         True if it is a function of the model's own inputs, so that a flexible form of these could
@@ -161,6 +173,8 @@ class Effect:
     source = ""
     channels: tuple[str, ...] = ()
     used: tuple[str, ...] = ()
+    family = ""
+    prior_source = ""
     needs_time = False
     own_inputs = False
     dynamic = False

@@ -20,7 +20,9 @@ class CamberOffset(Effect):
     own_inputs = True
     unusual = True
     shifts = True
-    parameters = (Parameter("offset", "rad", -0.15, 0.15, 0.0005),)
+    family = "side"
+    prior_source = "Judged: a wheel is set up to about a degree"
+    parameters = (Parameter("offset", "rad", -0.15, 0.15, 0.0005, prior=0.02),)
     looks_like = {
         "plysteer_conicity": "conicity does not change stiffness with camber",
         "camber": "the effect of camber is nothing at camber zero",

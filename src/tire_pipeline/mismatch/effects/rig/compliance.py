@@ -22,9 +22,14 @@ class Compliance(Effect):
     scales = True
     steepens = True
     needed = ("steer",)
+    family = "scale"
+    prior_source = (
+        "Milliken and Milliken, ch. 23: some tenths of a degree for each kN of side force; "
+        "widened to a degree at the nominal load"
+    )
     parameters = (
-        Parameter("steer", "rad", -0.2, 0.2, 4e-5),
-        Parameter("steer_by_fx", "rad", -0.08, 0.08, 4e-5),
+        Parameter("steer", "rad", -0.2, 0.2, 4e-5, prior=0.015),
+        Parameter("steer_by_fx", "rad", -0.08, 0.08, 4e-5, prior=0.01),
     )
     looks_like = {
         "stiffness_scale": "a stiffness factor is the same at every load",

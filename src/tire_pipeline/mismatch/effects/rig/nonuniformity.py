@@ -27,15 +27,17 @@ class Nonuniformity(Effect):
     needs_time = True
     used = ("speed",)
     as_noise = True
+    family = "wheel"
+    prior_source = "SAE J332 grades force variations of some percent of the load"
     parameters = (
-        Parameter("cosine_y", "N", -3000.0, 3000.0, 1.0, output="fy"),
-        Parameter("sine_y", "N", -3000.0, 3000.0, 1.0, output="fy"),
-        Parameter("cosine_x", "N", -3000.0, 3000.0, 1.0, output="fx"),
-        Parameter("sine_x", "N", -3000.0, 3000.0, 1.0, output="fx"),
-        Parameter("angle_cosine", "rad", -0.05, 0.05, 1e-4),
-        Parameter("angle_sine", "rad", -0.05, 0.05, 1e-4),
-        Parameter("load_cosine", "1", -0.3, 0.3, 1e-3),
-        Parameter("load_sine", "1", -0.3, 0.3, 1e-3),
+        Parameter("cosine_y", "N", -3000.0, 3000.0, 1.0, output="fy", prior=0.05, prior_in="load_nominal"),
+        Parameter("sine_y", "N", -3000.0, 3000.0, 1.0, output="fy", prior=0.05, prior_in="load_nominal"),
+        Parameter("cosine_x", "N", -3000.0, 3000.0, 1.0, output="fx", prior=0.05, prior_in="load_nominal"),
+        Parameter("sine_x", "N", -3000.0, 3000.0, 1.0, output="fx", prior=0.05, prior_in="load_nominal"),
+        Parameter("angle_cosine", "rad", -0.05, 0.05, 1e-4, prior=0.005),
+        Parameter("angle_sine", "rad", -0.05, 0.05, 1e-4, prior=0.005),
+        Parameter("load_cosine", "1", -0.3, 0.3, 1e-3, prior=0.05),
+        Parameter("load_sine", "1", -0.3, 0.3, 1e-3, prior=0.05),
         Parameter("radius", "m", 0.01, 2.0, 1e-5),
     )
     looks_like = {"time_delay": "a delay needs slip that changes"}

@@ -20,7 +20,9 @@ class SlipAngleOffset(Effect):
     own_inputs = True
     shifts = True
     exact = True
-    parameters = (Parameter("offset", "rad", -0.15, 0.15, 0.0005),)
+    family = "side"
+    prior_source = "Judged: an angle is zeroed to about half a degree"
+    parameters = (Parameter("offset", "rad", -0.15, 0.15, 0.0005, prior=0.01),)
     looks_like = {
         "plysteer_conicity": (
             "conicity shows where the tire slides, too; ply steer is told apart by turning the tire round"

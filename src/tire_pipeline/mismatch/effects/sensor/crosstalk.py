@@ -22,11 +22,13 @@ class Crosstalk(Effect):
     )
     source = "six-component load cell: off-diagonal terms of the calibration matrix"
     own_inputs = True
+    family = "side"
+    prior_source = "Judged: load cells leak 1 to 5% before they are calibrated, the larger load less"
     parameters = (
-        Parameter("into_fy", "1", -0.5, 0.5, 0.005, output="fy"),
-        Parameter("into_fx", "1", -0.5, 0.5, 0.005, output="fx"),
-        Parameter("load_into_fy", "1", -0.2, 0.2, 0.001, output="fy"),
-        Parameter("load_into_fx", "1", -0.2, 0.2, 0.001, output="fx"),
+        Parameter("into_fy", "1", -0.5, 0.5, 0.005, output="fy", prior=0.05),
+        Parameter("into_fx", "1", -0.5, 0.5, 0.005, output="fx", prior=0.05),
+        Parameter("load_into_fy", "1", -0.2, 0.2, 0.001, output="fy", prior=0.02),
+        Parameter("load_into_fx", "1", -0.2, 0.2, 0.001, output="fx", prior=0.02),
     )
     looks_like = {
         "combined_slip": "the weighting of combined slip is even in the other slip",

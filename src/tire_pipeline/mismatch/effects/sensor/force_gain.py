@@ -19,9 +19,11 @@ class ForceGain(Effect):
     source = "load cell calibration"
     own_inputs = True
     scales = True
+    family = "scale"
+    prior_source = "Judged: a gain is wrong by some percent, or by a whole unit, which is found without a fit"
     parameters = (
-        Parameter("fy", "1", -0.8, 2.0, 0.01, output="fy"),
-        Parameter("fx", "1", -0.8, 2.0, 0.01, output="fx"),
+        Parameter("fy", "1", -0.8, 2.0, 0.01, output="fy", prior=0.1),
+        Parameter("fx", "1", -0.8, 2.0, 0.01, output="fx", prior=0.1),
     )
     looks_like = {
         "friction_scale": "friction leaves the slope at zero slip as it is",

@@ -21,9 +21,11 @@ class ForceOffset(Effect):
     shifts = True
     exact = True
     least_gain = 30.0  # false ones in the tuning cases have up to 25: a fit is off at zero slip, too
+    family = "side"
+    prior_source = "Judged: load cells come back to some percent of the load"
     parameters = (
-        Parameter("fy", "N", -5000.0, 5000.0, 1.0, output="fy"),
-        Parameter("fx", "N", -5000.0, 5000.0, 1.0, output="fx"),
+        Parameter("fy", "N", -5000.0, 5000.0, 1.0, output="fy", prior=0.03, prior_in="load_nominal"),
+        Parameter("fx", "N", -5000.0, 5000.0, 1.0, output="fx", prior=0.03, prior_in="load_nominal"),
     )
     looks_like = {
         "plysteer_conicity": "conicity grows with load",

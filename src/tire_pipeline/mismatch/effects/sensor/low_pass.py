@@ -24,7 +24,9 @@ class LowPass(Effect):
     needs_time = True
     dynamic = True
     unusual = True
-    parameters = (Parameter("lag", "s", 0.0, 2.0, 0.004),)
+    family = "lag"
+    prior_source = "Judged: filters of force channels end at 1 to 30 Hz"
+    parameters = (Parameter("lag", "s", 0.0, 2.0, 0.004, prior=0.1),)
     looks_like = {
         "relaxation_length": "the lag of relaxation is shorter at speed",
         "time_delay": "a delay keeps the amplitude",

@@ -28,9 +28,11 @@ class SensorDrift(Effect):
     source = "load cell or amplifier warming up"
     needs_time = True
     scanned = ("lag",)
+    family = "slow"
+    prior_source = "Judged: as an offset of the force"
     parameters = (
-        Parameter("fy", "N", -5000.0, 5000.0, 1.0, output="fy"),
-        Parameter("fx", "N", -5000.0, 5000.0, 1.0, output="fx"),
+        Parameter("fy", "N", -5000.0, 5000.0, 1.0, output="fy", prior=0.03, prior_in="load_nominal"),
+        Parameter("fx", "N", -5000.0, 5000.0, 1.0, output="fx", prior=0.03, prior_in="load_nominal"),
         Parameter("lag", "s", 0.0, 300.0, 0.5),
     )
     looks_like = {

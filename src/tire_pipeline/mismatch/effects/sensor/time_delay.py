@@ -20,7 +20,9 @@ class TimeDelay(Effect):
     source = "unsynchronised acquisition"
     needs_time = True
     dynamic = True
-    parameters = (Parameter("delay", "s", -0.6, 0.6, 0.004),)
+    family = "lag"
+    prior_source = "Judged: channels of one rig are a few samples of a slow logger apart"
+    parameters = (Parameter("delay", "s", -0.6, 0.6, 0.004, prior=0.05),)
     looks_like = {
         "relaxation_length": "the lag of relaxation is shorter at speed",
         "low_pass": "a filter takes amplitude at high frequency",

@@ -24,13 +24,18 @@ class Camber(Effect):
     )
     source = "MF 5.2: PHY3, PVY3, PVY4, PDY3, PKY3, PDX3 (thesis, Appendix A, pure slip)"
     channels = ("camber",)
+    family = "inclination"
+    prior_source = (
+        "Camber stiffness of a car tire is about a tenth of its cornering stiffness (Pacejka, 3rd ed., "
+        "ch. 4); widened to three tenths. Losses: PDX3, PDY3 and PKY3 of published files are of this order"
+    )
     parameters = (
-        Parameter("shift", "rad/rad", -2.0, 2.0, 0.01),
-        Parameter("thrust", "1/rad", -4.0, 4.0, 0.02),
-        Parameter("thrust_load", "1/rad", -4.0, 4.0, 0.02, further=True),
-        Parameter("friction_loss", "1/rad^2", -40.0, 60.0, 0.5, further=True),
-        Parameter("friction_loss_x", "1/rad^2", -40.0, 60.0, 0.5, output="fx", further=True),
-        Parameter("stiffness_loss", "1/rad", -6.0, 10.0, 0.05),
+        Parameter("shift", "rad/rad", -2.0, 2.0, 0.01, prior=0.3),
+        Parameter("thrust", "1/rad", -4.0, 4.0, 0.02, prior=1.0),
+        Parameter("thrust_load", "1/rad", -4.0, 4.0, 0.02, further=True, prior=1.0),
+        Parameter("friction_loss", "1/rad^2", -40.0, 60.0, 0.5, further=True, prior=5.0),
+        Parameter("friction_loss_x", "1/rad^2", -40.0, 60.0, 0.5, output="fx", further=True, prior=5.0),
+        Parameter("stiffness_loss", "1/rad", -6.0, 10.0, 0.05, prior=1.0),
     )
     looks_like = {
         "camber_offset": "an offset of the camber sensor acts at zero camber too",

@@ -26,13 +26,15 @@ class InflationPressure(Effect):
     )
     source = "MF 6.1: PPX1..4, PPY1..5; Besselink, Schmeitz, Pacejka 2010, VSD 48 (suppl. 1)"
     channels = ("pressure",)
+    family = "pressure"
+    prior_source = "PPX1 to PPX4 and PPY1 to PPY5 of MF 6.1 are fractions of 1 in published files"
     parameters = (
-        Parameter("friction", "1", -1.5, 1.5, 0.02),
-        Parameter("stiffness", "1", -5.0, 5.0, 0.02),
-        Parameter("lateral_stiffness", "1", -2.0, 2.0, 0.02, output="fy"),
-        Parameter("stiffness_curvature", "1", -12.0, 12.0, 0.02),
-        Parameter("friction_curvature", "1", -6.0, 6.0, 0.02, further=True),
-        Parameter("stiffness_load", "1", -5.0, 5.0, 0.02, further=True),
+        Parameter("friction", "1", -1.5, 1.5, 0.02, prior=0.3),
+        Parameter("stiffness", "1", -5.0, 5.0, 0.02, prior=0.7),
+        Parameter("lateral_stiffness", "1", -2.0, 2.0, 0.02, output="fy", prior=0.4),
+        Parameter("stiffness_curvature", "1", -12.0, 12.0, 0.02, prior=1.5),
+        Parameter("friction_curvature", "1", -6.0, 6.0, 0.02, further=True, prior=0.7),
+        Parameter("stiffness_load", "1", -5.0, 5.0, 0.02, further=True, prior=0.7),
         Parameter("reference", "Pa", 0.0, 5e6, 100.0),
     )
     looks_like = {"temperature": "temperature lags; pressure steps show at once"}

@@ -28,10 +28,12 @@ class LoadSensitivity(Effect):
     channels = ("normal_load",)
     own_inputs = True
     scales = True
+    family = "scale"
+    prior_source = "PDX2, PDY2 and the curvature of the stiffness over load of published files: tenths"
     parameters = (
-        Parameter("rate", "1", -1.5, 1.5, 0.01),
-        Parameter("stiffness", "1", -1.5, 1.5, 0.01),
-        Parameter("lateral_stiffness", "1", -1.5, 1.5, 0.01, output="fy"),
+        Parameter("rate", "1", -1.5, 1.5, 0.01, prior=0.2),
+        Parameter("stiffness", "1", -1.5, 1.5, 0.01, prior=0.3),
+        Parameter("lateral_stiffness", "1", -1.5, 1.5, 0.01, output="fy", prior=0.3),
     )
     looks_like = {
         "friction_scale": "a friction factor is the same at every load",

@@ -26,11 +26,16 @@ class PlysteerConicity(Effect):
     )
     own_inputs = True
     shifts = True
+    family = "side"
+    prior_source = (
+        "Conicity and ply steer of car tires are some percent of the load and some tenths of a "
+        "degree (Pacejka, 3rd ed., ch. 4)"
+    )
     parameters = (
-        Parameter("conicity", "1", -0.15, 0.15, 0.001, output="fy"),
-        Parameter("pseudo_camber", "rad", -0.35, 0.35, 0.001, output="fy"),
-        Parameter("thrust", "1", -0.3, 0.3, 0.001, output="fy"),
-        Parameter("ply_steer", "rad", -0.05, 0.05, 0.0005, output="fy"),
+        Parameter("conicity", "1", -0.15, 0.15, 0.001, output="fy", prior=0.02),
+        Parameter("pseudo_camber", "rad", -0.35, 0.35, 0.001, output="fy", prior=0.02),
+        Parameter("thrust", "1", -0.3, 0.3, 0.001, output="fy", prior=0.02),
+        Parameter("ply_steer", "rad", -0.05, 0.05, 0.0005, output="fy", prior=0.004),
     )
     looks_like = {
         "force_offset": "an offset of the sensor does not change with load",

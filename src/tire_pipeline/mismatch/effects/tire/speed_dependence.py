@@ -29,10 +29,15 @@ class SpeedDependence(Effect):
         "Ferry 1980, Viscoelastic Properties of Polymers, on modulus and frequency"
     )
     channels = ("speed",)
+    family = "speed"
+    prior_source = (
+        "LMUV of MF 6.1 is some hundredths to tenths; the modulus of filled rubber grows by some "
+        "percent for each e-fold of the frequency (Ferry 1980)"
+    )
     parameters = (
-        Parameter("friction", "1", -0.4, 0.4, 0.01),
-        Parameter("stiffness", "1", -0.12, 0.12, 0.01),
-        Parameter("sliding", "1", -2.0, 5.0, 0.05, further=True),
+        Parameter("friction", "1", -0.4, 0.4, 0.01, prior=0.1),
+        Parameter("stiffness", "1", -0.12, 0.12, 0.01, prior=0.04),
+        Parameter("sliding", "1", -2.0, 5.0, 0.05, further=True, prior=0.5),
         Parameter("linear", "0 or 1", 0.0, 1.0, 0.1),
     )
     looks_like = {

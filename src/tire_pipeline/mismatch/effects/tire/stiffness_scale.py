@@ -22,9 +22,11 @@ class StiffnessScale(Effect):
     scales = True
     steepens = True
     errs_like = ("friction_scale", "force_gain")
+    family = "scale"
+    prior_source = "Judged: tires of one size differ by about a quarter"
     parameters = (
-        Parameter("stiffness", "1", -0.7, 1.5, 0.01),
-        Parameter("lateral_stiffness", "1", -0.7, 1.5, 0.01, output="fy", further=True),
+        Parameter("stiffness", "1", -0.7, 1.5, 0.01, prior=0.25),
+        Parameter("lateral_stiffness", "1", -0.7, 1.5, 0.01, output="fy", further=True, prior=0.25),
     )
     looks_like = {
         "compliance": "compliance costs more stiffness where the tire is stiff (large load)",

@@ -31,10 +31,12 @@ class Temperature(Effect):
         "Sorniotti 2009, SAE 2009-01-0441; Mizuno et al. 2005, VSD 43 (suppl.): "
         "temperature in the Magic Formula"
     )
+    family = "slow"
+    prior_source = "Sorniotti 2009 and Mizuno et al. 2005: tenths for each 50 degC"
     parameters = (
-        Parameter("friction", "1", -0.8, 0.8, 0.01),
-        Parameter("curvature", "1", 0.0, 0.8, 0.01),
-        Parameter("stiffness", "1", -1.0, 1.0, 0.01),
+        Parameter("friction", "1", -0.8, 0.8, 0.01, prior=0.15),
+        Parameter("curvature", "1", 0.0, 0.8, 0.01, prior=0.15),
+        Parameter("stiffness", "1", -1.0, 1.0, 0.01, prior=0.2),
         Parameter("reference", "degC or 1", -1.0, 200.0, 0.5),
         Parameter("lag", "s", 1.0, 300.0, 0.2),
     )

@@ -19,9 +19,11 @@ class TurnSlip(Effect):
     equation = "slip_angle += shift turn_slip (m); friction *= 1 - friction_loss |turn_slip| R0"
     source = "Pacejka, 3rd ed., 4.3.3 (PHYP, PDYP of MF 6.1)"
     channels = ("turn_slip",)
+    family = "path"
+    prior_source = "Judged: half of a contact length to a wheel radius"
     parameters = (
-        Parameter("shift", "m", -2.0, 2.0, 0.005),
-        Parameter("friction_loss", "1", 0.0, 3.0, 0.02),
+        Parameter("shift", "m", -2.0, 2.0, 0.005, prior=0.5),
+        Parameter("friction_loss", "1", 0.0, 3.0, 0.02, prior=0.5),
     )
     looks_like = {"camber": "camber acts on a straight path too"}
     experiment = "the same slip angles on paths of two radii"

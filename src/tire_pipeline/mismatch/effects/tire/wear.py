@@ -22,9 +22,11 @@ class Wear(Effect):
     needs_time = True
     used = ("speed",)
     slow = True
+    family = "slow"
+    prior_source = "Judged: a test ends before a tenth of friction is lost"
     parameters = (
-        Parameter("friction", "1", -0.5, 0.3, 0.01),
-        Parameter("stiffness", "1", -0.3, 0.8, 0.01),
+        Parameter("friction", "1", -0.5, 0.3, 0.01, prior=0.1),
+        Parameter("stiffness", "1", -0.3, 0.8, 0.01, prior=0.15),
     )
     looks_like = {
         "temperature": "temperature goes back when the tire rests",
