@@ -4,6 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 DATA := data
 DIST := dist
+COMMA := ,
 export OMP_NUM_THREADS ?= 2
 export PYTHONUNBUFFERED = 1
 
@@ -86,9 +87,12 @@ cluster: install
 	trap 'kill $$workers $$scheduler 2>/dev/null; wait' INT TERM EXIT; wait
 
 # Retraining when .tir files arrive and every night; http://127.0.0.1:3000
+# With DAGSTER_POSTGRES_URL in the environment Dagster keeps its runs in Postgres: docs/how-to/cluster.md
 schedule: install
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[schedule]" -c requirements.lock
-	@mkdir -p $(DATA)/.dagster && cp conf/dagster.yaml $(DATA)/.dagster/
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c requirements.lock \
+		-e ".[schedule$(if $(DAGSTER_POSTGRES_URL),$(COMMA)postgres)]"
+	@mkdir -p $(DATA)/.dagster
+	@cat conf/dagster.yaml $(if $(DAGSTER_POSTGRES_URL),conf/dagster_postgres.yaml) > $(DATA)/.dagster/dagster.yaml
 	DAGSTER_HOME=$(CURDIR)/$(DATA)/.dagster DO_NOT_TRACK=1 $(BIN)/dagster dev \
 		-m tire_pipeline.schedule.definitions -h 127.0.0.1 -p 3000
 

@@ -1,8 +1,9 @@
 """Speed-up, overhead and memory with 1 and 2 workers of one thread: Dask and joblib side by side.
 
 Measures reading files (blocks of 250), explaining recordings, and empty tasks. Each figure is stored when it
-is there; another start goes on with the others. The whole is 100,000 files, 300 recordings of 18,000 rows
-and 5,000 of 500 rows: many hours. The default is a slice of minutes.
+is there; another start goes on with the others. The whole is `--files 100000 --recordings 300 --rows 18000`,
+then `--recordings 5000 --rows 500`: many hours. The default is a slice of minutes. Other work on the same
+cores spoils the speed-up: the load is stored with each figure.
 
 Run: python benchmarks/bench_cluster.py [--files 2000] [--recordings 4] [--rows 500] [--out FILE]
 """
@@ -23,6 +24,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
 from functools import partial
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -49,21 +51,19 @@ def main() -> None:
     parser.add_argument("--rows", type=int, default=500)
     parser.add_argument("--out", type=Path, default=ROOT / "benchmarks/results/bench_cluster.json")
     asked = parser.parse_args()
-    size = f"{asked.files} files, {asked.recordings} recordings of {asked.rows} rows"
     found = json.loads(asked.out.read_text()) if asked.out.exists() else {}
     with tempfile.TemporaryDirectory() as place:
         jobs = make_jobs(Path(place), asked)
-        for workers in (1, 2):
-            for engine in ("dask", "joblib"):
-                key = f"{size} | {engine} | {workers}"
-                if key not in found:
-                    found[key] = measured(engine, workers, jobs, Path(place))
-                    asked.out.parent.mkdir(parents=True, exist_ok=True)
-                    write_bytes(asked.out, json.dumps(found, indent=1).encode())
-                print(key, json.dumps(found[key]), flush=True)
-    for engine in ("dask", "joblib"):
-        one, two = (found[f"{size} | {engine} | {workers}"]["seconds"] for workers in (1, 2))
-        print(engine, "speed-up", {job: round(one[job] / two[job], 2) for job in one})
+        for job, engine, workers in product(jobs, ("dask", "joblib"), (1, 2)):
+            key = f"{job} | {engine} | {workers}"
+            if key not in found:
+                found[key] = measured(engine, workers, job, jobs[job], Path(place))
+                asked.out.parent.mkdir(parents=True, exist_ok=True)
+                write_bytes(asked.out, json.dumps(found, indent=1).encode())
+            print(key, json.dumps(found[key]), flush=True)
+    for job, engine in product(jobs, ("dask", "joblib")):
+        one, two = (found[f"{job} | {engine} | {workers}"]["seconds"] for workers in (1, 2))
+        print(f"{job} | {engine}: speed-up {one / two:.2f}")
 
 
 def make_jobs(place: Path, asked: argparse.Namespace) -> dict[str, dict[str, Callable[[], Any]]]:
@@ -84,30 +84,33 @@ def make_jobs(place: Path, asked: argparse.Namespace) -> dict[str, dict[str, Cal
         forces = [name for name in repeated if name in ("fx", "fy", "mz")]
         repeated[forces] *= 1.0 + 0.01 * number
         repeated.to_csv(folder / "run.csv", index=False)
-    recordings = RecordingFolderDataset(path=str(place / "recordings")).load()
-    return {
-        "nothing": {str(number): partial(int, number) for number in range(EMPTY)},
-        "read files": blocks_of(TirFolderDataset(path=str(place / "tir")).load()),
-        "explain recordings": explain_each(recordings, ExplainParameters()),
+    jobs: dict[str, Any] = {
+        f"{EMPTY} tasks that do nothing": {str(number): partial(int, number) for number in range(EMPTY)}
     }
+    if asked.files:
+        jobs[f"read {asked.files} files"] = blocks_of(TirFolderDataset(path=str(place / "tir")).load())
+    if asked.recordings:
+        recordings = RecordingFolderDataset(path=str(place / "recordings")).load()
+        name = f"explain {asked.recordings} recordings of {asked.rows} rows"
+        jobs[name] = explain_each(recordings, ExplainParameters())
+    return jobs
 
 
-def measured(engine: str, workers: int, jobs: dict[str, Any], place: Path) -> dict[str, Any]:
-    """Seconds of each job, seconds a task that does nothing, and the most memory of one process."""
+def measured(engine: str, workers: int, job: str, tasks: dict[str, Any], place: Path) -> dict[str, Any]:
+    """Seconds in all and a task, the most memory of one process, and how busy the machine was."""
     with processes(workers, place) if engine == "dask" else no_cluster(workers) as work:
         list(work({f"warm {n}": partial(_imports, 1.0) for n in range(4 * workers)}, "warming up"))
         watch = Memory()
-        seconds = {}
-        for job, tasks in jobs.items():
-            began = time.perf_counter()
-            for done in work(tasks, job):
-                done.result()
-            seconds[job] = time.perf_counter() - began
+        began = time.perf_counter()
+        for done in work(tasks, job):
+            done.result()
+        seconds = time.perf_counter() - began
         return {
-            "seconds": seconds,
-            "milliseconds_a_task": 1e3 * seconds["nothing"] / EMPTY,
-            "most_memory_mib": watch.end(),
-            "load": os.getloadavg()[0],
+            "seconds": round(seconds, 3),
+            "milliseconds_a_task": round(1e3 * seconds / len(tasks), 2),
+            "most_memory_mib": round(watch.end()),
+            "load": round(os.getloadavg()[0], 1),
+            "date": time.strftime("%Y-%m-%d"),
         }
 
 

@@ -5,9 +5,12 @@ from __future__ import annotations
 import os
 import signal
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 from tire_pipeline.errors import TirError
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.tir import read_tir
 
 
 def double(number: int) -> int:
@@ -23,6 +26,23 @@ def dies(log: Path) -> int:
         file.write("x")
     os.kill(os.getpid(), signal.SIGKILL)
     return 0
+
+
+@dataclass(frozen=True)
+class DiesUntil:
+    """Reads a file; as long as ``flag`` is not there that takes more memory than there is."""
+
+    flag: Path
+    log: Path
+    path: str
+
+    def fingerprint(self) -> str:
+        return "the file has not changed"
+
+    def __call__(self) -> TireModel:
+        if not self.flag.exists():
+            dies(self.log)
+        return read_tir(self.path)
 
 
 def dies_once(log: Path, number: int) -> int:

@@ -139,7 +139,7 @@ def test_a_file_that_ends_its_reader_is_in_the_report_by_name(tmp_path, chosen):
 
     good = ROOT / "examples" / "tire.tir"
     files = {f"A/{n}.tir": TirLoader(str(good)) for n in range(3)}
-    files["A/killer.tir"] = partial(tasks.dies, tmp_path / "log")
+    files["A/killer.tir"] = tasks.DiesUntil(tmp_path / "more memory", tmp_path / "log", str(good))
     dataset = ComputedFolderDataset(path=str(tmp_path / "blocks"), one_after_another=True)
     dataset.save(read_files(files))
     table, report, summary = join_files(dataset.load(), IngestParameters())
@@ -148,6 +148,11 @@ def test_a_file_that_ends_its_reader_is_in_the_report_by_name(tmp_path, chosen):
     row = report.set_index("file").loc["A/killer.tir"]
     assert row["status"] == "set aside"
     assert "died three times" in row["reason"]
+    (tmp_path / "log").unlink()
+    (tmp_path / "more memory").touch()
+    dataset.save(read_files(files))
+    assert "A/killer.tir" in join_files(dataset.load(), IngestParameters())[0]["file"].tolist()
+    assert not (tmp_path / "log").exists()
 
 
 def test_work_that_may_not_miss_a_part_names_it_after_all_else_is_stored(tmp_path, chosen):

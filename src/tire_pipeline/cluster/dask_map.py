@@ -31,6 +31,7 @@ _AHEAD = 3
 _COMPUTING = ("numpy", "pandas", "pyarrow", "scikit-learn", "scipy", "numba", "torch")
 _OPEN: dict[ClusterParameters, Client] = {}
 _DEATHS = "its worker died three times while doing it"
+_CURE = "take it out, or give the workers more memory"
 
 
 def dask_map(chosen: ClusterParameters) -> Map:
@@ -254,6 +255,5 @@ class _DaskMap:
         only = next(iter(parts), name)
         _LOG.warning("%s: %s is set aside: %s", what, only, _DEATHS)
         if hasattr(task, "lost"):
-            return Done(name, task.lost(_DEATHS))
-        todo = "take it out, or give the workers more memory"
-        return Done(name, error=LostTaskError(_DEATHS, where=only, todo=todo))
+            return Done(name, task.lost(f"{_DEATHS} -> {_CURE}"))
+        return Done(name, error=LostTaskError(_DEATHS, where=only, todo=_CURE))

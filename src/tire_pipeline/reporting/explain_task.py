@@ -64,7 +64,7 @@ class ExplainTask:
             tire, runs = _read(loads)
             report = explain_recordings(tire, runs, held_out=self.held_out)
         except TirePipelineError as error:
-            return Passing(self.lost(str(error)))
+            return self.lost(str(error))
         row["verdict"] = report.verdict
         row["summary"] = report.summary
         row["effects"] = ", ".join(effect.name for effect in report.effects)
@@ -74,10 +74,10 @@ class ExplainTask:
         head = {"row.json": json.dumps(row), "report.json": json.dumps(report.to_dict()), PAGE: page}
         return pack({**{name: text.encode() for name, text in head.items()}, **files})
 
-    def lost(self, reason: str) -> bytes:
-        """What is stored of recordings that cannot be explained."""
+    def lost(self, reason: str) -> Passing:
+        """What is stored of recordings that cannot be explained: until the next run, which tries again."""
         row = dict.fromkeys(COLUMNS, "") | {"recording": self.name, "problem": reason}
-        return pack({"row.json": json.dumps(row).encode(), "report.json": b"null"})
+        return Passing(pack({"row.json": json.dumps(row).encode(), "report.json": b"null"}))
 
 
 def _read(

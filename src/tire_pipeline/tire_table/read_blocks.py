@@ -84,11 +84,11 @@ class ReadBlock:
         )
 
     def lost(self, reason: str) -> TablePart:
-        """What a block of one file gives that ends its process."""
+        """What a block of one file gives that ends its process; the next run may have more memory."""
         rows = [_row(file) for file in self.files]
         for row in rows:
             _set_aside(row, reason, None)
-        return _packed(from_models([]), rows, TablePart)
+        return _packed(from_models([]), rows, PassingPart)
 
 
 def blocks_of(files: Mapping[str, Load]) -> dict[str, ReadBlock]:
