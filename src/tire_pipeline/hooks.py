@@ -240,5 +240,6 @@ class SignpostHooks:
         for name, what in self.SIGNS:
             if name in made:
                 dataset = catalog.get(name)
-                place = getattr(dataset, "_filepath", None) or getattr(dataset, "_path", None)
-                print(f"{what}: {place}")
+                place = str(getattr(dataset, "_filepath", None) or getattr(dataset, "_path", None))
+                protocol = getattr(dataset, "_protocol", "file")
+                print(f"{what}: {place if protocol == 'file' or '://' in place else f'{protocol}://{place}'}")
