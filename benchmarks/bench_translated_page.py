@@ -19,7 +19,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.reporting.translated import OUTPUTS, translated_page
+from tire_pipeline.reporting.translated import translated_page
+from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
 
 CLICKS = 20
 LOADS, SLIPS = np.array([2000.0, 4000.0, 6000.0, 8000.0]), np.linspace(-0.2, 0.2, 41)
@@ -64,7 +65,7 @@ def made_up(count: int) -> str:
         }
     )
     curves: dict[str, Any] = {"files": files, "normal_load": LOADS, "slip": SLIPS}
-    for name in OUTPUTS:
+    for name in DRAWN_OUTPUTS:
         stiffness, bend = generator.uniform(10, 30, (2, count, len(LOADS), 1))
         source = LOADS[:, None] * np.sin(1.4 * np.arctan(stiffness * SLIPS)) * (1 + 0.01 * bend * SLIPS)
         middle = source * generator.uniform(0.8, 1.2, (count, len(LOADS), 1))

@@ -1,4 +1,4 @@
-"""The front page is made anew after every run."""
+"""The front page is made again after every run."""
 
 from __future__ import annotations
 

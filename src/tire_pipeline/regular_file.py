@@ -16,7 +16,7 @@ class NotRegularError(OSError):
         super().__init__(errno.EINVAL, "is not a regular file", path)
 
     def __reduce__(self) -> tuple[type[NotRegularError], tuple[str]]:
-        """Pickled, it is made anew from the path."""
+        """Pickled, it is made again from the path."""
         return NotRegularError, (str(self.filename),)
 
 

@@ -68,7 +68,7 @@ def test_the_page_begins_and_the_run_ends_with_what_the_files_became(small_run):
         "rms"
     ]
     assert f"from {rms['no change']:,.0f} N to {rms[best['name']]:,.0f} N" in lines[0]
-    assert f"differs from itself by {rms['floor']:,.0f} N" in lines[1]
+    assert f"The floor is {rms['floor']:,.0f} N" in lines[0]
     assert f"files are those of {'' if best['name'] == 'our agent' else 'the '}{best['name']}" in lines[-1]
     errors = pd.read_csv(_latest(small_run, "07_model_output", "evaluation_table.csv"))
     own = errors[(errors["set"] == "hidden") & (errors["translator"] == best["name"])]

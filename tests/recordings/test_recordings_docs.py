@@ -1,4 +1,4 @@
-"""The tables of docs/reference/recordings.md are made from the code; run this file to make them anew."""
+"""The tables of docs/reference/recordings.md are made from the code; run this file to make them again."""
 
 from pathlib import Path
 

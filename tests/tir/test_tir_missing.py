@@ -76,7 +76,7 @@ def test_relaxation_by_the_carcass_stiffness_needs_no_radius():
 def test_the_callers_radius_counts_only_where_the_file_has_none():
     tire = read_tir(without_radius("FITTYP = 52").encode(), unloaded_radius=0.3)
     assert tire.coefficients["UNLOADED_RADIUS"] == 0.3
-    assert "UNLOADED_RADIUS = 0.3 m is the caller's: the file has none" in tire.metadata["warnings"]
+    assert "UNLOADED_RADIUS = 0.3 m was given by the caller; the file has none" in tire.metadata["warnings"]
     other = read_tir(tir_text().encode(), unloaded_radius=0.3)
     assert other.coefficients["UNLOADED_RADIUS"] == 0.32
     assert any("the caller's 0.3 m is not used" in each for each in other.metadata["warnings"])

@@ -111,7 +111,7 @@ def test_contradictions_are_reported():
     warnings = {path.name: " / ".join(read_tir(path).metadata["warnings"]) for path in PUBLIC}
     both_labels = warnings["projectchrono__chrono__335_65R22_5_G275MSA_60psi.tir"]
     assert "FITTYP says 5.0, which contradicts PAC2002" in both_labels
-    assert "[DEFLECTION_LOAD_CURVE] stands twice (lines 90 and 261)" in both_labels
+    assert "[DEFLECTION_LOAD_CURVE] occurs twice (lines 90 and 261)" in both_labels
     later_keys = warnings["TUMFTM__Open-Car-Dynamics__example_road_tire.tir"]
     assert "read as 5.2, but the file has keys that only 6.2 has" in later_keys
     assert warnings["projectchrono__chrono__suv_Pac02Tire.tir"] == ""

@@ -164,7 +164,7 @@ def test_a_section_twice():
     assert tire.coefficients["FNOMIN"] == 4100.0
     assert tire.coefficients["VERTICAL_STIFFNESS"] == 2e5
     warnings = " / ".join(tire.metadata["warnings"])
-    assert "[VERTICAL] stands twice" in warnings
+    assert "[VERTICAL] occurs twice" in warnings
     assert "FNOMIN has two values" in warnings
 
 

@@ -136,7 +136,7 @@ def test_a_model_without_a_file_gets_a_complete_one(version: str, tmp_path):
     assert again.metadata["DIMENSION.WIDTH"] == 0.205
     assert again.metadata["MODEL.TYRESIDE"] == "RIGHT"
     text = path.read_text()
-    assert text.count("$not given: this stands in") == len(tire.defaulted)
+    assert text.count("$not given: this value is used") == len(tire.defaulted)
     assert max(map(len, text.splitlines())) < 200
     load, slip = 4000.0, np.linspace(-0.2, 0.2, 9)
     wanted = tire.forces(normal_load=load, slip_angle=slip, limits="ignore").fy

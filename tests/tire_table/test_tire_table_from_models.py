@@ -60,7 +60,7 @@ def test_dtypes_do_not_depend_on_the_content():
 
 
 def test_a_file_twice_is_refused():
-    with pytest.raises(DomainError, match=r"x\.tir: a file stands twice"):
+    with pytest.raises(DomainError, match=r"x\.tir: a file occurs twice"):
         from_models([("x.tir", "A", model()), ("x.tir", "A", model())])
 
 

@@ -96,7 +96,7 @@ def _open_preview(driver) -> None:
 
 
 def _click(driver, find) -> None:
-    """Click, and find anew where the page was drawn anew meanwhile."""
+    """Click, and find again where the page was drawn again meanwhile."""
 
     def clicked() -> bool:
         find().click()

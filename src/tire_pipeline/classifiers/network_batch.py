@@ -75,7 +75,7 @@ def train_networks(
     batch_size : int
     epochs : iterable of int
         The networks are handed out after each of these; training ends with the last. As nothing
-        depends on the number of epochs to come, it is the same as training anew for each.
+        depends on the number of epochs to come, it is the same as training again for each.
     hidden : tuple of int
 
     Returns

@@ -44,7 +44,7 @@ class CaseSettings:
     rows : (int, int)
         Shortest and longest recording.
     attempts : int
-        How often tire and rig are drawn anew when the above cannot be met.
+        How often tire and rig are drawn again when the above cannot be met.
     """
 
     rate: float = 50.0

@@ -1,4 +1,4 @@
-"""Constants of a brush tire and of its rig, drawn anew for every case."""
+"""Constants of a brush tire and of its rig, drawn again for every case."""
 
 from __future__ import annotations
 

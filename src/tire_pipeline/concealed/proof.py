@@ -118,7 +118,7 @@ def score_proof(
     scores : DataFrame
         ``method, name, value, low, high, n, target, met``.
     misses : DataFrame
-        Every case that ``explain_mismatch`` did not answer rightly, and why.
+        Every case that ``explain_mismatch`` did not answer correctly, and why.
     details : dict
         Scores by strength and by effect, and the hash of the answers.
     """

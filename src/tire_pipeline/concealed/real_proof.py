@@ -74,7 +74,7 @@ def score_real_proof(
         ``method, source, name, value, low, high, n, target, met``; the published ones where there are no
         recordings.
     misses : DataFrame
-        Every case that ``explain_mismatch`` did not answer rightly, and why.
+        Every case that ``explain_mismatch`` did not answer correctly, and why.
     details : dict
         What the proof was made with, and scores by strength and by effect.
     """

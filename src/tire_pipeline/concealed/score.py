@@ -116,7 +116,7 @@ def score(
     -------
     dict
         ``scores``: list of {name, value, low, high, n, target, met}; ``by_strength``;
-        ``by_effect``; ``misses``: every case that was not answered rightly, with the reason.
+        ``by_effect``; ``misses``: every case that was not answered correctly, with the reason.
 
     Raises
     ------

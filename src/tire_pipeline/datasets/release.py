@@ -122,7 +122,7 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
             if not all(_NAME(name) for name in release.models):
                 raise ValueError("name")
         except (ValueError, KeyError, TypeError) as error:
-            todo = "bring it back from a copy, or move the folder away to begin anew"
+            todo = "bring it back from a copy, or move the folder away to start again"
             raise DomainError("the record of released models is damaged", where=path, todo=todo) from error
         return release, stamp
 

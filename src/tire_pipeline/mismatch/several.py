@@ -106,8 +106,8 @@ def predict_held_out(corrected: CorrectedModel, recording: pd.DataFrame, name: s
     Notes
     -----
     Both predictions put in signs and units that were found to be wrong in the explained recordings, so that
-    the difference is due to the effects. Wear, drift and a change of surface begin anew in this recording.
-    The interval resamples 24 stretches of the recording.
+    the difference is due to the effects. Wear, drift and a change of surface start from zero in this
+    recording. The interval resamples 24 stretches of the recording.
     """
     usable = _finite(recording)
     after = corrected.predict(usable)

@@ -163,7 +163,7 @@ def _step(name: str, frame: pd.DataFrame) -> float:
         raise RecordingError(
             "time does not rise from sample to sample",
             where=name,
-            todo="sort the recording and drop repeated rows, or split it where time begins anew",
+            todo="sort the recording and drop repeated rows, or split it where time starts again",
         )
     return float(np.median(steps))
 

@@ -56,13 +56,14 @@ def _judged(
     part = table[(table["set"] == name) & (table["translator"] == best["name"])]
     acted = int((part["verdict"] == TRANSLATED).sum())
     others = [who for who in table["translator"].unique() if who not in (best["name"], NO_CHANGE)]
-    left = "; the others count unchanged" if acted < len(part) else ""
+    left = len(part) - acted
+    unchanged = f"; the other {left} were left unchanged and count as such" if left else ""
     return [
-        f"Set {name}, {part['tire'].nunique()} tires that no translator has seen: {acted} of "
-        f"{len(part)} files were translated by {_object(best)}{left}; the RMS error of lateral force "
-        f"went from {before:,.0f} N to {rms[best['name']]:,.0f} N ({rms[best['name']] / before:.0%}).",
-        f"The floor: {target} measuring these tires again differs from itself by {rms[FLOOR]:,.0f} N "
-        f"({rms[FLOOR] / before:.0%}).",
+        f"{_subject(str(best['name']))}, the best translator, brings the RMS error of lateral force from "
+        f"{before:,.0f} N to {rms[best['name']]:,.0f} N ({rms[best['name']] / before:.0%}) on the "
+        f"{part['tire'].nunique()} tires of set {name}, which no translator has seen. The floor is "
+        f"{rms[FLOOR]:,.0f} N ({rms[FLOOR] / before:.0%}): {target} measuring the same tires again.",
+        f"In set {name}, it translated {acted} of {len(part)} files{unchanged}.",
         *(
             f"{_subject(who)} leaves {rms[who]:,.0f} N ({rms[who] / before:.0%} of doing nothing)."
             for who in others
@@ -76,7 +77,10 @@ def _subject(name: str) -> str:
 
 
 def _object(best: dict[str, Any]) -> str:
-    name = str(best["name"])
+    return _article(str(best["name"]))
+
+
+def _article(name: str) -> str:
     return name if name == OUR_AGENT else f"the {name}"
 
 
@@ -91,17 +95,20 @@ def _unjudged(table: pd.DataFrame, best: dict[str, Any], target: str) -> str:
     )
     return (
         f"{len(part)} of {count} of your files were translated to {target} by {_object(best)}: "
-        f"{estimate}. There are no evaluation tires that {target} measured, too, so neither the error nor "
-        "the floor can be told from these files."
+        f"{estimate}. No evaluation tires measured by {target} were given, so these files show neither the "
+        "true error nor the floor."
     )
 
 
 def _whose_files(best: dict[str, Any]) -> str:
     if not best["tires"]:
-        return f"The .tir files are those of {_object(best)}; there were no tuning tires to choose by."
-    others = ", ".join(f"{who} {ratio:.0%}" for who, ratio in best["rms_ratio"].items())
+        return (
+            f"The .tir files are those of {_object(best)}; there were no tuning tires to choose the best "
+            "translator by."
+        )
+    ratios = ", ".join(f"{ratio:.0%} by {_article(who)}" for who, ratio in best["rms_ratio"].items())
     return (
-        f"The .tir files are those of {_object(best)}: on {best['tires']} tuning tires, judged nowhere "
-        f"else, the mean RMS error of lateral force, cornering stiffness and peak friction is {others} of "
-        "doing nothing."
+        f"The .tir files are those of {_object(best)}. It was chosen on {best['tires']} tuning tires, "
+        "which are used for nothing else, by the mean RMS error of lateral force, cornering stiffness and "
+        f"peak friction as a share of doing nothing: {ratios}."
     )

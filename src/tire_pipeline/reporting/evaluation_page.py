@@ -115,11 +115,15 @@ def build_report(
         *_translation(evaluation_summary, target_category, best),
         *_files(ingest_summary, filter_report, tire_table),
         *_classifier(tire_table, classifier_scores, classifier_per_class),
-        Figure(confusion_figure(confusion_table), "Shares of each true category."),
+        Figure(
+            confusion_figure(confusion_table),
+            "Each row: how the files of one true category were classified, as shares. A perfect classifier "
+            "has 1 on the diagonal.",
+        ),
         Figure(
             learning_figure(learning_curve),
-            "A rising curve says that the agent learned to please the classifier, "
-            "not that the tires became right.",
+            "Reward of the agent over its training steps. A rising curve means that the agent learned to "
+            "convince the classifier, not that its tires became right.",
             heading="The thesis' agent",
         ),
     ]
@@ -160,11 +164,11 @@ def _classifier(table: pd.DataFrame, scores: pd.DataFrame, per_class: pd.DataFra
     by_split = forest.set_index("split")["accuracy"]
     guess = table["category"].value_counts(normalize=True).iloc[0]
     said = (
-        "The forest names the organisation that measured the tire rightly for "
+        "The random forest predicts which organisation measured the tire. It is right for "
         f"{by_split['random']:.1%} of the test files when files are split at random, and for "
         f"{by_split['by_tire']:.1%} when they are split by physical tire. "
-        "Only the second figure says what it does on a new tire: at random, variants of one tire stand on "
-        "both sides, and the forest recognises the tire. "
+        "Only the second figure holds for a new tire: in a random split, variants of one tire are on both "
+        "sides, and the forest recognises the tire. "
         f"Always naming the largest category would be right for {guess:.1%}."
     )
     words = {"random": "random", "by_tire": "by physical tire"}
@@ -186,10 +190,10 @@ def _translation(summary: pd.DataFrame, target: str, best: dict[str, Any]) -> li
     if summary.empty:
         return []
     caption = (
-        "RMS error to the target's measurement, divided by that of the untranslated files: 1 is doing "
-        "nothing. Floor: the target measuring a second time. Oracle: a constant shift of the force "
-        f"coefficients of each category, taken from the truth. Improved: share of files that the "
-        f"{best['name']} brought nearer. The first three metrics are the thesis'."
+        "RMS error against the target's measurement, divided by that of the untranslated files: 1 means that "
+        "nothing was gained. Floor: the target measuring a second time. Oracle: a constant shift of the "
+        "force coefficients of each category, taken from the hidden truth. Improved: share of files that the "
+        f"{best['name']} brought closer to the target. The thesis uses the first three metrics."
     )
     rows = summary[summary["metric"] != "mean"]
     wide = rows.assign(ratio=np.sqrt(rows["ratio"])).pivot_table(
@@ -197,6 +201,8 @@ def _translation(summary: pd.DataFrame, target: str, best: dict[str, Any]) -> li
     )
     written = rows[rows["translator"] == best["name"]].set_index(["set", "metric"])
     order = [name for name in dict.fromkeys(rows["translator"]) if name not in (best["name"], FLOOR)]
-    shown = wide[[best["name"], FLOOR, *order]].assign(improved=written["improved"], files=written["files"])
+    shown = wide[[best["name"], FLOOR, *order]].assign(
+        improved=written["improved"].map("{:.0%}".format), files=written["files"]
+    )
     shown = shown.reset_index().replace({"metric": _METRICS})
     return [Table(shown, caption, heading=f"Translation to {target}")]

@@ -13,7 +13,7 @@ FRONT = "index.html"
 _TITLE = re.compile(r"<title>(.*?)</title>", re.S | re.I)
 _LEAD = re.compile(r'<div class="main">\s*<p[^>]*>(.*?)</p>', re.S)
 LEADS = (
-    ("report.html", "Evaluation on tires that the target measured, too"),
+    ("report.html", "Evaluation on tires that the target has measured, too"),
     ("translated_files.html", "Your files, translated"),
     ("mismatch.html", "Your recordings"),
 )
@@ -24,12 +24,16 @@ REPORTS = (
         (
             (
                 "report.html",
-                "What translation made of the files, who measured them, which were read",
+                "Translation, classification and reading of the files",
                 "kedro run",
             ),
-            ("confusion_matrix.png", "Which category is taken for which", "kedro run"),
-            ("learning_curve.png", "How the agent learned", "kedro run"),
-            ("force_curves.png", "Forces before and after translation, and the target's", "kedro run"),
+            ("confusion_matrix.png", "Confusion matrix of the classifier", "kedro run"),
+            ("learning_curve.png", "Learning curve of the thesis' agent", "kedro run"),
+            (
+                "force_curves.png",
+                "Lateral force before and after translation, beside the target's",
+                "kedro run",
+            ),
         ),
     ),
     (
@@ -59,7 +63,7 @@ REPORTS = (
             ),
             (
                 "proof.html",
-                "Concealed cases, and how many were explained",
+                "The proof: how many concealed cases were explained",
                 "kedro run --pipeline prove_concealed",
             ),
         ),
@@ -70,10 +74,10 @@ REPORTS = (
         (
             (
                 "retraining.html",
-                "What has arrived, drifted and been released",
+                "Retraining: new files, drift, released model",
                 "kedro run --pipeline retrain",
             ),
-            ("lineage.html", "How every result is made", "make viz-page"),
+            ("lineage.html", "Lineage: how every result is made", "make viz-page"),
         ),
     ),
 )
@@ -95,8 +99,8 @@ def front_page(folder: Path) -> str:
     parts: list[Text | Links | Picture] = [
         Text(
             [
-                "Tire property files (.tir): who measured them, what their numbers become as another would "
-                "have measured, and why a recording differs from the simulation."
+                "Tire property files (.tir): which organisation measured them, what another organisation "
+                "would have measured, and why a recording differs from the simulation."
             ]
         ),
         *_what_matters(folder),
@@ -104,7 +108,7 @@ def front_page(folder: Path) -> str:
     for heading, reports in REPORTS:
         items = [item for report in reports for item in _items(folder, *report)]
         parts.append(Links(items, heading=heading))
-    return render_page("Tire pipeline: all reports", parts, footer="Made anew after every run.")
+    return render_page("Tire pipeline: all reports", parts, footer="Updated after every run.")
 
 
 def _what_matters(folder: Path) -> list[Text | Links | Picture]:

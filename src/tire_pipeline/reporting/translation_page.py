@@ -102,8 +102,8 @@ def translation_page(
         ),
         Table(
             _bands_and_refusals(hidden),
-            "Coverage: share of the target's own points inside the 90% band. A file is rightly left alone if "
-            "its translation would have been worse: precision and recall are those of leaving alone.",
+            "Coverage: share of the target's own points inside the 90% band. A file is correctly left alone "
+            "if its translation would have been worse: precision and recall are those of leaving alone.",
             heading="Bands and refusals",
         ),
     ]

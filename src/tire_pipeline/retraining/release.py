@@ -191,7 +191,7 @@ def _nothing_left(release: Release, broken: Mapping[str, str]) -> DomainError:
         return DomainError(
             f"there is no model left to go back to: {wrong}",
             todo="bring one of these files back from a copy; or move the folder of released models away and "
-            "run `kedro run --pipeline retrain`, which trains the first model anew from the files",
+            "run `kedro run --pipeline retrain`, which trains the first model again from the files",
         )
     have = "no model was released yet"
     if len(release.models) == 1:
@@ -218,7 +218,7 @@ def check_split(release: Release, split: str) -> None:
             f"the released model had other tires held out ({release.splits[current]}, now {split})",
             where="retrain",
             todo="set retrain.held_out_share and retrain.split_seed back, or move the folder of released "
-            "models away to begin anew",
+            "models away to start again",
         )
 
 

@@ -106,7 +106,7 @@ class TirFile:
 
     Notes
     -----
-    Only the text is stored; ``scan`` and what is built on it go through the lines anew, about half a
+    Only the text is stored; ``scan`` and what is built on it go through the lines again, about half a
     millisecond for a file of 10 kB.
     """
 

@@ -16,7 +16,7 @@ from tire_pipeline.tir.version import VERSION_FITTYP
 _NAME = re.compile(r"([A-Z][A-Z0-9_ ]*)\.([A-Z_][A-Z0-9_.\-]*)").fullmatch
 _RULE = 76
 _LABELS = ("FITTYP", "PROPERTY_FILE_FORMAT")
-NOT_GIVEN = "not given: this stands in"
+NOT_GIVEN = "not given: this value is used"
 
 
 def fresh_text(

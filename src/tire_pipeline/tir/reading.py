@@ -128,7 +128,7 @@ def _state_radius(reading: Reading, radius: float | None) -> None:
         )
     elif own is None and radius is not None:
         reading.coefficients["UNLOADED_RADIUS"] = radius
-        reading.warnings.append(f"UNLOADED_RADIUS = {radius:g} m is the caller's: the file has none")
+        reading.warnings.append(f"UNLOADED_RADIUS = {radius:g} m was given by the caller; the file has none")
     elif radius is not None and radius != own:
         reading.warnings.append(
             f"UNLOADED_RADIUS = {own:g} m is the file's; the caller's {radius:g} m is not used"
@@ -302,7 +302,7 @@ def _note_lines(scan: Scan, reading: Reading) -> None:
     for section in scan.sections:
         if section.name in seen:
             first = seen[section.name]
-            reading.warnings.append(f"[{section.name[:40]}] stands twice (lines {first} and {section.line})")
+            reading.warnings.append(f"[{section.name[:40]}] occurs twice (lines {first} and {section.line})")
         seen[section.name] = section.line
 
 

@@ -84,7 +84,7 @@ def from_models(models: Iterable[tuple[str, str, TireModel]]) -> pd.DataFrame:
     names = pd.DataFrame(texts, columns=list(TEXTS), dtype="str")
     if names["file"].duplicated().any():
         twice = names.loc[names["file"].duplicated(), "file"].iloc[0]
-        raise DomainError("a file stands twice among the models", where=twice, todo="give each path once")
+        raise DomainError("a file occurs twice among the models", where=twice, todo="give each path once")
     table = pd.DataFrame(_matrix(groups, columns, len(texts)), columns=columns, copy=False)
     for place, name in enumerate(names.columns):
         table.insert(place, name, names[name])
@@ -104,7 +104,7 @@ def join_tables(parts: Iterable[pd.DataFrame]) -> pd.DataFrame:
     Raises
     ------
     DomainError
-        A file stands in two of them.
+        A file is in two of them.
     """
     some = [part.drop(columns="tire_id") for part in parts if len(part)]
     if not some:
@@ -113,7 +113,7 @@ def join_tables(parts: Iterable[pd.DataFrame]) -> pd.DataFrame:
     table = pd.concat([part.reindex(columns=columns) for part in some], ignore_index=True)
     if table["file"].duplicated().any():
         twice = table.loc[table["file"].duplicated(), "file"].iloc[0]
-        raise DomainError("a file stands in two tables", where=twice, todo="give each file once")
+        raise DomainError("a file is in two tables", where=twice, todo="give each file once")
     table["tire_id"] = physical_tire_ids(table)
     return table.sort_values("file", ignore_index=True)
 

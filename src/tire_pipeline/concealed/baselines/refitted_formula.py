@@ -1,4 +1,4 @@
-"""Baseline: the whole formula fitted anew to the recording. It names nothing."""
+"""Baseline: the whole formula refitted to the recording. It names nothing."""
 
 from __future__ import annotations
 

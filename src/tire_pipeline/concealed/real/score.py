@@ -212,7 +212,7 @@ def _by_effect(pairs: list[tuple[Report, RealAnswer]]) -> list[dict[str, Any]]:
 def _miss(
     report: Report, answer: RealAnswer, errors: Mapping[str, Mapping[str, float]]
 ) -> dict[str, Any] | None:
-    """Describe a case that was not answered rightly; None for the others."""
+    """Describe a case that was not answered correctly; None for the others."""
     sets = name_sets(report)
     false = [names for names, _ in answered(report) if is_false(names, answer)]
     missed = (

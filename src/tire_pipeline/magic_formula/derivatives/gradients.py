@@ -1,7 +1,7 @@
 """The code of the derivatives: written from the equations when it is first asked for, and kept.
 
 Writing takes hundredths of a second; what is kept beside it is what numba compiles from it, which takes
-seconds. Where nothing can be written, the code stays in memory, and each process compiles it anew.
+seconds. Where nothing can be written, the code stays in memory, and each process compiles it again.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ CLIPPED = ("fy", "fx", "slip_angle", "normal_load", "mz")
 
 @njit(cache=True)
 def first_order(signal: np.ndarray, gain: np.ndarray, start: np.ndarray) -> np.ndarray:
-    """Follow ``signal`` with a first-order lag whose step is ``gain``; begin anew where ``start``.
+    """Follow ``signal`` with a first-order lag whose step is ``gain``; start again where ``start``.
 
     Parameters
     ----------

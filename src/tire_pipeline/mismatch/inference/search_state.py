@@ -130,7 +130,7 @@ def _weigh(search: Search) -> None:
 
 
 def renoise(search: Search) -> None:
-    """Take what the accepted effects show not to be noise off it, and set the weights anew.
+    """Take what the accepted effects show not to be noise off it, and set the weights again.
 
     Only a noise that is plainly smaller is taken: what effects leave may not pass for noise. Beside an effect
     that counts as noise until it is in, any that is smaller: it has another colour then, too.

@@ -119,7 +119,7 @@ def _by_sweep(x: Array, block: Array, count: int) -> Array:
 
 
 def held_out_condition(data: Data) -> tuple[str, Array | None]:
-    """Return the condition to leave out as a whole: the highest load, else the largest slip."""
+    """Return the condition to hold out: the highest load, else the largest slip."""
     for name, unit in (("normal_load", "N"), ("slip_angle", "rad"), ("slip_ratio", "1")):
         if data.varies(name):
             x = np.abs(data.get(name))

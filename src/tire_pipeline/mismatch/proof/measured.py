@@ -21,7 +21,7 @@ class OutputFit:
     recovered : float
         Share of the squared error above the noise floor that is gone.
     held_out_condition : str
-        One condition left out as a whole, and ``rms_condition_before``, ``rms_condition_after``.
+        The held-out condition, and ``rms_condition_before``, ``rms_condition_after``.
     """
 
     noise_floor: float

@@ -254,7 +254,7 @@ def _time(arrays: Mapping[str, Array]) -> Array | None:
         raise RecordingError(
             f"time goes backwards {int((steps < 0).sum())} times, first at sample {at}",
             where="time",
-            todo="sort the recording, or split it where it begins anew",
+            todo="sort the recording, or split it where it starts again",
         )
     if np.any(steps == 0.0):
         at = int(np.flatnonzero(steps == 0.0)[0]) + 1

@@ -1,4 +1,4 @@
-"""What an equation remembers: a lag of first order and play, begun anew at each piece."""
+"""What an equation remembers: a lag of first order and play, started again at each piece."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ class ThesisGridHooks:
 
     @hook_impl
     def after_context_created(self, context: Any) -> None:
-        """Read the grid; pipelines that were built with another one are built anew."""
+        """Read the grid; pipelines that were built with another one are rebuilt."""
         parameters = context.config_loader["parameters"].get("reproduce_thesis") or {}
         grid = GridParameters.model_validate(parameters.get("grid") or {})
         if grid != _CHOSEN["grid"]:

@@ -27,7 +27,7 @@ def leave_one_tire_out(
 ) -> pd.DataFrame:
     """Translate each tire that the target and others measured by a model that has not seen it.
 
-    The variances are those of all training data; the effects are found anew without the tire.
+    The variances are those of all training data; the effects are found again without the tire.
 
     Parameters
     ----------

@@ -173,7 +173,7 @@ def prepare(
     """Find the curve space (unless it is given), draw cells together, find classes, lay out the design.
 
     Where files have dates, categories are searched for a change of protocol, too; if there is one, classes
-    and design are laid out anew with it.
+    and design are laid out again with it.
     """
     space_and_cells = space_and_cells or fit_curve_space(training)
     made = _prepare(training, NO_PROTOCOL_CHANGE, pairs, kinds, space_and_cells)

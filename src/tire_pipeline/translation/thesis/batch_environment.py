@@ -79,7 +79,7 @@ class BatchEnv(VecEnv):
         self._actions = np.asarray(actions, dtype=np.int64)
 
     def step_wait(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[dict[str, Any]]]:
-        """Take the actions; environments whose episode is over start anew."""
+        """Take the actions; environments whose episode is over start again."""
         n = self.num_envs
         rewards = np.empty(n)
         ended, cut = np.empty(n, dtype=np.bool_), np.empty(n, dtype=np.bool_)
