@@ -1,4 +1,4 @@
-# make run | make cluster | make test | make docs | make viz | make long | make bench | make lint | make coverage | make audit | make build | make schedule
+# make run | make cluster | make quick | make test | make docs | make viz | make long | make bench | make lint | make coverage | make audit | make build | make schedule
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
@@ -8,7 +8,7 @@ COMMA := ,
 export OMP_NUM_THREADS ?= 2
 export PYTHONUNBUFFERED = 1
 
-.PHONY: run cluster test docs lint long bench coverage audit build sbom viz viz-page schedule install
+.PHONY: run cluster quick test docs lint long bench coverage audit build sbom viz viz-page schedule install
 
 run: install
 	@if [ -z "$$(find $(DATA)/01_raw/tir -iname '*.tir' -print -quit 2>/dev/null)" ]; then \
@@ -16,6 +16,10 @@ run: install
 		$(BIN)/kedro run --pipeline make_fleet; \
 	fi
 	$(BIN)/kedro run
+
+# For daily work. Run the tests of the folder that you changed besides.
+quick: install
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "not slow and not long" -n 2 --dist loadfile
 
 # Two processes, each file of tests in one of them.
 test: install

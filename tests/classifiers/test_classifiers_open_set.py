@@ -20,6 +20,8 @@ from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def table():
@@ -40,7 +42,6 @@ def blobs(rng, centres, tires=30, files=4, spread=1.0):
     return np.concatenate(parts), np.array(labels), np.array(names)
 
 
-@pytest.mark.slow
 def test_each_category_left_out_in_turn(table):
     features, _ = supplier_features(table)
     found = left_out_check(

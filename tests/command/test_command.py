@@ -16,6 +16,8 @@ from tire_pipeline.command.cli import COMMANDS, tire
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tir import read_tir, write_tir
 
+pytestmark = pytest.mark.slow
+
 COEFFICIENTS = {
     "FNOMIN": 4000.0,
     "UNLOADED_RADIUS": 0.32,

@@ -11,6 +11,8 @@ from click.testing import CliRunner
 
 from tire_pipeline.command.cli import tire
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [
     ROOT / "README.md",
@@ -43,7 +45,6 @@ def test_readme_and_tutorials_have_something_to_run():
     assert commands(ROOT / "README.md")
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("page", [p for p in PAGES if blocks(p, "python")], ids=lambda page: page.stem)
 def test_python_runs(page, folder):
     names: dict[str, object] = {}
@@ -52,7 +53,6 @@ def test_python_runs(page, folder):
     assert "tire" in names or "report" in names or "run" in names
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("page", "command"),
     [(page, command) for page in PAGES for command in commands(page)],

@@ -12,6 +12,8 @@ from tire_pipeline.evaluation import floor_evaluation
 from tire_pipeline.fleet import FleetSettings, make_fleet, write_fleet
 from tire_pipeline.tir import read_tir
 
+pytestmark = pytest.mark.slow
+
 TARGET = "D"
 SOURCES = ("A", "B", "C", "E", "F")
 METRICS = ["forces", "cornering_stiffness", "peak_friction"]

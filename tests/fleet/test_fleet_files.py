@@ -13,6 +13,8 @@ from tire_pipeline.fleet.settings import FOUR_TIRE_CATEGORIES, MANUFACTURERS, fi
 from tire_pipeline.fleet.tires import COMPOUNDS
 from tire_pipeline.tir import read_tir
 
+pytestmark = pytest.mark.slow
+
 METADATA = ("UNLOADED_RADIUS", "DIMENSION.WIDTH", "DIMENSION.RIM_RADIUS", "INERTIA.MASS")
 
 

@@ -12,6 +12,8 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula, typical
 
+pytestmark = pytest.mark.slow
+
 TYDEX = Path(__file__).resolve().parents[2].parent / "shared" / "recordings" / "tydex"
 INPUTS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
 FORCES = ("fx", "fy", "mx", "my", "mz")
@@ -146,7 +148,6 @@ def test_few_points_without_noise_are_met_exactly():
     assert fit_magic_formula(few_points(tire, 40, 1, 0.0)).relative_rms["fy"] < 1e-3
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("outliers", [0.0, 0.05])
 @pytest.mark.parametrize("tire", [tire_52(), tire_61()], ids=["5.2", "6.1"])
 def test_a_known_tire_is_found_again_below_its_noise(tire, outliers):

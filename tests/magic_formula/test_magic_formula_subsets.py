@@ -13,6 +13,8 @@ import pytest
 
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 
+pytestmark = pytest.mark.slow
+
 FILE = Path(__file__).resolve().parents[2] / "benchmarks" / "fit_subsets.py"
 
 
@@ -43,7 +45,6 @@ def ratios(module, part, fit, forces) -> dict[str, float]:
     return {f: row["fit"] / row["least"] for f, row in rows.items()}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("number", "forces"),
     [
@@ -65,7 +66,6 @@ def test_no_random_start_leaves_clearly_less(subsets, number, forces):
     assert max(found.values()) <= 1.05, (part.what, found)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("number", [1, 10, 22])
 def test_a_richer_formula_leaves_no_more(subsets, number):
     part = subsets.subset(number)

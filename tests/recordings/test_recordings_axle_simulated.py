@@ -11,6 +11,8 @@ from scipy.integrate import solve_ivp
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings import DART_CAR, Vehicle, axle_recording
 
+pytestmark = pytest.mark.slow
+
 CAR = Vehicle(
     mass=1500,
     front_mass=800,

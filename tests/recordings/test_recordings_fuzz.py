@@ -28,7 +28,7 @@ SUFFIX = {"TYDEX": ".tdx", "CSV": ".csv", "MDF4": ".mf4", "MAT": ".mat", "Parque
 QUICK, LONG = 400, 100_000  # for each of the five formats
 FOLDER = TemporaryDirectory()
 # asammdf closes in __del__ what it could not open; that is its noise, not ours.
-pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")]
 
 
 @cache

@@ -9,6 +9,8 @@ import pytest
 import scipy.io
 from asammdf import MDF, Signal
 
+pytestmark = pytest.mark.slow
+
 SCRIPT = """
 import resource, sys
 from tire_pipeline.recordings import read_recording
@@ -44,7 +46,6 @@ def write(file, count):
     return file
 
 
-@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="peak memory is asked of the resource module")
 @pytest.mark.parametrize("suffix", [".csv", ".tdx", ".mf4", ".mat", ".parquet"])
 def test_memory_stays_below_ten_times_the_file(tmp_path, suffix):

@@ -7,6 +7,8 @@ import pytest
 
 from tire_pipeline.reporting.translation_page import MORE, RATIOS, check_goals, translation_page
 
+pytestmark = pytest.mark.slow
+
 SHARES = ["coverage_fy", "coverage_fx", "coverage_mz", "left_alone", "harmful"]
 SHARES += ["refusal_precision", "refusal_recall"]
 LEVELS = {"no_change": 1.0, "mixed_model": 0.2, "paired_mixed_model": 0.12, "oracle": 0.1, "floor": 0.1}

@@ -30,6 +30,8 @@ from zoo import ORGANISATIONS, Zoo
 from tire_pipeline.errors import DomainError
 from tire_pipeline.run_errors import one_line
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[2]
 FEW = ",dedupe_filter.minimum_per_category=2"
 NAMES = st.sampled_from(["plain", "latin", "control", "escape", "long"])
@@ -249,7 +251,6 @@ def pipeline(tmp_path):
     return zoo, kedro
 
 
-@pytest.mark.slow
 def test_the_whole_pipeline_in_the_zoo(pipeline):
     zoo, kedro = pipeline
     book = zoo.book

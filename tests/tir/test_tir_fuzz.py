@@ -14,6 +14,8 @@ from tir_samples import PUBLIC, tir_text
 from tire_pipeline.errors import TirError
 from tire_pipeline.tir import TirFile, parse_tir, read_tir, tir_bytes
 
+pytestmark = pytest.mark.slow
+
 PIECES = [
     b"[",
     b"]",

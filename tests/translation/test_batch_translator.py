@@ -20,6 +20,8 @@ from tire_pipeline.translation.population.update import TaughtCells, learn_from,
 from tire_pipeline.translation.result import comment_lines
 from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel
 
+pytestmark = pytest.mark.slow
+
 
 def _table(files):
     models = ((path, path.split("/")[-2], read_tir(text.encode("latin-1"))) for path, text in files.items())

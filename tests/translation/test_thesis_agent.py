@@ -15,6 +15,8 @@ from tire_pipeline.translation.thesis.roll_out import roll_out
 from tire_pipeline.translation.thesis.rules import REWARDS, Rules
 from tire_pipeline.translation.thesis.training import make_model, train_agent
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def translator(table):

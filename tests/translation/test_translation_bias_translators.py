@@ -34,6 +34,8 @@ from tire_pipeline.translation.result import (
 from tire_pipeline.translation.simple.greedy_forest import GreedyForest
 from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel
 
+pytestmark = pytest.mark.slow
+
 
 def _table(files):
     models = ((path, path.split("/")[-2], read_tir(text.encode("latin-1"))) for path, text in files.items())
@@ -389,7 +391,6 @@ def test_leaving_one_tire_out(training, paired):
     assert left["error"].sum() < left["error_unchanged"].sum()
 
 
-@pytest.mark.slow
 def test_agents_learn_and_come_back(training, hidden):
     agent = LikelihoodAgent(updates=12).fit(training, target="D", seed=3)
     again = LikelihoodAgent(updates=12).fit(training, target="D", seed=3)
@@ -400,7 +401,6 @@ def test_agents_learn_and_come_back(training, hidden):
     assert not curious.translate(hidden).equals(agent.translate(hidden))
 
 
-@pytest.mark.slow
 def test_cycle_consistent_networks_move_tires_and_come_back(training, hidden):
     found = CycleConsistent(rounds=30).fit(training, target="D", seed=1)
     translated = found.translate(hidden)

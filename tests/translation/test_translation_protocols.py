@@ -10,6 +10,8 @@ from tire_pipeline.translation.population import protocol_search
 from tire_pipeline.translation.population.protocol_search import Dated, find_changes
 from tire_pipeline.translation.population.protocols import Change, Protocols, days_of
 
+pytestmark = pytest.mark.slow
+
 PARTS = {"friction": slice(0, 2), "shape": slice(2, 5)}
 FIRST = np.datetime64("2011-01-01")
 CHANGE = np.datetime64("2015-06-01")
