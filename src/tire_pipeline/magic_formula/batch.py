@@ -33,7 +33,36 @@ _NO_SIGNS = np.ones(2 + len(OUTPUTS))
 
 
 def pack(model: TireParameters) -> np.ndarray:
-    """Return a model's coefficients as a vector in the order of ``COEFFICIENT_NAMES`` (a copy)."""
+    """Return a model's coefficients as a vector.
+
+    Parameters
+    ----------
+    model : TireParameters
+        Of any version.
+
+    Returns
+    -------
+    ndarray of shape (len(COEFFICIENT_NAMES),)
+        In the order of ``COEFFICIENT_NAMES``, SI units; a copy.
+
+    See Also
+    --------
+    pack_matrix : The same for a table of many tires.
+    model_of : The way back.
+
+    Notes
+    -----
+    Names are those of the ``.tir`` format. What the model lacks has its neutral value, 0 or 1.
+
+    Examples
+    --------
+    >>> from tire_pipeline.magic_formula import COEFFICIENT_NAMES, TireModel
+    >>> tire = TireModel.from_coefficients(
+    ...     {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2}
+    ... )
+    >>> float(pack(tire)[COEFFICIENT_NAMES.index("PDY1")])
+    1.0
+    """
     return model.packed.copy()
 
 
@@ -59,6 +88,21 @@ def pack_matrix(values: Any, names: Sequence[str], version: str = "5.2") -> np.n
         If there are not as many columns as names.
     TirValueError
         If a tire has no nominal load.
+
+    See Also
+    --------
+    pack : The same for one model.
+    forces_batch : Forces of what is packed.
+
+    Notes
+    -----
+    Missing nominal and inflation pressure stand in for each other, as in :class:`TireModel`.
+
+    Examples
+    --------
+    >>> matrix = pack_matrix([[4000.0, 1.3, 1.0, -20.0, 2.0]], ["FNOMIN", "PCY1", "PDY1", "PKY1", "PKY2"])
+    >>> round(float(forces_batch(matrix, slip_angle=0.05, normal_load=4000.0)["fy"][0, 0]), 1)
+    -2629.0
     """
     values = np.asarray(values, dtype=np.float64)
     if values.ndim != 2 or values.shape[1] != len(names):
@@ -121,6 +165,22 @@ def forces_batch(
         If shapes do not fit.
     TirValueError
         For an output that is not known, or points with turn slip.
+
+    See Also
+    --------
+    TireModel.forces : One tire, with ranges, sides, other axes and turn slip.
+    pack_matrix : Coefficients of many tires from a table.
+
+    Notes
+    -----
+    The equations are those of :meth:`TireModel.forces`: Appendix A of the thesis for 5.2; Pacejka, Tire and
+    Vehicle Dynamics, 3rd edition, section 4.3.2 for 6.1 and 6.2.
+
+    Examples
+    --------
+    >>> matrix = pack_matrix([[4000.0, 1.3, 1.0, -20.0, 2.0]], ["FNOMIN", "PCY1", "PDY1", "PKY1", "PKY2"])
+    >>> forces_batch(matrix, slip_angle=[0.0, 0.05], normal_load=4000.0)["fy"].shape
+    (1, 2)
     """
     matrix = np.ascontiguousarray(matrix, dtype=np.float64)
     if matrix.ndim != 2 or matrix.shape[1] != len(COEFFICIENT_NAMES):

@@ -61,6 +61,25 @@ class TireForces:
         K_x, slope of the longitudinal force over the slip ratio (N).
     relaxation_lateral, relaxation_longitudinal : float or ndarray
         Relaxation lengths (m).
+
+    See Also
+    --------
+    TireModel.forces : What returns it.
+
+    Notes
+    -----
+    Signs are those of the axes that were asked for; in ISO W axes a positive slip angle gives a negative Fy
+    for the usual signs of coefficients (docs/reference/axes.md).
+
+    Examples
+    --------
+    >>> from tire_pipeline.magic_formula import TireModel
+    >>> tire = TireModel.from_coefficients(
+    ...     {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2}
+    ... )
+    >>> found = tire.forces(slip_angle=0.05, normal_load=4000, outputs=["fy"])
+    >>> round(float(found.fy), 1), found.mz
+    (-2629.0, None)
     """
 
     fx: Any = None

@@ -28,7 +28,32 @@ if TYPE_CHECKING:
 
 
 class TireModel(TireParameters):
-    """A Magic Formula tire model: its parameters are those of :class:`.parameters.TireParameters`.
+    """A Magic Formula tire model. It does not change.
+
+    Parameters
+    ----------
+    version : str
+        "5.0", "5.1", "5.2", "6.1", "6.2" or "PAC2002".
+    coefficients : mapping of str to float
+        By their ``.tir`` names in capitals, in SI units.
+    defaulted : mapping of str to float
+        Coefficients that the source lacks, and the value that stands in.
+    metadata : mapping of str to object
+        What is not a coefficient, by "SECTION.KEY" in SI units.
+    source : object, optional
+        The file that it came from, as read.
+    path : str, optional
+        The path of that file.
+
+    See Also
+    --------
+    OperatingPoints : Where it is evaluated.
+    tire_pipeline.tir.read_tir : Read one from a file.
+
+    Notes
+    -----
+    MF 5.2, PAC2002, 5.0 and 5.1: Appendix A of the thesis. MF 6.1 and 6.2: Pacejka, Tire and Vehicle
+    Dynamics, 3rd edition, section 4.3.2.
 
     Examples
     --------
@@ -178,7 +203,45 @@ class TireModel(TireParameters):
 
 
 def model_of(vector: np.ndarray, version: str, metadata: Mapping[str, object] | None = None) -> TireModel:
-    """Return the tire model of a packed vector: the opposite of :func:`.batch.pack`."""
+    """Return the tire model of a packed vector.
+
+    Parameters
+    ----------
+    vector : ndarray of shape (len(COEFFICIENT_NAMES),)
+        Coefficients in the order of ``COEFFICIENT_NAMES``, SI units.
+    version : str
+        "5.0", "5.1", "5.2", "6.1", "6.2" or "PAC2002".
+    metadata : mapping of str to object, optional
+        What is not a coefficient, by "SECTION.KEY".
+
+    Returns
+    -------
+    TireModel
+
+    Raises
+    ------
+    TirValueError
+        If a coefficient is not finite, or has a value that the equations divide by.
+    TirVersionError
+        If the version is not known.
+
+    See Also
+    --------
+    pack : The way there.
+
+    Notes
+    -----
+    What has its neutral value and no model may state, such as a radius of NaN, is missing in the model.
+
+    Examples
+    --------
+    >>> from tire_pipeline.magic_formula import TireModel, pack
+    >>> tire = TireModel.from_coefficients(
+    ...     {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2}
+    ... )
+    >>> model_of(pack(tire), "5.2").value("PDY1")
+    1.0
+    """
     used = NAMES_BY_FAMILY[family_of(version)]
     given = {name: float(vector[INDEX[name]]) for name in used}
     neutral = missing_defaults({}, version)

@@ -32,6 +32,19 @@ class Issue:
         What can be done.
     rows : tuple of (int, int)
         First and last row of each place, at most 20 of them.
+
+    See Also
+    --------
+    check_recording : What finds it.
+
+    Notes
+    -----
+    Rows are counted from zero.
+
+    Examples
+    --------
+    >>> Issue("no_force_channel", "error", "the recording", "give fx, fy or mz").severity
+    'error'
     """
 
     name: str
@@ -56,6 +69,21 @@ def check_recording(recording: pd.DataFrame) -> list[Issue]:
     -------
     list of Issue
         Empty if there is nothing. Errors come first.
+
+    See Also
+    --------
+    Issue : One finding.
+    read_recording : Where recordings come from.
+
+    Notes
+    -----
+    What is looked for: docs/reference/recordings.md.
+
+    Examples
+    --------
+    >>> found = check_recording(pd.DataFrame({"normal_load": [4000.0, 4010.0]}))
+    >>> found[0].name, found[0].severity
+    ('no_force_channel', 'error')
     """
     issues = _columns(recording) + _time(recording) + _values(recording)
     return sorted(issues, key=lambda issue: issue.severity != "error")

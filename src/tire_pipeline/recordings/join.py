@@ -46,6 +46,14 @@ def join_recordings(recordings: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
         Some have ``time`` and others do not; time does not rise; one has no force or load in common with the
         others; a slip or camber that varies in one is missing from another; the axes of two differ.
 
+    See Also
+    --------
+    read_recording : Where recordings come from.
+
+    Notes
+    -----
+    How several recordings are explained together: docs/how-to/several_recordings.md.
+
     Examples
     --------
     >>> run = pd.DataFrame(

@@ -79,6 +79,15 @@ def read_recording(
     RecordingError
         The file cannot be read, or holds no channel that is known.
 
+    See Also
+    --------
+    check_recording : Looks for what would spoil an explanation.
+    join_recordings : Several of one tire.
+
+    Notes
+    -----
+    Formats, names and units: docs/reference/recordings.md; axes: docs/reference/axes.md.
+
     Examples
     --------
     >>> recording = read_recording("rig_run.csv")

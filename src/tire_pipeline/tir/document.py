@@ -228,6 +228,19 @@ def parse_tir(source: str | os.PathLike[str] | bytes, *, path: str | None = None
         The path cannot be read.
     TirSyntaxError
         Over 5 MB, empty, binary, or with no ``[section]`` and no ``KEY = value`` line at all.
+
+    See Also
+    --------
+    read_tir : Reads it as a tire model.
+
+    Notes
+    -----
+    The form of the file: docs/reference/tir_format.md.
+
+    Examples
+    --------
+    >>> parse_tir("tire.tir").path
+    'tire.tir'
     """
     if path is None and not isinstance(source, bytes | bytearray | memoryview):
         path = os.fspath(source)

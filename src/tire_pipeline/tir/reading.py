@@ -88,6 +88,15 @@ def read_tir(
     TirVersionError
         The version is not one that is known.
 
+    See Also
+    --------
+    write_tir : The way back.
+    parse_tir : Sections and entries without a meaning.
+
+    Notes
+    -----
+    The form of the file and its units: docs/reference/tir_format.md.
+
     Examples
     --------
     >>> tire = read_tir("tire.tir")

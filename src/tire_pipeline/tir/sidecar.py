@@ -49,10 +49,30 @@ def read_sidecar(path: str | os.PathLike[str]) -> dict[str, dict[str, object]] |
     path : path
         Of the ``.tir`` file, not of the sidecar.
 
+    Returns
+    -------
+    dict of str to dict, or None
+        Effect -> its equation, source and parameters, SI units.
+
     Raises
     ------
     TirSyntaxError
         It is larger than 1 MB, not JSON, or of another form.
+
+    See Also
+    --------
+    write_sidecar : The way there.
+    read_tir : Puts it into ``metadata["sidecar"]``.
+
+    Notes
+    -----
+    The form of the file: docs/reference/tir_format.md.
+
+    Examples
+    --------
+    >>> _ = write_sidecar("tire.tir", {"wear": {"rate": 1e-9}})
+    >>> read_sidecar("tire.tir")
+    {'wear': {'rate': 1e-09}}
     """
     file = sidecar_path(path)
     try:
@@ -88,12 +108,30 @@ def write_sidecar(path: str | os.PathLike[str], effects: Mapping[str, Mapping[st
     path : path
         Of the ``.tir`` file.
     effects : mapping
-        Effect -> what it needs, as JSON can hold it; numbers finite.
+        Effect -> what it needs, as JSON can hold it; numbers finite, in SI units.
+
+    Returns
+    -------
+    Path
+        Of the sidecar.
 
     Raises
     ------
     TirError
         Something in it is not JSON.
+
+    See Also
+    --------
+    read_sidecar : The way back.
+
+    Notes
+    -----
+    The form of the file: docs/reference/tir_format.md.
+
+    Examples
+    --------
+    >>> write_sidecar("tire.tir", {"wear": {"rate": 1e-9}}).name
+    'tire.tir.sidecar.json'
     """
     file = sidecar_path(path)
     content = {"format": SIDECAR_FORMAT, "format_version": FORMAT_VERSION, "effects": effects}

@@ -63,6 +63,22 @@ def write_tir(
         The model cannot be written as that version.
     OSError
         The folder is absent or may not be written, the disk is full. No part of a file is left then.
+
+    See Also
+    --------
+    tir_bytes : The content alone.
+    read_tir : The way back.
+
+    Notes
+    -----
+    The form of the file: docs/reference/tir_format.md.
+
+    Examples
+    --------
+    >>> from tire_pipeline.tir import read_tir
+    >>> written = write_tir(read_tir("tire.tir").replace(PDY1=1.05), "softer.tir")
+    >>> read_tir(written).value("PDY1")
+    1.05
     """
     target = Path(path)
     if version is not None:
@@ -88,7 +104,38 @@ def tir_bytes(
     complete: bool | None = None,
     digits: int | None = None,
 ) -> bytes:
-    """Return the content that :func:`write_tir` writes."""
+    """Return the content that :func:`write_tir` writes.
+
+    Parameters
+    ----------
+    model : TireModel
+    comments, complete, digits
+        As for :func:`write_tir`.
+
+    Returns
+    -------
+    bytes
+        In the encoding of the file that the model came from, else UTF-8.
+
+    Raises
+    ------
+    TirVersionError
+        The model cannot be written.
+
+    See Also
+    --------
+    write_tir : Write it as a file, all or nothing.
+
+    Notes
+    -----
+    The form of the file: docs/reference/tir_format.md.
+
+    Examples
+    --------
+    >>> from tire_pipeline.tir import read_tir
+    >>> tir_bytes(read_tir("tire.tir")) == open("tire.tir", "rb").read()
+    True
+    """
     lines = [comments] if isinstance(comments, str) else list(comments or ())
     if isinstance(model.source, TirFile):
         edited = edited_source(model, model.source, lines, complete=bool(complete), digits=digits)

@@ -141,6 +141,10 @@ def make_translator(name: str, **options: Any) -> Translator:
     --------
     translator_from_state : Brings a fitted one back.
 
+    Notes
+    -----
+    Which one to choose: docs/how-to/choose_a_translator.md; how each works: docs/explanation/translation.md.
+
     Examples
     --------
     >>> translator = make_translator("mixed_model", pairs=False)
@@ -172,6 +176,10 @@ def translator_from_state(state: Mapping[str, Any]) -> Translator:
     See Also
     --------
     make_translator : Makes one that has learnt nothing yet.
+
+    Notes
+    -----
+    Former names: docs/how-to/retraining.md.
 
     Examples
     --------

@@ -55,7 +55,41 @@ def to_version(model: Tire, version: str) -> Tire:
 
 
 def conversion_notes(model: TireParameters, version: str) -> list[str]:
-    """Return what :func:`to_version` cannot keep, one plain sentence each; empty if all is kept."""
+    """Return what :func:`to_version` cannot keep.
+
+    Parameters
+    ----------
+    model : TireParameters
+    version : str
+        The version to change to.
+
+    Returns
+    -------
+    list of str
+        One plain sentence each; empty if all is kept.
+
+    Raises
+    ------
+    TirVersionError
+        If the version is not known.
+
+    See Also
+    --------
+    to_version : The change itself.
+
+    Notes
+    -----
+    5.2: Appendix A of the thesis. 6.1: Pacejka, Tire and Vehicle Dynamics, 3rd edition, section 4.3.2.
+
+    Examples
+    --------
+    >>> from tire_pipeline.magic_formula import TireModel
+    >>> tire = TireModel.from_coefficients(
+    ...     {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2}
+    ... )
+    >>> conversion_notes(tire, "5.2")
+    []
+    """
     if model.family == family_of(version):
         return []
     notes = []

@@ -90,6 +90,26 @@ def fit_magic_formula(
     The stages: Fy, Fx and Mz at pure slip, then at combined slip, Mx, My (thesis, Appendix A, and Pacejka's
     appendix on the estimation of parameters). The model reproduces the recording's own signs: data in which a
     positive slip angle gives a positive Fy give a positive PKY1, and a note.
+
+    See Also
+    --------
+    FitResult : What it returns.
+    tire_pipeline.recordings.read_recording : Measurements from a file.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import pandas as pd
+    >>> from tire_pipeline.magic_formula import TireModel
+    >>> tire = TireModel.from_coefficients(
+    ...     {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2}
+    ... )
+    >>> angles, loads = np.meshgrid(np.linspace(-0.2, 0.2, 41), [2000.0, 4000.0, 6000.0])
+    >>> points = pd.DataFrame({"slip_angle": angles.ravel(), "normal_load": loads.ravel()})
+    >>> points["fy"] = tire.forces(slip_angle=points["slip_angle"], normal_load=points["normal_load"]).fy
+    >>> fit = fit_magic_formula(points, starts=1)
+    >>> bool(fit.relative_rms["fy"] < 1e-3)
+    True
     """
     points, forces = given.columns(recording)
     base, notes = given.base(recording, version, start, points, nominal_load, unloaded_radius)

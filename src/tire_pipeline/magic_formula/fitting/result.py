@@ -39,6 +39,29 @@ class FitResult:
         Outputs that may not pass for a tire's, with what is wrong and the likely reason; empty for a success.
     not_fitted : sequence of str
         Outputs that were measured, but at no points that a stage could fit; ``undetermined`` says why.
+
+    See Also
+    --------
+    fit_magic_formula : What returns it.
+
+    Notes
+    -----
+    The residuals are model minus measurement, over all points of an output that were fitted.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import pandas as pd
+    >>> from tire_pipeline.magic_formula import TireModel, fit_magic_formula
+    >>> tire = TireModel.from_coefficients(
+    ...     {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2}
+    ... )
+    >>> angles, loads = np.meshgrid(np.linspace(-0.2, 0.2, 41), [2000.0, 4000.0, 6000.0])
+    >>> points = pd.DataFrame({"slip_angle": angles.ravel(), "normal_load": loads.ravel()})
+    >>> points["fy"] = tire.forces(slip_angle=points["slip_angle"], normal_load=points["normal_load"]).fy
+    >>> fit = fit_magic_formula(points, starts=1)
+    >>> list(fit.relative_rms), dict(fit.poor)
+    (['fy'], {})
     """
 
     model: TireModel

@@ -28,6 +28,16 @@ class OperatingPoints(NamedTuple):
     turn_slip : float or array_like
         Curvature of the path (1/m). 0 everywhere switches the turn slip equations off. Only MF 6.1 and 6.2.
 
+    See Also
+    --------
+    TireModel.forces : Forces there.
+    TireModel.jacobian : Their derivatives with respect to coefficients.
+    forces_batch : Forces of many tires.
+
+    Notes
+    -----
+    ISO W axes unless ``axes`` says otherwise where the points are used (docs/reference/axes.md).
+
     Examples
     --------
     >>> from tire_pipeline.magic_formula import OperatingPoints, TireModel

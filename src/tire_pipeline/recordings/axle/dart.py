@@ -76,6 +76,14 @@ def read_dart(path: str | Path) -> pd.DataFrame:
     ------
     RecordingError
         The file is not such a drive.
+
+    See Also
+    --------
+    axle_recording : Slip and force of an axle from such a drive.
+
+    Notes
+    -----
+    The drives: Lorenzo-Lyons/DART, docs/history/recordings.md.
     """
     try:
         raw = pd.read_csv(path)

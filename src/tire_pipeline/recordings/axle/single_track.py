@@ -89,6 +89,15 @@ def axle_recording(
     ------
     RecordingError
         A needed column is missing, or nothing is left.
+
+    See Also
+    --------
+    Vehicle : Masses, lengths and inertia.
+    read_dart : A drive to begin with.
+
+    Notes
+    -----
+    Source and uncertainties: docs/reference/recordings.md.
     """
     if axle not in ("front", "rear"):
         raise RecordingError(f"axle={axle!r}", todo='choose "front" or "rear"')
