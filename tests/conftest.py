@@ -9,12 +9,17 @@ import pytest
 _KNOWN = Path(__file__).with_name("known_misses.txt")
 _REASON = "known miss since 2026-11-23 (tests/known_misses.txt): other verdicts with the misfit of real tires"
 
-
 _HERE = Path(__file__).parent
 _SLOW_FOLDERS = frozenset(
     ("cluster", "concealed", "mismatch", "notebooks", "object_storage", "pipelines", "thesis", "viz")
 )
 """Whole runs, browsers, simulators and explanations. Elsewhere the slow files say so themselves."""
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Do not import the slow folders where no slow test is wanted."""
+    slow = collection_path.parent == _HERE and collection_path.name in _SLOW_FOLDERS
+    return True if slow and "not slow" in config.option.markexpr else None
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
