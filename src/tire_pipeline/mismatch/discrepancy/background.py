@@ -1,0 +1,98 @@
+"""The background: what the effects of the catalogue do a little in every recording, named or not.
+
+A flat belt lags a little behind its slip, a small car's forces follow its speed a little, a load cell is a
+little off. None of this is a finding. A name is a size that stands out against what is usual in its family.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tire_pipeline.mismatch.discrepancy.unnamed import forms
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.model.data import Data
+
+Array = np.ndarray
+Columns = Mapping[str, Array]
+UNNAMED = "unnamed"
+"""Family of what has no name: rates, memory, play, what repeats along the road."""
+_MOST_DIRECTIONS = 12
+_LEAST_OF_FIRST = 0.02
+_NOTHING = 1e-9
+
+
+@dataclass(frozen=True)
+class Background:
+    """Columns of the background, N.
+
+    Parameters
+    ----------
+    columns : dict of ndarray, shape (n, b)
+        Coefficients of standard deviation s give an effect an RMS of s times the largest force.
+    families : tuple of str, length b
+    """
+
+    columns: dict[str, Array]
+    families: tuple[str, ...]
+
+
+def make_background(
+    data: Data, screened: Iterable[tuple[str, Columns]], largest: Mapping[str, float]
+) -> Background:
+    """Return a few directions for each effect and for all unnamed forms together.
+
+    Parameters
+    ----------
+    data : Data
+    screened : iterable of (name, columns)
+        Each form of each effect with its columns, shape (n, k) for each output, N.
+    largest : dict
+        Largest force of each output, N.
+    """
+    ways: dict[str, list[Columns]] = {}
+    for name, columns in screened:
+        ways.setdefault(name, []).append(columns)
+    ways[UNNAMED] = [form.columns for form in forms(data, [])]
+    parts: list[Columns] = []
+    families: list[str] = []
+    for name, own in ways.items():
+        found = principal(own, largest)
+        if found is None:
+            continue
+        parts.append(found)
+        count = next(iter(found.values())).shape[1]
+        families += [UNNAMED if name == UNNAMED else catalogue()[name].family] * count
+    stacked = {o: np.hstack([np.zeros((data.size, 0)), *(p[o] for p in parts)]) for o in data.outputs}
+    return Background(stacked, tuple(families))
+
+
+def principal(columns: Sequence[Columns], largest: Mapping[str, float]) -> dict[str, Array] | None:
+    """Return the main directions of some columns, each of which may be of the same size.
+
+    Parameters
+    ----------
+    columns : sequence of dict of ndarray, shape (n, k)
+    largest : dict
+        Unit of each output, N.
+
+    Returns
+    -------
+    dict of ndarray, shape (n, m), or None
+        With random coefficients of standard deviation 1 their RMS is ``largest``. None if nothing acts.
+    """
+    if not columns:
+        return None
+    outputs = list(columns[0])
+    joined = np.vstack([np.hstack([c[o] / largest[o] for c in columns]) for o in outputs])
+    size = np.sqrt(np.mean(joined**2, axis=0))
+    joined = joined[:, size > _NOTHING] / size[size > _NOTHING]
+    if joined.shape[1] == 0:
+        return None
+    values, vectors = np.linalg.eigh(joined.T @ joined / joined.shape[0])
+    kept = [j for j in np.argsort(-values)[:_MOST_DIRECTIONS] if values[j] > _LEAST_OF_FIRST * values[-1]]
+    found = joined @ vectors[:, kept] / np.sqrt(joined.shape[1])
+    pieces = np.split(found, len(outputs))
+    return {o: piece * largest[o] for o, piece in zip(outputs, pieces, strict=True)}
