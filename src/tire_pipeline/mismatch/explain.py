@@ -123,7 +123,7 @@ def _refit(search: Search, prepared: Prepared) -> None:
 def _report(prepared: Prepared, search: Search, recording: pd.DataFrame) -> MismatchReport:
     data = search.data
     left = remainder(search)
-    if unlike(search, left.nats):
+    if unlike(search, left.log_evidence):
         search.refused.update(
             {n: "what it leaves is too large for this to be the cause" for n in search.fit.names}
         )

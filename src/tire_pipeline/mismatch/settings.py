@@ -153,7 +153,7 @@ MOST_EFFECTS = 3
 """How many effects are put in at most."""
 
 AMBIGUITY_SHARE = 0.04
-AMBIGUITY_NATS = 5.0
+AMBIGUITY_LOG_EVIDENCE = 5.0
 AMBIGUITY_LOST = 0.5
 """Another effect is an alternative if so little of what the named one does is out of its reach, or if that is
 worth so little log evidence, and if its own fit loses less than this part of what it should lose, or TIE.
@@ -166,7 +166,7 @@ ODDS = 3.0
 excluded at 2.9, a wear though it was likelier than the change of surface that was named."""
 
 REMAINDER_LIMIT = 1.3
-REMAINDER_NATS = 60.0
+REMAINDER_LOG_EVIDENCE = 60.0
 """What is left is called unexplained if its power at some scale is so much above white noise, and if
 that is worth so much log evidence; or if it is larger than the next share of the largest force, which is
 more than a fitted formula's own misfit."""

@@ -29,7 +29,7 @@ _RATES = ("slip_angle", "slip_ratio", "normal_load")
 _POINTS = 250
 _HELD_POINTS = 2000
 _LONGEST = 3.0
-_LEAST_NATS = 3.0
+_LEAST_LOG_EVIDENCE = 3.0
 _NOT_THERE = 30.0
 
 
@@ -128,7 +128,7 @@ def _chosen(x: Array, y: Array, noise: float) -> tuple[list[int], GaussianProces
             break
         trial = _fit(x[:, fewer], y, noise)
         fall = process.log_marginal_likelihood_value_ - trial.log_marginal_likelihood_value_
-        if fall < _LEAST_NATS:
+        if fall < _LEAST_LOG_EVIDENCE:
             live, process = fewer, trial
     return live, process
 

@@ -32,7 +32,7 @@ class Rival:
     apart : float
         Share of the accepted effect's part that the rival cannot imitate (squared sine of the
         angle between them, in the metric of the noise).
-    nats : float
+    log_evidence : float
         How much likelier the accepted effect should be, from that angle and its size.
     lost : float
         How much likelier it is, both fitted.
@@ -48,7 +48,7 @@ class Rival:
 
     name: str
     apart: float
-    nats: float
+    log_evidence: float
     lost: float
     unsure: float = 0.0
     dearer: float = 0.0
@@ -59,9 +59,11 @@ class Rival:
         """Whether the recording cannot exclude it: by the angle and its size, or being nearly as likely."""
         if self.lost < max(settings.ODDS, self.untold):
             return True
-        by_design = self.nats < settings.AMBIGUITY_NATS or self.apart < settings.AMBIGUITY_SHARE
-        near = settings.AMBIGUITY_NATS if self.unsure > 0.0 else settings.TIE
-        least = max(near, settings.AMBIGUITY_LOST * self.nats, self.unsure)
+        by_design = (
+            self.log_evidence < settings.AMBIGUITY_LOG_EVIDENCE or self.apart < settings.AMBIGUITY_SHARE
+        )
+        near = settings.AMBIGUITY_LOG_EVIDENCE if self.unsure > 0.0 else settings.TIE
+        least = max(near, settings.AMBIGUITY_LOST * self.log_evidence, self.unsure)
         return by_design and self.lost - self.dearer < least
 
 
@@ -100,11 +102,11 @@ def rivals(search: Search, index: int) -> list[Rival]:
         trial = prune(search, refit(search.system, [*others, v]))
         trial = trial.judged_by(system)
         apart = _apart(search, system, trial, part, size, name)
-        nats = 0.5 * apart * size / search.inflation
+        log_evidence = 0.5 * apart * size / search.inflation
         lost = own - gain_of(search, trial, empty)
         dearer = search.price * max(trial.parameters - fit.parameters, 0)
         doubt = unsure(search, index, name)
-        out.append(Rival(name, apart, nats, lost, doubt, dearer, untold.get(name, 0.0)))
+        out.append(Rival(name, apart, log_evidence, lost, doubt, dearer, untold.get(name, 0.0)))
     return sorted(out, key=lambda r: r.apart)
 
 

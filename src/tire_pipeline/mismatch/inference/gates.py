@@ -65,7 +65,7 @@ class Gates:
     @property
     def explains_most(self) -> bool:
         """Whether it has plain evidence, and most of the mismatch goes with it: without it nothing agrees."""
-        return self.gain > settings.REMAINDER_NATS and self.share > 0.5
+        return self.gain > settings.REMAINDER_LOG_EVIDENCE and self.share > 0.5
 
     def why_not(self, level: float) -> str:
         """Return the first gate that is shut, in words."""
@@ -232,7 +232,7 @@ def least_share(names: list[str], index: int, gain: float, there: float) -> floa
     there : float
         What is there beside the others, as a share of all.
     """
-    if len(names) == 1 and gain > settings.REMAINDER_NATS:
+    if len(names) == 1 and gain > settings.REMAINDER_LOG_EVIDENCE:
         return 0.0
     this = catalogue()[names[index]]
     others = [catalogue()[name] for j, name in enumerate(names) if j != index]

@@ -20,18 +20,18 @@ _FOUND = "fit gates doubts unnamed likelier noise system loose frozen inflation 
 Array = np.ndarray
 
 
-def unlike(search: Search, nats: float) -> bool:
+def unlike(search: Search, log_evidence: float) -> bool:
     """Whether the effects leave so much that something else, which resembles them, must be the cause.
 
     Parameters
     ----------
     search : Search
-    nats : float
+    log_evidence : float
         What is left above white noise.
     """
-    if not search.gates or nats < settings.REMAINDER_NATS:
+    if not search.gates or log_evidence < settings.REMAINDER_LOG_EVIDENCE:
         return False
-    return nats > settings.UNLIKE * max(g.gain for g in search.gates)
+    return log_evidence > settings.UNLIKE * max(g.gain for g in search.gates)
 
 
 def search_all(search: Search) -> None:
@@ -44,7 +44,7 @@ def search_all(search: Search) -> None:
     run(search)
     left = _left(search)
     holds = _holds(search, left)
-    if holds and (len(search.fit.names) != 1 or left < settings.REMAINDER_NATS):
+    if holds and (len(search.fit.names) != 1 or left < settings.REMAINDER_LOG_EVIDENCE):
         return
     before = search.fit.names[:1] or search.withdrawn[:1]
     empty = replace(search, fit=Fit([], []), gates=[], refused={}, unnamed="", withdrawn=[], log=[])
@@ -78,7 +78,7 @@ def _holds(search: Search, left: float) -> bool:
     """Whether what was found, with so much log evidence left, is not in doubt."""
     if not search.fit.names:
         seen = _gain_of_first(search) > 2.0 * settings.LEAST_GAIN
-        return left < settings.REMAINDER_NATS and not search.unnamed and not seen
+        return left < settings.REMAINDER_LOG_EVIDENCE and not search.unnamed and not seen
     return not search.unnamed and not unlike(search, left)
 
 
@@ -141,14 +141,14 @@ def excess(search: Search, left: dict[str, Array]) -> tuple[float, float]:
     a filter and unknowns that are constant over a drive: slow changes are no evidence there, and only
     power beyond what is stated counts.
     """
-    worst, nats = 1.0, 0.0
+    worst, log_evidence = 1.0, 0.0
     for o, white in left.items():
         if f"{o}_std" in search.data.channels:
             ratio = float(np.mean(np.minimum(white**2, 25.0)))
             worst = max(worst, ratio)
             if ratio > 1.0:
                 count = white.size / search.inflation
-                nats = max(nats, 0.5 * count * (ratio - 1.0 - np.log(ratio)))
+                log_evidence = max(log_evidence, 0.5 * count * (ratio - 1.0 - np.log(ratio)))
             continue
         size = float(np.median(white**2) / 0.4549)
         x = white / np.sqrt(max(size, 1e-12))
@@ -160,5 +160,5 @@ def excess(search: Search, left: dict[str, Array]) -> tuple[float, float]:
             ratio = float(np.mean(np.minimum(sums**2, 25.0))) / search.inflation
             worst = max(worst, ratio)
             if ratio > 1.0:
-                nats = max(nats, 0.5 * n * (ratio - 1.0 - np.log(ratio)))
-    return worst, nats
+                log_evidence = max(log_evidence, 0.5 * n * (ratio - 1.0 - np.log(ratio)))
+    return worst, log_evidence

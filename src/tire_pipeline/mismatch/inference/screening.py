@@ -19,7 +19,7 @@ Array = np.ndarray
 
 
 def screen(search: Search, extra: System | None = None) -> list[tuple[float, Variant]]:
-    """Score each form against what the accepted effects leave: nats after the price of its parameters."""
+    """Score each form against what the accepted effects leave: log evidence, less the price."""
     system = extra or search.system
     rest = residual(search.data, search.fit.changes)
     own = search.fit.columns if search.fit.labels else None
@@ -79,7 +79,7 @@ def gain_of(search: Search, fit: Fit, against: float) -> float:
 
 
 def frozen_cost(search: Search, fit: Fit) -> float:
-    """Return the information criterion of a set with frozen coefficients, nats."""
+    """Return the information criterion of a set with frozen coefficients (log evidence)."""
     return -gain_of(search, fit.judged_by(search.frozen), 0.0)
 
 

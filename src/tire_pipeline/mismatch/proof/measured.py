@@ -76,7 +76,7 @@ class Remainder:
         A sparse equation for it (PySINDy), or nothing.
     significant : bool
         Whether it counts.
-    statistic, nats : float
+    statistic, log_evidence : float
         Its power over that of noise at the worst scale, and what that is worth.
     gaussian : list of GaussianForm
         The output first in which most is left.
@@ -87,5 +87,5 @@ class Remainder:
     form: str
     significant: bool
     statistic: float = 0.0
-    nats: float = 0.0
+    log_evidence: float = 0.0
     gaussian: list[GaussianForm] = field(default_factory=list)

@@ -23,7 +23,7 @@ def remainder(search: Search) -> Remainder:
     """Measure what neither the effects nor a misfit of the usual size explains."""
     data, fit = search.data, search.fit
     left = white_left(search)
-    statistic, nats = excess(search, left)
+    statistic, log_evidence = excess(search, left)
     rest = residual(data, fit.changes)
     sensor = estimate_noise(data, rest)  # what changes slowly is noise to the search, but not a sensor's
     size = {}
@@ -33,13 +33,13 @@ def remainder(search: Search) -> Remainder:
     share = max(size[o] / search.largest[o] for o in data.outputs)
     stated = any(f"{o}_std" in data.channels for o in data.outputs)
     above = not stated or any(size[o] > 0.5 * search.noise[o].floor for o in data.outputs)
-    much = statistic > settings.REMAINDER_LIMIT and nats > settings.REMAINDER_NATS
+    much = statistic > settings.REMAINDER_LIMIT and log_evidence > settings.REMAINDER_LOG_EVIDENCE
     significant = (above and much) or share > settings.REMAINDER_SHARE
     plain = {o: left[o] * search.noise[o].sigma for o in data.outputs}
     located = locate(data, plain, search.noise, search.block) if significant else []
     form = sparse_form(search) if significant else ""
     gaussian = gaussian_forms(search, size) if significant else []
-    return Remainder(size, located, form, bool(significant), statistic, nats, gaussian)
+    return Remainder(size, located, form, bool(significant), statistic, log_evidence, gaussian)
 
 
 def gaussian_forms(search: Search, size: dict[str, float]) -> list[GaussianForm]:

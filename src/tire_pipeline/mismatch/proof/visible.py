@@ -214,21 +214,21 @@ class _Scene:
         size, by_loose = 0.0, 0.0
         for _ in range(2):  # what is asked for depends on the share
             share = power * size**2 / (self.total + power * size**2)
-            nats, loose, least = asked_for(self.search, name, share)
+            log_evidence, loose, least = asked_for(self.search, name, share)
             least *= part
-            size = _sure_at(nats + price, error, spread)
+            size = _sure_at(log_evidence + price, error, spread)
             if not by_loose and not of_coefficients(name):
                 by_loose = self._by_loose(column, loose, errors, size)
             size = max(size, by_loose)
             by_share = aside + np.sqrt(aside**2 + least / (1.0 - least) * self.total / power)
             if not self.changes:  # alone, and sure, it need not be a share of noise and misfit
-                sure = _sure_at(settings.REMAINDER_NATS + price, error, spread)
+                sure = _sure_at(settings.REMAINDER_LOG_EVIDENCE + price, error, spread)
                 by_share = min(by_share, max(sure, 2.0 * aside))
             size = max(size, by_share)
         return float(size)
 
     def _by_loose(
-        self, column: dict[str, Array], nats: float, errors: tuple[float, float, float], enough: float
+        self, column: dict[str, Array], log_evidence: float, errors: tuple[float, float, float], enough: float
     ) -> float:
         """Return the size that coefficients nearly free do not explain, if more than a size is needed.
 
@@ -236,7 +236,7 @@ class _Scene:
         that coefficients explain.
         """
         (error, spread, loose), price = errors, self.search.price
-        size = _sure_at(nats + price, loose, max(loose, spread))
+        size = _sure_at(log_evidence + price, loose, max(loose, spread))
         if self.changes or size <= enough:
             return size
         own = 1.0 - self._alike(column)
@@ -278,9 +278,9 @@ class _Scene:
         return sight.variant.effect.outside(self.data, sight.values(self.data, size))
 
 
-def _sure_at(nats: float, error: float, spread: float) -> float:
+def _sure_at(log_evidence: float, error: float, spread: float) -> float:
     """Return the size that is worth some log evidence in 95% of repetitions, which differ by ``spread``."""
-    return float(np.sqrt(2.0 * nats)) * error + _SEEN * spread
+    return float(np.sqrt(2.0 * log_evidence)) * error + _SEEN * spread
 
 
 def visible(search: Search, *, unexplained: bool) -> list[Visible]:

@@ -123,9 +123,11 @@ def convention(
         return (), []
     chosen = base
     away = {s for s in sets if 1.0 - share[s] < (1.0 - _AWAY) * (1.0 - share[base])}
-    nats = {s: _likelier(recorded, turned[base], turned[s]) for s in sets if s in away and share[s] > 0.5}
-    if nats and max(nats.values()) > _SURE:
-        chosen = max(nats, key=lambda s: round(nats[s], 3))
+    log_evidence = {
+        s: _likelier(recorded, turned[base], turned[s]) for s in sets if s in away and share[s] > 0.5
+    }
+    if log_evidence and max(log_evidence.values()) > _SURE:
+        chosen = max(log_evidence, key=lambda s: round(log_evidence[s], 3))
     if not chosen:
         return (), []
     same = [s for s in sets if s and share[s] > 0.5 and _alike(recorded, turned[chosen], turned[s])]
