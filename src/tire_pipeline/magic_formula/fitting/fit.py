@@ -281,13 +281,12 @@ class _Report:
         towards = "the start model" if self.from_start else "typical values"
         for reason, names in outcome.released.items():
             self.undetermined.append(
-                f"{reason}: {', '.join(names)} drawn to {towards}, left only as far as the points ask for it"
+                f"{reason}: {', '.join(names)} held near {towards}, except where the points demand otherwise"
             )
         drawn = [n for n in outcome.fit.open if not any(n in group for group in outcome.released.values())]
         if drawn:
             self.undetermined.append(
-                f"{stage.title} tells less of them than tires in general do: {', '.join(drawn)} "
-                f"drawn to {towards}"
+                f"{stage.title} says little about {', '.join(drawn)}: held near {towards}"
             )
         if outcome.fit.at_bound:
             self.notes.append(f"{stage.title}: {', '.join(outcome.fit.at_bound)} at the bound")
