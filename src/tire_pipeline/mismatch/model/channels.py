@@ -27,7 +27,7 @@ def moves(slow: Array, least: float) -> bool:
     return bool(high - low > least)
 
 
-class Channels:
+class RecordedChannels:
     """What is recorded."""
 
     tire: Any

@@ -6,13 +6,13 @@ from functools import cached_property
 
 import numpy as np
 
-from tire_pipeline.mismatch.model.channels import Channels
+from tire_pipeline.mismatch.model.channels import RecordedChannels
 from tire_pipeline.mismatch.model.forces import plain_forces
 
 Array = np.ndarray
 
 
-class Nominal(Channels):
+class Nominal(RecordedChannels):
     """Nominal values of the model beside a recording; a part of `Data`."""
 
     @cached_property
