@@ -24,6 +24,9 @@ from tire_pipeline.magic_formula.parameters.points import CHANNELS
 
 _EXACT = 1e-4
 """A misfit below this share of the largest force is no misfit."""
+_POSITIVE_AT_EVERY_LOAD = 2.0
+"""Largest PKY4 with which the cornering stiffness, a sine of PKY4 times an arc tangent of the load, is positive
+at every load: at one load the rows say nothing of it."""
 _LEAST = 1.5
 """What has to be positive and the recording's ranges cannot tell is no less than its typical value over this:
 with PKY2 below 1 the cornering stiffness would fall with load."""
@@ -132,7 +135,9 @@ def fit_stage(
         low, high = bounds_of(list(free), first)
         drawn = pull(free, typical, (low, high))
         unseen = np.isin(free, sorted(known)) & (low > 0.0)
-        bounds = np.where(unseen, np.maximum(low, np.minimum(drawn.centre / _LEAST, high)), low), high
+        low = np.where(unseen, np.maximum(low, np.minimum(drawn.centre / _LEAST, high)), low)
+        untold = np.isin(free, sorted(known & {"PKY4"}))
+        bounds = low, np.where(untold, np.maximum(drawn.centre, _POSITIVE_AT_EVERY_LOAD), high)
         return Problem(vector, model.family, stage.output, free, rows, measured, drawn), bounds
 
     def points_of(problem: Problem, bounds: Bounds, number: int) -> list[np.ndarray]:
