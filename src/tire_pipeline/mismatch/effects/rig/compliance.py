@@ -36,6 +36,7 @@ class Compliance(Effect):
         "crosstalk": "crosstalk is there without a side force too, and where the tire slides",
         "relaxation_length": "relaxation needs slip that changes",
     }
+    told_by = {"stiffness_scale": "normal_load"}
     experiment = "small-slip sweeps at three loads or more, one with brakes; or measure the toe at the wheel"
     order = 20
 
