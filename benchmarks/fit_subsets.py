@@ -2,6 +2,7 @@
 
 python benchmarks/fit_subsets.py --subsets 120      # goes on where it stopped
 python benchmarks/fit_subsets.py --table            # what was measured
+python benchmarks/fit_subsets.py --write            # the same, into the documentation
 
 Subsets: sweeps of the flat belt (calspan, by load or at random, thinned by 1 to 20), points of the TYDEX
 file, a brush tire of the rig simulator that brakes, drives and corners, and points that other software has
@@ -30,6 +31,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from doc_tables import markdown, write_between
 from threadpoolctl import threadpool_limits
 
 from tire_pipeline import magic_formula
@@ -345,6 +347,44 @@ GOALS = {
 }
 
 
+DOCS = Path(__file__).resolve().parents[1] / "docs" / "explanation" / "magic_formula.md"
+MARK = "<!-- from fit_subsets.py -->"
+"""Where the page shows the table."""
+
+
+def documented(table: pd.DataFrame) -> str:
+    """Return the shares that meet each goal by source and force, as a table for the documentation."""
+    table = table.assign(ahead=table["left_out"] / table["left_out_least"])
+    table.loc[table["version"] == "5.2", "over_52"] = np.nan
+    few = table["rows"] < FEW_POINTS * table["coefficients"]
+    rows = []
+    for column, (title, goal) in GOALS.items():
+        for name, group in [*table[~few].groupby(["source", "force"]), (("few points", ""), table[few])]:
+            x = group[column].dropna()
+            if len(x):
+                share = f"{(x <= goal).mean():.2f}"
+                rows.append(
+                    [
+                        title,
+                        " ".join(name),
+                        f"{goal:g}",
+                        share,
+                        str(len(x)),
+                        f"{x.median():.2f}",
+                        f"{x.max():.2f}",
+                    ]
+                )
+    one = table.dropna(subset=["stiffness_low"])
+    low, high = one["stiffness_low"].min(), one["stiffness_high"].max()
+    below = (
+        f"{table['seed'].nunique()} subsets, {table['date'].min()} to {table['date'].max()}, code "
+        f"{', '.join(sorted(set(table['code'])))}. From one load, the cornering stiffness at 0.5 to 1.5 of it "
+        f"is {low:.2f} to {high:.2f} times that of a fit to all loads ({len(one)} fits)."
+    )
+    head = ["ratio", "of", "goal, at most", "share that meets it", "fits", "median", "largest"]
+    return markdown(head, rows) + "\n\n" + below
+
+
 def summary(table: pd.DataFrame) -> str:
     """Return shares that meet each goal, by source, version and force."""
     table = table.assign(ahead=table["left_out"] / table["left_out_least"])
@@ -372,11 +412,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--subsets", type=int, default=0)
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--write", action="store_true", help="put the table into the documentation")
     asked = parser.parse_args()
     with threadpool_limits(1):
         run(asked.subsets)
     if asked.table:
         print(summary(pd.read_csv(RESULTS, dtype={"version": str})))
+    if asked.write:
+        write_between(DOCS, MARK, documented(pd.read_csv(RESULTS, dtype={"version": str})))
 
 
 if __name__ == "__main__":
