@@ -378,8 +378,8 @@ def documented(table: pd.DataFrame) -> str:
     low, high = one["stiffness_low"].min(), one["stiffness_high"].max()
     below = (
         f"{table['seed'].nunique()} subsets, {table['date'].min()} to {table['date'].max()}, code "
-        f"{', '.join(sorted(set(table['code'])))}. From one load, the cornering stiffness at 0.5 to 1.5 of it "
-        f"is {low:.2f} to {high:.2f} times that of a fit to all loads ({len(one)} fits)."
+        f"{', '.join(sorted(set(table['code'])))}. From one load, the cornering stiffness at 0.5 to 1.5 of "
+        f"it is {low:.2f} to {high:.2f} times that of a fit to all loads ({len(one)} fits)."
     )
     head = ["ratio", "of", "goal, at most", "share that meets it", "fits", "median", "largest"]
     return markdown(head, rows) + "\n\n" + below
