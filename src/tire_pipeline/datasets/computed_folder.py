@@ -95,7 +95,7 @@ class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Com
             raise DomainError(
                 f"{len(lost)} of {len(places)} could not be computed; the first: {lost[0]}",
                 where=self._path,
-                todo="all others are stored; run again when that is mended",
+                todo="all others are stored; run again when that is fixed",
             )
 
     def _forget(self, folder: Files | Objects) -> None:
