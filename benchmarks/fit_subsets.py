@@ -45,7 +45,7 @@ from tire_pipeline.magic_formula.fitting.stages import BOUNDS, PRESSURE_BOUNDS, 
 from tire_pipeline.magic_formula.fitting.starts import typical_values
 from tire_pipeline.magic_formula.fitting.typical import FEW_POINTS, pull
 from tire_pipeline.magic_formula.parameters.coefficients import family_of
-from tire_pipeline.magic_formula.parameters.points import CHANNELS as ORDER
+from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
 from tire_pipeline.recordings import read_recording
 
 SHARED = Path(__file__).resolve().parents[2] / "shared"
@@ -220,7 +220,7 @@ def rows_of(table: pd.DataFrame, model: TireModel) -> list[np.ndarray]:
     points["pressure"] = given.filled(
         points["pressure"], model.value("NOMPRES") if model.family == 6 else 0.0
     )
-    return [np.ascontiguousarray(points[name]) for name in ORDER]
+    return [np.ascontiguousarray(points[name]) for name in POINT_CHANNELS]
 
 
 def limits(names: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:

@@ -20,7 +20,7 @@ from tire_pipeline.magic_formula import (
     forces_batch,
     pack,
 )
-from tire_pipeline.magic_formula.parameters.points import CHANNELS, Channels
+from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, PointFields
 
 TIRES = {"5.2": tire_52(), "6.1": tire_61()}
 anything = st.floats(allow_nan=False, allow_infinity=False)
@@ -236,7 +236,7 @@ def test_points_are_one_value_or_keywords_and_nothing_between():
 
 
 def test_fields_of_points_are_the_channels_and_turn_slip():
-    assert {*CHANNELS, "turn_slip"} == set(OperatingPoints._fields) == set(Channels.__annotations__)
+    assert {*POINT_CHANNELS, "turn_slip"} == set(OperatingPoints._fields) == set(PointFields.__annotations__)
 
 
 def test_turn_slip_is_refused_where_it_is_not_known():

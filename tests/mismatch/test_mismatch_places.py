@@ -8,17 +8,20 @@ from mismatch_rates import flat_belt, free_drive, second_session
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.model.blocks import sweeps
 from tire_pipeline.mismatch.proof.locate import everywhere, locate
+from tire_pipeline.mismatch.proof.measured import Remainder
 from tire_pipeline.mismatch.recording.checks import prepare
-from tire_pipeline.mismatch.report.sentences import _where
+from tire_pipeline.mismatch.report.sentences import summary
 
 
 def located(tire, recording):
-    """Places, what is off throughout, and the first sentence."""
+    """Places, what is off throughout, and what the report says of it."""
     data = prepare(tire, recording).data
     rest = {o: data.recorded[o] - data.base[o] for o in data.outputs}
     found = locate(data, rest, estimate_noise(data, rest), sweeps(data))
     even = everywhere(data, rest, found)
-    return found, even, _where(found, {}, even) if found else ""
+    nothing = Remainder(size={}, located=[], form="", significant=False)
+    said = summary("unexplained", [], {}, found, nothing, "", {}, even)
+    return found, even, said.partition(". ")[2]
 
 
 @pytest.mark.parametrize("gain", [0.85, 1.1, 1.3])

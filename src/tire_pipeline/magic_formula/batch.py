@@ -20,9 +20,9 @@ from tire_pipeline.magic_formula.parameters.coefficients import (
 )
 from tire_pipeline.magic_formula.parameters.inputs import as_float_arrays
 from tire_pipeline.magic_formula.parameters.points import (
-    CHANNELS,
-    Channels,
+    POINT_CHANNELS,
     OperatingPoints,
+    PointFields,
     points_of,
     refuse_turn_slip,
 )
@@ -134,7 +134,7 @@ def forces_batch(
     *,
     version: str = "5.2",
     outputs: Sequence[str] = ("fx", "fy", "mz"),
-    **channels: Unpack[Channels],
+    **channels: Unpack[PointFields],
 ) -> dict[str, np.ndarray]:
     """Evaluate many tires, each at the same points or each at its own.
 
@@ -193,7 +193,9 @@ def forces_batch(
     refuse_turn_slip(given, "forces of many tires")
     own = {"speed": matrix[:, [INDEX["LONGVL"]]], "pressure": matrix[:, [INDEX["NOMPRES"]]]}
     at = given._asdict()
-    arrays, shape = as_float_arrays({name: own[name] if at[name] is None else at[name] for name in CHANNELS})
+    arrays, shape = as_float_arrays(
+        {name: own[name] if at[name] is None else at[name] for name in POINT_CHANNELS}
+    )
     tires = len(matrix)
     if len(shape) > 2 or (len(shape) == 2 and shape[0] not in (1, tires)):
         raise TirShapeError(

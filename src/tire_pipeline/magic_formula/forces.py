@@ -18,7 +18,7 @@ from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA
 from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.parameters import inputs
 from tire_pipeline.magic_formula.parameters.axes import Signs, is_mirrored, signs_of
-from tire_pipeline.magic_formula.parameters.points import CHANNELS, OperatingPoints
+from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, OperatingPoints
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 _BUFFER = 32768
@@ -121,7 +121,7 @@ def tire_forces(
             return quick
     wanted = checked_outputs(outputs)
     signs = signs_of(axes, is_mirrored(side, model.metadata.get("MODEL.TYRESIDE")))
-    given = dict(zip(CHANNELS, point, strict=True))
+    given = dict(zip(POINT_CHANNELS, point, strict=True))
     arrays, shape = inputs.as_float_arrays({**given, "turn_slip": turn_slip})
     flipped = {name: getattr(signs, name) < 0 for name in ("slip_angle", "camber")}
     arrays, largest = inputs.apply_limits(arrays, model.ranges, limits, flipped)

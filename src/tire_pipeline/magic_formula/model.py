@@ -20,7 +20,7 @@ from tire_pipeline.magic_formula.parameters.coefficients import (
     is_possible,
     missing_defaults,
 )
-from tire_pipeline.magic_formula.parameters.points import Channels, OperatingPoints, points_of
+from tire_pipeline.magic_formula.parameters.points import OperatingPoints, PointFields, points_of
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 if TYPE_CHECKING:
@@ -99,7 +99,7 @@ class TireModel(TireParameters):
         axes: str = "ISO",
         limits: str = "warn",
         outputs: Sequence[str] | None = None,
-        **channels: Unpack[Channels],
+        **channels: Unpack[PointFields],
     ) -> TireForces:
         """Return forces, moments and what belongs to them at operating points.
 
@@ -196,7 +196,7 @@ class TireModel(TireParameters):
         *,
         outputs: Sequence[str] = ("fx", "fy", "mz"),
         out: Mapping[str, np.ndarray] | None = None,
-        **channels: Unpack[Channels],
+        **channels: Unpack[PointFields],
     ) -> dict[str, np.ndarray]:
         """Return the derivatives of forces with respect to coefficients; see :func:`.jacobian.jacobian`."""
         return jacobian(self, names, points_of(points, channels), outputs=outputs, out=out)

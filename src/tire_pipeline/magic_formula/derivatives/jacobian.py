@@ -15,7 +15,7 @@ from tire_pipeline.magic_formula.equations.numpy_form import SATURATION, relativ
 from tire_pipeline.magic_formula.equations.shapes import clamp
 from tire_pipeline.magic_formula.parameters.coefficients import INDEX, Coefficients
 from tire_pipeline.magic_formula.parameters.inputs import as_float_arrays
-from tire_pipeline.magic_formula.parameters.points import CHANNELS, OperatingPoints, refuse_turn_slip
+from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, OperatingPoints, refuse_turn_slip
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 _CHUNK = 4096
@@ -60,7 +60,7 @@ def jacobian(
     magnitude, a sign) it is the derivative of one side.
     """
     refuse_turn_slip(points, "derivatives")
-    arrays, shape = as_float_arrays(dict(zip(CHANNELS, model.channels_at(points), strict=True)))
+    arrays, shape = as_float_arrays(dict(zip(POINT_CHANNELS, model.channels_at(points), strict=True)))
     flat = [np.ascontiguousarray(np.broadcast_to(x, shape)).reshape(-1) for x in arrays.values()]
     found = packed_jacobian(model.packed, model.family, names, flat, outputs, out)
     return {name: value.T.reshape(*shape, len(names)) for name, value in found.items()}

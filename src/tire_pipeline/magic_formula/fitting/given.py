@@ -12,7 +12,7 @@ from tire_pipeline.magic_formula.fitting import stages
 from tire_pipeline.magic_formula.fitting.stages import Stage
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.coefficients import family_of
-from tire_pipeline.magic_formula.parameters.points import CHANNELS
+from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
 
 FEWEST_POINTS = 10
 
@@ -27,7 +27,7 @@ def columns(recording: pd.DataFrame) -> tuple[dict[str, np.ndarray], dict[str, n
     load = recording["normal_load"].to_numpy(dtype=float)
     good = np.isfinite(load) & (load > 0)
     points = {}
-    for name in CHANNELS:
+    for name in POINT_CHANNELS:
         missing = np.nan if name in ("speed", "pressure") else 0.0
         column = recording[name].to_numpy(dtype=float) if name in recording else np.full(load.size, missing)
         if name in recording:

@@ -14,7 +14,7 @@ from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome
 from tire_pipeline.magic_formula.fitting.starts import bounds_of, starting_points
 from tire_pipeline.magic_formula.fitting.typical import Pull, pull
 from tire_pipeline.magic_formula.model import TireModel
-from tire_pipeline.magic_formula.parameters.points import CHANNELS
+from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
 
 _STARTS = 12
 """At most; the fit of the stages is the first."""
@@ -113,6 +113,6 @@ def _problem(
     drawn = _joined([part.pull for part in parts])
     low, high = (np.concatenate([outcome.bounds[side] for outcome in outcomes]) for side in (0, 1))
     names = [name for part in parts for name in part.names]
-    rows = [np.ascontiguousarray(points[name]) for name in CHANNELS]
+    rows = [np.ascontiguousarray(points[name]) for name in POINT_CHANNELS]
     problem = Problem(model.packed.copy(), model.family, parts[0].output, names, rows, measured, drawn)
     return problem, (low, high)

@@ -11,7 +11,7 @@ from tire_pipeline.drawing import colour_of, new_figure
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula.fitting.stages import PURE_SLIP_ANGLE, PURE_SLIP_RATIO
 from tire_pipeline.magic_formula.model import TireModel
-from tire_pipeline.magic_formula.parameters.points import CHANNELS, OperatingPoints
+from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, OperatingPoints
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -81,11 +81,13 @@ def _draw(row: Any, model: TireModel, output: str, part: pd.DataFrame) -> None:
     for i, number in enumerate(sorted(largest)):
         own = part[group == number]
         alike = own[_most_frequent(np.round(np.degrees(own["camber"])))]
-        typical = {n: float(alike[n].median()) for n in CHANNELS if n not in ("slip_angle", "slip_ratio")}
+        typical = {
+            n: float(alike[n].median()) for n in POINT_CHANNELS if n not in ("slip_angle", "slip_ratio")
+        }
         x = np.linspace(own[slip].min(), own[slip].max(), 200)
         label = f"{typical['normal_load']:,.0f} N, {round(np.degrees(typical['camber']), 1) + 0.0:.1f} deg"
         fitted = _forces(model, output, **{slip: x}, **typical)
-        there = _forces(model, output, **{n: own[n].to_numpy() for n in CHANNELS})
+        there = _forces(model, output, **{n: own[n].to_numpy() for n in POINT_CHANNELS})
         dots: Any = {"ls": "", "marker": ".", "ms": 3, "alpha": 0.4, "color": colour_of(i), "mew": 0}
         row[0].plot(own[slip] * factor, own[output], **dots)
         row[0].plot(x * factor, fitted, color=colour_of(i), lw=1.5, label=label)

@@ -20,7 +20,7 @@ from tire_pipeline.magic_formula.fitting.starts import (
 from tire_pipeline.magic_formula.fitting.typical import pull
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.coefficients import INDEX
-from tire_pipeline.magic_formula.parameters.points import CHANNELS
+from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
 
 _EXACT = 1e-4
 """A misfit below this share of the largest force is no misfit."""
@@ -126,7 +126,7 @@ def fit_stage(
             typical[name] = max(typical[name], first[name])
     silent = noise_alone(tuple(names), ranges, model.value("FNOMIN"))
     known = {n for group in closed.values() for n in group}
-    rows = [np.ascontiguousarray(here[name]) for name in CHANNELS]
+    rows = [np.ascontiguousarray(here[name]) for name in POINT_CHANNELS]
 
     def problem_of(free: Sequence[str]) -> tuple[Problem, Bounds]:
         vector = model.packed.copy()

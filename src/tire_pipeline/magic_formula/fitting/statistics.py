@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.magic_formula.model import TireModel
-from tire_pipeline.magic_formula.parameters.points import CHANNELS, OperatingPoints
+from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, OperatingPoints
 
 _LOAD_STEP = 0.25
 _CAMBER_STEP = np.deg2rad(1.0)
@@ -17,7 +17,7 @@ _CAMBER_STEP = np.deg2rad(1.0)
 def _residuals(
     model: TireModel, points: Mapping[str, np.ndarray], forces: Mapping[str, np.ndarray]
 ) -> dict[str, np.ndarray]:
-    at = OperatingPoints(**{name: points[name] for name in CHANNELS})
+    at = OperatingPoints(**{name: points[name] for name in POINT_CHANNELS})
     computed = model.forces(at, limits="ignore", outputs=tuple(forces))
     return {name: getattr(computed, name) - measured for name, measured in forces.items()}
 

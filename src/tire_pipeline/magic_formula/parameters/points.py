@@ -8,7 +8,7 @@ import numpy as np
 
 from tire_pipeline.errors import TirValueError
 
-CHANNELS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
+POINT_CHANNELS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
 """The channels of an operating point in the order in which the equations take them; turn slip comes last."""
 
 
@@ -56,7 +56,7 @@ class OperatingPoints(NamedTuple):
     turn_slip: Any = 0.0
 
 
-class Channels(TypedDict, total=False):
+class PointFields(TypedDict, total=False):
     """The fields of :class:`OperatingPoints` as keywords."""
 
     normal_load: Any
@@ -68,7 +68,7 @@ class Channels(TypedDict, total=False):
     turn_slip: Any
 
 
-def points_of(points: OperatingPoints | None, channels: Channels) -> OperatingPoints:
+def points_of(points: OperatingPoints | None, channels: PointFields) -> OperatingPoints:
     """Return the points that were given, either as one value or as keywords.
 
     Raises

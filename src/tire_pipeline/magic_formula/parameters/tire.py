@@ -21,7 +21,7 @@ from tire_pipeline.magic_formula.parameters.coefficients import (
     missing_defaults,
     pack_mapping,
 )
-from tire_pipeline.magic_formula.parameters.points import CHANNELS, OperatingPoints
+from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, OperatingPoints
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -120,10 +120,10 @@ class TireParameters:
     @cached_property
     def range_list(self) -> list[tuple[int, float, float]]:
         """The ranges by the place of the input among the arguments, for quick checks."""
-        return [(CHANNELS.index(name), low, high) for name, (*_, low, high) in self.ranges.items()]
+        return [(POINT_CHANNELS.index(name), low, high) for name, (*_, low, high) in self.ranges.items()]
 
     def channels_at(self, points: OperatingPoints) -> tuple[Any, ...]:
-        """Return the points in the order of ``CHANNELS``, with the tire's own speed and pressure for None.
+        """Return points in the order of ``POINT_CHANNELS``; speed and pressure are the tire's own for None.
 
         MF 5.2 knows no pressure: its is 0.
         """
