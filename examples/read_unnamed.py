@@ -66,7 +66,7 @@ def _added(entry, table):
     clock = list(zip(steps, ways, starts, strict=True))
     out = {o: _value(text, table, clock) for o, text in entry["equation"].items()}
     for symbol, (low, high) in entry["range"].items():
-        width = max(entry["fade"] * (high - low), 1e-12)
+        width = max(entry["fade"][symbol] * (high - low), 1e-12)
         fade = [max(1.0 - max(low - x, x - high, 0.0) / width, 0.0) for x in table[symbol]]
         out = {o: [f * w for f, w in zip(force, fade, strict=True)] for o, force in out.items()}
     return out

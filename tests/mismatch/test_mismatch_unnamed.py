@@ -2,17 +2,20 @@
 
 import importlib.util
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, from_sidecar
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.problem import Problem
 from tire_pipeline.mismatch.unnamed_physics.search import find
 from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues, table_from
+from tire_pipeline.tir import read_tir
 
 NOMINAL = NominalValues(F0=4000.0, R0=0.31, V0=16.0, P0=2.2e5, T0=45.0)
 READER = Path(__file__).parents[2] / "examples" / "read_unnamed.py"
@@ -210,3 +213,64 @@ def test_what_is_never_seen_twice_is_not_kept():
         return out
 
     assert find(problem(added)).physics is None
+
+
+@pytest.fixture(scope="module")
+def swinging(tire, record):
+    """A recording whose forces swing by 8% with the turns of a drum of 0.85 m, and its report."""
+    recording = record(9)
+    step = np.diff(recording["time"], prepend=recording["time"].iloc[0])
+    swing = 1.0 + 0.08 * np.sin(np.cumsum(step * recording["speed"]) / 0.85)
+    recording = recording.assign(fy=recording["fy"] * swing)
+    return recording, explain_mismatch(tire, recording)
+
+
+def test_an_equation_is_in_the_corrected_model_and_makes_it_better(swinging):
+    recording, report = swinging
+    assert report.unnamed.physics.depends_on == ("path",)
+    named = replace(report.corrected, unnamed=None).predict(recording)
+    with_it = report.corrected.predict(recording)
+    left = {n: np.std(recording["fy"] - f["fy"]) for n, f in (("named", named), ("all", with_it))}
+    assert left["all"] < 0.7 * left["named"]
+    assert report.fit["fy"].rms_after < report.fit["fy"].rms_before
+    assert "has no name, but it depends on path" in report.summary
+
+
+def test_the_sidecar_holds_the_equation_and_reads_back(swinging, tmp_path):
+    _, report = swinging
+    written = report.corrected.to_tir(tmp_path / "corrected.tir")
+    entry = read_tir(written).metadata["sidecar"]["unnamed"]
+    assert entry["title"] == "unnamed: depends on path"
+    read = from_sidecar(entry)
+    assert read.equations == report.corrected.unnamed.equations
+    assert read.ranges["t"] == pytest.approx(report.corrected.unnamed.ranges["t"])
+
+
+def test_after_the_recorded_time_it_is_gone_and_that_is_said(swinging):
+    recording, report = swinging
+    later = recording.assign(time=recording["time"] + 1e4)
+    empty = replace(report.corrected.unnamed, equations={"fy": "0*fy"})
+    without = replace(report.corrected, unnamed=empty).predict(later)
+    with_it = report.corrected.predict(later)
+    np.testing.assert_allclose(with_it["fy"], without["fy"])
+    assert "faded outside of its range at 100.0%" in with_it.attrs["notes"][0]
+
+
+def test_the_page_and_the_dictionary_show_it_apart_from_ideas(swinging, tmp_path):
+    _, report = swinging
+    page = report.to_html(tmp_path / "report.html").read_text("utf-8")
+    assert "Without a name" in page
+    assert "Ideas to test" in page
+    assert page.index("sin(way/") < page.index("Ideas to test")
+    told = report.to_dict()["unnamed"]
+    assert told["physics"]["equations"]["fy"] == report.unnamed.physics.equations["fy"]
+    assert [idea["name"] for idea in told["ideas"]] == ["drum or wheel out of round"]
+
+
+def test_an_effect_can_be_taken_out_of_the_catalogue(tire, record):
+    with pytest.raises(RecordingError, match="no such_effect"):
+        explain_mismatch(tire, record(9), without=("such_effect",))
+    report = explain_mismatch(tire, record(8, offset=150.0), without=("force_offset",))
+    assert "force_offset" not in [e.name for e in report.effects]
+    rows = {row["name"]: row["why"] for row in report.candidates}
+    assert rows["force_offset"] == "it was taken out of the catalogue"

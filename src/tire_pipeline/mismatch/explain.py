@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from typing import Any
 
@@ -35,14 +36,14 @@ from tire_pipeline.mismatch.recording.checks import Prepared, prepare
 from tire_pipeline.mismatch.report.result import EffectReport, MismatchReport
 from tire_pipeline.mismatch.report.sentences import on_unnamed, summary
 from tire_pipeline.mismatch.report.words import not_looked_for
-from tire_pipeline.mismatch.unnamed_physics.search import unnamed_physics
+from tire_pipeline.mismatch.unnamed_physics.search import more_than_usual, unnamed_physics
 from tire_pipeline.progress import track
 
 Array = np.ndarray
 _SOMETHING_LEFT = ("unexplained", "partly explained")
 
 
-def explain_mismatch(tire: Any, recording: pd.DataFrame) -> MismatchReport:
+def explain_mismatch(tire: Any, recording: pd.DataFrame, *, without: Collection[str] = ()) -> MismatchReport:
     """Say where a simulation and a recording differ, what the model left out, and prove it.
 
     Parameters
@@ -54,6 +55,9 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame) -> MismatchReport:
         Canonical columns in SI: ``time`` s, ``slip_angle`` rad, ``slip_ratio``, ``camber`` rad,
         ``normal_load`` N, ``speed`` m/s, ``pressure`` Pa, ``tread_temperature`` degC, ``fx fy`` N.
         Without ``time`` the rows are steady points.
+    without : collection of str
+        Effects that are not looked for, as if the catalogue lacked them: what they do is then left without a
+        name. For proofs; faults that are found from exact factors are found all the same.
 
     Returns
     -------
@@ -68,10 +72,15 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame) -> MismatchReport:
     -----
     Method and limits: ``docs/explanation/mismatch.md``.
     """
+    unknown = sorted(set(without) - set(catalogue()))
+    if unknown:
+        raise RecordingError(
+            f"the catalogue has no {', '.join(unknown)} to leave out", todo="name effects of the catalogue"
+        )
     state: dict[str, Any] = {}
     steps = (
         ("check", lambda: state.update(prepared=prepare(tire, recording))),
-        ("noise", lambda: state.update(search=searching.begin(thinned(state["prepared"].data)))),
+        ("noise", lambda: state.update(search=searching.begin(thinned(state["prepared"].data), without))),
         ("search", lambda: _search(state["search"], state["prepared"])),
         ("refit", lambda: _refit(state["search"], state["prepared"])),
         ("report", lambda: state.update(report=_report(state["prepared"], state["search"], recording))),
@@ -176,9 +185,12 @@ def _report(prepared: Prepared, search: Search, recording: pd.DataFrame) -> Mism
     ).cleaned_where_it_helps(recording)
     fit = as_recorded({**fit, **prove_moments(search)}, search, corrected, recording)
     unnamed = None
-    if verdict in _SOMETHING_LEFT and not data.beside:
-        unnamed, corrected = never_worse(unnamed_physics(search), corrected, recording)
+    if verdict in _SOMETHING_LEFT or (not prepared.stopped and more_than_usual(search)):
+        plainly = verdict not in _SOMETHING_LEFT
+        looked = unnamed_physics(search, plainly=plainly)
+        unnamed, corrected = never_worse(looked, corrected, recording)
         fit = with_unnamed(fit, unnamed)
+        unnamed = None if plainly and unnamed.physics is None else unnamed
     even = everywhere(data, before, located)
     told = (
         ""
@@ -192,7 +204,7 @@ def _report(prepared: Prepared, search: Search, recording: pd.DataFrame) -> Mism
         next_experiment=following,
         corrected=corrected,
         summary=" ".join(
-            filter(None, ["" if question is None else question.in_words, told, on_unnamed(unnamed)])
+            filter(None, ["" if question is None else question.in_words, told, on_unnamed(unnamed, verdict)])
         ),
         unnamed=unnamed,
         located=located,

@@ -68,7 +68,7 @@ class OpenCase:
     held_with: np.ndarray
     held_without: np.ndarray
     change: np.ndarray
-    world: World
+    nominal: Nominal
 
 
 def draw_open_case(
@@ -135,7 +135,7 @@ def _drawn(
         held_with=(world.forces + change)[rows:],
         held_without=world.forces[rows:],
         change=change[:rows],
-        world=world,
+        nominal=world.nominal,
     )
 
 

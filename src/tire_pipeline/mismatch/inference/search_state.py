@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -66,12 +66,21 @@ class Search:
         return 0.5 * float(np.log(max(rows / self.inflation, 8.0)))
 
 
-def begin(data: Data) -> Search:
-    """Estimate noise and misfit, and set up the sums."""
+def begin(data: Data, without: Collection[str] = ()) -> Search:
+    """Estimate noise and misfit, and set up the sums.
+
+    Parameters
+    ----------
+    data : Data
+    without : collection of str
+        Effects that are not looked for, as if the catalogue lacked them.
+    """
     rest = {o: data.recorded[o] - data.base[o] for o in data.outputs}
     noise = estimate_noise(data, rest)
     block = sweeps(data)
     found, absent = variants(data)
+    found = [v for v in found if v.name not in without]
+    absent |= dict.fromkeys(without, "it was taken out of the catalogue")
     search = Search(
         data=data,
         noise=noise,

@@ -78,7 +78,7 @@ def on_held_out(fit: HeldOutFit) -> str:
     return f"In {fit.recording}, which was held out, the RMS error of {', that of '.join(parts)}."
 
 
-def on_unnamed(found: UnnamedReport | None) -> str:
+def on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
     """Return what is known of the part without a name, in a sentence or two; empty where nothing is."""
     if found is None or found.physics is None:
         return ""
@@ -86,9 +86,10 @@ def on_unnamed(found: UnnamedReport | None) -> str:
         f"{o.capitalize()} from {newtons(found.unseen[o][0])} N to {newtons(found.unseen[o][1])} N"
         for o in found.physics.equations
     ]
-    drivers = ", ".join(found.physics.depends_on)
+    drivers = ", ".join(found.physics.depends_on) or "the force itself"
+    what = "The unexplained part" if verdict in ("unexplained", "partly explained") else "What is still left"
     return (
-        f"The unexplained part has no name, but it depends on {drivers}, and an equation of it is in the "
+        f"{what} has no name, but it depends on {drivers}, and an equation of it is in the "
         f"corrected model: on sweeps that neither its choice nor its fit has seen, it takes the RMS error of "
         f"{', that of '.join(errors)}."
     )

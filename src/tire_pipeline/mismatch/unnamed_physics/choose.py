@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
+    MOST_TERMS,
     Model,
     cost,
     enumerate_models,
@@ -59,10 +60,9 @@ class ChosenModels:
     reduced: list[Reduced]
     models: list[Model]
 
-    @property
-    def best(self) -> Model | None:
-        """The model to name."""
-        return shortest(self.models, self.terms)
+    def best(self, most_terms: int = MOST_TERMS) -> Model | None:
+        """The model to name, of so many terms at most."""
+        return shortest(self.models, self.terms, most_terms)
 
 
 def choose(columns: Columns, kept: Array = EVERYTHING, *, refine: bool = True) -> ChosenModels:
@@ -108,6 +108,8 @@ def _screened(columns: Columns, terms: Sequence[Term], inflation: float, kept: A
 def _calmer(columns: Columns, ranked: Ranked) -> float:
     """The inflation of what the best terms leave: what is unexplained must not pass for coloured noise."""
     problem = columns.problem
+    if problem.settled:
+        return problem.inflation
     best = _distinct(ranked[:60])[:_GROWN]
     return min(problem.inflation, columns.inflation_beside(best)) if best else problem.inflation
 

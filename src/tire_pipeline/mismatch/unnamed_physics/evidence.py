@@ -121,19 +121,29 @@ def tolerance(models: Sequence[Model]) -> float:
     return max(1.0, WRONG_FORM**2 * most)
 
 
-def shortest(models: Sequence[Model], terms: Sequence[Term]) -> Model | None:
-    """Return the model to name: fewer terms, then fewer drivers, if as good within tolerance."""
-    if not models or models[0].score <= 0.0:
+def shortest(models: Sequence[Model], terms: Sequence[Term], most_terms: int = MOST_TERMS) -> Model | None:
+    """Return the model to name: fewer terms, then fewer drivers, if as good within tolerance.
+
+    Parameters
+    ----------
+    models : sequence of Model
+        The likeliest first.
+    terms : sequence of Term
+    most_terms : int
+        Models of more terms are left out.
+    """
+    able = [m for m in models if len(m.terms) <= most_terms and m.score > 0.0]
+    if not able:
         return None
-    most, near = models[0], tolerance(models)
+    most, near = able[0], tolerance(able)
 
     def price(m: Model) -> float:
         """What it lacks, less what its shortness is worth: forms are never quite right."""
         terms_less = len(most.terms) - len(m.terms)
-        drivers_less = len(drivers_of(most, terms) - drivers_of(m, terms))
+        drivers_less = len(drivers_of(most, terms)) - len(drivers_of(m, terms))
         return most.score - m.score - near * (0.5 * terms_less + drivers_less)
 
-    return min((m for m in models if m.score > 0.0), key=price)
+    return min(able, key=price)
 
 
 def drivers_of(model: Model, terms: Sequence[Term]) -> frozenset[str]:

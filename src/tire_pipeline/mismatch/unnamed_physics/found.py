@@ -15,7 +15,8 @@ from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, MEANING, Nom
 Array = np.ndarray
 FORMAT = "unnamed physics 1"
 FADE = 0.25
-"""Outside of its range an equation goes to nothing over this part of the range's width."""
+"""Outside of its range an equation goes to nothing over this part of the range's width; in time at once,
+since what turns with the way has another phase in another recording."""
 _SIZES = {"sidecar": 20_000}
 
 
@@ -65,7 +66,7 @@ class UnnamedPhysics:
         """Return how much of the equation holds at each sample, 0 to 1, shape (n,)."""
         out = np.ones(table.size)
         for symbol, (low, high) in self.ranges.items():
-            x, width = table.columns[symbol], max(FADE * (high - low), 1e-12)
+            x, width = table.columns[symbol], max(_fade(symbol) * (high - low), 1e-12)
             outside = np.maximum(np.maximum(low - x, x - high), 0.0) / width
             out = out * np.maximum(1.0 - outside, 0.0)
         return out
@@ -86,11 +87,15 @@ class UnnamedPhysics:
             "symbols": {s: MEANING[s] for s in MEANING if s in used | set(self.ranges)},
             "nominal": asdict(self.nominal),
             "range": {s: [float(low), float(high)] for s, (low, high) in self.ranges.items()},
-            "outside": f"goes to nothing in a straight line over {FADE:g} of the range's width",
-            "fade": FADE,
+            "outside": "goes to nothing in a straight line over this part of the range's width",
+            "fade": {s: _fade(s) for s in self.ranges},
             "depends_on": list(self.depends_on),
             "acts_on": self.acts_on,
         }
+
+
+def _fade(symbol: str) -> float:
+    return 0.0 if symbol == "t" else FADE
 
 
 def from_sidecar(content: object) -> UnnamedPhysics:
@@ -104,7 +109,7 @@ def from_sidecar(content: object) -> UnnamedPhysics:
     try:
         if not isinstance(content, Mapping) or len(json.dumps(content)) > _SIZES["sidecar"]:
             raise ValueError("it is no short mapping")
-        if content.get("format") != FORMAT or content.get("fade") != FADE:
+        if content.get("format") != FORMAT:
             raise ValueError(f"its format is not {FORMAT!r}")
         equations = {str(o): str(text) for o, text in content["equation"].items()}
         if not equations or set(equations) - {"fx", "fy"}:
@@ -118,6 +123,8 @@ def from_sidecar(content: object) -> UnnamedPhysics:
             s not in MEANING or not (np.isfinite([a, b]).all() and a <= b) for s, (a, b) in ranges.items()
         ):
             raise ValueError("its ranges are not ranges of known symbols")
+        if content["fade"] != {s: _fade(s) for s in ranges}:
+            raise ValueError("it fades otherwise than this version")
         nominal = NominalValues(**{k: float(v) for k, v in content["nominal"].items()})
         if not all(np.isfinite(v) for v in asdict(nominal).values()) or min(nominal.F0, nominal.V0) <= 0.0:
             raise ValueError("its nominal values are not numbers above zero")

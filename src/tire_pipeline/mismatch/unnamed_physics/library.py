@@ -262,5 +262,5 @@ def products(terms: list[Term], factors: list[Factor]) -> list[Term]:
             own = frozenset[str]().union(*(f.drivers for f in term.factors))
             if not factor.drivers or factor.drivers & own:
                 continue
-            out.append(Term(term.way, (*term.factors, factor)))
+            out.append(Term(term.way, tuple(sorted((*term.factors, factor), key=lambda f: f.text))))
     return out

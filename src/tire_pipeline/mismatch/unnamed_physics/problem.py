@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.inference.search import Search
 from tire_pipeline.mismatch.inference.search_state import nuisance_scale
@@ -19,6 +20,10 @@ Outputs = Mapping[str, Array]
 _OTHERS = ((0.002, 0.0002), (0.006, 0.01), (0.013, 0.002))
 """Sizes of the formula's misfit and of its dependence on the way, over the largest force, beside the sizes
 that the engine has learnt: a part that has no name must not have to pass for misfit."""
+
+
+_A_SWEEP = 8.0
+"""Independent values of the formula's misfit along one sweep, about: it bends as the slip does."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +53,8 @@ class Problem:
         Prior standard deviations of their coefficients: alternatives, the engine's own first.
     inflation : float
         Whitened samples that make one independent one.
+    settled : bool
+        Whether that number stands; else it is learnt beside the best terms.
     """
 
     table: SymbolTable
@@ -61,6 +68,7 @@ class Problem:
     nuisance: Outputs
     sizes: Sequence[Outputs]
     inflation: float
+    settled: bool = False
 
     @property
     def outputs(self) -> tuple[str, ...]:
@@ -91,6 +99,28 @@ def problem_of(search: Search) -> Problem:
         nuisance=system.white,
         sizes=sizes,
         inflation=search.inflation,
+    )
+
+
+def coarsely(problem: Problem, search: Search) -> Problem:
+    """Return the same with the formula's misfit as noise of its usual size, that changes along a sweep.
+
+    The engine's misfit is a flexible form whose size the recording sets. Where fine structure asks for a
+    large one, it takes up what a term would do. Here a misfit has ``USUAL_MISFIT`` of the largest force, a
+    sweep holds a few independent values of it, and only the coefficients may move: what is large in newtons
+    comes first.
+    """
+    usual = {o: settings.USUAL_MISFIT * problem.largest[o] for o in problem.rest}
+    size = {o: np.hypot(usual[o], search.noise[o].floor) for o in usual}
+    count = {o: search.sizes[o].coefficients for o in usual}
+    columns = {o: search.columns[o][problem.order, : count[o]] / size[o] for o in usual}
+    return replace(
+        problem,
+        whiten=lambda o, x: x[problem.order] / size[o],
+        nuisance=columns,
+        sizes=[{o: s[: count[o]] for o, s in problem.sizes[0].items()}],
+        inflation=max(problem.table.size / (_A_SWEEP * (int(problem.block.max()) + 1)), 1.0),
+        settled=True,
     )
 
 

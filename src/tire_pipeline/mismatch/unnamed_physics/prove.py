@@ -6,22 +6,28 @@ and the equation so found predicts it, in newtons, as it will be used: without t
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
 
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
-from tire_pipeline.mismatch.unnamed_physics.evidence import coefficients
+from tire_pipeline.mismatch.unnamed_physics.evidence import MOST_TERMS, coefficients, drivers_of
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
 from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 
 Array = np.ndarray
 _LEAST_SHARE = 0.03
 """Least share of the squared mismatch that has to go on unseen sweeps."""
-_LEVEL = 0.05
-"""Of the Wilcoxon test over sweeps."""
+_LEVEL = 0.05 / 6.0
+"""Of the Wilcoxon test over sweeps, of which there are six: two views, each with one term, two and three."""
+_NEAR_MOST = 0.95
+_PLAIN_SHARE = 0.1
+_PLAIN_LEVEL = 0.001
+_SAME_DRIVERS = 4
+"""The same where what is left might be the formula's usual misfit, and in how many folds the choice must
+name the drivers that it names with all sweeps."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +46,8 @@ class Proven:
         Of the squared mismatch that goes, mean of the outputs that are acted on.
     outputs : tuple of str
         Those that become better.
+    drivers : tuple of frozenset of str
+        What each choice depends on.
     """
 
     predicted: Mapping[str, Array]
@@ -49,6 +57,16 @@ class Proven:
     p_value: float
     share: float
     outputs: tuple[str, ...]
+    drivers: tuple[frozenset[str], ...] = ()
+
+    def plain(self, drivers: frozenset[str]) -> bool:
+        """Whether it is kept where what is left might be the formula's usual misfit."""
+        return bool(
+            self.holds
+            and self.share >= _PLAIN_SHARE
+            and self.p_value < _PLAIN_LEVEL
+            and sum(d == drivers for d in self.drivers) >= _SAME_DRIVERS
+        )
 
     @property
     def holds(self) -> bool:
@@ -62,21 +80,34 @@ class Proven:
         )
 
 
-def proven(columns: Columns) -> Proven:
-    """Choose without each fold in turn, and predict it."""
+def proven(columns: Columns) -> list[Proven]:
+    """Choose without each fold in turn, and predict it: with one term, with two at most, with three."""
     problem = columns.problem
-    predicted = {o: np.zeros(problem.table.size) for o in problem.outputs}
-    choices = 0
+    predicted = [{o: np.zeros(problem.table.size) for o in problem.outputs} for _ in range(MOST_TERMS)]
+    drivers: list[list[frozenset[str]]] = [[] for _ in range(MOST_TERMS)]
     for fold in range(FOLDS):
         choice = choose(columns, np.arange(FOLDS) != fold, refine=False)
-        model = choice.best
-        if model is None:
-            continue
-        choices += 1
         rows = columns.folds == fold
-        for o, force in forces_of(columns, choice, model.terms).items():
-            predicted[o][rows] = force[rows]
-    return judged(columns, predicted, choices)
+        for k in range(MOST_TERMS):
+            model = choice.best(k + 1)
+            if model is None:
+                continue
+            drivers[k].append(drivers_of(model, choice.terms))
+            for o, force in forces_of(columns, choice, model.terms).items():
+                predicted[k][o][rows] = force[rows]
+    return [
+        replace(judged(columns, p, len(d)), drivers=tuple(d)) for p, d in zip(predicted, drivers, strict=True)
+    ]
+
+
+def best_of(proofs: Sequence[Proven]) -> int:
+    """Return which choice to keep: the first that comes near the most that goes unseen.
+
+    This one choice, of six (two views, up to three terms), does see the sweeps; the level of the test counts
+    it.
+    """
+    shares = [p.share if p.holds else 0.0 for p in proofs]
+    return next(k for k, share in enumerate(shares) if share >= _NEAR_MOST * max(shares))
 
 
 def judged(columns: Columns, predicted: Mapping[str, Array], choices: int) -> Proven:

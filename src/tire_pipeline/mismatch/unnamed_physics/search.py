@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.inference.search import Search
+from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
+    MOST_TERMS,
     Model,
     driver_posterior,
     drivers_of,
@@ -16,42 +19,82 @@ from tire_pipeline.mismatch.unnamed_physics.found import Alternative, UnnamedPhy
 from tire_pipeline.mismatch.unnamed_physics.grammar import number, parse
 from tire_pipeline.mismatch.unnamed_physics.ideas import matching
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
-from tire_pipeline.mismatch.unnamed_physics.problem import Problem, problem_of
+from tire_pipeline.mismatch.unnamed_physics.problem import Problem, coarsely, problem_of
 from tire_pipeline.mismatch.unnamed_physics.products import Columns
-from tire_pipeline.mismatch.unnamed_physics.prove import Proven, ceiling, fitted, forces_of, proven
+from tire_pipeline.mismatch.unnamed_physics.prove import (
+    Proven,
+    best_of,
+    ceiling,
+    fitted,
+    forces_of,
+    proven,
+)
 from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL
 
 Array = np.ndarray
 _SHOWN = 3
 _BINS = 30
+_TO_SIGMA = 0.6745 * 6.0**0.5
+"""Median size of second differences of white noise, over its standard deviation."""
+_ABOVE_NOISE = 1.5
 _NOT_PROVED = "no equation makes sweeps better that neither its choice nor its fit has seen"
 
 
-def unnamed_physics(search: Search) -> UnnamedReport:
+def unnamed_physics(search: Search, *, plainly: bool = False) -> UnnamedReport:
     """Look for an equation of what a search leaves unexplained, and prove it.
 
     Parameters
     ----------
     search : Search
-        After the search, with something left.
+        After the search.
+    plainly : bool
+        Ask for more, because what is left might be the formula's usual misfit.
     """
-    return find(problem_of(search))
+    problem = problem_of(search)
+    return find(problem, coarsely(problem, search), plainly=plainly)
 
 
-def find(problem: Problem) -> UnnamedReport:
-    """The same from what any engine leaves."""
-    columns = Columns(problem)
-    choice = choose(columns)
-    best = choice.best
+def more_than_usual(search: Search) -> bool:
+    """Whether more is left than a fitted formula usually leaves, though nothing is significant.
+
+    What repeats or changes slowly may pass for coloured noise, and what follows a channel for the formula's
+    misfit. The noise here is that of neighbouring samples alone.
+    """
+    for o, rest in residual(search.data, search.fit.changes).items():
+        differences = np.diff(rest, 2)
+        white = float(np.median(np.abs(differences))) / _TO_SIGMA if differences.size else 0.0
+        least = max(settings.USUAL_MISFIT * search.largest[o], _ABOVE_NOISE * white)
+        if float(np.sqrt(np.mean(rest**2))) > least:
+            return True
+    return False
+
+
+def find(*views: Problem, plainly: bool = False) -> UnnamedReport:
+    """The same from what any engine leaves.
+
+    Parameters
+    ----------
+    views : Problem
+        One recording, weighed in one way or in several. The one is taken whose choice does best on sweeps
+        that it has not seen.
+    plainly : bool
+    """
+    looked = [_look(problem) for problem in views]
+    proofs = [proof for _, _, of_view in looked for proof in of_view]
+    which = best_of(proofs)
+    columns, choice, _ = looked[which // MOST_TERMS]
+    if not proofs[which].holds:
+        columns, choice, _ = next((each for each in looked if each[1].models), looked[0])
+    best, proof = choice.best(which % MOST_TERMS + 1), proofs[which]
     sets, each = driver_posterior(choice.models, choice.terms)
     shown = [(tuple(sorted(k)), p) for k, p in list(sets.items())[:5]]
     if best is None:
         return UnnamedReport(None, "nothing in the library is worth its length", drivers=each, sets=shown)
-    proof = proven(columns)
     terms = [choice.terms[i] for i in best.terms]
-    physics = _physics(columns, choice, best, proof.outputs) if proof.holds else None
     values, errors = fitted(choice, best.terms)
     drivers = drivers_of(best, choice.terms)
+    kept = proof.plain(drivers) if plainly else proof.holds
+    physics = _physics(columns, choice, best, proof.outputs) if kept else None
     return UnnamedReport(
         physics=physics,
         why_not="" if physics is not None else _NOT_PROVED,
@@ -68,6 +111,12 @@ def find(problem: Problem) -> UnnamedReport:
         ideas=matching(drivers, terms),
         curve=_curve(columns, choice, best),
     )
+
+
+def _look(problem: Problem) -> tuple[Columns, ChosenModels, list[Proven]]:
+    """Choose with all sweeps, and without each fold."""
+    columns = Columns(problem)
+    return columns, choose(columns), proven(columns)
 
 
 def equations(choice: ChosenModels, model: Model, outputs: tuple[str, ...]) -> dict[str, str]:
