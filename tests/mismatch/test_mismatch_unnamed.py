@@ -189,6 +189,14 @@ def test_speed_is_found_as_the_driver_and_its_square_as_the_form():
     assert abs(value + 0.05) < 4.0 * error + 0.002
 
 
+def test_a_recording_that_turns_to_one_side_gives_no_equation():
+    both = problem(lambda t: -0.05 * t.columns["fy"] * t.columns["v"] ** 2)
+    one = {**both.table.columns, "s": np.abs(both.table.columns["s"])}
+    found = find(replace(both, table=replace(both.table, columns=one)))
+    assert found.physics is None
+    assert "one side" in found.why_not
+
+
 def test_a_memory_is_found_where_the_force_follows_what_was():
     def added(columns):
         return -0.3 * columns.columns["fy"] * evaluate(parse("lag(abs(s), 2) - abs(s)"), columns)

@@ -1,7 +1,9 @@
 """The open-world half of the proof, case by case; a run that was stopped goes on where it was.
 
 python -m tire_pipeline.concealed.unnamed tuning --cases 24 --folder data/08_reporting/unnamed
-python -m tire_pipeline.concealed.unnamed sealed --cases 24 --folder data/08_reporting/unnamed
+python -m tire_pipeline.concealed.unnamed sealed --cases 24 --folder data/08_reporting/unnamed --write .
+
+With --write the table goes into benchmarks/results and its scores into docs/explanation/concealed.md.
 """
 
 from __future__ import annotations
@@ -86,6 +88,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("half", choices=sorted(SEEDS))
     parser.add_argument("--cases", type=int, default=24)
     parser.add_argument("--folder", type=Path, default=Path("data/08_reporting/unnamed"))
+    parser.add_argument("--write", type=Path, help="folder of the project whose pages take the table")
     asked = parser.parse_args(arguments)
     code = code_hash("mismatch", "magic_formula", "tir")
     folder = asked.folder / asked.half / code
@@ -103,6 +106,18 @@ def main(arguments: Sequence[str] | None = None) -> None:
     text = table(rows, head)
     (asked.folder / f"{asked.half}.md").write_text(text, encoding="utf-8")
     print(text)
+    if asked.write is not None:
+        write(asked.half, text, asked.write)
+
+
+def write(half: str, text: str, project: Path) -> None:
+    """Put the table into ``benchmarks/results`` and its scores between two marks of the page."""
+    (project / "benchmarks" / "results" / f"unnamed_{half}.md").write_text(text, encoding="utf-8")
+    page = project / "docs" / "explanation" / "concealed.md"
+    mark, end = f"<!-- unnamed {half}, from concealed.unnamed -->", "<!-- end -->"
+    before, after = page.read_text(encoding="utf-8").split(mark)
+    scores = text.split("\n\n| case ")[0]
+    page.write_text(f"{before}{mark}\n\n{scores}\n\n{end}{after.split(end, 1)[1]}", encoding="utf-8")
 
 
 if __name__ == "__main__":
