@@ -220,3 +220,26 @@ def test_braking_alone_holds_the_side_force_but_is_no_combined_slip():
     fit = fit_magic_formula(one[[*INPUTS, "fx", "fy"]], starts=1)
     assert any("only 1 points of combined slip" in why and "RBY1" in why for why in fit.undetermined)
     assert fit.model.coefficients.get("RVY1", 0.0) == 0.0
+
+
+def test_a_load_that_fluctuates_is_one_load_and_its_stiffness_stays_positive_at_others():
+    """A flat belt that holds one load lets it fluctuate by a tenth: that says nothing of other loads."""
+    rng = np.random.default_rng(5)
+    slip = 0.2 * np.sin(np.linspace(0.0, 12.0, 500))
+    load = 2750.0 + 75.0 * rng.standard_normal(500)
+    true = tire_52()
+    fy = true.forces(slip_angle=slip, normal_load=load).fy + 40.0 * rng.standard_normal(500)
+    recording = pd.DataFrame({"slip_angle": slip, "normal_load": load, "fy": fy})
+    others = np.linspace(0.5, 1.5, 11) * 2750.0
+    for version in ("5.2", "6.1"):
+        fit = fit_magic_formula(recording, version)
+        assert any("one load only" in text for text in fit.undetermined)
+        known, found = (
+            np.asarray(
+                m.forces(
+                    normal_load=others, limits="ignore", outputs=("cornering_stiffness",)
+                ).cornering_stiffness
+            )
+            for m in (true, fit.model)
+        )
+        assert ((found / known > 0.5) & (found / known < 2.0)).all(), version

@@ -1,0 +1,32 @@
+"""What a recording cannot tell apart is named together."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+from mismatch_shared import shared
+
+from tire_pipeline.magic_formula import fit_magic_formula
+from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.recordings import read_recording
+
+
+@pytest.fixture(scope="module")
+def one_load():
+    """Flat-belt sweeps at one load, one pressure and no camber, and a file fitted to them."""
+    table = read_recording(shared("recordings/calspan/cornering_part.mat"), axes="ISO").iloc[::10]
+    load = np.abs(table["normal_load"] - table["normal_load"].median()) < 250.0
+    upright = np.degrees(table["camber"].abs()) < 0.5
+    rows = table[load & upright & (table["pressure"] < 76_000.0)]
+    return fit_magic_formula(rows[["slip_angle", "normal_load", "fy"]]).model, rows
+
+
+@pytest.mark.parametrize("factor", [0.75, 0.8, 1.25])
+def test_a_stiffness_at_one_load_is_named_with_the_compliance_it_looks_like(one_load, factor):
+    tire, rows = one_load
+    names = ["time", "normal_load", "fy", "speed"]
+    softer = pd.DataFrame({**{n: rows[n] for n in names}, "slip_angle": rows["slip_angle"] / factor})
+    report = explain_mismatch(tire, softer)
+    sets = [set(names) for names, _ in report.sets]
+    assert any({"stiffness_scale", "compliance"} <= names for names in sets), report.summary
