@@ -125,3 +125,16 @@ def test_without_trust_a_file_keeps_what_is_its_own():
     links = np.array([[1.0, TOLD], [TOLD, 1.0]])
     target = _predict(np.array([[3.0, 0.5]]), links, links, trust=0.0)[2]
     np.testing.assert_allclose(target, [[1.0, 1.5]])
+
+
+def test_files_without_any_noise_have_no_correlation_of_errors():
+    """Scores that repeat each other to the last digit, and one that is the same everywhere, end in numbers."""
+    rng = np.random.default_rng(3)
+    cells = _correlated(rng, 60, -0.4, OWN)
+    cells[:, 2] = 0.0
+    still = Deviations(
+        cells, np.zeros((30, 5)), np.zeros((30, 5)), np.array([1.0, 1.0, 0.0, 1.0, 1.0]), np.zeros(5)
+    )
+    links = find_links(still, linked_blocks(SLICES))
+    np.testing.assert_array_equal(links.own, np.eye(5))
+    np.testing.assert_array_equal(links.error, np.eye(5))

@@ -24,6 +24,8 @@ FEWEST = 20
 """Fewer rows than this tell no correlation."""
 
 _BOUND = 3.0  # of a deviation, in standard deviations
+_LEAST_SPREAD = 1e-9
+"""A score that differs by less, in standard deviations, has no correlation with others."""
 _LEAST_OWN = 0.05  # of a score's variance is the tires' own at least
 _LARGEST = 0.95  # correlation of what is the tires' own
 _FLOOR = 1e-2  # of an eigenvalue of a correlation
@@ -108,8 +110,11 @@ def find_links(found: Deviations, blocks: list[np.ndarray]) -> FitLinks:
     """
     count = found.own.size
     own, error = np.eye(count), np.eye(count)
-    for block in blocks:
-        if block.size == 1 or len(found.cells) < FEWEST:
+    for whole_block in blocks:
+        if len(found.cells) < FEWEST:
+            continue
+        block = whole_block[_varies(found, whole_block)]
+        if block.size < 2:
             continue
         here = np.ix_(block, block)
         seen = [rows[:, block] for rows in (found.repeats, found.shared) if len(rows) >= FEWEST]
@@ -118,6 +123,13 @@ def find_links(found: Deviations, blocks: list[np.ndarray]) -> FitLinks:
         error[here] = sum(_correlation(rows) for rows in seen) / len(seen)
         own[here] = _own_correlation(found, block, error[here])
     return FitLinks(own, error)
+
+
+def _varies(found: Deviations, block: np.ndarray) -> np.ndarray:
+    """Whether each score of a block differs at all: files without noise repeat each other to the last digit."""
+    rows = [r[:, block] for r in (found.repeats, found.shared) if len(r) >= FEWEST]
+    moved = [np.ptp(r, axis=0) > _LEAST_SPREAD for r in rows]
+    return np.all([found.own[block] + found.error[block] > _LEAST_SPREAD**2, *moved], axis=0)
 
 
 def _correlation(rows: np.ndarray) -> np.ndarray:
