@@ -128,7 +128,7 @@ def test_without_trust_a_file_keeps_what_is_its_own():
 
 
 def test_files_without_any_noise_have_no_correlation_of_errors():
-    """Scores that repeat each other to the last digit, and one that is the same everywhere, end in numbers."""
+    """Scores that repeat each other exactly, and one that is the same everywhere, end in numbers."""
     rng = np.random.default_rng(3)
     cells = _correlated(rng, 60, -0.4, OWN)
     cells[:, 2] = 0.0

@@ -126,7 +126,7 @@ def find_links(found: Deviations, blocks: list[np.ndarray]) -> FitLinks:
 
 
 def _varies(found: Deviations, block: np.ndarray) -> np.ndarray:
-    """Whether each score of a block differs at all: files without noise repeat each other to the last digit."""
+    """Whether each score of a block differs at all: files without noise repeat each other exactly."""
     rows = [r[:, block] for r in (found.repeats, found.shared) if len(r) >= FEWEST]
     moved = [np.ptp(r, axis=0) > _LEAST_SPREAD for r in rows]
     return np.all([found.own[block] + found.error[block] > _LEAST_SPREAD**2, *moved], axis=0)
