@@ -89,9 +89,9 @@ def on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
     drivers = ", ".join(found.physics.depends_on) or "the force itself"
     what = "The unexplained part" if verdict in ("unexplained", "partly explained") else "What is still left"
     return (
-        f"{what} has no name. Of what was recorded it follows {drivers} best, and an equation of it is in the "
-        f"corrected model: on sweeps that neither its choice nor its fit has seen, it takes the RMS error of "
-        f"{', that of '.join(errors)}."
+        f"{what} has no name. Of what was recorded it follows {drivers} best, and an equation of it "
+        f"is in the corrected model: on sweeps that neither its choice nor its fit has seen, it takes the "
+        f"RMS error of {', that of '.join(errors)}."
     )
 
 
