@@ -177,7 +177,7 @@ class Machine(RuleBasedStateMachine):
     @precondition(lambda self: self.zoo.shelf().release.current)
     @rule(gone=st.booleans())
     def lose_the_model_in_use(self, gone):
-        path = self.zoo.released._model(self.zoo.shelf().release.current)
+        path = self.zoo.model_file(self.zoo.shelf().release.current)
         if gone or not path.exists():
             path.unlink(missing_ok=True)
         else:
@@ -285,6 +285,6 @@ def test_the_whole_pipeline_in_the_zoo(pipeline):
 
     second = zoo.shelf().release.current
     assert second != first
-    zoo.released._model(second).unlink()
+    zoo.model_file(second).unlink()
     kedro("rollback")
     assert zoo.shelf().release.current == first

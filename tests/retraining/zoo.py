@@ -196,6 +196,10 @@ class Zoo:
         files = self.stored().manifest.files.values()
         return Counter(e.row_sha256 for e in files if e.row_sha256) == Counter(rows.values())
 
+    def model_file(self, name: str) -> Path:
+        """Where a released model lies."""
+        return self.base / "06_models/released/models" / f"{name}.npz"
+
     def shelf(self) -> Shelf:
         return self.going_back.load()
 

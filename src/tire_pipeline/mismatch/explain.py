@@ -185,7 +185,8 @@ def _report(prepared: Prepared, search: Search, recording: pd.DataFrame) -> Mism
     ).cleaned_where_it_helps(recording)
     fit = as_recorded({**fit, **prove_moments(search)}, search, corrected, recording)
     unnamed = None
-    if verdict in _SOMETHING_LEFT or (not prepared.stopped and more_than_usual(search)):
+    beside_names = effects and not prepared.stopped and more_than_usual(search)
+    if verdict in _SOMETHING_LEFT or beside_names:
         plainly = verdict not in _SOMETHING_LEFT
         looked = unnamed_physics(search, plainly=plainly)
         unnamed, corrected = never_worse(looked, corrected, recording)
