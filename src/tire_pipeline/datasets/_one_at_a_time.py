@@ -6,9 +6,15 @@ import contextlib
 from collections.abc import Iterator
 from pathlib import Path
 
+from tire_pipeline.datasets.files_at import Files
 from tire_pipeline.errors import DomainError
 from tire_pipeline.objects import ConflictError, Objects
 from tire_pipeline.runs.system_lock import system_lock
+
+
+def held(folder: Files | Objects) -> contextlib.AbstractContextManager[None]:
+    """Hold a folder while what counts in it is replaced; objects are replaced under a condition instead."""
+    return locked(folder.root) if isinstance(folder, Files) else contextlib.nullcontext()
 
 
 @contextlib.contextmanager
@@ -26,8 +32,8 @@ def locked(folder: Path) -> Iterator[None]:
             lock.release()
 
 
-def replace_unless_changed(folder: Objects, name: str, content: bytes, stamp: str | None) -> None:
-    """Replace the object that says what counts, if it is still the one that was read.
+def replace_unless_changed(folder: Files | Objects, name: str, content: bytes, stamp: str | None) -> None:
+    """Replace the file or object that says what counts, if it is still the one that was read.
 
     Raises
     ------

@@ -25,6 +25,14 @@ class Files:
         """The content of a file."""
         return (self.root / name).read_bytes()
 
+    def read_stamped(self, name: str) -> tuple[bytes, str]:
+        """The content, and an empty stamp: a lock keeps others away between reading and :meth:`replace`."""
+        return self.read(name), ""
+
+    def replace(self, name: str, content: bytes, stamp: str | None) -> None:
+        """Put a file in place of the one that was read, under the lock of the folder."""
+        self.write(name, content)
+
     def write(self, name: str, content: bytes) -> None:
         """Put a file in place in one step."""
         with replaced_file(self.root / name) as temporary:

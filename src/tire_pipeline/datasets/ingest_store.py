@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import io
-from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,7 @@ from typing import Any
 import pandas as pd
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.datasets._one_at_a_time import locked, refuse_other_revision, replace_unless_changed
+from tire_pipeline.datasets._one_at_a_time import held, refuse_other_revision, replace_unless_changed
 from tire_pipeline.datasets.files_at import Files, files_at
 from tire_pipeline.errors import DomainError
 from tire_pipeline.objects import Objects
@@ -71,7 +70,7 @@ class IngestStoreDataset(AbstractDataset[Store, Store]):
     def save(self, data: Store) -> None:
         """Store both, or neither."""
         folder = files_at(self._path)
-        with locked(Path(self._path)) if isinstance(folder, Files) else nullcontext():
+        with held(folder):
             present, table, stamp = self._manifest()
             refuse_other_revision(present.revision, data.manifest.revision, self._path)
             if table is not None and data.manifest == present:
@@ -80,10 +79,7 @@ class IngestStoreDataset(AbstractDataset[Store, Store]):
                 table = self._write_table(folder, data)
             new = replace(data.manifest, revision=present.revision + 1)
             content = new.to_json(table=table)
-            if isinstance(folder, Objects):
-                replace_unless_changed(folder, _MANIFEST, content, stamp)
-            else:
-                folder.write(_MANIFEST, content)
+            replace_unless_changed(folder, _MANIFEST, content, stamp)
             strays = (n for n in folder.names() if _is_table(n) and n != table["name"])
             folder.delete(strays)
 
@@ -100,12 +96,8 @@ class IngestStoreDataset(AbstractDataset[Store, Store]):
 
     def _manifest(self) -> tuple[Manifest, dict[str, str] | None, str | None]:
         folder, path = files_at(self._path), f"{self._path}/{_MANIFEST}"
-        stamp = None
         try:
-            if isinstance(folder, Objects):
-                content, stamp = folder.read_stamped(_MANIFEST)
-            else:
-                content = folder.read(_MANIFEST)
+            content, stamp = folder.read_stamped(_MANIFEST)
         except FileNotFoundError:
             return Manifest(), None, None
         manifest, more = Manifest.from_json(content, where=path)

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import json
 import re
-from contextlib import nullcontext
-from pathlib import Path
 from typing import Any
 
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.datasets._one_at_a_time import locked, refuse_other_revision, replace_unless_changed
-from tire_pipeline.datasets.files_at import Files, files_at
+from tire_pipeline.datasets._one_at_a_time import held, refuse_other_revision, replace_unless_changed
+from tire_pipeline.datasets.files_at import files_at
 from tire_pipeline.errors import DomainError
-from tire_pipeline.objects import Objects
 from tire_pipeline.retraining.model import CategoryModel
 from tire_pipeline.retraining.release import KEPT_MODELS, Release, Shelf
 from tire_pipeline.state_files import pack_state, unpack_state
@@ -89,7 +86,7 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
     def save(self, data: Shelf) -> None:
         """Store the model if it is new, then the record."""
         folder = self._files
-        with locked(Path(self._path)) if isinstance(folder, Files) else nullcontext():
+        with held(folder):
             present, stamp = self._record()
             if data.release == present:
                 return
@@ -100,21 +97,15 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
                     raise DomainError(f"there is no model for {current}", where=self._path)
                 folder.write(_model(current), pack_state(data.model.to_state()))
             content = json.dumps(data.release.to_dict(), indent=1).encode()
-            if isinstance(folder, Objects):
-                replace_unless_changed(folder, _RECORD, content, stamp)
-            else:
-                folder.write(_RECORD, content)
+            replace_unless_changed(folder, _RECORD, content, stamp)
             models = [name for name in folder.names() if name.startswith("models/") and name.endswith(".npz")]
             kept = {_model(name) for name in data.release.models}
             folder.delete(name for name in models[:-KEPT_MODELS] if name not in kept)
 
     def _record(self) -> tuple[Release, str | None]:
-        path, stamp = f"{self._path}/{_RECORD}", None
+        path = f"{self._path}/{_RECORD}"
         try:
-            if isinstance(self._files, Objects):
-                content, stamp = self._files.read_stamped(_RECORD)
-            else:
-                content = self._files.read(_RECORD)
+            content, stamp = self._files.read_stamped(_RECORD)
         except FileNotFoundError:
             return Release(), None
         try:

@@ -20,13 +20,12 @@ from datetime import UTC, datetime
 
 from tire_pipeline.objects import ConflictError, Objects
 from tire_pipeline.runs.ticket import BEAT_SECONDS, LostTicketError, Note
-from tire_pipeline.runs.turn import ALIVE, DEAD, UNKNOWN
+from tire_pipeline.runs.turn import Beats
 
 _LOG = logging.getLogger(__name__)
 TICKETS = ".runs"
 _NAME = re.compile(rf"{re.escape(TICKETS)}/(\d+)\.(json|beat|over)").fullmatch
 _KEPT = 50
-_BEATS = 4.0
 
 
 class ObjectTicket:
@@ -121,7 +120,10 @@ class ObjectLedger:
     ticket: ObjectTicket
     expiry_seconds: float
     monotonic: Callable[[], float] = time.monotonic
-    _seen: dict[int, tuple[bytes, float, bool]] = field(default_factory=dict)
+    _beats: Beats = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._beats = Beats(self.expiry_seconds, self.monotonic)
 
     @property
     def where(self) -> str:
@@ -144,14 +146,7 @@ class ObjectLedger:
             beat = self.ticket.data.read(_name(note.number, "beat"))
         except FileNotFoundError:
             beat = b""
-        now = self.monotonic()
-        before, since, moved = self._seen.get(note.number, (beat, now, False))
-        if beat != before:
-            before, since, moved = beat, now, True
-        self._seen[note.number] = (before, since, moved)
-        if now - since >= max(self.expiry_seconds, _BEATS * note.beat_seconds):
-            return DEAD
-        return ALIVE if moved else UNKNOWN
+        return self._beats.state(note, beat)
 
     def bury(self, note: Note) -> None:
         """Declare a run dead first, so that it finds out if it is not; then its results go."""

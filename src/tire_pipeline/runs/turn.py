@@ -7,7 +7,7 @@ import logging
 import os
 import shutil
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
@@ -21,6 +21,33 @@ EXPIRY_SECONDS = 30.0
 _POLL_SECONDS = 0.5
 _BEATS = 4.0  # a run is not declared dead before it has missed so many of its own beats
 ALIVE, DEAD, UNKNOWN = "alive", "dead", "unknown"
+
+
+@dataclass
+class Beats:
+    """Tells from the beats of runs alone whether they live: they move, or stand still for long enough.
+
+    Parameters
+    ----------
+    expiry_seconds : float
+    monotonic : callable
+        For tests.
+    """
+
+    expiry_seconds: float
+    monotonic: Callable[[], float]
+    _seen: dict[int, tuple[Hashable, float, bool]] = field(default_factory=dict)
+
+    def state(self, note: Note, beat: Hashable) -> str:
+        """ALIVE, DEAD or UNKNOWN, from what the beat of a run is now."""
+        now = self.monotonic()
+        before, since, moved = self._seen.get(note.number, (beat, now, False))
+        if beat != before:
+            before, since, moved = beat, now, True
+        self._seen[note.number] = (before, since, moved)
+        if now - since >= max(self.expiry_seconds, _BEATS * note.beat_seconds):
+            return DEAD
+        return ALIVE if moved else UNKNOWN
 
 
 @dataclass
@@ -46,7 +73,10 @@ class Watch:
     own: Note
     expiry_seconds: float = EXPIRY_SECONDS
     monotonic: Callable[[], float] = time.monotonic
-    _seen: dict[int, tuple[int, float, bool]] = field(default_factory=dict)
+    _beats: Beats = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._beats = Beats(self.expiry_seconds, self.monotonic)
 
     def look(self) -> list[tuple[Note, str]]:
         """Every note with a lower number and whether its run is ALIVE, DEAD or still UNKNOWN."""
@@ -67,14 +97,7 @@ class Watch:
                 stamp = os.fstat(file.fileno()).st_mtime_ns
         except FileNotFoundError:
             return DEAD  # it has ended since the notes were listed
-        now = self.monotonic()
-        before, since, moved = self._seen.get(note.number, (stamp, now, False))
-        if stamp != before:
-            before, since, moved = stamp, now, True
-        self._seen[note.number] = (before, since, moved)
-        if now - since >= max(self.expiry_seconds, _BEATS * note.beat_seconds):
-            return DEAD
-        return ALIVE if moved else UNKNOWN
+        return self._beats.state(note, stamp)
 
 
 class Ledger(Protocol):

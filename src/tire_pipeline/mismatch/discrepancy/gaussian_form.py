@@ -10,21 +10,12 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.recording.checks import INPUTS
 
 if TYPE_CHECKING:
     from sklearn.gaussian_process import GaussianProcessRegressor
 
 Array = np.ndarray
-_CHANNELS = (
-    "slip_angle",
-    "slip_ratio",
-    "camber",
-    "normal_load",
-    "speed",
-    "pressure",
-    "tread_temperature",
-    "turn_slip",
-)
 _RATES = ("slip_angle", "slip_ratio", "normal_load")
 _POINTS = 250
 _HELD_POINTS = 2000
@@ -153,7 +144,7 @@ def _fit(x: Array, y: Array, noise: float) -> GaussianProcessRegressor:
 
 
 def _columns(data: Data) -> dict[str, Array]:
-    out = {n: data.smooth(n) for n in _CHANNELS if data.varies(n)}
+    out = {n: data.smooth(n) for n in INPUTS if data.varies(n)}
     if data.time is not None and data.size > 10:
         step = np.maximum(data.step, 1e-9)
         for n in _RATES:

@@ -17,6 +17,12 @@ _ORDER = 12
 _LAGS = (1, 2, 3, 4, 6, 8, 11)
 
 
+def white_noise(x: Array) -> float:
+    """Size of white noise from second differences, by their median; NaN for fewer than three values."""
+    d = np.diff(x, 2)
+    return float(np.median(np.abs(d)) / 0.6745 / np.sqrt(6.0)) if d.size else float("nan")
+
+
 @dataclass(frozen=True)
 class Noise:
     """Noise of one output: white and coloured part, with a size that changes with the slopes.

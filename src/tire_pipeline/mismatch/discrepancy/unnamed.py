@@ -15,7 +15,7 @@ import numpy as np
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.form import Form
 from tire_pipeline.mismatch.discrepancy.repeating import repeating_forms
-from tire_pipeline.mismatch.effects.shared import first_order, njit
+from tire_pipeline.mismatch.effects.shared import first_order, play
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
 
@@ -27,28 +27,6 @@ _PLAYS = {"slip_angle": (0.001, 0.003, 0.008), "slip_ratio": (0.008,)}
 _SMOOTH = 0.1
 _CELLS = 16
 """Sizes of slip, and of load, within which a rate is compared with itself."""
-
-
-@njit(cache=True)
-def play(x: Array, width: float, start: Array) -> Array:
-    """Return what is behind a joint with play: it moves only when pushed.
-
-    Parameters
-    ----------
-    x : ndarray, shape (n,)
-    width : float
-        Half of the play, in the unit of ``x``.
-    start : ndarray of bool, shape (n,)
-        First samples of uninterrupted pieces.
-    """
-    out = np.empty_like(x)
-    at = x[0]
-    for i in range(x.size):
-        if start[i]:
-            at = x[i]
-        at = min(max(at, x[i] - width), x[i] + width)
-        out[i] = at
-    return out
 
 
 def constant_form(data: Data, changes: list[Change]) -> Form:

@@ -48,6 +48,28 @@ def first_order(signal: np.ndarray, gain: np.ndarray, start: np.ndarray) -> np.n
 
 
 @njit(cache=True)
+def play(x: np.ndarray, width: float, start: np.ndarray) -> np.ndarray:
+    """Return what is behind a joint with play: it moves only when pushed.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,)
+    width : float
+        Half of the play, in the unit of ``x``.
+    start : ndarray of bool, shape (n,)
+        First samples of uninterrupted pieces.
+    """
+    out = np.empty_like(x)
+    at = 0.0
+    for i in range(x.size):
+        if start[i]:
+            at = x[i]
+        at = min(max(at, x[i] - width), x[i] + width)
+        out[i] = at
+    return out
+
+
+@njit(cache=True)
 def _ramp(before: float, now: float, gain: float) -> float:
     """Constant input that has the same effect over one step as a ramp from before to now."""
     step = -np.log(1.0 - gain) if gain > 1e-9 else 1e-9

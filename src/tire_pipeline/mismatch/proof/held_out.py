@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.mismatch.discrepancy.noise import white_noise
 from tire_pipeline.mismatch.inference.left_out import each_left_out, step_without
 from tire_pipeline.mismatch.inference.search_state import Search
 from tire_pipeline.mismatch.model.data import Data
@@ -82,7 +83,7 @@ def prove_moments(search: Search, *, resamples: int = 400, seed: int = 0) -> dic
         draws = np.sqrt(sums[picks].sum(axis=1) / np.maximum(count[picks].sum(axis=1), 1))
         low, high = np.quantile(draws, [0.025, 0.975])
         size_before, size_after = float(np.mean(before**2)), float(np.mean(after**2))
-        floor = _white_noise(after) if data.time is not None else float("nan")
+        floor = white_noise(after) if data.time is not None else float("nan")
         above = size_before - floor**2
         out[name] = OutputFit(
             noise_floor=floor,
@@ -106,12 +107,6 @@ def recorded_moments(data: Data) -> tuple[str, ...]:
         return ()
     plain = simulate_moments(data, [], names)
     return tuple(n for n in names if np.ptp(plain[n]) > 1e-6 * max(float(np.ptp(data.channels[n])), 1e-9))
-
-
-def _white_noise(x: Array) -> float:
-    """Size of white noise from second differences (robust)."""
-    d = np.diff(x, 2)
-    return float(np.median(np.abs(d)) / 0.6745 / np.sqrt(6.0)) if d.size else float("nan")
 
 
 def _by_sweep(x: Array, block: Array, count: int) -> Array:

@@ -24,7 +24,8 @@ from functools import lru_cache
 import numpy as np
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.mismatch.unnamed_physics.memories import lag, play
+from tire_pipeline.mismatch.effects.shared import play
+from tire_pipeline.mismatch.unnamed_physics.memories import lag
 
 Array = np.ndarray
 FUNCTIONS = ("abs", "sqrt", "sin", "cos", "exp", "tanh", "highest")

@@ -1,4 +1,4 @@
-"""What an equation remembers: a lag of first order and play, started again at each piece."""
+"""What an equation remembers: a lag of first order in steps, as the reader of the sidecar computes it."""
 
 from __future__ import annotations
 
@@ -23,25 +23,5 @@ def lag(x: Array, gain: Array, start: Array) -> Array:
     y = 0.0
     for i in range(x.size):
         y = x[i] if start[i] else y + gain[i] * (x[i] - y)
-        out[i] = y
-    return out
-
-
-@njit(cache=True)
-def play(x: Array, width: float, start: Array) -> Array:
-    """Follow ``x`` through a gap of ``width`` to either side, and begin in its middle.
-
-    Parameters
-    ----------
-    x : ndarray, shape (n,)
-    width : float
-    start : ndarray of bool, shape (n,)
-    """
-    out = np.empty_like(x)
-    y = 0.0
-    for i in range(x.size):
-        if start[i]:
-            y = x[i]
-        y = min(max(y, x[i] - width), x[i] + width)
         out[i] = y
     return out

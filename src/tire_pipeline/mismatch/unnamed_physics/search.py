@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.mismatch import settings
+from tire_pipeline.mismatch.discrepancy.noise import white_noise
 from tire_pipeline.mismatch.inference.search import Search
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
@@ -34,8 +35,6 @@ from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL
 Array = np.ndarray
 _SHOWN = 3
 _BINS = 30
-_TO_SIGMA = 0.6745 * 6.0**0.5
-"""Median size of second differences of white noise, over its standard deviation."""
 _ABOVE_NOISE = 1.5
 _OTHER_SIDE = 0.5
 """Least slip angle to one side over that to the other (2% quantiles). A drive of DART that turns to one side
@@ -66,9 +65,7 @@ def more_than_usual(search: Search) -> bool:
     misfit. The noise here is that of neighbouring samples alone.
     """
     for o, rest in residual(search.data, search.fit.changes).items():
-        differences = np.diff(rest, 2)
-        white = float(np.median(np.abs(differences))) / _TO_SIGMA if differences.size else 0.0
-        least = max(settings.USUAL_MISFIT * search.largest[o], _ABOVE_NOISE * white)
+        least = max(settings.USUAL_MISFIT * search.largest[o], _ABOVE_NOISE * white_noise(rest))
         if float(np.sqrt(np.mean(rest**2))) > least:
             return True
     return False

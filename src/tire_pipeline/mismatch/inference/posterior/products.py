@@ -6,6 +6,7 @@ matrices, from which the evidence follows for any sizes of background and form e
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -97,7 +98,7 @@ class RecordingProducts:
         self.log_determinant = np.array([determinant for *_, determinant in self._factors])
 
     def _misfits(self) -> list[tuple[float, float]]:
-        """LearntSizes of the misfit and of its dependence on the way, over the largest force."""
+        """Sizes of the misfit and of its dependence on the way, over the largest force."""
         depends = any(size.path for size in self.search.sizes.values())
         paths = settings.PATH_SHARES[::_EVERY] if depends else settings.PATH_SHARES[:1]
         return [(share, path) for share in settings.MISFIT_SHARES[::_EVERY] for path in paths]
@@ -134,15 +135,7 @@ class RecordingProducts:
         -------
         ndarray, shape (g, m, m), ndarray, shape (g, b, m)
         """
-        white = self.system.whiten(columns)
-        beside = {o: self.system.white[o].T @ x for o, x in white.items()}
-        own = sum(x.T @ x for x in white.values())
-        across = sum(self._seen[o].T @ x for o, x in white.items())
-        owns, acrosses = [], []
-        for factor, seen in zip(self._factors, self._beside, strict=True):
-            solved = self._solved(factor, beside)
-            owns.append((own - sum(beside[o].T @ solved[o] for o in white)) / self.inflation)
-            acrosses.append((across - sum(seen[o].T @ beside[o] for o in white)) / self.inflation)
+        owns, acrosses = zip(*self._reduced(columns, range(len(self._factors))), strict=True)
         return np.stack(owns), np.stack(acrosses)
 
     def at_middle(self, columns: dict[str, Array]) -> tuple[Array, Array, Array]:
@@ -151,11 +144,18 @@ class RecordingProducts:
         share = int(np.argmin(np.abs(np.log(np.array(self._grid)[:, 0] / search.misfit))))
         near = [k for k, (s, _) in enumerate(self._grid) if s == self._grid[share][0]]
         middle = min(near, key=lambda k: abs(np.log(self._grid[k][1] / max(search.path, 1e-9))))
-        factor, seen = self._factors[middle], self._beside[middle]
+        ((own, across),) = self._reduced(columns, [middle])
+        return own, across, self.background[middle]
+
+    def _reduced(self, columns: dict[str, Array], misfits: Iterable[int]) -> Iterator[tuple[Array, Array]]:
+        """Yield the products of some columns, with each other and with the background, for some sizes."""
         white = self.system.whiten(columns)
         beside = {o: self.system.white[o].T @ x for o, x in white.items()}
-        solved = self._solved(factor, beside)
-        own = sum(x.T @ x for x in white.values()) - sum(beside[o].T @ solved[o] for o in white)
+        own = sum(x.T @ x for x in white.values())
         across = sum(self._seen[o].T @ x for o, x in white.items())
-        across = across - sum(seen[o].T @ beside[o] for o in white)
-        return own / self.inflation, across / self.inflation, self.background[middle]
+        for k in misfits:
+            solved, seen = self._solved(self._factors[k], beside), self._beside[k]
+            yield (
+                (own - sum(beside[o].T @ solved[o] for o in white)) / self.inflation,
+                (across - sum(seen[o].T @ beside[o] for o in white)) / self.inflation,
+            )
