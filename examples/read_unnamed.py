@@ -1,4 +1,4 @@
-"""Evaluate an equation without a name: python read_unnamed.py tire.tir.sidecar.json table_of_symbols.csv."""
+"""Evaluate an unnamed equation: python read_unnamed.py tire.tir.sidecar.json table_of_symbols.csv."""
 
 import csv
 import json

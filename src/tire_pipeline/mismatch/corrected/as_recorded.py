@@ -104,7 +104,7 @@ def _inside(condition: str, recording: pd.DataFrame) -> Array | None:
 
 
 def with_unnamed(fit: dict[str, OutputFit], found: UnnamedReport) -> dict[str, OutputFit]:
-    """Return the errors with an equation without a name put in, by what it does on sweeps it has not seen."""
+    """Return the errors with an unnamed equation put in, by what it does on sweeps it has not seen."""
     if found.physics is None:
         return fit
     out = dict(fit)

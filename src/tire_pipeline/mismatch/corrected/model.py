@@ -54,7 +54,7 @@ class CorrectedModel:
     cleaned : dict of str to float
         Input channel that is cleaned of sensor noise before the effects are put in -> RMS of that noise, SI.
     unnamed : UnnamedPhysics, optional
-        An equation of physics without a name, put in last.
+        An equation of unnamed physics, put in last.
     """
 
     tire: Any

@@ -1,1 +1,1 @@
-"""Physics without a name: what drives the unexplained part, a short equation of it, and its proof."""
+"""Unnamed physics: what drives the unexplained part, a short equation of it, and its proof."""
