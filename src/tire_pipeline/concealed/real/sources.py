@@ -48,7 +48,8 @@ class Sweep:
         Means, N, rad, Pa; NaN where the pressure was not recorded. Camber to a tenth of a degree and
         pressure to 1 psi, so that equal levels compare as equal.
     sha256 : str
-        Of time, slip angle, load and side force.
+        Of what was recorded: a drive's file, else time, slip angle, load and side force. What is computed from a
+        recording differs in the last digits from one processor to the next, and would have another hash there.
     frame : pandas.DataFrame
         Canonical channels at the recording's own rate.
     """
@@ -114,12 +115,15 @@ def fingerprint(folder: Path) -> str:
     return total.hexdigest()[:12]
 
 
-def _sweep(source: str, name: str, frame: pd.DataFrame) -> Sweep:
+def _sweep(source: str, name: str, frame: pd.DataFrame, recorded: bytes | None = None) -> Sweep:
     kept = frame.reset_index(drop=True)
     used = [c for c in ("time", "slip_angle", "normal_load", "fy") if c in kept]
     total = hashlib.sha256(f"{source} {name}".encode())
-    for channel in used:
-        total.update(np.ascontiguousarray(kept[channel], dtype="<f4").tobytes())
+    if recorded is not None:
+        total.update(recorded)
+    else:
+        for channel in used:
+            total.update(np.ascontiguousarray(kept[channel], dtype="<f4").tobytes())
     pressure = float(kept["pressure"].mean()) if "pressure" in kept else float("nan")
     camber = float(kept["camber"].mean()) if "camber" in kept else 0.0
     return Sweep(
@@ -162,7 +166,7 @@ def _dart(folder: Path) -> tuple[Sweep, ...]:
         frame["time"] += end - float(frame["time"].iloc[0])
         end = float(frame["time"].iloc[-1]) + BETWEEN_DRIVES
         kept = ["time", "slip_angle", "normal_load", "speed", "fy"]
-        out.append(_sweep("dart", name, frame[kept]))
+        out.append(_sweep("dart", name, frame[kept], recorded=path.read_bytes()))
     return tuple(out)
 
 
