@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Generator, Iterable, Iterator
+from multiprocessing import current_process
 from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
@@ -18,7 +19,8 @@ _LINE_EVERY_SECONDS = 10.0
 def track(items: Iterable[T], what: str, total: int | None = None) -> Generator[T, None, None]:
     """Yield the items and show progress, with a rate and the time left, once two seconds have passed.
 
-    On a terminal it is a bar on standard error; elsewhere (a log, CI) one line every ten seconds.
+    On a terminal it is a bar on standard error; elsewhere (a log, CI, a process that shares the terminal with
+    others) one line every ten seconds.
 
     Parameters
     ----------
@@ -38,7 +40,8 @@ def track(items: Iterable[T], what: str, total: int | None = None) -> Generator[
     if total is None and hasattr(items, "__len__"):
         total = len(items)  # type: ignore[arg-type]
     console = Console(file=sys.stderr)
-    shown = _bar(items, what, total, console) if console.is_terminal else _lines(items, what, total)
+    alone = current_process().name == "MainProcess"
+    shown = _bar(items, what, total, console) if console.is_terminal and alone else _lines(items, what, total)
     yield from shown
 
 

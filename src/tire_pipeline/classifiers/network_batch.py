@@ -88,29 +88,32 @@ def train_networks(
     wanted = sorted(set(epochs))
     width = sets[0].features.shape[1]
     sizes = [width, *hidden, n_classes]
-    data, labels, counts = _padded(sets, batch_size)
+    data, labels, counts = _padded(sets)
+    longest = len(data) // len(sets)
+    first_row = longest * np.arange(len(sets))[:, None]
     network = _Networks(sizes, seeds)
-    steps = _Steps(optimizer, network, learning_rates, weight_decays)
     shuffles = [np.random.default_rng([seed, 1]) for seed in seeds]
     steps_of = -(-counts // batch_size)
+    steps = _Steps(optimizer, network, learning_rates, weight_decays, steps_of)
     out: dict[int, list[Layers]] = {}
     order = np.zeros((len(sets), int(steps_of.max()) * batch_size), dtype=np.int64)
     for epoch in range(1, wanted[-1] + 1):
         for index, (shuffle, count) in enumerate(zip(shuffles, counts, strict=True)):
             order[index, :count] = shuffle.permutation(count)
-            order[index, count:] = data.shape[1] - 1
+            order[index, count:] = longest - 1
         for number in range(int(steps_of.max())):
-            rows = torch.from_numpy(order[:, number * batch_size : (number + 1) * batch_size])
-            inputs = torch.take_along_dim(data, rows[..., None], dim=1)
-            network.backward(inputs, torch.take_along_dim(labels, rows, dim=1), loss)
-            steps.take(steps_of > number)
+            rows = order[:, number * batch_size : (number + 1) * batch_size] + first_row
+            chosen = torch.from_numpy(rows.ravel())
+            inputs = data.index_select(0, chosen).view(*rows.shape, width)
+            network.backward(inputs, labels.index_select(0, chosen).view(rows.shape), loss)
+            steps.take(number)
         if epoch in wanted:
             out[epoch] = network.layers()
     return out
 
 
-def _padded(sets: Sequence[TrainingSet], batch_size: int) -> tuple[torch.Tensor, torch.Tensor, np.ndarray]:
-    """Stack the sets; the last row of each is a padding row with label -1."""
+def _padded(sets: Sequence[TrainingSet]) -> tuple[torch.Tensor, torch.Tensor, np.ndarray]:
+    """Put the sets below each other, all as long as the longest and a padding row with label -1."""
     counts = np.array([len(some.features) for some in sets])
     longest = int(counts.max()) + 1
     data = np.zeros((len(sets), longest, sets[0].features.shape[1]), dtype=np.float32)
@@ -118,7 +121,7 @@ def _padded(sets: Sequence[TrainingSet], batch_size: int) -> tuple[torch.Tensor,
     for index, some in enumerate(sets):
         data[index, : counts[index]] = some.features
         labels[index, : counts[index]] = some.labels
-    return torch.from_numpy(data), torch.from_numpy(labels), counts
+    return torch.from_numpy(data).flatten(0, 1), torch.from_numpy(labels).flatten(), counts
 
 
 class _Networks:
@@ -165,7 +168,7 @@ class _Networks:
             self.bias_gradients[index].copy_(delta.sum(dim=1))
             if index:
                 delta = torch.bmm(delta, self.weights[index].transpose(1, 2))
-                delta *= below > 0
+                delta = torch.ops.aten.threshold_backward(delta, below, 0)  # 0 where ReLU cuts off
 
     def layers(self) -> list[Layers]:
         """Copy the weights out, network by network."""
@@ -179,27 +182,37 @@ class _Networks:
 
 
 class _Steps:
-    """An optimiser of torch over all networks, each a group with a rate and a decay of its own."""
+    """An optimiser of torch over all networks: neighbours with the same rate, decay and steps are one group."""
 
     def __init__(
-        self, name: str, network: _Networks, rates: Sequence[float], decays: Sequence[float]
+        self,
+        name: str,
+        network: _Networks,
+        rates: Sequence[float],
+        decays: Sequence[float],
+        steps_of: np.ndarray,
     ) -> None:
         if name not in _OPTIMIZERS:
             raise DomainError(
                 f"there is no optimiser {name!r}", todo=f"choose one of {', '.join(_OPTIMIZERS)}"
             )
         kind, options = _OPTIMIZERS[name]
-        self.rows, self.slopes = network.flat.unbind(), network.gradient.unbind()
-        each = zip(self.rows, rates, decays, strict=True)
-        groups: list[dict[str, Any]] = [
-            {"params": [row], "lr": float(rate), "weight_decay": float(decay)} for row, rate, decay in each
-        ]
+        groups: list[dict[str, Any]] = []
+        self.members: list[tuple[torch.Tensor, torch.Tensor, int]] = []
+        for (rate, decay, steps), same in itertools.groupby(
+            range(len(rates)), lambda index: (float(rates[index]), float(decays[index]), int(steps_of[index]))
+        ):
+            places = list(same)
+            place = slice(places[0], places[-1] + 1)
+            rows = network.flat[place]
+            self.members.append((rows, network.gradient[place], steps))
+            groups.append({"params": [rows], "lr": rate, "weight_decay": decay})
         self.optimizer = kind(groups, **options)
 
-    def take(self, active: np.ndarray) -> None:
-        """Move the networks that are active, (M,), one step along their gradients."""
-        for row, slope, moves in zip(self.rows, self.slopes, active, strict=True):
-            row.grad = slope if moves else None
+    def take(self, number: int) -> None:
+        """Move the networks that have a batch of this number one step along their gradients."""
+        for rows, slopes, steps in self.members:
+            rows.grad = slopes if number < steps else None
         self.optimizer.step()
 
 

@@ -2,17 +2,66 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import pandas as pd
 
 from tire_pipeline.classifiers.random_forest import RandomForest
 from tire_pipeline.representations import representation_from_state
+from tire_pipeline.tasks import Map, Task, all_done, in_turn
 from tire_pipeline.tire_table import Binning
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.translation.learned import LikelihoodAgent
 from tire_pipeline.translation.parameters import TrainAgentParameters
 from tire_pipeline.translation.thesis.translator import AgentTranslator
+
+
+def train_agents(
+    normalized_table: pd.DataFrame,
+    representation: dict[str, Any],
+    binning: dict[str, Any],
+    classifier: dict[str, Any],
+    parameters: TrainAgentParameters,
+    normalize: NormalizeParameters,
+    target_category: str,
+    seed: int,
+    *,
+    work: Map = in_turn,
+) -> tuple[dict[str, Any], pd.DataFrame, dict[str, Any]]:
+    """Train the thesis' agent and ours. Neither needs the other, so they may be trained at the same time.
+
+    Parameters
+    ----------
+    normalized_table, representation, binning, classifier, parameters, target_category, seed
+        As for :func:`train_one_agent`.
+    normalize : NormalizeParameters
+        As for :func:`train_our_agent`.
+    work : Map
+        Does the trainings.
+
+    Returns
+    -------
+    agent, learning_curve
+        As :func:`train_one_agent` gives them.
+    our_agent : dict
+        As :func:`train_our_agent` gives it.
+    """
+    thesis = partial(
+        train_one_agent,
+        normalized_table,
+        representation,
+        binning,
+        classifier,
+        parameters,
+        target_category,
+        seed,
+    )
+    ours = partial(train_our_agent, normalized_table, parameters, normalize, target_category, seed)
+    tasks: dict[str, Task[Any]] = {"the thesis' agent": thesis, "our agent": ours}
+    done = all_done(work, tasks, "training both agents")
+    agent, learning_curve = done["the thesis' agent"].result()
+    return agent, learning_curve, done["our agent"].result()
 
 
 def train_one_agent(

@@ -2,9 +2,10 @@
 
 from kedro.pipeline import Node, Pipeline
 
+from tire_pipeline.cluster import given_map
 from tire_pipeline.pipelines.translate.pipeline import fit_node
 from tire_pipeline.reporting.training_figures import learning_figure
-from tire_pipeline.translation.trained_agents import train_one_agent, train_our_agent
+from tire_pipeline.translation.trained_agents import train_agents
 
 
 def create_pipeline(**_: object) -> Pipeline:
@@ -12,36 +13,25 @@ def create_pipeline(**_: object) -> Pipeline:
     return Pipeline(
         [
             Node(
-                train_one_agent,
+                given_map(train_agents),
                 inputs=[
                     "normalized_table",
                     "representation",
                     "binning",
                     "classifier",
                     "params:train_agent",
+                    "params:normalize",
                     "params:target_category",
                     "params:seed",
                 ],
-                outputs=["agent", "learning_curve"],
-                name="train_one_agent",
+                outputs=["agent", "learning_curve", "our_agent"],
+                name="train_agents",
             ),
             Node(
                 learning_figure,
                 inputs="learning_curve",
                 outputs="learning_figure",
                 name="draw_learning_curve",
-            ),
-            Node(
-                train_our_agent,
-                inputs=[
-                    "normalized_table",
-                    "params:train_agent",
-                    "params:normalize",
-                    "params:target_category",
-                    "params:seed",
-                ],
-                outputs="our_agent",
-                name="train_our_agent",
             ),
             fit_node(),
         ]
