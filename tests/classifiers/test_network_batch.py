@@ -49,7 +49,7 @@ def test_each_network_is_what_torch_trains_alone(binned, optimizer, loss):
     features, labels = binned
     numbers = np.unique(labels, return_inverse=True)[1]
     scaled = (features - features.mean(axis=0)) / features.std(axis=0)
-    # other numbers of rows and batches that do not divide them, rates and decays of their own; the last two alike
+    # other numbers of rows, batches that do not divide them, own rates and decays; the last two are alike
     sets = [TrainingSet(scaled[:n], numbers[:n]) for n in (150, 97, 128, 128)]
     rates, decays, seeds = [1e-3, 1e-4, 1e-3, 1e-3], [0.01, 0.0, 0.1, 0.1], [3, 4, 5, 6]
     trained = train_networks(

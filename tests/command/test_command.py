@@ -138,6 +138,16 @@ def test_compare_measures_the_forces_apart(folder):
     assert "B minus A" in run("compare", "a.tir", "b.tir").stdout
 
 
+def test_compare_gives_the_difference_of_an_output_that_only_one_file_has(folder):
+    moment = {"QBZ1": 10.0, "QCZ1": 1.1, "QDZ1": 0.1}
+    write_tir(TireModel.from_coefficients({**COEFFICIENTS, **moment}), "b.tir")
+    shown = run("compare", "a.tir", "b.tir", "--no-page").stdout
+    found = told("compare", "a.tir", "b.tir")["differences"]["mz"]
+    line = next(line for line in shown.splitlines() if line.startswith("Mz"))
+    assert found["rms"] > 0.0
+    assert float(line.split()[1].replace(",", "")) == pytest.approx(found["rms"], rel=1e-3)
+
+
 def test_compare_warns_of_other_axes(folder):
     write_tir(read_tir("a.tir").replace(PKY1=22.0, PHY3=-0.01), "b.tir")
     assert "the files are in different axes" in " ".join(run("compare", "a.tir", "b.tir").stdout.split())

@@ -45,6 +45,19 @@ def test_numbers_are_rounded_and_long_tables_counted():
     assert "3 further rows" in page
 
 
+def test_a_column_has_one_number_of_decimals_unless_a_small_value_would_be_lost():
+    frame = pd.DataFrame(
+        {"ratio": [0.143, 0.1304, 1.03], "mixed": [250.0, 0.02, 3.0], "name": ["a", "b", "c"]}
+    )
+    table = Table(frame)
+    cells = [[text for text, _ in row] for row, _ in table.rows]
+    assert cells == [["0.14", "250", "a"], ["0.13", "0.02", "b"], ["1.03", "3", "c"]]
+    assert table.heads == [("ratio", True), ("mixed", True), ("name", False)]
+    page = render_page("t", [table])
+    assert '<th scope="col" class="number">ratio</th>' in page
+    assert '<th scope="col">name</th>' in page
+
+
 def test_the_policy_names_the_one_style_and_allows_attributes_only_beside_figures():
     page = _page()
     policy = html.unescape(re.search(r'Content-Security-Policy" content="([^"]+)"', page)[1])

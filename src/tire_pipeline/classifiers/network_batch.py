@@ -182,7 +182,7 @@ class _Networks:
 
 
 class _Steps:
-    """An optimiser of torch over all networks: neighbours with the same rate, decay and steps are one group."""
+    """An optimiser over all networks; neighbours with the same rate, decay and steps are one group."""
 
     def __init__(
         self,

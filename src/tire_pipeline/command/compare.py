@@ -94,7 +94,10 @@ def _lines(models: dict[str, TireModel], apart: list[Difference], changed: int) 
 
 def _row(difference: Difference) -> tuple[Any, ...]:
     unit = "N m" if difference.output.startswith("m") else "N"
-    rms, largest = (x if difference.share > _NOTHING else 0.0 for x in (difference.rms, difference.largest))
+    rounding = (
+        difference.share <= _NOTHING
+    )  # not so where the first model has no such output: its share is NaN
+    rms, largest = (0.0 if rounding else x for x in (difference.rms, difference.largest))
     return difference.output.capitalize(), rms, largest, unit, _percent(difference.share)
 
 

@@ -126,7 +126,7 @@ def _page(result: FitResult, lines: list[str], residuals: Grid, notes: list[str]
     except DomainError:
         parts.append(Figure(*draw_models({target.name: result.model}), heading="The fitted model"))
     table = pd.DataFrame(
-        [(n, result.model.value(n), error) for n, error in result.standard_errors.items()],
+        [(n, result.model.value(n), float(f"{error:.2g}")) for n, error in result.standard_errors.items()],
         columns=["coefficient", "value", "standard error"],
     )
     if result.undetermined:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _LINES = ("-", "--", ":", "-.")
+_LINE_WORDS = ("solid", "dashed", "dotted", "dash-dotted")
 _PANELS = (
     ("fy", "slip_angle", "slip angle (deg)", "lateral force Fy (kN)"),
     ("fx", "slip_ratio", "slip ratio", "longitudinal force Fx (kN)"),
@@ -110,4 +111,7 @@ def _caption(models: Mapping[str, TireParameters], camber: float) -> str:
     if all(model.family == 6 for model in models.values()) and len(models) == 1:
         at.append(f"nominal pressure {first.value('NOMPRES') / 1e3:.4g} kPa")
     text = f"Pure slip, {', '.join(at)}; signs and axes as in the file (ISO W for most)."
+    if len(models) > 1:
+        lines = ", ".join(f"{name} {word}" for word, name in zip(_LINE_WORDS, models, strict=False))
+        text += f" Lines: {lines}."
     return f"{text} Vertical lines mark the loads of the other panels."

@@ -11,6 +11,8 @@ from tire_pipeline.evaluation.translated import NO_CHANGE, OUR_AGENT, UNJUDGED
 from tire_pipeline.translation.result import TRANSLATED
 
 METRIC = "forces"
+_FEW = 20
+"""Tires below which an error and its floor are called uncertain."""
 
 
 def say_outcome(
@@ -58,11 +60,14 @@ def _judged(
     others = [who for who in table["translator"].unique() if who not in (best["name"], NO_CHANGE)]
     left = len(part) - acted
     unchanged = f"; the other {left} were left unchanged and count as such" if left else ""
+    tires = part["tire"].nunique()
+    uncertain = f" With {tires} tires, both figures are uncertain." if tires < _FEW else ""
     return [
         f"{_subject(str(best['name']))}, the best translator, brings the RMS error of lateral force from "
         f"{before:,.0f} N to {rms[best['name']]:,.0f} N ({rms[best['name']] / before:.0%}) on the "
-        f"{part['tire'].nunique()} tires of set {name}, which no translator has seen. The floor is "
-        f"{rms[FLOOR]:,.0f} N ({rms[FLOOR] / before:.0%}): {target} measuring the same tires again.",
+        f"{tires} tires of set {name}, which no translator has seen. The floor is "
+        f"{rms[FLOOR]:,.0f} N ({rms[FLOOR] / before:.0%}): {target} measuring the same tires again."
+        f"{uncertain}",
         f"In set {name}, it translated {acted} of {len(part)} files{unchanged}.",
         *(
             f"{_subject(who)} leaves {rms[who]:,.0f} N ({rms[who] / before:.0%} of doing nothing)."

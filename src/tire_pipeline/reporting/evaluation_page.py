@@ -23,7 +23,7 @@ _TABLES = [
     ),
     ("tables/evaluation_table.csv", "evaluation_table.csv", "errors of every file"),
     ("tables/ingest_report.csv", "ingest_report.csv", "every file: read, or set aside with line and reason"),
-    ("tables/filter_report.csv", "filter_report.csv", "what was dropped before training, and why"),
+    ("tables/filter_report.csv", "filter_report.csv", "what was removed before training, and why"),
     ("tables/classifier_scores.csv", "classifier_scores.csv", "accuracy of every classifier on both splits"),
 ]
 
@@ -59,7 +59,7 @@ def force_figure(translated_table: pd.DataFrame, references: pd.DataFrame, best:
         axes[-1, column].set_xlabel("slip angle / deg")
     axes[0, 0].set_ylabel("lateral force at 6 kN / kN")
     if rows > 1:
-        axes[1, 0].set_ylabel("the same less the target's / N")
+        axes[1, 0].set_ylabel("difference from the target / N")
     handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=5, fontsize=8)
     return figure
@@ -152,7 +152,7 @@ def _files(ingest: dict[str, Any], dropped: pd.DataFrame, table: pd.DataFrame) -
     ]
     if len(dropped):
         reasons = dropped.groupby("reason").size().rename("files").reset_index()
-        parts.append(Table(reasons, "Why files were dropped; filter_report.csv names each."))
+        parts.append(Table(reasons, "Why files were removed; filter_report.csv names each."))
     if ingest["set_aside"]:
         text = f"{ingest['set_aside']} files could not be read; ingest_report.csv gives line and reason."
         parts.append(Text([text]))
@@ -178,7 +178,9 @@ def _classifier(table: pd.DataFrame, scores: pd.DataFrame, per_class: pd.DataFra
     for name in ("accuracy", "± accuracy", "F1", "± F1"):
         shown[name] = shown[name].round(3)
     caption = "Accuracy and weighted F1, mean and spread of several trainings."
-    detail = per_class.assign(split=per_class["split"].map(words))
+    detail = per_class.assign(split=per_class["split"].map(words)).rename(
+        columns={"f1": "F1", "rows": "files"}
+    )
     return [
         Text([said], heading="Who measured a tire?"),
         Table(shown, caption),

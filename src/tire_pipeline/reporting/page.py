@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from urllib.parse import quote
@@ -9,6 +10,7 @@ from urllib.parse import quote
 import pandas as pd
 from markupsafe import Markup
 from matplotlib.figure import Figure as MplFigure
+from pandas.api.types import is_bool_dtype, is_numeric_dtype
 
 from tire_pipeline.drawing import inline_svg, page_style
 from tire_pipeline.safe_page import page_environment, policy
@@ -43,7 +45,8 @@ class Table:
     caption : str
     heading : str
     digits : int
-        Significant digits of numbers.
+        Significant digits of numbers. A column has the same decimals in each row, unless a small value
+        would lose by it.
     most_rows : int
         Further rows are counted, not shown.
     below : str
@@ -67,14 +70,28 @@ class Table:
     def rows(self) -> list[tuple[list[tuple[str, bool]], str]]:
         """Cells as (text, is a number), and the text below."""
         shown = self.frame.head(self.most_rows)
+        decimals = [_decimals(shown[name].tolist(), self.digits) for name in self.columns]
         cells = [
-            [_cell(value, self.digits) for value in row]
+            [_cell(value, self.digits, places) for value, places in zip(row, decimals, strict=True)]
             for row in shown[self.columns].itertuples(index=False)
         ]
         below = (
             [_cell(value, self.digits)[0] for value in shown[self.below]] if self.below else [""] * len(cells)
         )
         return list(zip(cells, below, strict=True))
+
+    @property
+    def heads(self) -> list[tuple[str, bool]]:
+        """Names of the columns, and whether numbers stand below."""
+        return [
+            (
+                str(name),
+                bool(len(self.frame))
+                and is_numeric_dtype(self.frame[name])
+                and not is_bool_dtype(self.frame[name]),
+            )
+            for name in self.columns
+        ]
 
     @property
     def left_out(self) -> int:
@@ -196,14 +213,37 @@ def render_page(
     )
 
 
-def _cell(value: object, digits: int) -> tuple[str, bool]:
+_LOSS = 0.05
+"""Share of a value that may be lost where a column is given the decimals of its largest value."""
+
+
+def _decimals(values: Sequence[object], digits: int) -> int | None:
+    """Decimals that suit a whole column of floats; None if its values are of too different sizes.
+
+    Examples
+    --------
+    >>> _decimals([0.1304, 0.143], 3), _decimals([1.0, 0.926], 3), _decimals([250.0, 0.02], 3)
+    (3, 2, None)
+    """
+    sizes = [abs(value) for value in values if isinstance(value, float) and math.isfinite(value)]
+    largest = max(sizes, default=0.0)
+    if not largest or all(size.is_integer() for size in sizes):
+        return None
+    decimals = min(max(digits - 1 - math.floor(math.log10(largest)), 0), digits)
+    lost = any(abs(round(size, decimals) - size) > _LOSS * size for size in sizes)
+    return None if lost else decimals
+
+
+def _cell(value: object, digits: int, decimals: int | None = None) -> tuple[str, bool]:
     if isinstance(value, bool):
         return ("yes" if value else "no", False)
     if isinstance(value, float):
         if value != value:
             return ("–", True)
+        if decimals is not None and math.isfinite(value):
+            return (f"{value:,.{decimals}f}", True)
         whole = abs(value) >= 10**digits
-        return (f"{value:,.0f}" if whole else f"{value:.{digits}g}", True)
+        return (f"{value:,.0f}" if whole else f"{value:,.{digits}g}", True)
     if isinstance(value, int):
         return (f"{value:,}", True)
     return (str(value), False)

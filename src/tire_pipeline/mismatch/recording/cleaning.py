@@ -23,6 +23,9 @@ _SURE = float(np.log(20.0))
 """Log evidence from which the smooth channel is taken: 20 to 1. Without it a channel stays as recorded."""
 
 
+_UNITS = {"slip_angle": "rad", "camber": "rad", "normal_load": "N", "speed": "m/s", "pressure": "Pa"}
+
+
 @dataclass(frozen=True)
 class Cleaning:
     """What was done to one input channel.
@@ -53,7 +56,9 @@ class Cleaning:
             "the force does not tell" if np.isnan(self.felt) else f"the force follows {self.felt:.0%} of it"
         )
         done = "sensor noise was taken off" if self.smoothed else "used as recorded"
-        return f"{self.channel}: {done} (fluctuation {self.removed:.3g}, {share})"
+        unit = _UNITS.get(self.channel, "")
+        size = f"{self.removed:.2g} {unit}".strip()
+        return f"{self.channel}: {done} (fluctuation {size} RMS, {share})"
 
 
 def clean(

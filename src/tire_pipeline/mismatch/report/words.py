@@ -90,12 +90,13 @@ def in_words(text: str) -> str:
 
 
 def condition(text: str) -> str:
-    """Return ``|slip angle| above 4.2 deg`` from ``|slip_angle| above 0.0735 rad``."""
+    """Return ``slip angle beyond ±4.2 deg`` from ``|slip_angle| above 0.0735 rad``."""
     found = re.fullmatch(r"\|(\w+)\| above (\S+) \S+", text)
     if found is None:
         return text
     value = float(found[2])
-    return f"|{label(found[1])}| above {shown(found[1], value)}"
+    beyond = "above " if found[1] == "normal_load" else "beyond ±"
+    return f"{label(found[1])} {beyond}{shown(found[1], value)}"
 
 
 def not_looked_for(absent: Mapping[str, str]) -> str:
