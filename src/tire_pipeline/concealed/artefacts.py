@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from scipy.signal import lfilter
+import scipy
 
 UNIT_ERRORS: dict[str, dict[str, float]] = {
     "slip_angle": {"deg": 180.0 / np.pi},
@@ -150,5 +150,5 @@ def _low_pass(x: np.ndarray, constant: float, dt: float) -> np.ndarray:
     """Two equal first-order filters, together with the time constant given, s."""
     b = 1.0 - np.exp(-2.0 * dt / constant)
     for _ in range(2):
-        x, _state = lfilter([b], [1.0, b - 1.0], x, zi=[(1.0 - b) * x[0]])
+        x, _state = scipy.signal.lfilter([b], [1.0, b - 1.0], x, zi=[(1.0 - b) * x[0]])
     return np.asarray(x)

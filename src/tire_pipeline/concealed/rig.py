@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from scipy.signal import lfilter
+import scipy
 
 from tire_pipeline.concealed import brush
 from tire_pipeline.concealed.artefacts import ArtefactDetails, apply_artefact
@@ -89,7 +89,7 @@ def add_noise(frame: pd.DataFrame, noise: SensorNoise, rng: np.random.Generator)
             continue
         rho = noise.colour[channel]
         white = rng.standard_normal(n)
-        slow = lfilter([np.sqrt(1.0 - rho**2)], [1.0, -rho], rng.standard_normal(n))
+        slow = scipy.signal.lfilter([np.sqrt(1.0 - rho**2)], [1.0, -rho], rng.standard_normal(n))
         share = noise.coloured_share
         total = np.sqrt(1.0 - share) * white + np.sqrt(share) * slow
         out[channel] = out[channel].to_numpy() + noise.sigma[channel] * total

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import pandas as pd
-from scipy.signal import lfilter
+import scipy
 
 from tire_pipeline.concealed.names import HEAT_OR_WEAR
 
@@ -345,7 +345,7 @@ def _held_out_levels(plan: CasePlan, rng: np.random.Generator) -> dict[str, tupl
 def _follow(target: np.ndarray, samples: float) -> np.ndarray:
     """First-order lag of a rig actuator, starting at rest on the first target."""
     b = 1.0 - np.exp(-1.0 / samples)
-    out, _ = lfilter([b], [1.0, b - 1.0], target, zi=[(1.0 - b) * target[0]])
+    out, _ = scipy.signal.lfilter([b], [1.0, b - 1.0], target, zi=[(1.0 - b) * target[0]])
     return np.asarray(out)
 
 

@@ -12,7 +12,6 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.stats import binomtest
 
 from tire_pipeline.concealed.answers import Answer, EffectTruth
 from tire_pipeline.concealed.measures import calibration_error, interval_iou
@@ -311,6 +310,8 @@ def share_row(
     at_least: float | None = None,
 ) -> dict[str, Any]:
     """Proportion with Wilson's 95% interval."""
+    from scipy.stats import binomtest
+
     n = len(hits)
     k = int(np.sum(hits)) if n else 0
     low, high = binomtest(k, n).proportion_ci(0.95, method="wilson") if n else (float("nan"),) * 2

@@ -7,8 +7,8 @@ the others act on the slip angle before the tire or on the forces after it.
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numba import njit
-from scipy.signal import cont2discrete, lfilter
 
 UNKNOWN_GUESS: dict[str, float] = {
     "backlash": 0.003,
@@ -77,7 +77,7 @@ def act_on_forces(
         frequency = 6.0 + 9.0 * character[0] + 0.6 * np.sin(0.9 * time)
         wave = np.sin(2.0 * np.pi * np.cumsum(frequency) * dt + character[3])
         slid = np.abs(slip_angle) - (0.07 + 0.04 * character[1])
-        growing = lfilter([0.1], [1.0, -0.9], np.clip(slid / 0.02, 0.0, 1.0))
+        growing = scipy.signal.lfilter([0.1], [1.0, -0.9], np.clip(slid / 0.02, 0.0, 1.0))
         return fy + strength * growing * wave * normal_load / nominal_load
     if name == "drum_seam":
         round_the_drum = np.cumsum(speed) * dt / (4.0 + 6.0 * character[0]) + character[3]
@@ -94,5 +94,5 @@ def _ring(force: np.ndarray, frequency: float, damping: float, dt: float) -> np.
     """What a lightly damped mode of the rig adds to a force: its high-passed answer, N."""
     w = 2.0 * np.pi * frequency
     system = ([1.0, 0.0, 0.0], [1.0, 2.0 * damping * w, w * w])
-    b, a, _ = cont2discrete(system, dt, method="bilinear")
-    return np.asarray(lfilter(np.ravel(b), a, force - force[0]))
+    b, a, _ = scipy.signal.cont2discrete(system, dt, method="bilinear")
+    return np.asarray(scipy.signal.lfilter(np.ravel(b), a, force - force[0]))

@@ -12,7 +12,7 @@ from tire_pipeline.representations import representation_from_state
 from tire_pipeline.tasks import Map, Task, all_done, in_turn
 from tire_pipeline.tire_table import Binning
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
-from tire_pipeline.translation.learned import LikelihoodAgent
+from tire_pipeline.translation.base import make_translator
 from tire_pipeline.translation.parameters import TrainAgentParameters
 from tire_pipeline.translation.thesis.translator import AgentTranslator
 
@@ -127,6 +127,6 @@ def train_our_agent(
     dict
         State of the translator: densities and policy, and ``nominal_load`` (N).
     """
-    agent = LikelihoodAgent(updates=parameters.likelihood_updates)
+    agent = make_translator("likelihood_agent", updates=parameters.likelihood_updates)
     agent.fit(normalized_table, target=target_category, seed=seed)
     return {**agent.to_state(), "nominal_load": normalize.nominal_load}

@@ -7,8 +7,6 @@ import warnings
 import numpy as np
 import pandas as pd
 from scipy.optimize import minimize
-from sklearn.gaussian_process import GaussianProcessRegressor
-from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
 
 from tire_pipeline.concealed.baselines.report import BaselineReport, fit_entry
 from tire_pipeline.concealed.clean_run import residual
@@ -50,6 +48,9 @@ def explain_gaussian_process(
     BaselineReport
         Without effects; verdict "unexplained" where the residual could be reduced by a tenth.
     """
+    from sklearn.gaussian_process import GaussianProcessRegressor
+    from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
+
     rng = np.random.default_rng(seed)
     left = residual(tire, recording)
     channels = [c for c in _INPUTS if c in recording]

@@ -15,7 +15,7 @@ from typing import TypeAlias
 
 import numpy as np
 import pandas as pd
-from scipy.signal import lfilter
+import scipy
 
 from tire_pipeline.concealed.artefacts import UNIT_ERRORS
 from tire_pipeline.concealed.clean_run import model_forces
@@ -270,7 +270,7 @@ def _low_pass(frame: Frame, pieces: np.ndarray, x: float, _s: RecordedSession, _
         b = 1.0 - np.exp(-2.0 * float(np.median(np.diff(time[here]))) / x)
         y = force[here]
         for _ in range(2):
-            y, _state = lfilter([b], [1.0, b - 1.0], y, zi=[(1.0 - b) * y[0]])
+            y, _state = scipy.signal.lfilter([b], [1.0, b - 1.0], y, zi=[(1.0 - b) * y[0]])
         out[here] = y
     return frame.assign(fy=out)
 

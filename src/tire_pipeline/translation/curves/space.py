@@ -15,7 +15,6 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 from scipy.linalg import eigh
-from sklearn.covariance import MinCovDet
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.translation.curves.features import GROUPS, LOADS, encode
@@ -290,6 +289,8 @@ def _robust_location(scores: np.ndarray, cell: np.ndarray) -> np.ndarray:
 
 def _noise_covariance(apart: np.ndarray, cell: np.ndarray) -> np.ndarray | None:
     """Covariance of one file about its cell without worn and odd ones; None if too few repeat."""
+    from sklearn.covariance import MinCovDet
+
     count = np.bincount(cell)
     several = count[cell] >= _SEVERAL
     if several.sum() < 10 * apart.shape[1]:

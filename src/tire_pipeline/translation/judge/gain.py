@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.stats import norm
+from scipy.special import ndtr
 
 from tire_pipeline.translation.curves.space import PARTS
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
@@ -45,7 +45,7 @@ def expected_gain(model: CurveMixedModel, found: Prediction) -> tuple[np.ndarray
         along = step @ weight
         move += (step * along).sum(axis=1)
         move_variance += (along**2 * found.variance[:, place]).sum(axis=1)
-    harm = norm.cdf(-0.5 * move / np.sqrt(np.maximum(move_variance, 1e-12)))
+    harm = ndtr(-0.5 * move / np.sqrt(np.maximum(move_variance, 1e-12)))
     return after / np.maximum(after + move, 1e-12), harm
 
 

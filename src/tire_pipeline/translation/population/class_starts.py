@@ -9,8 +9,6 @@ The evidence decides between the tops.
 from __future__ import annotations
 
 import numpy as np
-from sklearn.cluster import KMeans
-from sklearn.mixture import GaussianMixture
 
 from tire_pipeline.translation.population.class_input import ClassSearchInput, per_tire
 from tire_pipeline.translation.population.classes import fit_shares, log_shares
@@ -65,12 +63,20 @@ def _unexplained(question: ClassSearchInput) -> np.ndarray:
 
 
 def _groups(gap: np.ndarray, count: int, seed: int) -> np.ndarray:
+    from sklearn.mixture import GaussianMixture
+
     mixture = GaussianMixture(count, covariance_type="diag", n_init=_TRIES, random_state=seed)
     return np.asarray(mixture.fit(gap).predict_proba(gap))
 
 
+def _nearest_mean(gap: np.ndarray, count: int, seed: int) -> np.ndarray:
+    from sklearn.cluster import KMeans
+
+    return np.asarray(KMeans(count, n_init=_TRIES, random_state=seed).fit_predict(gap))
+
+
 def _of_all(gap: np.ndarray, count: int, seed: int) -> list[np.ndarray]:
-    means = KMeans(count, n_init=_TRIES, random_state=seed).fit_predict(gap)
+    means = _nearest_mean(gap, count, seed)
     return [np.eye(count)[means], _groups(gap, count, seed)]
 
 
@@ -102,9 +108,7 @@ def _split(gap: np.ndarray, organisation: np.ndarray, fewer: np.ndarray, seed: i
         for category in np.unique(organisation[own]):
             mine = organisation[own] == category
             apart[mine] -= apart[mine].mean(axis=0)
-        half = KMeans(2, n_init=_TRIES, random_state=seed).fit_predict(
-            apart / np.maximum(apart.std(axis=0), 1e-9)
-        )
+        half = _nearest_mean(apart / np.maximum(apart.std(axis=0), 1e-9), 2, seed)
         cut = np.concatenate([fewer, np.zeros((len(fewer), 1))], axis=1)
         moved = own[half == 1]
         cut[moved, -1], cut[moved, k] = fewer[moved, k], 0.0

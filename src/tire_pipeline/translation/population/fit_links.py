@@ -14,8 +14,6 @@ from typing import Any, Self
 
 import numpy as np
 from scipy.special import ndtri
-from scipy.stats import rankdata
-from sklearn.covariance import LedoitWolf
 
 LINKED = (("cornering stiffness", "lateral shape"), ("slip stiffness", "longitudinal shape"))
 """Parts whose errors belong together."""
@@ -134,12 +132,17 @@ def _varies(found: Deviations, block: np.ndarray) -> np.ndarray:
 
 def _correlation(rows: np.ndarray) -> np.ndarray:
     """Shrunk correlation of normal scores: outliers count by their rank only (Ledoit and Wolf 2004)."""
+    from scipy.stats import rankdata
+    from sklearn.covariance import LedoitWolf
+
     normal = ndtri((rankdata(rows, axis=0) - 0.5) / len(rows))
     return _unit(LedoitWolf(assume_centered=True).fit(normal).covariance_)
 
 
 def _own_correlation(found: Deviations, block: np.ndarray, error: np.ndarray) -> np.ndarray:
     """Correlation of the cells without that of their errors."""
+    from sklearn.covariance import LedoitWolf
+
     own, noise = found.own[block], found.error[block]
     spread = np.sqrt(own + noise)
     bounded = np.clip(found.cells[:, block] / spread, -_BOUND, _BOUND)
