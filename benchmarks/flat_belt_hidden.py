@@ -42,8 +42,15 @@ class Row:
     names: tuple[str, ...]
     before: float
     after: float
-    refitted: float
     seconds: float
+    given: pd.DataFrame
+    left: pd.DataFrame
+
+    @property
+    def refitted(self) -> float:
+        """RMS error at the loads left out of a formula that is fitted to the rows that were explained, N."""
+        tire = fit_magic_formula(self.given[["slip_angle", "camber", "normal_load", "fy"]]).model
+        return rms(self.left["fy"] - forces(tire, self.left))
 
 
 @cache
@@ -89,8 +96,6 @@ def judge(hidden: str, rate: int, temperature: bool) -> Row:
     begin = time.perf_counter()
     report = explain_mismatch(tire, given)
     seconds = time.perf_counter() - begin
-    inputs = ["slip_angle", "camber", "normal_load", "fy"]
-    refitted = fit_magic_formula(given[inputs]).model
     return Row(
         hidden,
         rate,
@@ -99,8 +104,9 @@ def judge(hidden: str, rate: int, temperature: bool) -> Row:
         tuple(e.name for e in report.effects),
         rms(left["fy"] - report.corrected.as_it_came.predict(left)["fy"]),
         rms(left["fy"] - report.corrected.predict(left)["fy"]),
-        rms(left["fy"] - forces(refitted, left)),
         seconds,
+        given,
+        left,
     )
 
 

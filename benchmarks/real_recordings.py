@@ -138,6 +138,7 @@ def dart_other_half(half: int = 0, min_speed: float | None = None) -> tuple[Mism
     return explain_mismatch(dart_tire(half, min_speed), other), other
 
 
+@cache
 def dart_repair(
     fitted: int, half: int = 0, min_speed: float | None = None
 ) -> tuple[MismatchReport, float, float]:

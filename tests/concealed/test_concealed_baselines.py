@@ -1,6 +1,7 @@
 """The baselines: same form of report, and what they can and cannot do."""
 
 import json
+from functools import cache
 
 import numpy as np
 import pytest
@@ -30,10 +31,17 @@ def pressure():
     return case_with("inflation_pressure", "single", 1.5)
 
 
-@pytest.mark.parametrize("name", list(BASELINES))
-def test_reports_have_the_form_that_the_scorer_reads(name, pressure):
+@pytest.fixture(scope="module")
+def answered(pressure):
+    """What a baseline says of the case, made once for each."""
     case, _ = pressure
-    report = BASELINES[name](case.tire, case.recording)
+    return cache(lambda name: BASELINES[name](case.tire, case.recording))
+
+
+@pytest.mark.parametrize("name", list(BASELINES))
+def test_reports_have_the_form_that_the_scorer_reads(name, pressure, answered):
+    case, _ = pressure
+    report = answered(name)
     data = json.loads(json.dumps(report.to_dict()))
     assert set(data) == {"verdict", "effects", "fit", "next_experiment"}
     for effect in data["effects"]:
@@ -43,16 +51,15 @@ def test_reports_have_the_form_that_the_scorer_reads(name, pressure):
     assert list(report.predict(case.held_out).columns) == ["fx", "fy"]
 
 
-def test_stepwise_and_sindy_find_a_strong_pressure_effect(pressure):
-    case, _ = pressure
+def test_stepwise_and_sindy_find_a_strong_pressure_effect(answered):
     for name in ("bic_stepwise", "pysindy"):
-        effects = BASELINES[name](case.tire, case.recording).to_dict()["effects"]
+        effects = answered(name).to_dict()["effects"]
         assert "inflation_pressure" in [e["name"] for e in effects]
 
 
-def test_a_gaussian_process_improves_unseen_data_and_names_nothing(pressure):
+def test_a_gaussian_process_improves_unseen_data_and_names_nothing(pressure, answered):
     case, _ = pressure
-    report = BASELINES["gaussian_process"](case.tire, case.recording)
+    report = answered("gaussian_process")
     assert report.effects == []
     errors = held_out_errors(case, report.predict)
     assert errors["fy"]["rms_after"] < 0.9 * errors["fy"]["rms_before"]

@@ -20,7 +20,9 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory) -> Path:
-    """The site, built from this working copy."""
+    """The site, built from this working copy, or what `make docs` has built before: TIRE_PIPELINE_SITE."""
+    if "TIRE_PIPELINE_SITE" in os.environ:
+        return ROOT / os.environ["TIRE_PIPELINE_SITE"]
     pytest.importorskip("material", reason="pip install -e .[docs]")
     folder = tmp_path_factory.mktemp("site")
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(folder)]

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from filelock import FileLock
 
 ROOT = Path(__file__).resolve().parents[2]
 Run = Callable[..., subprocess.CompletedProcess[str]]
@@ -41,22 +42,31 @@ def kedro(folder: Path, *arguments: str, **environment: str) -> subprocess.Compl
     )
 
 
-@pytest.fixture(scope="session")
-def small_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of one whole small run: fleet, then the eight pipelines."""
-    folder = tmp_path_factory.mktemp("small_run")
-    made = kedro(folder, "--pipeline", "make_fleet")
-    assert made.returncode == 0, made.stdout + made.stderr
-    done = kedro(folder)
-    assert done.returncode == 0, done.stdout + done.stderr
-    (folder / "stdout.txt").write_text(done.stdout)
+def fleet_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a small fleet, nothing run on it yet; made once for all processes of a test run."""
+    base = tmp_path_factory.getbasetemp()
+    shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    folder = shared / "small_fleet"
+    with FileLock(shared / "small_fleet.lock"):
+        if not (folder / "made").exists():
+            made = kedro(folder, "--pipeline", "make_fleet")
+            assert made.returncode == 0, made.stdout + made.stderr
+            (folder / "made").touch()
     return folder
 
 
 @pytest.fixture(scope="session")
 def small_fleet(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of a small fleet, nothing run on it yet."""
-    folder = tmp_path_factory.mktemp("small_fleet")
-    made = kedro(folder, "--pipeline", "make_fleet")
-    assert made.returncode == 0, made.stdout + made.stderr
+    """The folder of a small fleet; whoever changes something copies it."""
+    return fleet_folder(tmp_path_factory)
+
+
+@pytest.fixture(scope="session")
+def small_run(tmp_path_factory: pytest.TempPathFactory, small_fleet: Path) -> Path:
+    """The folder of one whole small run: fleet, then the eight pipelines."""
+    folder = tmp_path_factory.mktemp("small_run")
+    shutil.copytree(small_fleet / "data", folder / "data")
+    done = kedro(folder)
+    assert done.returncode == 0, done.stdout + done.stderr
+    (folder / "stdout.txt").write_text(done.stdout)
     return folder

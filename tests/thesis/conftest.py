@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -47,13 +48,9 @@ def interrupted_run(tmp_path_factory: pytest.TempPathFactory) -> InterruptedRun:
     """The two cells of the small environment: killed when the first agent is stored, then run again."""
     helper = _module(TESTS / "pipelines" / "conftest_kedro.py", "conftest_kedro_for_thesis")
     folder = tmp_path_factory.mktemp("thesis_run")
-    steps = (
-        ("--pipeline", "make_fleet"),
-        ("--pipelines", "ingest_tir,dedupe_filter,normalize,represent,bin"),
-    )
-    for arguments in steps:
-        made = helper.kedro(folder, *arguments)
-        assert made.returncode == 0, made.stdout + made.stderr
+    shutil.copytree(helper.fleet_folder(tmp_path_factory) / "data", folder / "data")
+    made = helper.kedro(folder, "--pipelines", "ingest_tir,dedupe_filter,normalize,represent,bin")
+    assert made.returncode == 0, made.stdout + made.stderr
     command = [sys.executable, "-m", "kedro", "run", "--env", "small", "--conf-source", str(folder / "conf")]
     running = subprocess.Popen(
         [*command, "--pipeline", "reproduce_thesis", "--namespaces", "representations,agents,floor"],

@@ -46,16 +46,21 @@ def reports(tmp_path_factory):
     return folder
 
 
+@pytest.fixture(scope="module")
+def opened(reports, tmp_path_factory):
+    with browser(tmp_path_factory.mktemp("browser")) as driver:
+        yield driver
+
+
 @pytest.fixture
-def driver(tmp_path):
-    with browser(tmp_path) as opened:
-        yield opened
-        assert [entry for entry in opened.get_log("browser") if entry["level"] == "SEVERE"] == []
-        messages = [json.loads(entry["message"])["message"] for entry in opened.get_log("performance")]
-        asked = [
-            m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"
-        ]
-        assert [address for address in asked if address.startswith(("http", "ws"))] == []
+def driver(opened):
+    """The browser; after a test it has asked nobody for anything, and nothing has gone wrong."""
+    yield opened
+    opened.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": []})
+    assert [entry for entry in opened.get_log("browser") if entry["level"] == "SEVERE"] == []
+    messages = [json.loads(entry["message"])["message"] for entry in opened.get_log("performance")]
+    asked = [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
+    assert [address for address in asked if address.startswith(("http", "ws"))] == []
 
 
 def _text(driver) -> str:
