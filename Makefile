@@ -19,11 +19,11 @@ run: install
 
 # For daily work. Run the tests of the folder that you changed besides.
 quick: install
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "not slow and not long" -n 2 --dist loadfile
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "not slow and not long" -n 2 --dist loadfile --no-loadscope-reorder
 
-# Two processes, each file of tests in one of them.
+# Two processes, each file of tests in one of them, in the order of tests/conftest.py.
 test: install
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "not long" -n 2 --dist loadfile
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "not long" -n 2 --dist loadfile --no-loadscope-reorder
 
 long: install
 	$(BIN)/python -m pytest -m long

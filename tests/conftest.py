@@ -15,6 +15,27 @@ _SLOW_FOLDERS = frozenset(
 )
 """Whole runs, browsers, simulators and explanations. Elsewhere the slow files say so themselves."""
 
+_LONGEST_FIRST = (
+    "retraining/test_retraining_runs.py",
+    "pipelines/test_pipelines_bad_input.py",
+    "pipelines/test_pipelines_public_files.py",
+    "thesis/test_thesis_run.py",
+    "mismatch/test_mismatch_real_recordings.py",
+    "mismatch/test_mismatch_questions.py",
+    "notebooks/test_notebooks_run.py",
+    "pipelines/test_pipelines_small_run.py",
+    "mismatch/test_mismatch_search.py",
+    "mismatch/test_mismatch_explain.py",
+    "mismatch/test_mismatch_few_channels.py",
+    "mismatch/test_mismatch_rates.py",
+    "translation/test_translation_bias_translators.py",
+    "translation/test_batch_translator.py",
+    "docs/test_docs_site.py",
+    "viz/test_viz_browser.py",
+    "concealed/test_concealed_second.py",
+)
+"""Files that take long: begun last, they would leave all but one process with nothing to do."""
+
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     """Do not import the slow folders where no slow test is wanted."""
@@ -23,7 +44,7 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the known misses as expected failures, and the slow folders as slow."""
+    """Mark known misses as expected failures and slow folders as slow; begin with what takes longest."""
     known = {line for line in _KNOWN.read_text(encoding="utf-8").splitlines() if line.startswith("tests/")}
     for item in items:
         if item.nodeid in known:
@@ -31,3 +52,5 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         folder = item.path.relative_to(_HERE).parts[0]
         if folder in _SLOW_FOLDERS:
             item.add_marker(pytest.mark.slow)
+    place = {name: number for number, name in enumerate(_LONGEST_FIRST)}
+    items.sort(key=lambda item: place.get(item.path.relative_to(_HERE).as_posix(), len(place)))
