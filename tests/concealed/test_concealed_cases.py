@@ -98,8 +98,9 @@ def test_find_strength_meets_what_was_wanted_and_respects_limits():
 
 
 @pytest.mark.slow
-def test_where_nothing_is_missing_the_recording_misfits_by_half_a_percent():
-    for seed in range(20):
+@pytest.mark.parametrize("seeds", [range(3), pytest.param(range(3, 20), marks=pytest.mark.long)])
+def test_where_nothing_is_missing_the_recording_misfits_by_half_a_percent(seeds):
+    for seed in seeds:
         case, answer = make_case(seed, "nothing")
         total = rms(residual(case.tire, case.recording))
         misfit = np.sqrt(total**2 - answer.noise**2)
@@ -109,7 +110,28 @@ def test_where_nothing_is_missing_the_recording_misfits_by_half_a_percent():
             assert errors["rms_oracle"] == pytest.approx(errors["rms_before"], rel=1e-9)
 
 
-@pytest.mark.slow
+def check_sizes(answer):
+    """Sizes are those asked for, and who knows what is missing predicts better."""
+    for effect in answer.effects:
+        if effect.name not in ("sign_convention", "unit_error", "stuck_channel"):
+            assert 0.5 <= effect.over_misfit <= 6.0
+    before = sum(o["rms_before"] ** 2 for o in answer.oracle.values())
+    best = sum(o["rms_oracle"] ** 2 for o in answer.oracle.values())
+    names = {e.name for e in answer.effects}
+    if names and min(e.over_misfit for e in answer.effects) > 3.0:
+        # a new tire is not worn, and a channel is stuck for a while only
+        assert best < before or names & {"wear", "stuck_channel"}, names
+
+
+def test_the_oracle_gains_by_a_large_effect(made):
+    large = [answer for _, answer in made if min((e.over_misfit for e in answer.effects), default=0.0) > 3.0]
+    assert len(large) >= 3
+    for answer in large:
+        if "clipping" not in {e.name for e in answer.effects}:  # no limit is reached in the other run
+            check_sizes(answer)
+
+
+@pytest.mark.long
 def test_every_effect_can_be_made_and_the_oracle_gains_by_it():
     seen: Counter[str] = Counter()
     weak = total = 0
@@ -120,13 +142,7 @@ def test_every_effect_can_be_made_and_the_oracle_gains_by_it():
             if effect.name not in ("sign_convention", "unit_error", "stuck_channel"):
                 total += 1
                 weak += effect.over_misfit < 2.0
-                assert 0.5 <= effect.over_misfit <= 6.0
-        before = sum(o["rms_before"] ** 2 for o in answer.oracle.values())
-        best = sum(o["rms_oracle"] ** 2 for o in answer.oracle.values())
-        names = {e.name for e in answer.effects}
-        if names and min(e.over_misfit for e in answer.effects) > 3.0:
-            # a new tire is not worn, and a channel is stuck for a while only
-            assert best < before or names & {"wear", "stuck_channel"}, names
+        check_sizes(answer)
     assert len(seen) > 12
     assert weak / total > 1.0 / 3.0
 

@@ -58,10 +58,11 @@ def test_every_listed_sweep_exists_and_is_never_sealed(recordings):
         assert len(here) + len(pool(recordings, source, "development")) == len(sweeps(recordings, source))
 
 
+@pytest.mark.parametrize("count", [4, pytest.param(12, marks=pytest.mark.long)])
 @pytest.mark.parametrize("source", SOURCES)
-def test_a_case_shows_and_holds_out_different_sweeps_of_its_pool(recordings, source):
+def test_a_case_shows_and_holds_out_different_sweeps_of_its_pool(recordings, source, count):
     allowed = {s.sha256 for s in pool(recordings, source, "sealed")}
-    for plan in real_plan(12, 3, source=source):
+    for plan in real_plan(count, 3, source=source):
         case, answer = make_real_case(plan, recordings)
         assert not set(answer.shown) & set(answer.held_out)
         assert {*answer.fit, *answer.shown, *answer.held_out} <= allowed

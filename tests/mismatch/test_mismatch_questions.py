@@ -80,7 +80,7 @@ def cambered(tire):
     return leaned, frame.assign(fy=fy + 20.0 * rng.standard_normal(t.size))
 
 
-@pytest.mark.parametrize("gain", [1.0, 1.07])
+@pytest.mark.parametrize("gain", [1.07, pytest.param(1.0, marks=pytest.mark.long)])
 @pytest.mark.parametrize(
     "turned",
     [("slip_angle", "fy"), ("fy",), ("camber",), ("slip_angle",), ("camber", "fy"), ("slip_angle", "camber")],
@@ -344,9 +344,10 @@ def test_a_state_of_the_same_tire_is_no_other_tire(tire, record, change):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["nothing", "single", "pair", "artefact", "ambiguous", "unknown"])
-def test_simulated_cases_raise_no_question(kind):
+@pytest.mark.parametrize("count", [1, pytest.param(10, marks=pytest.mark.long)])
+def test_simulated_cases_raise_no_question(kind, count):
     """Signs and units that are an artefact of the case aside."""
-    for seed in range(880001, 880011):
+    for seed in range(880001, 880001 + count):
         case, answer = make_case(seed, kind)
         question = prepare(case.tire, case.recording).question
         assert question is None or "sign_convention" in [e.name for e in answer.effects], (seed, question)

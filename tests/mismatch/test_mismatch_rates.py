@@ -113,8 +113,14 @@ WRONG = [
 ]
 
 
-@pytest.mark.parametrize(("channel", "factor"), WRONG)
-@pytest.mark.parametrize("rate", [2, 20, *(pytest.param(r, marks=pytest.mark.slow) for r in (5, 100, 500))])
+@pytest.mark.parametrize(
+    ("rate", "channel", "factor"),
+    [
+        pytest.param(rate, *wrong, marks=() if rate in (2, 20) or wrong is WRONG[2] else pytest.mark.long)
+        for rate in RATES
+        for wrong in WRONG
+    ],
+)
 def test_a_repair_brings_sweeps_that_it_was_not_made_for_nearer(rate, channel, factor):
     """Or nothing is repaired: where friction changed by a half, pound-force and kilogram-force are alike."""
     for tire, given, unseen in sources(rate):

@@ -29,6 +29,7 @@ def real():
     return module
 
 
+_LONG = pytest.mark.long
 DRAWS = range(20)
 """All draws that benchmarks/real_recordings.py prints; none is left out."""
 
@@ -40,23 +41,32 @@ def tydex_draws(real):
 
 
 @pytest.mark.slow
+def test_tydex_camber_of_a_few_draws(real):
+    draws = [real.tydex_camber(seed) for seed in range(4)]
+    assert all(after <= before for _, before, after in draws)
+    assert [real.names(report) for report, _, _ in draws] == [["camber"]] * len(draws)
+    shifts = np.array([report.effects[0].parameters["shift"][:2] for report, _, _ in draws])
+    assert (np.abs(shifts[:, 0] - np.median(shifts[:, 0])) < 2.0 * shifts[:, 1]).all()
+
+
+@pytest.mark.long
 def test_tydex_camber_is_found(real, tydex_draws):
     found = [real.names(report) == ["camber"] for report, _, _ in tydex_draws]
     assert np.mean(found) >= 0.9
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_tydex_camber_put_in_halves_the_error_of_held_out_points(tydex_draws):
     halved = [after < 0.5 * before for _, before, after in tydex_draws]
     assert np.mean(halved) >= 0.9
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_tydex_camber_never_makes_held_out_points_worse(tydex_draws):
     assert [after <= before for _, before, after in tydex_draws] == [True] * len(tydex_draws)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["shift", "thrust", "stiffness_loss"])
 def test_tydex_camber_is_the_same_whatever_is_held_out(real, tydex_draws, name):
     """Its thrust over load and its loss of friction were in or out by chance, and moved the others."""
@@ -68,7 +78,7 @@ def test_tydex_camber_is_the_same_whatever_is_held_out(real, tydex_draws, name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("half", [*range(10), "even", "odd"])
+@pytest.mark.parametrize("half", [0, "even", *(pytest.param(h, marks=_LONG) for h in (*range(1, 10), "odd"))])
 def test_tydex_halves_agree(real, half):
     assert real.tydex_halves(half).verdict == "agrees"
 
@@ -83,11 +93,12 @@ def test_dart_other_half_agrees(real, half):
 
 
 @pytest.mark.slow
-def test_what_too_few_points_show_is_no_agreement(real):
+@pytest.mark.parametrize("draws", [3, pytest.param(10, marks=_LONG)])
+def test_what_too_few_points_show_is_no_agreement(real, draws):
     """With half of the cambered points camber explains most; whether named or not, it is no agreement."""
     flat = real.flat_points()
     reports = []
-    for seed in range(10):
+    for seed in range(draws):
         kept = flat | (np.random.default_rng(seed).random(flat.size) >= 0.5)
         reports.append(explain_mismatch(real.tydex_tire(), real.tydex()[kept]))
     assert "agrees" not in [r.verdict for r in reports]
@@ -127,6 +138,9 @@ def test_dart_errors_grow_where_the_second_session_is_wrong(real):
     assert min(real.error(tire, r) for r in second) > 3.0 * max(errors)
 
 
+ON_THE_CAR = ("force in kN", "slip angle mirrored", "force off by 15% of the largest")
+
+
 def _cases():
     spec = importlib.util.spec_from_file_location("real_recordings_names", FILE)
     module = importlib.util.module_from_spec(spec)
@@ -135,7 +149,9 @@ def _cases():
         for what, (_, _, timed) in module.ARTEFACTS.items():
             if which == "tydex" and timed:
                 continue
-            yield pytest.param(which, what, id=f"{which}: {what}")
+            # What needs no time line is put into the points as well.
+            marks = () if which == "tydex" or timed or what in ON_THE_CAR else _LONG
+            yield pytest.param(which, what, id=f"{which}: {what}", marks=marks)
 
 
 @pytest.mark.slow

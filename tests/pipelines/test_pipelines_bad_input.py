@@ -75,9 +75,9 @@ def test_a_misspelt_parameter_is_named(tmp_path):
     ("option", "name"),
     [
         ("--pipeline", "ingest"),
-        ("--pipelines", "ingest"),
-        ("--pipeline", "story"),
-    ],  # story: kedro-viz's alone
+        pytest.param("--pipelines", "ingest", marks=pytest.mark.long),
+        pytest.param("--pipeline", "story", marks=pytest.mark.long),  # kedro-viz's alone
+    ],
 )
 def test_a_misspelt_pipeline_is_named_with_those_there_are(tmp_path, option, name):
     line = _one_line(kedro(tmp_path, option, name))

@@ -251,6 +251,7 @@ def pipeline(tmp_path):
     return zoo, kedro
 
 
+@pytest.mark.long
 def test_the_whole_pipeline_in_the_zoo(pipeline):
     zoo, kedro = pipeline
     book = zoo.book
