@@ -6,8 +6,10 @@ from pathlib import PurePosixPath
 
 import pandas as pd
 
+from tire_pipeline.mismatch.report.words import in_words
 from tire_pipeline.reporting import HOME, Links, Table, Text, render_page
 
+_ALWAYS = ("recording", "verdict", "effects")
 _FEW = 5
 """Of so many recordings a run says what was found in each."""
 
@@ -58,6 +60,10 @@ def _counted(shown: pd.DataFrame) -> str:
 
 def _in_one_table(shown: pd.DataFrame) -> Table:
     table = shown[["recording", "verdict", "effects", "alternatives", "held_out", "problem"]]
+    table = table.loc[:, [name in _ALWAYS or bool((table[name] != "").any()) for name in table.columns]]
+    table = table.assign(
+        **{name: table[name].map(in_words) for name in ("effects", "alternatives") if name in table}
+    )
     return Table(
         table.rename(columns={"held_out": "held out"}),
         "Effects are what the model left out, by their names; alternatives cannot be told from them by "

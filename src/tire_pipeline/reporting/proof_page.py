@@ -10,6 +10,7 @@ import pandas as pd
 from tire_pipeline.concealed.score_words import in_words, outcome
 from tire_pipeline.drawing import MARKERS, colour_of, new_figure
 from tire_pipeline.reporting import HOME, Figure, Table, Text, render_page
+from tire_pipeline.reporting.proof_tables import METHODS, groups, misses_table
 
 OWN = "explain_mismatch"
 Part = Text | Table | Figure
@@ -38,11 +39,9 @@ def _simulated(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, An
     ]
     parts: list[Part] = [Text(lines, emphasis=True), *_drawn(scores, "Simulated recordings")]
     parts += [_table(own, "All scores"), _beside(scores, "Beside the baselines")]
-    parts += _groups(details[OWN], "")
+    parts += groups(details[OWN], "", "the noise")
     if len(misses):
-        parts.append(
-            Table(misses.astype(str), "Cases with a wrong answer.", heading="Every miss", most_rows=400)
-        )
+        parts.append(misses_table(misses, "Cases with a wrong answer.", "Every miss"))
     return parts
 
 
@@ -73,16 +72,10 @@ def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -
     for source in own["source"].unique():
         parts.append(_table(own[own["source"] == source], f"Real recordings: {_SOURCES.get(source, source)}"))
     parts.append(_beside(scores[scores["source"] == "all"], "Real recordings: beside the baselines"))
-    parts += _groups(details, "Real recordings: ")
+    parts += groups(details, "Real recordings: ", "the misfit")
     if len(misses):
-        parts.append(
-            Table(
-                misses.astype(str),
-                "Cases with a wrong answer, or with a larger error on held-out sweeps.",
-                heading="Real recordings: every miss",
-                most_rows=400,
-            )
-        )
+        said = "Cases with a wrong answer, or with a larger error on held-out sweeps."
+        parts.append(misses_table(misses, said, "Real recordings: every miss"))
     return parts
 
 
@@ -137,7 +130,7 @@ def _drawn(scores: pd.DataFrame, what: str) -> list[Part]:
     for k, method in enumerate(others, start=1):
         values = aimed[aimed["method"] == method].set_index("name")["value"].reindex(names)
         look: dict[str, Any] = {"color": colour_of(k), "markerfacecolor": "none", "markersize": 5, "lw": 0}
-        axis.plot(values, y, marker=MARKERS[k], label=method.replace("_", " "), **look)
+        axis.plot(values, y, marker=MARKERS[k], label=METHODS.get(method, method), **look)
     ends = np.clip([own["value"] - own["low"], own["high"] - own["value"]], 0.0, None)
     axis.errorbar(own["value"], y, xerr=ends, fmt="o", color=colour_of(0), label="ours, 95% interval")
     bounds = [float(goal.split()[1]) for goal in own["target"]]
@@ -159,14 +152,6 @@ def _sign(goal: str) -> str:
 def _beside(scores: pd.DataFrame, heading: str) -> Table:
     wide = scores.pivot_table(index="name", columns="method", values="value", sort=False).reset_index()
     wide["name"] = wide["name"].map(in_words)
+    wide = wide.rename(columns=METHODS)
     caption = "All methods on the same cases, scored alike. A dash: the method gives no such answer."
     return Table(wide.rename(columns={"name": "score"}), caption, heading=heading)
-
-
-def _groups(details: dict[str, Any], before: str) -> list[Part]:
-    out: list[Part] = []
-    for key, words in (("by_strength", "By strength of the effect"), ("by_effect", "By effect")):
-        table = pd.DataFrame(details.get(key, [])).dropna(axis="columns", how="all")
-        if len(table):
-            out.append(Table(table, heading=before + (words.lower() if before else words)))
-    return out

@@ -35,7 +35,10 @@
     return made;
   }
   function number(value) {
-    return value === null ? "–" : Number(value.toPrecision(3)).toString();
+    return value === null ? "–" : value.toFixed(value < 10 ? 3 : 0);
+  }
+  function counted(value) {
+    return value.toLocaleString("en");
   }
   function percent(value) {
     return value === null ? "–" : Math.round(100 * value) + "%";
@@ -71,7 +74,7 @@
       if (row.detail) list.append(row.detail);
     }
     body.replaceChildren(list);
-    const all = shown.length === rows.length ? rows.length + " files" : shown.length + " of " + rows.length + " files";
+    const all = shown.length === rows.length ? counted(rows.length) + " files" : counted(shown.length) + " of " + counted(rows.length) + " files";
     field("count").textContent = shown.length > most ? all + ", the first " + most + " are shown" : all;
     field("more").hidden = shown.length <= most;
   }
