@@ -48,8 +48,9 @@ class Sweep:
         Means, N, rad, Pa; NaN where the pressure was not recorded. Camber to a tenth of a degree and
         pressure to 1 psi, so that equal levels compare as equal.
     sha256 : str
-        Of what was recorded: a drive's file, else time, slip angle, load and side force. What is computed from a
-        recording differs in the last digits from one processor to the next, and would have another hash there.
+        Of what was recorded: a drive's file, else time, slip angle, load and side force. What is computed
+        from a recording differs in the last digits from one processor to the next, and would have another
+        hash there.
     frame : pandas.DataFrame
         Canonical channels at the recording's own rate.
     """
