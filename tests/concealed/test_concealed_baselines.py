@@ -33,9 +33,10 @@ def pressure():
 
 @pytest.fixture(scope="module")
 def answered(pressure):
-    """What a baseline says of the case, made once for each."""
+    """What a baseline says of the case, made once for each; a whole formula is fitted to every tenth row."""
     case, _ = pressure
-    return cache(lambda name: BASELINES[name](case.tire, case.recording))
+    rows = {"refitted_formula": case.recording.iloc[::10]}
+    return cache(lambda name: BASELINES[name](case.tire, rows.get(name, case.recording)))
 
 
 @pytest.mark.parametrize("name", list(BASELINES))

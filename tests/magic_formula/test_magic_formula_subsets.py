@@ -3,9 +3,7 @@
 `benchmarks/fit_subsets.py` draws the subsets, and has found the least of a hundred of them.
 """
 
-import importlib.util
 import os
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -16,15 +14,14 @@ from tire_pipeline.magic_formula.fitting import fit_magic_formula
 
 pytestmark = pytest.mark.slow
 
-FILE = Path(__file__).resolve().parents[2] / "benchmarks" / "fit_subsets.py"
+BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
 
 
 @pytest.fixture(scope="module")
 def subsets():
-    spec = importlib.util.spec_from_file_location("fit_subsets", FILE)
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(str(BENCHMARKS))
+        import fit_subsets as module
     if not (module.SHARED / "recordings" / "calspan").is_dir() and not os.environ.get("CI"):
         pytest.skip(f"no recordings in {module.SHARED}")
     return module
@@ -48,7 +45,7 @@ def searched(module, part, fit, forces) -> dict[str, float]:
 
 def ratios(module, part, fit, forces) -> dict[str, float]:
     """RMS of the fit over the least that the benchmark has stored, by force."""
-    table = pd.read_csv(module.RESULTS)
+    table = pd.read_csv(module.RESULTS, dtype={"version": str})
     same = (table["seed"] == part.seed) & (table["version"] == fit.model.version)
     least = table[same].set_index("force")["least"]
     problems = {f: module.problem_of(fit.model, f, part.rows) for f in forces}
