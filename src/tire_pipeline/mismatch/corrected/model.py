@@ -303,8 +303,6 @@ def force_limits(findings: Iterable[Finding], outputs: Iterable[str]) -> dict[st
     """Return the range in which each clipped force is recorded, as recorded."""
     out = {}
     for finding in findings:
-        if finding.name == "clipping" and finding.channel in outputs:
-            ends = [value for value, _, _ in finding.parameters.values()]
-            below, above = [v for v in ends if v <= 0.0], [v for v in ends if v > 0.0]
-            out[finding.channel] = (max(below, default=-np.inf), min(above, default=np.inf))
+        if finding.limits is not None and finding.channel in outputs:
+            out[finding.channel] = finding.limits
     return out

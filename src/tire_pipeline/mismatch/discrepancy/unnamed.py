@@ -15,6 +15,7 @@ import numpy as np
 from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.form import Form
 from tire_pipeline.mismatch.discrepancy.repeating import repeating_forms
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import first_order, play
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
@@ -34,8 +35,10 @@ def constant_form(data: Data, changes: list[Change]) -> Form:
     h = 0.01
     now = simulate(data, changes)
     ways: dict[str, list[Array]] = {o: [] for o in data.outputs}
-    for name, parameter in (("friction_scale", "friction"), ("stiffness_scale", "stiffness")):
-        there = simulate(data, [*changes, (name, {parameter: h})])
+    for name, effect in catalogue().items():
+        if not effect.constant:
+            continue
+        there = simulate(data, [*changes, (name, {effect.constant: h})])
         for o in data.outputs:
             ways[o].append((there[o] - now[o]) / h)
     return Form("a constant", {o: np.column_stack(w) for o, w in ways.items()})

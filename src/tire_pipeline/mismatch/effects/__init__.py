@@ -5,15 +5,20 @@ from __future__ import annotations
 import importlib
 import pkgutil
 from functools import cache
+from importlib.metadata import entry_points
 
+from tire_pipeline.errors import DomainError
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, State
 
-__all__ = ["Effect", "Parameter", "State", "catalogue"]
+__all__ = ["Effect", "Parameter", "State", "catalogue", "register"]
+
+GROUP = "tire_pipeline.effects"
+"""Entry point under which an installed package offers effects of its own."""
 
 
 @cache
 def catalogue() -> dict[str, Effect]:
-    """Return all effects by name, found by listing this folder and those within.
+    """Return all effects by name: those of this folder and within, then those of installed packages.
 
     Examples
     --------
@@ -32,4 +37,37 @@ def catalogue() -> dict[str, Effect]:
                 and value.name
             ):
                 found[value.name] = value()
+    for entry in entry_points(group=GROUP):
+        _add(found, entry.load()())
     return found
+
+
+def register(effect: Effect) -> None:
+    """Add an effect from outside of this package to the catalogue, for as long as this process runs.
+
+    A package that is installed offers its effects for good by an entry point ``tire_pipeline.effects``.
+
+    Parameters
+    ----------
+    effect : Effect
+        An instance of a subclass, with a name of its own.
+
+    Raises
+    ------
+    DomainError
+        It states no name, title, equation or source, or has the name of another effect.
+    """
+    _add(catalogue(), effect)
+
+
+def _add(found: dict[str, Effect], effect: Effect) -> None:
+    for lacking in ("name", "title", "equation", "source"):
+        if not getattr(effect, lacking):
+            raise DomainError(
+                f"the effect {type(effect).__name__} has no {lacking}", todo="state it in its class"
+            )
+    if effect.name in found:
+        raise DomainError(
+            f"the catalogue has an effect {effect.name!r} already", todo="give the new one another name"
+        )
+    found[effect.name] = effect

@@ -30,6 +30,12 @@ class Parameter:
         Whether it moves by factors: a fit changes it by no more than a factor of e in one step.
     further : bool
         Whether it only refines what the others do, and has to be sure (``TIE`` of log evidence) to be taken.
+    form : bool
+        Whether it says which form the effect has, not how large it is: a reference, a lag, a moment.
+    kept : bool
+        Whether a fit never drops it by itself: without it the others mean something else.
+    open_ended : bool
+        Whether its bounds are where a fit stops, not what physics allows: a fit may end at them.
     prior : float
         Standard deviation about ``zero`` that physics leaves to it where the effect is there; 0 says that
         every value between the bounds is as likely.
@@ -47,6 +53,9 @@ class Parameter:
     output: str | None = None
     ratio: bool = False
     further: bool = False
+    form: bool = False
+    kept: bool = False
+    open_ended: bool = False
     prior: float = 0.0
     prior_in: str = ""
 
@@ -93,6 +102,10 @@ class Finding:
         s, if it does not last the whole recording.
     alike : tuple of tuple of str
         Other sets of channels of which the same would look the same.
+    axes : bool
+        Whether it may be that the recording has other axes than it was read in.
+    limits : tuple of float, optional
+        Lowest and highest value that the channel can have, infinite where it has no limit.
     """
 
     name: str
@@ -104,6 +117,8 @@ class Finding:
     evidence: float = 0.98
     span: tuple[float, float] | None = None
     alike: tuple[tuple[str, ...], ...] = ()
+    axes: bool = False
+    limits: tuple[float, float] | None = None
 
 
 class Effect:
@@ -128,6 +143,8 @@ class Effect:
     own_inputs : bool
         True if it is a function of the model's own inputs, so that a flexible form of these could
         stand for it.
+    of_coefficients : bool
+        True if the file's coefficients can hold it, so that coefficients nearly free explain it altogether.
     dynamic : bool
         True if it lags or shifts in time, so that half a sample of it is a matter of how the rig samples.
     scales : bool
@@ -151,6 +168,21 @@ class Effect:
         Parameters of which one always stays, however small: without any it is another effect.
     scanned : tuple of str
         Parameters that the starts scan, so that the screen need not move them.
+    stepped : tuple of str
+        Moments (s) among them that a fit moves by trial, since the force jumps there.
+    choices : int
+        Discrete choices that its starts make (a radius found by a scan), each paid for like a parameter.
+    constant : str
+        Parameter by which it changes friction or stiffness by a constant factor, if it does.
+    offset_of : str
+        Channel to which its parameter ``offset`` is added, if that is all it does.
+    instead_of_file : bool
+        True if it takes the place of the relaxation that the file itself states.
+    found_in : str
+        ``"samples"`` if :meth:`detect` finds samples that no repair brings back, ``"factors"`` if it finds
+        wrong signs and units, nothing if the effect is fitted.
+    in_one_stretch : bool
+        True if the samples that it spoils follow each other.
     least_gain : float
         Log evidence that it asks for in any case.
     least_beside : float
@@ -177,6 +209,7 @@ class Effect:
     prior_source = ""
     needs_time = False
     own_inputs = False
+    of_coefficients = False
     dynamic = False
     scales = False
     steepens = False
@@ -187,6 +220,13 @@ class Effect:
     as_noise = False
     needed: tuple[str, ...] = ()
     scanned: tuple[str, ...] = ()
+    stepped: tuple[str, ...] = ()
+    choices = 0
+    constant = ""
+    offset_of = ""
+    instead_of_file = False
+    found_in = ""
+    in_one_stretch = False
     least_gain = 0.0
     least_beside = 0.0
     unusual = False

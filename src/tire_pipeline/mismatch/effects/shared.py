@@ -13,6 +13,12 @@ except ImportError:  # pragma: no cover - numba is a dependency; this keeps the 
         return lambda function: function
 
 
+GAINS = (-0.8, 2.0)
+"""Least and largest gain that a force channel may be wrong by."""
+
+LONGEST_DELAY = 0.6
+"""Longest time, s, by which a rig's channels may be apart."""
+
 CLIPPED = ("fy", "fx", "slip_angle", "normal_load", "mz")
 """Channels in which clipping is looked for."""
 

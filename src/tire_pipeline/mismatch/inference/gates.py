@@ -104,7 +104,7 @@ def gates_of(search: Search, fit: Fit) -> list[Gates]:
         system = with_shapes(search, search.system, fit.changes, i)
         loose = with_shapes(search, search.loose, fit.changes, i)
         frozen = with_shapes(search, search.frozen, fit.changes, i)
-        count = len(fit.free[i]) + (name == "nonuniformity")
+        count = len(fit.free[i]) + catalogue()[name].choices
         reduced = without(search, fit, i)
         rest_without = residual(search.data, reduced.changes)
         gains = []
@@ -247,7 +247,7 @@ def unsure(search: Search, index: int, other: str) -> float:
     if (this.dynamic and that.dynamic) or (this.shifts and that.shifts and that.exact):
         share = settings.EXACT_SHARE
     elif this.shifts and that.shifts:
-        blind = "camber_offset" in (this.name, that.name) and not search.data.varies("camber")
+        blind = any(e.offset_of and not search.data.varies(e.offset_of) for e in (this, that))
         share = settings.CAMBER_SHARE if blind else settings.SHIFT_SHARE
     if not share:
         return 0.0
@@ -435,7 +435,8 @@ def open_but_loose(search: Search, gates: list[Gates]) -> bool:
 
 def of_coefficients(name: str) -> bool:
     """Whether coefficients nearly free explain an effect altogether, so that this gate is not asked of it."""
-    return catalogue()[name].own_inputs or name == "camber"
+    effect = catalogue()[name]
+    return effect.own_inputs or effect.of_coefficients
 
 
 def reasons(search: Search, gates: list[Gates]) -> dict[str, str]:

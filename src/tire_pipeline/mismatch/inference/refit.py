@@ -70,8 +70,7 @@ class Fit:
     @property
     def parameters(self) -> int:
         """Number of parameters that float, discrete choices of a scan included."""
-        extra = sum(1 for name, _ in self.changes if name in {"nonuniformity"})
-        return sum(len(f) for f in self.free) + extra
+        return sum(len(f) for f in self.free) + sum(catalogue()[name].choices for name in self.names)
 
 
 def objective(system: System, changes: Sequence[Change]) -> float:
@@ -189,18 +188,22 @@ def moved(changes: Sequence[Change], labels: Sequence[tuple[int, str]], delta: A
 def scan(
     system: System, changes: list[Change], free: list[tuple[str, ...]], best: float, part: float
 ) -> tuple[list[Change], float] | None:
-    """Search along parameters whose effect is too far from linear: the moment of a surface change."""
+    """Search along parameters whose effect is too far from linear: moments at which the force jumps."""
     found = None
-    for i, (name, values) in enumerate(changes):
-        if name != "surface_change" or "moment" not in free[i]:
-            continue
-        time = system.data.time
+    moments = [
+        (i, name)
+        for i, (effect, _) in enumerate(changes)
+        for name in catalogue()[effect].stepped
+        if name in free[i]
+    ]
+    for i, name in moments:
+        values, time = changes[i][1], system.data.time
         assert time is not None  # the effect needs a time line
         width = max((time[-1] - time[0]) / part, 0.11)
         while width > 0.05:
             for sign in (1.0, -1.0):
                 trial: list[Any] = [(n, dict(p)) for n, p in changes]
-                trial[i][1]["moment"] = float(np.clip(values["moment"] + sign * width, time[0], time[-1]))
+                trial[i][1][name] = float(np.clip(values[name] + sign * width, time[0], time[-1]))
                 value = objective(system, trial)
                 if value < best:
                     changes, best, values = trial, value, trial[i][1]
@@ -224,7 +227,7 @@ def _at_bound(data: Data, changes: list[Change], free: list[tuple[str, ...]]) ->
         if catalogue()[name].outside(data, values):
             return True
         for p in catalogue()[name].parameters:
-            if p.name not in names or name == "combined_slip":
+            if p.name not in names or p.open_ended:
                 continue
             if p.low == p.zero:
                 reached = values[p.name] >= p.high

@@ -98,11 +98,12 @@ def prune(search: Search, fit: Fit) -> Fit:
         dropped = False
         for row in sorted(range(len(t2)), key=lambda row: (-least[row], t2[row])):
             i, name = fit.labels[row]
-            if len(fit.free[i]) < 2 or name in {"reference", "lag", "moment", "length", "radius"}:
+            parameter = catalogue()[fit.names[i]].parameter(name)
+            if len(fit.free[i]) < 2 or parameter.kept:
                 continue
             if set(catalogue()[fit.names[i]].needed) & set(fit.free[i]) == {name}:
                 continue
-            unknown = fit.names[i] == "combined_slip" and zero_of(search, fit, i, name) == 0.0
+            unknown = zero_of(search, fit, i, name) < parameter.low  # there is no value to put back
             if unknown or t2[row] > 2.0 * least[row]:
                 continue
             changes = [(n, dict(p)) for n, p in fit.changes]

@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import State
 from tire_pipeline.mismatch.effects.shared import first_order, harmonic_power
 from tire_pipeline.mismatch.model.simulated import Simulated
@@ -143,7 +144,9 @@ class States(Simulated):
     def relax(self, state: State, names: set[str]) -> None:
         """Lag the slips by the relaxation that the file itself states (PTY1, PTX1), if it does."""
         own = self.fixed.get("own_relaxation")
-        if own is None or "relaxation_length" in names or self.time is None or "speed" not in self.present:
+        if own is None or self.time is None or "speed" not in self.present:
+            return
+        if any(catalogue()[name].instead_of_file for name in names):
             return
         speed = np.maximum(np.abs(self.get("speed")), 0.1)
         for slip, length in own.items():

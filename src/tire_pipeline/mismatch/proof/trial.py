@@ -14,8 +14,6 @@ from tire_pipeline.mismatch.effects.base import Effect
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.recording.checks import prepare
 
-_CHANNELS = {"slip_angle_offset": "slip_angle", "camber_offset": "camber"}
-
 
 def put_in(tire: Any, recording: pd.DataFrame, name: str, parameters: Mapping[str, float]) -> pd.DataFrame:
     """Return a recording as it would be with one more effect.
@@ -44,8 +42,8 @@ def put_in(tire: Any, recording: pd.DataFrame, name: str, parameters: Mapping[st
         )
     effect = catalogue()[name]
     values = {**effect.zeros(data), **parameters}
-    if name in _CHANNELS:
-        channel = _CHANNELS[name]
+    if effect.offset_of:
+        channel = effect.offset_of
         return recording.assign(**{channel: recording[channel] + values["offset"]})
     if type(effect).outputs is not Effect.outputs and not _of_the_tire(effect):
         zero = np.zeros(data.size)

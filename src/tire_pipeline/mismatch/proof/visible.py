@@ -41,9 +41,6 @@ _ROUNDS = 4
 _CLOSE = 0.05
 _MOST_FORMS = 3
 _SMALL, _SIZES, _HALVINGS = 1e-4, 97, 40
-_OF_THE_FORM = frozenset("reference lag moment radius fades linear".split())
-"""Parameters that say which form an effect has, not how large it is."""
-
 FALSE = 0.02
 """Level of the likelihood-ratio test over all of the catalogue: in so many recordings in which nothing is
 missing something may be named (issue 24)."""
@@ -78,7 +75,8 @@ class Sight:
     @property
     def form(self) -> dict[str, float]:
         """What says which form of the effect was looked at."""
-        return {k: float(v) for k, v in self.variant.start.items() if k in _OF_THE_FORM and v}
+        form = {p.name for p in self.variant.effect.parameters if p.form}
+        return {k: float(v) for k, v in self.variant.start.items() if k in form and v}
 
     @property
     def ruled_out(self) -> float:
@@ -121,7 +119,7 @@ def sights(search: Search) -> Iterator[Sight]:
         effect = catalogue()[name]
         for p in effect.parameters:
             alone = not effect.needed or p.name in effect.needed
-            if p.name in _OF_THE_FORM or p.further or p.ratio or not alone:
+            if p.form or p.further or p.ratio or not alone:
                 continue
             forms = [v for v in search.variants if v.name == name and p.name in v.free]
             picks = np.unique(np.linspace(0, len(forms) - 1, _MOST_FORMS + 2).astype(int)[1:-1])

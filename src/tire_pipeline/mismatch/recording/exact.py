@@ -11,7 +11,7 @@ import numpy as np
 import scipy
 
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.effects.base import Finding
+from tire_pipeline.mismatch.effects.base import Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.sign_convention import excludes_sae, turned
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, SLOW, moves
 from tire_pipeline.mismatch.model.forces import plain_forces
@@ -44,16 +44,18 @@ def repair(
     n = arrays["normal_load"].size
     bad = np.zeros(n, bool)
     findings: list[Finding] = []
-    for name in ("stuck_channel", "clipping") if time is not None else ("clipping",):
+    for effect in _found_in("samples"):
+        if effect.needs_time and time is None:
+            continue
         some = {k: a[~bad] for k, a in arrays.items()}
         if time is None:
             some["_steady_points"] = np.ones(1)
         rows = np.flatnonzero(~bad)
-        for finding in catalogue()[name].detect(some, None):
+        for finding in effect.detect(some, None):
             hit = np.zeros(n, bool)
             hit[rows[finding.bad]] = True
             at = np.zeros(2) if time is None else time[hit]
-            span = (float(at[0]), float(at[-1])) if name == "stuck_channel" else None
+            span = (float(at[0]), float(at[-1])) if effect.in_one_stretch else None
             bad |= hit
             findings.append(replace(finding, bad=hit, span=span))
     pick = np.flatnonzero(~bad)
@@ -67,14 +69,14 @@ def repair(
     factors: dict[str, float] = {}
     for _ in range(3):
         again = False
-        for name in ("sign_convention", "unit_error"):
+        for effect in _found_in("factors"):
             some = {k: still.get(k, a)[pick] for k, a in arrays.items()} | nominal
-            for finding in catalogue()[name].detect(some, run):
+            for finding in effect.detect(some, run):
                 for channel, repaired in finding.repaired.items():
                     factor = _ratio(repaired, some[channel])
                     arrays[channel] = arrays[channel] * factor
                     factors[channel] = factors.get(channel, 1.0) * factor
-                kept = signs if name == "sign_convention" else findings
+                kept = signs if finding.axes else findings
                 kept.append(replace(finding, repaired={}))
                 again = True
         if not again:
@@ -96,7 +98,7 @@ def open_axes(
     doubt : str
         What the reader saw in the file that speaks against the axes it was read in.
     """
-    signs = [f for f in findings if f.name == "sign_convention" and f.channel != "normal_load"]
+    signs = [f for f in findings if f.axes and f.channel != "normal_load"]
     if signs:
         said = "; ".join(f.text for f in signs)
         return Question(f"the recording agrees with the model only in other axes: {said}", _READ_ANEW)
@@ -111,6 +113,11 @@ _READ_ANEW = (
     'read the file with axes="SAE" or axes="ISO", whichever holds, or turn the channel at its source, and '
     "explain again"
 )
+
+
+def _found_in(where: str) -> list[Effect]:
+    """Return the effects of the catalogue that are found in samples, or in exact factors, in their order."""
+    return sorted((e for e in catalogue().values() if e.found_in == where), key=lambda e: e.order)
 
 
 def _run(tire: Any, channels: Mapping[str, Array]) -> dict[str, Array]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, moves
 from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
@@ -66,8 +66,7 @@ class Drive:
     @property
     def sized(self) -> bool:
         """Whether the force has the size that a model, a friction and a gain may be wrong by."""
-        bounds = catalogue()["force_gain"].parameter("fy")
-        return 1.0 + bounds.low <= self.gain <= 1.0 + bounds.high
+        return 1.0 + GAINS[0] <= self.gain <= 1.0 + GAINS[1]
 
 
 def drives(tire: Any, arrays: Mapping[str, Array], time: Array | None) -> list[Drive]:
@@ -145,9 +144,8 @@ def _product(r: Array, m: Array, time: Array | None) -> float:
 
     if time is None:
         return float(r @ m)
-    delay = catalogue()["time_delay"].parameter("delay")
     step = max(float(np.median(np.diff(time))), 1e-9)
-    most = min(int(delay.high / step), r.size // 4)
+    most = min(int(LONGEST_DELAY / step), r.size // 4)
     products = correlate(r, m, mode="full", method="auto")
     middle = m.size - 1
     return float(products[middle - most : middle + most + 1].max())

@@ -20,6 +20,7 @@ class CamberOffset(Effect):
     own_inputs = True
     unusual = True
     shifts = True
+    offset_of = "camber"
     family = "side"
     prior_source = "Judged: a wheel is set up to about a degree"
     parameters = (Parameter("offset", "rad", -0.15, 0.15, 0.0005, prior=0.02),)

@@ -20,6 +20,7 @@ class SlipAngleOffset(Effect):
     own_inputs = True
     shifts = True
     exact = True
+    offset_of = "slip_angle"
     family = "side"
     prior_source = "Judged: an angle is zeroed to about half a degree"
     parameters = (Parameter("offset", "rad", -0.15, 0.15, 0.0005, prior=0.01),)

@@ -23,11 +23,12 @@ class SurfaceChange(Effect):
     slow = True
     least_gain = 35.0  # its moment may lie anywhere: false ones have up to 32 in the tuning cases
     scanned = ("moment",)
+    stepped = ("moment",)
     family = "slow"
     prior_source = "Judged: dry surfaces differ by 10 to 20%, as LMUX and LMUY are set between rig and road"
     parameters = (
         Parameter("friction", "1", -0.8, 1.0, 0.01, prior=0.15),
-        Parameter("moment", "s", -1e12, 1e12, 0.05),
+        Parameter("moment", "s", -1e12, 1e12, 0.05, form=True, kept=True),
     )
     looks_like = {
         "friction_scale": "a friction factor holds from the start",

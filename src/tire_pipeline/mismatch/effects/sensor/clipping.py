@@ -27,6 +27,7 @@ class Clipping(Effect):
     looks_like = {"friction_scale": "friction limits the force in proportion to load; clipping at one value"}
     experiment = "repeat with a larger range of the amplifier"
     order = 99
+    found_in = "samples"
 
     def absent(self, data: object) -> str | None:
         """Never a candidate of the fit: at a limit samples stand, or there is none."""
@@ -47,7 +48,9 @@ class Clipping(Effect):
                 f"{int(bad.sum())} samples"
             )
             values = {f"{name}_limit_{i + 1}": (v, 0.0, "as recorded") for i, v in enumerate(limits)}
-            found.append(Finding(self.name, name, text, values, {}, bad))
+            below, above = [v for v in limits if v <= 0.0], [v for v in limits if v > 0.0]
+            ends = (max(below, default=-np.inf), min(above, default=np.inf))
+            found.append(Finding(self.name, name, text, values, {}, bad, limits=ends))
         return found
 
 

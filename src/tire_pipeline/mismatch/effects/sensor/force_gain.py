@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.shared import GAINS
 
 
 class ForceGain(Effect):
@@ -22,8 +23,8 @@ class ForceGain(Effect):
     family = "scale"
     prior_source = "Judged: a gain is wrong by some percent, or by a whole unit, which is found without a fit"
     parameters = (
-        Parameter("fy", "1", -0.8, 2.0, 0.01, output="fy", prior=0.1),
-        Parameter("fx", "1", -0.8, 2.0, 0.01, output="fx", prior=0.1),
+        Parameter("fy", "1", *GAINS, 0.01, output="fy", prior=0.1),
+        Parameter("fx", "1", *GAINS, 0.01, output="fx", prior=0.1),
     )
     looks_like = {
         "friction_scale": "friction leaves the slope at zero slip as it is",

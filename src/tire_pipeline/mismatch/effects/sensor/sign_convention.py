@@ -217,7 +217,7 @@ def _finding(name: str, repaired: dict[str, Array], alike: Iterable[tuple[str, .
         sets = (" and ".join(s) + (" (SAE axes)" if set(s) == _SAE else "") for s in alike)
         same = " or if ".join(sets)
         text += f"; it would look the same if {same} had"
-    return Finding("sign_convention", name, text, parameters, repaired, alike=alike)
+    return Finding("sign_convention", name, text, parameters, repaired, alike=alike, axes=True)
 
 
 _SAE = {"slip_angle", "fy"}

@@ -37,6 +37,9 @@ class StuckChannel(Effect):
     source = "bus or acquisition fault"
     looks_like = {"clipping": "clipping is at an end of the range"}
     experiment = "repeat the recording"
+    needs_time = True
+    found_in = "samples"
+    in_one_stretch = True
 
     def absent(self, data: object) -> str | None:
         """Never a candidate of the fit: it is found in the channel itself."""

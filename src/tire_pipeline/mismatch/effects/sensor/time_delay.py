@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
-from tire_pipeline.mismatch.effects.shared import delayed
+from tire_pipeline.mismatch.effects.shared import LONGEST_DELAY, delayed
 
 
 class TimeDelay(Effect):
@@ -22,7 +22,7 @@ class TimeDelay(Effect):
     dynamic = True
     family = "lag"
     prior_source = "Judged: channels of one rig are a few samples of a slow logger apart"
-    parameters = (Parameter("delay", "s", -0.6, 0.6, 0.004, prior=0.05),)
+    parameters = (Parameter("delay", "s", -LONGEST_DELAY, LONGEST_DELAY, 0.004, prior=0.05),)
     looks_like = {
         "relaxation_length": "the lag of relaxation is shorter at speed",
         "low_pass": "a filter takes amplitude at high frequency",

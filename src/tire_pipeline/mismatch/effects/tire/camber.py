@@ -24,6 +24,7 @@ class Camber(Effect):
     )
     source = "MF 5.2: PHY3, PVY3, PVY4, PDY3, PKY3, PDX3 (thesis, Appendix A, pure slip)"
     channels = ("camber",)
+    of_coefficients = True
     family = "inclination"
     prior_source = (
         "Camber stiffness of a car tire is about a tenth of its cornering stiffness (Pacejka, 3rd ed., "

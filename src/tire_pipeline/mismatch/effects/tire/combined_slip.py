@@ -34,8 +34,8 @@ class CombinedSlip(Effect):
     family = "scale"
     prior_source = "Published RBX1 and RBY1 lie at 5 to 15"
     parameters = (
-        *(Parameter(n, "1", 0.5, 400.0, 0.2, ratio=True) for n in _NAMES),
-        *(Parameter(n, "1", 0.0, 60.0, 0.1, prior=5.0) for n in _MORE),
+        *(Parameter(n, "1", 0.5, 400.0, 0.2, ratio=True, open_ended=True) for n in _NAMES),
+        *(Parameter(n, "1", 0.0, 60.0, 0.1, kept=True, open_ended=True, prior=5.0) for n in _MORE),
     )
     looks_like = {"friction_scale": "friction acts on pure slip too"}
     experiment = "brake ramps at three slip angles or more"

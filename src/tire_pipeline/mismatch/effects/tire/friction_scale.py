@@ -20,6 +20,7 @@ class FrictionScale(Effect):
     source = "Pacejka, Tire and Vehicle Dynamics, 3rd ed., similarity method (4.2.1); LMUX, LMUY"
     own_inputs = True
     scales = True
+    constant = "friction"
     family = "scale"
     prior_source = "Judged: dry surfaces differ by 10 to 20%, as LMUX and LMUY are set between rig and road"
     parameters = (Parameter("friction", "1", -0.7, 1.0, 0.01, prior=0.15),)

@@ -38,7 +38,7 @@ class SpeedDependence(Effect):
         Parameter("friction", "1", -0.4, 0.4, 0.01, prior=0.1),
         Parameter("stiffness", "1", -0.12, 0.12, 0.01, prior=0.04),
         Parameter("sliding", "1", -2.0, 5.0, 0.05, further=True, prior=0.5),
-        Parameter("linear", "0 or 1", 0.0, 1.0, 0.1),
+        Parameter("linear", "0 or 1", 0.0, 1.0, 0.1, form=True),
     )
     looks_like = {
         "temperature": "temperature lags behind a change of speed",

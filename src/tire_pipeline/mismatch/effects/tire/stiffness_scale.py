@@ -22,6 +22,7 @@ class StiffnessScale(Effect):
     scales = True
     steepens = True
     errs_like = ("friction_scale", "force_gain")
+    constant = "stiffness"
     family = "scale"
     prior_source = "Judged: tires of one size differ by about a quarter"
     parameters = (
