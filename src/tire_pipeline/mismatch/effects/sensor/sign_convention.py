@@ -49,6 +49,7 @@ class SignConvention(Effect):
     """
 
     name = "sign_convention"
+    found_in = "factors"
     kind = "artefact"
     title = "a channel with the other sign"
     equation = "x recorded = -x"

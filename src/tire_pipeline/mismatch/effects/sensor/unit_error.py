@@ -38,6 +38,7 @@ class UnitError(Effect):
     """
 
     name = "unit_error"
+    found_in = "factors"
     kind = "artefact"
     title = "a channel in the wrong unit"
     equation = "x recorded = ratio x, ratio one of 57.30, 4.448, 6.895, 9.807, 3.6, 100, 1000 or its inverse"
