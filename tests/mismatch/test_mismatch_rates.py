@@ -50,7 +50,7 @@ def sources(rate):
 
 
 def check_before(tire, given, report):
-    """The error before is what ``tire.forces`` leaves of the rows as recorded; without effects that after."""
+    """The error before is what ``tire.forces`` leaves; so is that after, if nothing is in."""
     for output, fit in report.fit.items():
         if output not in ("fx", "fy"):
             continue
@@ -58,7 +58,7 @@ def check_before(tire, given, report):
         assert fit.rms_before == pytest.approx(rms(given[output] - plain), rel=1e-9)
         came = report.corrected.as_it_came.predict(given)[output]
         np.testing.assert_allclose(came, plain, rtol=1e-9, atol=1e-9 * np.abs(plain).max())
-        if not report.effects:
+        if not report.effects and (report.unnamed is None or report.unnamed.physics is None):
             now = report.corrected.predict(given)[output]
             np.testing.assert_allclose(now, plain, rtol=1e-9, atol=1e-9 * np.abs(plain).max())
             assert fit.rms_after == fit.rms_before
@@ -183,20 +183,9 @@ def test_a_rig_at_any_rate(tire, rate, friction):
         assert {e.name for e in report.effects} <= ({"friction_scale"} if friction < 1.0 else set())
 
 
-_WORSE = pytest.mark.xfail(
-    reason="an angle offset and wear: the loads left out go from 93 to 101 N", strict=True
-)
-
-
 @pytest.mark.long
-@pytest.mark.parametrize(
-    ("rate", "hidden"),
-    [
-        pytest.param(rate, hidden, marks=_WORSE if (rate, hidden) == (5, "camber") else ())
-        for rate in RATES
-        for hidden in HIDDEN
-    ],
-)
+@pytest.mark.parametrize("hidden", HIDDEN)
+@pytest.mark.parametrize("rate", RATES)
 def test_the_flat_belt_at_any_rate(rate, hidden):
     check_unseen(*flat_belt(rate, hidden))
 

@@ -28,7 +28,7 @@ class CombinedSlip(Effect):
         "cos(arctan(more s)), where its C is so small that no B takes much"
     )
     source = "MF 5.2 weighting functions (thesis, Appendix A, combined slip); Bayle et al. 1993"
-    channels = ("slip_angle", "slip_ratio")
+    used = ("slip_angle", "slip_ratio")
     own_inputs = True
     scales = True
     family = "scale"
@@ -37,13 +37,20 @@ class CombinedSlip(Effect):
         *(Parameter(n, "1", 0.5, 400.0, 0.2, ratio=True, open_ended=True) for n in _NAMES),
         *(Parameter(n, "1", 0.0, 60.0, 0.1, kept=True, open_ended=True, prior=5.0) for n in _MORE),
     )
-    looks_like = {"friction_scale": "friction acts on pure slip too"}
+    looks_like = {
+        "friction_scale": "friction acts on pure slip too",
+        "force_gain": "a gain acts on pure slip too",
+        "temperature": "heat acts on pure slip too",
+    }
+    told_by = dict.fromkeys(("friction_scale", "force_gain", "temperature"), "slip_angle")
     experiment = "brake ramps at three slip angles or more"
     order = 40
 
     def absent(self, data: object) -> str | None:
-        """Ask for points with both slips."""
+        """Ask for points with both slips; one of them may stand still: brake ramps at one slip angle."""
         missing = super().absent(data)
+        if missing is None and not any(data.varies(n) for n in self.used):  # type: ignore[attr-defined]
+            missing = "neither slip_angle nor slip_ratio varies"
         if missing is None and not data.has_combined:  # type: ignore[attr-defined]
             missing = "no points with slip angle and slip ratio together"
         return missing
