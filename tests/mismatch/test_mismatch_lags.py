@@ -56,7 +56,7 @@ def front_axle(path, rate):
 
 @pytest.mark.parametrize(("rate", "fitted"), [(None, "ramps"), (None, "drive"), (20.0, "drive")])
 def test_a_steering_actuator_that_lags_is_no_relaxation_of_the_tire(rate, fitted):
-    """Its 0.13 s were a relaxation of 0.37 to 1.87 m, without an alternative, on a wheel of 0.023 m radius."""
+    """Its 0.13 s were a relaxation of 0.37 to 1.87 m on a wheel of 0.023 m, without an alternative."""
     folder = shared("recordings/dart")
     (file,) = (folder / "free_driving").glob("*.csv")
     ramps = sorted((folder / "rubber_floor_ramps").glob("*.csv"))[::2]
