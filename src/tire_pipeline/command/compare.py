@@ -94,9 +94,8 @@ def _lines(models: dict[str, TireModel], apart: list[Difference], changed: int) 
 
 def _row(difference: Difference) -> tuple[Any, ...]:
     unit = "N m" if difference.output.startswith("m") else "N"
-    rounding = (
-        difference.share <= _NOTHING
-    )  # not so where the first model has no such output: its share is NaN
+    # The share is NaN where the first model has no such output: that is a difference, not rounding.
+    rounding = difference.share <= _NOTHING
     rms, largest = (0.0 if rounding else x for x in (difference.rms, difference.largest))
     return difference.output.capitalize(), rms, largest, unit, _percent(difference.share)
 

@@ -124,7 +124,7 @@ def apply_artefact(
             out[force] = np.interp(time - strength, time, out[force].to_numpy())
     elif name == "low_pass":
         for force in ("fx", "fy"):
-            out[force] = _low_pass(out[force].to_numpy(), strength, float(time[1] - time[0]))
+            out[force] = low_pass(out[force].to_numpy(), strength, float(time[1] - time[0]))
     elif name == "crosstalk":
         other = "fx" if channel == "fy" else "fy"
         out[channel] = x + signed * out[other].to_numpy()
@@ -146,8 +146,21 @@ def apply_artefact(
     return out
 
 
-def _low_pass(x: np.ndarray, constant: float, dt: float) -> np.ndarray:
-    """Two equal first-order filters, together with the time constant given, s."""
+def low_pass(x: np.ndarray, constant: float, dt: float) -> np.ndarray:
+    """Return a signal behind two equal first-order filters.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,)
+    constant : float
+        Time constant of both together, s.
+    dt : float
+        Time from one sample to the next, s.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+    """
     b = 1.0 - np.exp(-2.0 * dt / constant)
     for _ in range(2):
         x, _state = scipy.signal.lfilter([b], [1.0, b - 1.0], x, zi=[(1.0 - b) * x[0]])

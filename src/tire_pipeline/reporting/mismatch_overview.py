@@ -8,6 +8,7 @@ import pandas as pd
 
 from tire_pipeline.mismatch.report.words import in_words
 from tire_pipeline.reporting import HOME, Links, Table, Text, render_page
+from tire_pipeline.reporting.page import without_empty_columns
 
 _ALWAYS = ("recording", "verdict", "effects")
 _FEW = 5
@@ -60,7 +61,7 @@ def _counted(shown: pd.DataFrame) -> str:
 
 def _in_one_table(shown: pd.DataFrame) -> Table:
     table = shown[["recording", "verdict", "effects", "alternatives", "held_out", "problem"]]
-    table = table.loc[:, [name in _ALWAYS or bool((table[name] != "").any()) for name in table.columns]]
+    table = without_empty_columns(table, _ALWAYS)
     table = table.assign(
         **{name: table[name].map(in_words) for name in ("effects", "alternatives") if name in table}
     )

@@ -213,6 +213,18 @@ def render_page(
     )
 
 
+def without_empty_columns(table: pd.DataFrame, always: Sequence[str] = ()) -> pd.DataFrame:
+    """Return a table of texts without the columns in which nothing stands.
+
+    Parameters
+    ----------
+    table : DataFrame
+    always : sequence of str
+        Columns that stay, empty or not.
+    """
+    return table.loc[:, [name in always or bool((table[name] != "").any()) for name in table.columns]]
+
+
 _LOSS = 0.05
 """Share of a value that may be lost where a column is given the decimals of its largest value."""
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from tire_pipeline.reporting.page import Table
+from tire_pipeline.reporting.page import Table, without_empty_columns
 
 METHODS = {
     "bic_stepwise": "stepwise by BIC",
@@ -87,8 +87,7 @@ def misses_table(misses: pd.DataFrame, caption: str, heading: str) -> Table:
     Columns in which nothing stands are left out, and those that follow from the truth and the names.
     """
     table = _plain(misses.drop(columns=["missed", "invented"], errors="ignore").astype(str))
-    filled = [bool((table[name] != "").any()) for name in table.columns]
-    return Table(table.loc[:, filled], caption, heading=heading, most_rows=400)
+    return Table(without_empty_columns(table), caption, heading=heading, most_rows=400)
 
 
 def _plain(table: pd.DataFrame) -> pd.DataFrame:

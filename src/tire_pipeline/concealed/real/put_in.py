@@ -15,9 +15,8 @@ from typing import TypeAlias
 
 import numpy as np
 import pandas as pd
-import scipy
 
-from tire_pipeline.concealed.artefacts import UNIT_ERRORS
+from tire_pipeline.concealed.artefacts import UNIT_ERRORS, low_pass
 from tire_pipeline.concealed.clean_run import model_forces
 from tire_pipeline.magic_formula import TireModel
 
@@ -267,11 +266,7 @@ def _low_pass(frame: Frame, pieces: np.ndarray, x: float, _s: RecordedSession, _
     out = np.empty_like(force)
     for piece in np.unique(pieces):
         here = pieces == piece
-        b = 1.0 - np.exp(-2.0 * float(np.median(np.diff(time[here]))) / x)
-        y = force[here]
-        for _ in range(2):
-            y, _state = scipy.signal.lfilter([b], [1.0, b - 1.0], y, zi=[(1.0 - b) * y[0]])
-        out[here] = y
+        out[here] = low_pass(force[here], x, float(np.median(np.diff(time[here]))))
     return frame.assign(fy=out)
 
 
