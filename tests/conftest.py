@@ -29,7 +29,7 @@ _LONGEST_FIRST = (
     "mismatch/test_mismatch_few_channels.py",
     "mismatch/test_mismatch_rates.py",
     "translation/test_translation_bias_translators.py",
-    "translation/test_batch_translator.py",
+    "translation/test_translation_learns_from_batch.py",
     "docs/test_docs_site.py",
     "viz/test_viz_browser.py",
     "concealed/test_concealed_second.py",

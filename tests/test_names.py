@@ -121,3 +121,15 @@ def test_tests_import_public_names_only():
         if alias.name.startswith("_") and not alias.name.startswith("__")
     }
     assert found == KNOWN_PRIVATE
+
+
+TOPICS = {"docs", "notebooks", "object_storage", "supply_chain", "viz"}
+"""Folders of tests that belong to no single folder of the package."""
+
+
+def test_a_file_of_tests_bears_the_name_of_its_folder_and_the_folder_that_of_what_it_tests():
+    tests = Path(__file__).parent
+    files = [path.relative_to(tests) for path in tests.glob("*/test_*.py")]
+    assert [str(file) for file in files if not file.stem.startswith(f"test_{file.parts[0]}")] == []
+    parts = {path.stem for path in ROOT.iterdir()}
+    assert {file.parts[0] for file in files} - parts == TOPICS
