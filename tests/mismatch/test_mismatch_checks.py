@@ -7,7 +7,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.recording.checks import prepare
-from tire_pipeline.mismatch.report.words import interval
+from tire_pipeline.mismatch.report.words import interval, place
 
 
 def physics(report):
@@ -139,7 +139,10 @@ def test_signs_that_were_turned_one_after_the_other_are_said_once(seed, channel)
 
 def test_a_slip_that_is_next_to_nothing_is_written_as_nothing():
     assert interval("slip_ratio", -3.76e-6, 0.153) == "slip ratio 0 to 0.153"
-    assert interval("camber", -7.6e-7, -7.6e-7) == "camber 0 to 0 deg"
+    assert interval("camber", -7.6e-7, -7.6e-7) == "camber 0 deg"
+    assert interval("speed", 22.221, 22.224) == "speed 22.2 m/s"
+    assert place("normal_load", 4001.0, 4003.0, {}) == "at load 4 kN"
+    assert place("normal_load", 4000.0, 5000.0, {}) == "at load between 4 and 5 kN"
     assert interval("normal_load", 1200.0, 4300.0) == "load 1.2 to 4.3 kN"
 
 

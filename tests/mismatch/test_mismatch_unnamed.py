@@ -267,7 +267,7 @@ def test_after_the_recorded_time_it_is_gone_and_that_is_said(swinging):
 def test_the_page_and_the_dictionary_show_it_apart_from_ideas(swinging, tmp_path):
     _, report = swinging
     page = report.to_html(tmp_path / "report.html").read_text("utf-8")
-    assert "Without a name" in page
+    assert "Unnamed physics" in page
     assert "Ideas to test" in page
     assert page.index("sin(way/") < page.index("Ideas to test")
     told = report.to_dict()["unnamed"]

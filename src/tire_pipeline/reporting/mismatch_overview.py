@@ -32,7 +32,7 @@ def draw_overview(overview: pd.DataFrame, pages: dict[str, str]) -> tuple[str, l
     outcome : list of str
         The last lines of a run.
     """
-    shown = overview.fillna("").astype(str)
+    shown = overview.astype(object).fillna("").astype(str)
     links = []
     for row in shown.to_dict("records"):
         path = str(PurePosixPath(row["recording"]).with_suffix(".html"))

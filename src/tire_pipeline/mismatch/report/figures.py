@@ -67,7 +67,9 @@ def time_line(report: MismatchReport, output: str, figure: FigureBase | None = N
             axes.plot(*_broken(x, s[f"after_{output}"]), color=_AFTER, label="after", **look)
         axes.set_xlabel("time (s)" if s["time"] is not None else "point")
         axes.set_ylabel(f"{output.capitalize()} recorded - simulated (N)")
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, 1.18), ncol=6, frameon=False)
+        legend = axes.legend(loc="upper center", bbox_to_anchor=(0.5, 1.18), ncol=6, frameon=False)
+        for line in legend.get_lines():
+            line.set_linewidth(2.0)  # the curves are too thin to show their colour
     return figure
 
 

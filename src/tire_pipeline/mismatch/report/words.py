@@ -51,10 +51,11 @@ def label(axis: str) -> str:
 
 
 def interval(axis: str, low: float, high: float) -> str:
-    """Return ``load 2.1 to 4.3 kN``."""
+    """Return ``load 2.1 to 4.3 kN``, or ``speed 22.2 m/s`` where both ends are written alike."""
     size = max(abs(low), abs(high))
     _, unit, name = unit_of(axis, size)
-    return f"{name} {figure(axis, low, size)} to {figure(axis, high, size)} {unit}".strip()
+    a, b = figure(axis, low, size), figure(axis, high, size)
+    return f"{name} {a if a == b else f'{a} to {b}'} {unit}".strip()
 
 
 def gaussian(form: GaussianForm) -> str:
@@ -123,7 +124,9 @@ def place(axis: str, low: float, high: float, ranges: Mapping[str, tuple[float, 
     lowest, highest = ranges.get(axis, (-np.inf, np.inf))
     near = 0.03 * (highest - lowest) if np.isfinite(highest - lowest) else 0.0
     if axis == "time":
-        return f"between {a} and {b} s"
+        return f"between {a} and {b} s" if a != b else f"at {a} s"
+    if a == b:
+        return f"at {name} {a} {unit}".rstrip()
     if high >= highest - near and low > lowest + near:
         return f"at {name} above {a} {unit}".rstrip()
     if low <= lowest + near and high < highest - near:
