@@ -39,13 +39,15 @@ def test_an_import_loads_nothing_that_is_not_needed_yet(statement):
 
 
 @pytest.mark.slow
-def test_a_run_loads_what_trains_networks_and_forests_only_in_the_nodes_that_need_it():
+def test_a_run_loads_what_trains_and_draws_only_in_the_nodes_that_need_it():
     modules = loaded(
         "from kedro.framework.project import configure_project, pipelines\n"
         "configure_project('tire_pipeline')\nassert len(pipelines) > 8"
     )
     assert "kedro" in modules
-    assert modules.isdisjoint(("torch", "stable_baselines3", "gymnasium", "sklearn", "scipy.stats"))
+    assert modules.isdisjoint(
+        ("torch", "stable_baselines3", "gymnasium", "matplotlib", "sklearn", "scipy.stats")
+    )
 
 
 def test_the_names_that_are_imported_on_demand_are_there():

@@ -6,9 +6,11 @@ import re
 import shlex
 from pathlib import Path
 
+import pandas as pd
 import pytest
 from click.testing import CliRunner
 
+import tire_pipeline.mismatch
 from tire_pipeline.command.cli import tire
 
 pytestmark = pytest.mark.slow
@@ -45,20 +47,33 @@ def test_readme_and_tutorials_have_something_to_run():
     assert commands(ROOT / "README.md")
 
 
+@pytest.fixture(scope="module")
+def explained_once():
+    """``explain_mismatch`` that explains a recording against a tire once; most pages show the same two."""
+    explain, known = tire_pipeline.mismatch.explain_mismatch, {}
+
+    def remembered(tire, recording, **options):
+        rows = int(pd.util.hash_pandas_object(recording).sum())
+        key = (tuple(sorted(tire.coefficients.items())), tuple(recording.columns), rows, repr(options))
+        if key not in known:
+            known[key] = explain(tire, recording, **options)
+        return known[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(tire_pipeline.mismatch, "explain_mismatch", remembered)
+        yield
+
+
 @pytest.mark.parametrize("page", [p for p in PAGES if blocks(p, "python")], ids=lambda page: page.stem)
-def test_python_runs(page, folder):
+def test_python_runs(page, folder, explained_once):
     names: dict[str, object] = {}
     for block in blocks(page, "python"):
         exec(compile(block, str(page), "exec"), names)
     assert "tire" in names or "report" in names or "run" in names
 
 
-@pytest.mark.parametrize(
-    ("page", "command"),
-    [(page, command) for page in PAGES for command in commands(page)],
-    ids=lambda value: value.stem if isinstance(value, Path) else value.split()[1],
-)
-def test_commands_run(page, command, folder):
+@pytest.mark.parametrize("command", list(dict.fromkeys(each for page in PAGES for each in commands(page))))
+def test_commands_run(command, folder):
     before = {path.name: path.read_bytes() for path in (ROOT / "examples").iterdir() if path.is_file()}
     result = CliRunner().invoke(tire, shlex.split(command)[1:])
     assert result.exit_code == 0, result.output

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 import subprocess
@@ -10,7 +11,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from filelock import FileLock
+from kedro.framework.startup import bootstrap_project
+
+from tire_pipeline.cli import cli
 
 ROOT = Path(__file__).resolve().parents[2]
 Run = Callable[..., subprocess.CompletedProcess[str]]
@@ -40,6 +45,23 @@ def kedro(folder: Path, *arguments: str, **environment: str) -> subprocess.Compl
         check=False,
         timeout=600,
     )
+
+
+def kedro_here(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """The same command in this process, which need not start and import everything again.
+
+    For runs that end early or do little. What is logged (not printed) is not in what it returns.
+    """
+    bootstrap_project(ROOT)
+    conf = folder / "conf"
+    if not conf.exists():
+        small_conf(folder)
+    command = ["run", "--env", "small", "--conf-source", str(conf), *arguments]
+    with contextlib.chdir(ROOT):
+        done = CliRunner().invoke(cli, command)
+    if done.exception is not None and not isinstance(done.exception, SystemExit):
+        raise done.exception
+    return subprocess.CompletedProcess(command, done.exit_code, done.stdout, done.stderr)
 
 
 def fleet_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:

@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest_kedro import ROOT, kedro, small_conf
+from conftest_kedro import ROOT, kedro, kedro_here, small_conf
 
 pytestmark = pytest.mark.slow
 INGEST = ("--pipelines", "ingest_tir,dedupe_filter")
@@ -48,46 +48,46 @@ def test_an_empty_folder(tmp_path):
 
 
 def test_one_category_only(tmp_path, small_fleet):
-    line = _one_line(kedro(_folder(tmp_path, small_fleet, "D"), *INGEST))
+    line = _one_line(kedro_here(_folder(tmp_path, small_fleet, "D"), *INGEST))
     assert "two categories are needed" in line
     assert "node 'files.keep_usable' failed" in line
     assert _versions(tmp_path) == []
 
 
 def test_no_target_category(tmp_path, small_fleet):
-    line = _one_line(kedro(_folder(tmp_path, small_fleet, "A", "B"), *INGEST))
+    line = _one_line(kedro_here(_folder(tmp_path, small_fleet, "A", "B"), *INGEST))
     assert "'D' has no usable files" in line
     assert "set target_category" in line
 
 
 def test_a_wrong_parameter_is_named_with_what_is_allowed(tmp_path):
-    line = _one_line(kedro(tmp_path, "--params", "bin.method=equal_with"))
+    line = _one_line(kedro_here(tmp_path, "--params", "bin.method=equal_with"))
     assert "method" in line
     assert "equal_width" in line
     assert "equal_frequency" in line
 
 
 def test_a_misspelt_parameter_is_named(tmp_path):
-    assert "binz" in _one_line(kedro(tmp_path, "--params", "bin.binz=3"))
+    assert "binz" in _one_line(kedro_here(tmp_path, "--params", "bin.binz=3"))
 
 
 @pytest.mark.parametrize(
     ("option", "name"),
     [
         ("--pipeline", "ingest"),
-        pytest.param("--pipelines", "ingest", marks=pytest.mark.long),
-        pytest.param("--pipeline", "story", marks=pytest.mark.long),  # kedro-viz's alone
+        ("--pipelines", "ingest"),
+        ("--pipeline", "story"),  # kedro-viz's alone
     ],
 )
 def test_a_misspelt_pipeline_is_named_with_those_there_are(tmp_path, option, name):
-    line = _one_line(kedro(tmp_path, option, name))
+    line = _one_line(kedro_here(tmp_path, option, name))
     assert f"no pipeline '{name}'" in line
     assert "ingest_tir" in line
     assert "translate" in line
 
 
 def test_a_dataset_that_no_run_has_made_yet_says_what_to_run_first(tmp_path):
-    line = _one_line(kedro(tmp_path, "--pipeline", "represent"))
+    line = _one_line(kedro_here(tmp_path, "--pipeline", "represent"))
     assert "normalized_table" in line
     assert "not there yet" in line
     assert "kedro run" in line
@@ -96,7 +96,7 @@ def test_a_dataset_that_no_run_has_made_yet_says_what_to_run_first(tmp_path):
 def test_a_binary_file_is_set_aside_and_the_run_goes_on(tmp_path, small_fleet):
     folder = _folder(tmp_path, small_fleet, "A", "B", "D", "E")
     (folder / "data/01_raw/tir/A/bad.tir").write_bytes(bytes(range(256)) * 20)
-    done = kedro(folder, *INGEST)
+    done = kedro_here(folder, *INGEST)
     assert done.returncode == 0, done.stdout + done.stderr
     report = next((folder / "data/02_intermediate/ingest_report.csv").rglob("*.csv")).read_text()
     assert [line for line in report.splitlines() if line.startswith("A/bad.tir,A,set aside")]
@@ -105,8 +105,8 @@ def test_a_binary_file_is_set_aside_and_the_run_goes_on(tmp_path, small_fleet):
 def test_files_of_the_user_stay_as_they_are(tmp_path, small_fleet):
     folder = _folder(tmp_path, small_fleet, "A", "D")
     files = {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in folder.rglob("*.tir")}
-    kedro(folder, *INGEST)
-    refused = kedro(folder, "--pipeline", "make_fleet")
+    kedro_here(folder, *INGEST)
+    refused = kedro_here(folder, "--pipeline", "make_fleet")
     assert "never overwritten" in _one_line(refused)
     assert {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in folder.rglob("*.tir")} == files
 
@@ -121,7 +121,7 @@ def test_a_full_disk_leaves_nothing_behind(tmp_path, small_fleet):
     if mounted.returncode != 0:
         pytest.skip("no right to mount a small disk here")
     try:
-        line = _one_line(kedro(folder, *INGEST))
+        line = _one_line(kedro_here(folder, *INGEST))
         assert "disk is full" in line
         assert [p for p in disk.rglob("*") if p.is_file()] == []
     finally:
@@ -157,7 +157,7 @@ def test_a_killed_run_is_taken_back_by_the_next(tmp_path, small_fleet):
     ],
 )
 def test_an_unknown_parameter_is_an_error_with_the_nearest_name(tmp_path, asked, said):
-    done = kedro(tmp_path, "--pipeline", "translate", "--params", asked)
+    done = kedro_here(tmp_path, "--pipeline", "translate", "--params", asked)
     assert done.returncode == 1
     assert (done.stdout + done.stderr).count(said) == 1
     assert "pydantic.dev" not in done.stdout + done.stderr

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from conftest_kedro import ROOT, kedro
+from conftest_kedro import ROOT, kedro_here
 
 from tire_pipeline.datasets.recording_folder import RecordingFolderDataset
 from tire_pipeline.errors import RecordingError
@@ -28,7 +28,7 @@ def test_a_recording_gets_a_report_a_page_and_a_verdict(tmp_path):
     bad.mkdir(parents=True)
     (bad / "recording.csv").write_text("time,slip_angle\n0,0.01\n")
     shutil.copy(EXAMPLES / "example07" / "model.tir", bad)
-    done = kedro(tmp_path, "--pipeline", "explain_mismatch")
+    done = kedro_here(tmp_path, "--pipeline", "explain_mismatch")
     assert done.returncode == 0, done.stdout + done.stderr
     data = tmp_path / "data"
     reports = json.loads(next((data / "07_model_output/mismatch_reports.json").rglob("*.json")).read_text())

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from conftest_kedro import ROOT, kedro
+from conftest_kedro import ROOT, kedro_here
 
 from tire_pipeline.translation.judge.effects import KEY_PARTS
 
@@ -45,6 +45,8 @@ FILES = (
 )
 NO_NUMBERS = ("source_probability", "distance", "expected_rms_ratio", "harm_probability")
 NO_WORDS = ("bias_band", "changes")
+WITHOUT_FIT = ("read_sources", "translate_all", "draw_translated_files")
+"""Nodes of ``translate`` that a stored translator suffices for."""
 
 
 class Outputs:
@@ -114,7 +116,7 @@ def together(tmp_path_factory, small_fleet) -> Outputs:
     raw = folder / "data" / "01_raw" / "tir"
     shutil.copytree(small_fleet / "data" / "01_raw" / "tir", raw)
     _put_public(raw)
-    done = kedro(folder, "--pipelines", "ingest_tir,dedupe_filter,normalize,translate")
+    done = kedro_here(folder, "--pipelines", "ingest_tir,dedupe_filter,normalize,translate")
     assert done.returncode == 0, done.stdout + done.stderr
     return Outputs(folder)
 
@@ -128,7 +130,10 @@ def asked(tmp_path_factory, together, small_fleet) -> Outputs:
     _put_public(source)
     shutil.copytree(small_fleet / "data" / "01_raw" / "evaluation" / "hidden" / "B", source / "new")
     wanted = f"tir_folder={source},translate.classify=true,translate.farthest=3"
-    done = kedro(folder, "--pipeline", "translate", "--params", wanted)
+    nodes = ",".join(
+        f"translation.{name}" for name in ("read_sources", "translate_all", "draw_translated_files")
+    )
+    done = kedro_here(folder, "--pipeline", "translate", "--nodes", nodes, "--params", wanted)
     assert done.returncode == 0, done.stdout + done.stderr
     return Outputs(folder)
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from conftest_kedro import kedro
+from conftest_kedro import kedro_here
 
 from tire_pipeline.tir import read_tir
 
@@ -121,7 +121,7 @@ def test_shuffled_truth_leaves_every_translated_file_as_it_was(small_run, tmp_pa
     for path, text in zip(truth, texts[1:] + texts[:1], strict=True):
         path.write_bytes(text)
     try:
-        done = kedro(small_run, "--pipeline", "evaluate")
+        done = kedro_here(small_run, "--pipeline", "evaluate")
         assert done.returncode == 0, done.stdout + done.stderr
         after = {p.relative_to(translated): p.read_bytes() for p in sorted(translated.rglob("*.tir"))}
         assert after == before

@@ -13,7 +13,7 @@ import pytest
 from viz_browser import ROOT, browser, needs_browser
 
 sys.path.insert(0, str(ROOT / "tests" / "pipelines"))
-from conftest_kedro import kedro
+from conftest_kedro import kedro_here
 
 pytestmark = pytest.mark.slow
 RUNS = "window.hacked=1"
@@ -49,7 +49,7 @@ def data(tmp_path_factory) -> Path:
     bad.mkdir()
     shutil.copy(rig / f"{IMAGE}model.tir", bad)
     (bad / f"+1{COLUMN.split('/')[0]}.csv").write_text(f"time,{COLUMN}\n0,{COLUMN}\n")
-    done = kedro(folder, "--pipelines", "ingest_tir,explain_mismatch")
+    done = kedro_here(folder, "--pipelines", "ingest_tir,explain_mismatch")
     assert done.returncode == 0, done.stdout + done.stderr
     return folder / "data"
 
