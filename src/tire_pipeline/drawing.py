@@ -6,17 +6,17 @@ import io
 import re
 import textwrap
 from importlib.resources import files as package_files
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from markupsafe import Markup
-from matplotlib import rc_context
-from matplotlib.figure import Figure as MplFigure
-from matplotlib.figure import FigureBase
-from matplotlib.text import Text
 
 from tire_pipeline.safe_page import visible
 
-AnyFigure = TypeVar("AnyFigure", bound=FigureBase)
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as MplFigure
+    from matplotlib.figure import FigureBase
+
+AnyFigure = TypeVar("AnyFigure", bound="FigureBase")
 
 #: Okabe and Ito (2008), in an order that also differs in lightness.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D1F")
@@ -67,29 +67,20 @@ def new_figure(
     >>> figure, axes = new_figure()
     >>> _ = axes.plot([0, 1], [0, 1])
     """
+    from matplotlib import rc_context
+
+    from tire_pipeline.drawing_figure import PlainTextFigure
+
     with rc_context(STYLE):
-        figure = _Figure(figsize=(width, height))
+        figure = PlainTextFigure(figsize=(width, height))
         axes = figure.subplots(rows, columns, **options)
     return figure, axes
 
 
-class _Figure(MplFigure):
-    """A figure in which a dollar is a dollar: names of files and categories are no formulas."""
-
-    def draw(self, renderer: Any) -> None:
-        powers: set[Text] = set()
-        for axis in (each for axes in self.axes for each in (axes.xaxis, axes.yaxis)):
-            labels = axis.get_majorticklabels()  # brings them up to date, too
-            if axis.get_scale() != "linear":
-                powers.update(labels, axis.get_minorticklabels())
-        for text in self.findobj(Text):
-            if text not in powers:
-                text.set_parse_math(False)
-        super().draw(renderer)
-
-
 def inline_svg(figure: MplFigure) -> Markup:
     """The figure as an SVG element that can stand in a page; the same figure gives the same text."""
+    from matplotlib import rc_context
+
     buffer = io.StringIO()
     with rc_context(STYLE):
         figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure as MplFigure
 
 from tire_pipeline.evaluation import curves_of
 from tire_pipeline.evaluation.curves import EvaluationGrid
@@ -14,6 +13,9 @@ from tire_pipeline.evaluation.judged import FLOOR
 from tire_pipeline.evaluation.translated import NO_CHANGE
 from tire_pipeline.reporting import HOME, Figure, Links, Table, Text, colour_of, new_figure, render_page
 from tire_pipeline.reporting.training_figures import confusion_figure, learning_figure
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as MplFigure
 
 _TABLES = [
     (

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from tire_pipeline.drawing import colour_of, new_figure
 from tire_pipeline.magic_formula import TireModel
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _PANELS = {
     "fy": ("slip_angle", "slip angle (deg)", "lateral force Fy (kN)"),

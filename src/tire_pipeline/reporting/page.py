@@ -5,15 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 import pandas as pd
 from markupsafe import Markup
-from matplotlib.figure import Figure as MplFigure
 from pandas.api.types import is_bool_dtype, is_numeric_dtype
 
 from tire_pipeline.drawing import inline_svg, page_style
 from tire_pipeline.safe_page import page_environment, policy
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as MplFigure
 
 
 @dataclass(frozen=True)

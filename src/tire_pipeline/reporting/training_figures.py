@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from tire_pipeline.classifiers.scores import SPLITS
 from tire_pipeline.drawing import colour_of, new_figure
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def confusion_figure(confusion: pd.DataFrame) -> Figure:

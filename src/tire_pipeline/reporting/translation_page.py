@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure as MplFigure
 
 from tire_pipeline.drawing import MARKERS, colour_of, new_figure
 from tire_pipeline.reporting.page import HOME, Figure, Table, Text, render_page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as MplFigure
 
 RATIOS = {
     "ratio_forces": "forces",

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure as MplFigure
 
 from tire_pipeline.reporting import colour_of, new_figure
 from tire_pipeline.thesis.results import Results, in_words
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as MplFigure
 
 FORCE_FIGURES = {
     "figure_5_10": "coefficients",

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure as MplFigure
 
 from tire_pipeline.classifiers.scores import SPLITS
 from tire_pipeline.reporting import MARKERS, colour_of, new_figure
 from tire_pipeline.thesis.agent_figures import AGENT_FIGURES
 from tire_pipeline.thesis.results import Results, in_words
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as MplFigure
 
 BIN_FIGURES = {
     "figure_5_5": "coefficients",

@@ -11,7 +11,6 @@ from typing import Any, Self, TypeVar
 
 import numpy as np
 
-from tire_pipeline.channels import POINT_CHANNELS
 from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula.parameters.coefficients import (
     INDEX,
@@ -22,7 +21,7 @@ from tire_pipeline.magic_formula.parameters.coefficients import (
     missing_defaults,
     pack_mapping,
 )
-from tire_pipeline.magic_formula.parameters.points import OperatingPoints
+from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, OperatingPoints
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -1,0 +1,24 @@
+"""The Matplotlib figure behind :func:`tire_pipeline.drawing.new_figure`; imported only where one is drawn."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+
+class PlainTextFigure(Figure):
+    """A figure in which a dollar is a dollar: names of files and categories are no formulas."""
+
+    def draw(self, renderer: Any) -> None:
+        """Draw, with formulas only in the labels of logarithmic axes."""
+        powers: set[Text] = set()
+        for axis in (each for axes in self.axes for each in (axes.xaxis, axes.yaxis)):
+            labels = axis.get_majorticklabels()  # brings them up to date, too
+            if axis.get_scale() != "linear":
+                powers.update(labels, axis.get_minorticklabels())
+        for text in self.findobj(Text):
+            if text not in powers:
+                text.set_parse_math(False)
+        super().draw(renderer)
