@@ -8,6 +8,7 @@ from itertools import combinations
 from pathlib import Path
 
 import tire_pipeline
+from tire_pipeline.channels import SLIP_AND_LOAD
 
 ROOT = Path(tire_pipeline.__file__).parent
 
@@ -121,6 +122,19 @@ def test_tests_import_public_names_only():
         if alias.name.startswith("_") and not alias.name.startswith("__")
     }
     assert found == KNOWN_PRIVATE
+
+
+def _written_out(module: ast.Module, names: set[str]) -> bool:
+    """Whether a list of these names stands in the module, whatever else is in it."""
+    lists = [each for each in ast.walk(module) if isinstance(each, ast.Tuple | ast.List | ast.Set)]
+    return any(names <= {e.value for e in each.elts if isinstance(e, ast.Constant)} for each in lists)
+
+
+def test_channels_of_an_operating_point_are_listed_once():
+    """Not in the explanation, which is being rebuilt."""
+    modules = {name: module for name, module in _modules().items() if not name.startswith("mismatch.")}
+    found = [name for name, module in modules.items() if _written_out(module, set(SLIP_AND_LOAD))]
+    assert found == ["channels"]
 
 
 TOPICS = {"docs", "notebooks", "object_storage", "supply_chain", "viz"}

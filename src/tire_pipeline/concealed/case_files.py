@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import FORCE_CHANNELS
 from tire_pipeline.concealed import Answer, Case, make_case
 from tire_pipeline.concealed.baselines import BASELINES, with_all_inputs
 from tire_pipeline.concealed.real import RealPlan, make_real_case
@@ -19,7 +20,6 @@ from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.packed import as_parquet, pack, unpack
 from tire_pipeline.tir import read_tir, tir_bytes
 
-STORED_FORCES = ["fx", "fy", "mx", "my", "mz"]
 Read = Callable[[], bytes]
 
 
@@ -49,7 +49,7 @@ def shown_part(read: Read) -> bytes:
     """What a user would have; of the held-out run only the inputs, to predict it."""
     made = unpack(read())
     held_out = pd.read_parquet(io.BytesIO(made["held_out.parquet"]))
-    inputs = held_out.drop(columns=[name for name in STORED_FORCES if name in held_out])
+    inputs = held_out.drop(columns=[name for name in FORCE_CHANNELS if name in held_out])
     shown = {name: made[name] for name in ("model.tir", "recording.parquet", "case_id")}
     return pack({**shown, "inputs.parquet": as_parquet(inputs)})
 

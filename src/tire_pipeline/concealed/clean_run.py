@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.concealed.rig import RIG_FORCES, World
 from tire_pipeline.concealed.schedule import CHANNELS, CasePlan
 from tire_pipeline.magic_formula import DegreesWarning, TireModel
@@ -34,7 +35,7 @@ def clean_schedule(world: World, plan: CasePlan) -> pd.DataFrame:
         points += [(a, 0.0, g, load) for g in camber for a in alpha[::2]]
         sides = (-0.1, -0.05, 0.03, 0.06)
         points += [(a, k, 0.0, load) for a in sides for k in kappa[::2] if k != 0.0]
-    frame = pd.DataFrame(points, columns=["slip_angle", "slip_ratio", "camber", "normal_load"])
+    frame = pd.DataFrame(points, columns=list(SLIP_AND_LOAD))
     frame["speed"], frame["pressure"], frame["turn_slip"] = plan.speed, plan.pressure, 0.0
     frame.insert(0, "time", np.arange(len(frame)) * 0.02)
     return frame[["time", *CHANNELS]]
@@ -60,7 +61,7 @@ def fit_clean(
         RMS of what the fit leaves of the clean run, N.
     """
     frame = world.run(clean_schedule(world, plan), {})
-    frame = frame[["slip_angle", "slip_ratio", "camber", "normal_load", *RIG_FORCES]].copy()
+    frame = frame[[*SLIP_AND_LOAD, *RIG_FORCES]].copy()
     for force in RIG_FORCES:
         frame[force] += noise * rng.standard_normal(len(frame))
     fitted = fit_magic_formula(
@@ -81,7 +82,7 @@ def model_forces(tire: TireModel, frame: pd.DataFrame) -> np.ndarray:
 
     Slip ratio and camber are 0 where they were not recorded; pressure matters to MF 6.x only.
     """
-    channels = ["normal_load", "slip_angle", "slip_ratio", "camber"]
+    channels = list(SLIP_AND_LOAD)
     if tire.version.startswith("6"):
         channels.append("pressure")
     inputs = {channel: frame[channel].to_numpy() for channel in channels if channel in frame}

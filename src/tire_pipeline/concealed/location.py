@@ -6,15 +6,9 @@ import numpy as np
 import pandas as pd
 from scipy.ndimage import uniform_filter1d
 
-REGIME_CHANNELS = (
-    "slip_angle",
-    "slip_ratio",
-    "camber",
-    "normal_load",
-    "speed",
-    "pressure",
-    "tread_temperature",
-)
+from tire_pipeline.channels import POINT_CHANNELS
+
+REGIME_CHANNELS = (*POINT_CHANNELS, "tread_temperature")
 """Channels over which a regime is given."""
 
 

@@ -14,17 +14,10 @@ import numpy as np
 import pandas as pd
 import scipy
 
+from tire_pipeline.channels import POINT_CHANNELS
 from tire_pipeline.concealed.names import HEAT_OR_WEAR
 
-CHANNELS = (
-    "slip_angle",
-    "slip_ratio",
-    "camber",
-    "normal_load",
-    "speed",
-    "pressure",
-    "turn_slip",
-)
+CHANNELS = (*POINT_CHANNELS, "turn_slip")
 """Inputs of the tire, in the order of the columns that :mod:`brush` takes."""
 
 OPTIONAL_BLOCKS = ("camber", "pressure", "speed", "sine", "brake", "turn", "coast", "repeat")

@@ -7,6 +7,7 @@ from typing import Any, Unpack
 
 import numpy as np
 
+from tire_pipeline.channels import POINT_CHANNELS
 from tire_pipeline.errors import TirShapeError, TirValueError
 from tire_pipeline.magic_formula.compiled import engine
 from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
@@ -20,7 +21,6 @@ from tire_pipeline.magic_formula.parameters.coefficients import (
 )
 from tire_pipeline.magic_formula.parameters.inputs import as_float_arrays
 from tire_pipeline.magic_formula.parameters.points import (
-    POINT_CHANNELS,
     OperatingPoints,
     PointFields,
     points_of,

@@ -12,13 +12,14 @@ from typing import Any
 import numpy as np
 from numpy.lib.stride_tricks import as_strided
 
+from tire_pipeline.channels import POINT_CHANNELS
 from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula.compiled import engine
 from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA
 from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.parameters import inputs
 from tire_pipeline.magic_formula.parameters.axes import Signs, is_mirrored, signs_of
-from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, OperatingPoints
+from tire_pipeline.magic_formula.parameters.points import OperatingPoints
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 _BUFFER = 32768

@@ -62,15 +62,38 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame, *, without: Collection[
     Returns
     -------
     MismatchReport
+        Verdict, effects with their probabilities, errors before and after, and the corrected model.
 
     Raises
     ------
     RecordingError
         If the recording cannot be used; the message says why and what to do.
 
+    See Also
+    --------
+    explain_recordings : Several recordings of one tire, one of them held out.
+    tire_pipeline.recordings.read_recording : Reads a file into such a table.
+
     Notes
     -----
     Method and limits: ``docs/explanation/mismatch.md``.
+
+    Examples
+    --------
+    A rig on which the tire has 10% less cornering stiffness than its file says:
+
+    >>> import numpy as np
+    >>> import pandas as pd
+    >>> from tire_pipeline.tir import read_tir
+    >>> tire = read_tir("tire.tir")
+    >>> softer = tire.replace(LKY=0.9)
+    >>> slip_angle = np.tile(np.linspace(-0.15, 0.15, 100), 2)
+    >>> rig = pd.DataFrame({"slip_angle": slip_angle, "normal_load": np.repeat([3000.0, 5000.0], 100)})
+    >>> rig["fy"] = softer.forces(slip_angle=rig["slip_angle"], normal_load=rig["normal_load"]).fy
+    >>> rig["fy"] += np.random.default_rng(0).normal(0.0, 20.0, len(rig))
+    >>> report = explain_mismatch(tire, rig)
+    >>> "stiffness_scale" in report.sets[0][0], report.fit["fy"].rms_before > 5 * report.fit["fy"].rms_after
+    (True, True)
     """
     unknown = sorted(set(without) - set(catalogue()))
     if unknown:

@@ -8,7 +8,8 @@ from typing import Literal
 import numpy as np
 import pandas as pd
 
-FORCE_CHANNELS = ("fx", "fy", "mx", "my", "mz")
+from tire_pipeline.channels import FORCE_CHANNELS
+
 FEW_SAMPLES = 30
 _ANGLES = ("slip_angle", "camber")
 _LARGEST_ANGLE = 1.6  # rad: what no tire is turned to; the same limit as the Magic Formula's

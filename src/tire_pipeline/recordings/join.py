@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import FORCE_CHANNELS
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.channels import CANONICAL, FURTHER
 
@@ -15,7 +16,6 @@ LEAST_GAP = 1.0
 GAP_STEPS = 20.0
 """The same in sampling steps: enough to be an interruption wherever time is looked at."""
 _SURE = 0.5
-_FORCES = ("fx", "fy", "mx", "my", "mz")
 _SLIPS = {"slip_angle": 0.005, "camber": 0.008, "slip_ratio": 0.01}
 """Inputs that count as zero where they are not recorded, and the size from which that is wrong, rad or 1."""
 _KNOWN = tuple(channel.name for channel in (*CANONICAL, *FURTHER) if channel.name != "time")
@@ -97,7 +97,7 @@ def _common(recordings: Mapping[str, pd.DataFrame], notes: list[str]) -> list[st
                 todo="name the channel, or leave one of the two recordings out",
             )
         note = f"{channel} is left out: {', '.join(lacking)} {_have(lacking)} none"
-        if moving and channel not in _FORCES:
+        if moving and channel not in FORCE_CHANNELS:
             note += f". It varies in {', '.join(moving)}: what depends on it cannot be told there"
         notes.append(note)
     missing = [what for what, names in _NEEDED.items() if not set(names) & set(common)]

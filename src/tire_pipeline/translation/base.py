@@ -34,7 +34,32 @@ RENAMED = {
 
 
 class Translator(Protocol):
-    """Learns from a training table; gives tires as the target would have measured them."""
+    """Learns from a training table; gives tires as the target would have measured them.
+
+    Attributes
+    ----------
+    name : str
+        The name by which :func:`make_translator` makes it.
+
+    See Also
+    --------
+    make_translator : Makes one by its name.
+    translator_from_state : Brings a fitted one back.
+
+    Notes
+    -----
+    A protocol: a class with these methods is a translator, whatever it inherits. How to add one:
+    docs/how-to/add_a_method.md. Tables are those of :mod:`tire_pipeline.tire_table`: one tire a row,
+    coefficients without a unit, loads in N.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> tires = pd.DataFrame({"category": ["A", "D"], "PDY1": [1.0, 0.9]})
+    >>> unchanged = make_translator("no_change").fit(tires, target="D", seed=0)
+    >>> unchanged.translate(tires).equals(tires)
+    True
+    """
 
     name: ClassVar[str]
 

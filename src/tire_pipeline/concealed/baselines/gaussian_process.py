@@ -8,20 +8,12 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import minimize
 
+from tire_pipeline.channels import POINT_CHANNELS
 from tire_pipeline.concealed.baselines.report import BaselineReport, fit_entry
 from tire_pipeline.concealed.clean_run import residual
 from tire_pipeline.magic_formula import TireModel
 
-_INPUTS = (
-    "slip_angle",
-    "slip_ratio",
-    "camber",
-    "normal_load",
-    "speed",
-    "pressure",
-    "tread_temperature",
-    "turn_slip",
-)
+_INPUTS = (*POINT_CHANNELS, "tread_temperature", "turn_slip")
 
 
 def _search(objective, start, bounds):  # type: ignore[no-untyped-def]

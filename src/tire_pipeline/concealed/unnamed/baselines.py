@@ -8,12 +8,13 @@ import numpy as np
 import pandas as pd
 from sklearn.ensemble import HistGradientBoostingRegressor
 
+from tire_pipeline.channels import POINT_CHANNELS
 from tire_pipeline.concealed.baselines import explain_gaussian_process, explain_sindy
 from tire_pipeline.concealed.clean_run import model_forces, residual
 from tire_pipeline.magic_formula import TireModel
 
 Predict = Callable[[pd.DataFrame], pd.DataFrame]
-_INPUTS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure", "tread_temperature")
+_INPUTS = (*POINT_CHANNELS, "tread_temperature")
 
 
 def boosted(tire: TireModel, recording: pd.DataFrame) -> Predict:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import POINT_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.concealed.open_world.mechanism import Added, Mechanism, put_in
 from tire_pipeline.concealed.open_world.world import Nominal, World
 from tire_pipeline.concealed.second import schedule
@@ -30,12 +31,11 @@ from tire_pipeline.concealed.second.strength import formula_misfit, sized, unit
 from tire_pipeline.concealed.second.tire import Tire, draw_tire
 from tire_pipeline.magic_formula import TireModel, fit_magic_formula
 
-VARIED = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
 _PRESSURES = 0.2
 """Either way, where a mechanism needs the pressure to change."""
 HELD_OUT = 0.25
 """Rows that follow the recording and that nobody is shown, over those of the recording."""
-_OF_FIT = ("normal_load", "slip_angle", "slip_ratio", "camber", "speed")
+_OF_FIT = (*SLIP_AND_LOAD, "speed")
 _EVERY = 20
 """Rows of the references that the formula is fitted to."""
 
@@ -160,11 +160,11 @@ def _placed(
 
 def _world(run: Run, placed: tuple[Placed, ...]) -> World:
     rolled, course = run.rolled(placed)
-    channels = pd.DataFrame({"time": course.time, **{name: getattr(course, name) for name in VARIED}})
+    channels = pd.DataFrame({"time": course.time, **{name: getattr(course, name) for name in POINT_CHANNELS}})
     channels["tread_temperature"] = rolled.tread_temperature
 
     def forces(at: pd.DataFrame) -> np.ndarray:
-        moved = run.course._replace(**{name: at[name].to_numpy() for name in VARIED})
+        moved = run.course._replace(**{name: at[name].to_numpy() for name in POINT_CHANNELS})
         other = Run(run.tire, run.rig, moved, run.above)
         return other.forces(placed).T
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.channels import POINT_CHANNELS
 from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula.derivatives.gradients import gradients_of
 from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA, compiled
@@ -15,7 +16,7 @@ from tire_pipeline.magic_formula.equations.numpy_form import SATURATION, relativ
 from tire_pipeline.magic_formula.equations.shapes import clamp
 from tire_pipeline.magic_formula.parameters.coefficients import INDEX, Coefficients
 from tire_pipeline.magic_formula.parameters.inputs import as_float_arrays
-from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, OperatingPoints, refuse_turn_slip
+from tire_pipeline.magic_formula.parameters.points import OperatingPoints, refuse_turn_slip
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 _CHUNK = 4096

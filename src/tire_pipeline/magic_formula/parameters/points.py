@@ -6,10 +6,8 @@ from typing import Any, NamedTuple, TypedDict
 
 import numpy as np
 
+from tire_pipeline.channels import POINT_CHANNELS as POINT_CHANNELS
 from tire_pipeline.errors import TirValueError
-
-POINT_CHANNELS = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure")
-"""The channels of an operating point in the order in which the equations take them; turn slip comes last."""
 
 
 class OperatingPoints(NamedTuple):

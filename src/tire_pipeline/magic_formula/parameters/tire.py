@@ -11,6 +11,7 @@ from typing import Any, Self, TypeVar
 
 import numpy as np
 
+from tire_pipeline.channels import POINT_CHANNELS
 from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula.parameters.coefficients import (
     INDEX,
@@ -21,7 +22,7 @@ from tire_pipeline.magic_formula.parameters.coefficients import (
     missing_defaults,
     pack_mapping,
 )
-from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, OperatingPoints
+from tire_pipeline.magic_formula.parameters.points import OperatingPoints
 
 
 @dataclass(frozen=True, eq=False, repr=False)

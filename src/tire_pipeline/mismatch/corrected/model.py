@@ -35,7 +35,9 @@ class CorrectedModel:
     Parameters
     ----------
     tire : TireModel
+        The model as it came; None where it stands in for another simulator.
     changes : tuple of (name, parameters)
+        Effects of the catalogue, with their parameters in SI, in the order they are put in.
     reference : dict
         Nominal pressure and speed, and what work, heat and time are measured by.
     outputs : tuple of str
@@ -55,6 +57,29 @@ class CorrectedModel:
         Input channel that is cleaned of sensor noise before the effects are put in -> RMS of that noise, SI.
     unnamed : UnnamedPhysics, optional
         An equation of unnamed physics, put in last.
+
+    See Also
+    --------
+    explain_mismatch : Finds what to put in: ``report.corrected``.
+
+    Notes
+    -----
+    Equations and sources of the effects: ``docs/reference/effects.md``. Forces in N, moments in N m, ISO W
+    axes.
+
+    Examples
+    --------
+    10% less stiffness at small slip, and the same friction:
+
+    >>> import pandas as pd
+    >>> from tire_pipeline.tir import read_tir
+    >>> tire = read_tir("tire.tir")
+    >>> changes = (("stiffness_scale", {"stiffness": -0.1, "lateral_stiffness": 0.0}),)
+    >>> softer = CorrectedModel(tire, changes, reference={}, outputs=("fy",))
+    >>> run = pd.DataFrame({"slip_angle": [0.001, 0.3], "normal_load": 4000.0})
+    >>> before = tire.forces(slip_angle=run["slip_angle"], normal_load=run["normal_load"]).fy
+    >>> (softer.predict(run)["fy"] / before).round(1).tolist()
+    [0.9, 1.0]
     """
 
     tire: Any

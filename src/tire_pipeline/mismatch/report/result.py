@@ -101,7 +101,67 @@ class HeldOutFit:
 
 @dataclass(repr=False)
 class MismatchReport:
-    """What :func:`tire_pipeline.mismatch.explain_mismatch` returns; see ``docs/explanation/mismatch.md``."""
+    """What :func:`tire_pipeline.mismatch.explain_mismatch` returns.
+
+    Parameters
+    ----------
+    verdict : str
+        One of ``VERDICTS``.
+    effects : list of EffectReport
+        What was found, the surest first.
+    fit : dict of str to OutputFit
+        Errors of each force (N) and moment (N m) before and after, on sweeps that no fit has seen.
+    next_experiment : str
+        What to record next, in words.
+    corrected : CorrectedModel
+        The model with what was found put in.
+    summary : str
+        Verdict, causes and errors in a few sentences.
+    located : list of Located
+        Stretches of time and of channels (SI) in which recorded and simulated force differ.
+    remainder : Remainder
+        What is left above the noise.
+    notes : list of str
+        What was done to the recording, and what it lacks.
+    candidates : list of dict
+        Each effect of the catalogue, and why it was named or not.
+    series : dict
+        Arrays of one value a sample, for the figures.
+    recordings : tuple of str
+        Names of the recordings that were explained together.
+    held_out : HeldOutFit, optional
+        Errors in the recording that was held out.
+    assumed : list of str
+        What was taken for granted because the recording does not say it.
+    visible : list of Visible
+        How large each effect would have had to be to be seen.
+    unnamed : UnnamedReport, optional
+        What the part that is left follows, if anything is left.
+
+    See Also
+    --------
+    explain_mismatch : Makes it.
+    CorrectedModel : The model to go on with.
+
+    Notes
+    -----
+    How each figure comes about: ``docs/explanation/mismatch.md``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import pandas as pd
+    >>> from tire_pipeline.mismatch import explain_mismatch
+    >>> from tire_pipeline.tir import read_tir
+    >>> tire = read_tir("tire.tir")
+    >>> slip_angle = np.tile(np.linspace(-0.15, 0.15, 100), 2)
+    >>> rig = pd.DataFrame({"slip_angle": slip_angle, "normal_load": np.repeat([3000.0, 5000.0], 100)})
+    >>> rig["fy"] = tire.forces(slip_angle=rig["slip_angle"], normal_load=rig["normal_load"]).fy
+    >>> rig["fy"] += np.random.default_rng(0).normal(0.0, 20.0, len(rig))
+    >>> report = explain_mismatch(tire, rig)
+    >>> report.verdict, report.effects, sorted(report.fit)
+    ('agrees', [], ['fy'])
+    """
 
     verdict: str
     effects: list[EffectReport]

@@ -62,6 +62,7 @@ def read_dart(path: str | Path) -> pd.DataFrame:
     Parameters
     ----------
     path : str or Path
+        A CSV file with the columns of the published drives, one row a sample of the capture.
 
     Returns
     -------
@@ -84,6 +85,20 @@ def read_dart(path: str | Path) -> pd.DataFrame:
     Notes
     -----
     The drives: Lorenzo-Lyons/DART, docs/history/recordings.md.
+
+    Examples
+    --------
+    A made-up drive straight ahead at 1 m/s, of which one frame was lost:
+
+    >>> import numpy as np
+    >>> import pandas as pd
+    >>> time = np.arange(300) * 0.01
+    >>> columns = {"vicon time": time, "elapsed time sensors": time, "vicon x": time, "vel encoder": 1.0}
+    >>> zero = ["vicon y", "vicon yaw", "acc x (IMU)", "acc y (IMU)", "W (IMU)", "throttle", "steering"]
+    >>> pd.DataFrame(columns).assign(**dict.fromkeys(zero, 0.0)).drop(index=100).to_csv("drive.csv")
+    >>> drive = read_dart("drive.csv")
+    >>> len(drive), drive.attrs["lost_frames"], bool(np.isnan(drive["x"][100]))
+    (300, 1, True)
     """
     try:
         raw = pd.read_csv(path)

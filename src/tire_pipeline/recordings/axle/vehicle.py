@@ -46,6 +46,21 @@ class Vehicle:
     ------
     RecordingError
         A length, mass or inertia is not positive, or a value is not finite.
+
+    See Also
+    --------
+    axle_recording : Needs it to turn a drive into forces of an axle.
+
+    Notes
+    -----
+    The centre of gravity lies ``wheelbase * (1 - front_mass / mass)`` behind the front axle. Axes are those
+    of ISO 8855: x ahead, y to the left, z up. What is worth measuring: docs/reference/recordings.md.
+
+    Examples
+    --------
+    >>> car = Vehicle(mass=1500.0, front_mass=825.0, wheelbase=2.7, yaw_inertia=2400.0)
+    >>> round(car.front_length, 3), round(car.rear_length, 3)
+    (1.215, 1.485)
     """
 
     mass: float

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.axis_systems import to_iso_w
 from tire_pipeline.recordings.conventions.channels import CANONICAL, Channel, find_channel
@@ -192,7 +193,7 @@ def _repeats(frame: pd.DataFrame, notes: list[str]) -> tuple[pd.DataFrame, dict[
     """Drop identical rows that repeat a time stamp; count the others and repeated points."""
     counts = {"identical_rows_dropped": 0, "repeated_stamps": 0, "backward_stamps": 0}
     if "time" not in frame:
-        points = [c for c in ("slip_angle", "slip_ratio", "camber", "normal_load") if c in frame]
+        points = [c for c in SLIP_AND_LOAD if c in frame]
         if points and len(frame) > 1:
             steps = {"slip_angle": 2e-3, "slip_ratio": 2e-3, "camber": 4e-3}
             loads = np.abs(frame["normal_load"].to_numpy()) if "normal_load" in frame else np.ones(1)

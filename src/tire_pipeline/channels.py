@@ -1,0 +1,12 @@
+"""Names of the channels that a tire is evaluated at, and of what it gives, in the order that arrays take."""
+
+from __future__ import annotations
+
+SLIP_AND_LOAD = ("slip_angle", "slip_ratio", "camber", "normal_load")
+"""What every force depends on: rad, -, rad, N."""
+
+POINT_CHANNELS = (*SLIP_AND_LOAD, "speed", "pressure")
+"""An operating point, in the order in which the equations take it: m/s and Pa. Turn slip comes last."""
+
+FORCE_CHANNELS = ("fx", "fy", "mx", "my", "mz")
+"""Forces (N) and moments (N m) in ISO W axes."""
