@@ -32,3 +32,12 @@ def test_what_an_answer_says_to_type_stands_on_the_page():
         for _, answer in questions:
             for word in re.findall(r"--[a-z-]+|\b\w+_\w+\b|\b[\w.]+/[\w./<>]+", answer):
                 assert word.strip(".") in text, (page, word)
+
+
+def test_each_number_in_an_answer_stands_on_the_page():
+    """An answer that is older than its page shows by its figures."""
+    for page, questions in QUESTIONS.items():
+        text = (ROOT / page).read_text("utf-8")
+        for question, answer in questions:
+            for number in re.findall(r"(?<![\w.])\d+(?:[.,]\d+)*(?![\w])", answer):
+                assert re.search(rf"(?<![\d.,]){re.escape(number)}(?!\d)", text), (page, question, number)
