@@ -16,6 +16,7 @@ from tire_pipeline.atomic import check_before_replacing
 from tire_pipeline.data_place import data_place
 from tire_pipeline.datasets.text_folder import TextFolderDataset
 from tire_pipeline.errors import DomainError
+from tire_pipeline.newest_tables import tables_place
 from tire_pipeline.objects import Objects
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.runs import (
@@ -225,6 +226,12 @@ class SignpostHooks:
     )
 
     @hook_impl
+    def after_context_created(self, context: Any) -> None:
+        """Remember where the tables lie as plain files: in the catalog a versioned one is a folder."""
+        place = tables_place(context)
+        self._tables = place.address if isinstance(place, Objects) else place
+
+    @hook_impl
     def before_pipeline_run(self) -> None:
         """Remember when the run began."""
         self._began = time.monotonic()
@@ -242,4 +249,6 @@ class SignpostHooks:
                 dataset = catalog.get(name)
                 place = str(getattr(dataset, "_filepath", None) or getattr(dataset, "_path", None))
                 protocol = getattr(dataset, "_protocol", "file")
+                if place.endswith(".csv"):
+                    place = f"{self._tables}/{place.rsplit('/', 1)[-1]}"
                 print(f"{what}: {place if protocol == 'file' or '://' in place else f'{protocol}://{place}'}")

@@ -16,6 +16,13 @@ from tire_pipeline.objects import Objects
 FOLDER = "tables"
 
 
+def tables_place(context: Any) -> Path | Objects:
+    """Where the newest tables of a project lie."""
+    data = data_place(context)
+    below = f"08_reporting/{FOLDER}"
+    return data.below(below) if isinstance(data, Objects) else data / below
+
+
 class NewestTablesHooks:
     """Copies the CSV tables that a run made to ``data/08_reporting/tables``."""
 
@@ -25,9 +32,7 @@ class NewestTablesHooks:
     @hook_impl
     def after_context_created(self, context: Any) -> None:
         """Remember where the reports lie."""
-        data = data_place(context)
-        below = f"08_reporting/{FOLDER}"
-        self._folder = data.below(below) if isinstance(data, Objects) else data / below
+        self._folder = tables_place(context)
 
     @hook_impl
     def after_pipeline_run(self, pipeline: Any, catalog: Any) -> None:

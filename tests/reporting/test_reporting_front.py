@@ -8,6 +8,8 @@ from urllib.parse import unquote
 
 from tire_pipeline.reporting import front_page
 
+TABLES = ("tables/ingest_report.csv", "tables/filter_report.csv")
+
 
 def _links(page: str) -> list[str]:
     return [unquote(address) for address in re.findall(r'href="([^"]+)"', page)]
@@ -37,18 +39,19 @@ def test_every_link_leads_to_a_file_even_with_hostile_names(tmp_path):
         (version / when / "confusion_matrix.png").write_bytes(b"")
     (tmp_path / "mismatch" / "rig" / "deep").mkdir(parents=True)
     (tmp_path / "tables").mkdir()
-    for name in ("mismatch.html", "mismatch/rig/deep/run.html", "translation.html", "tables/a.csv"):
+    for name in ("mismatch.html", "mismatch/rig/deep/run.html", "translation.html", *TABLES):
         (tmp_path / name).write_text("<title>there</title>")
     (tmp_path / "report.html").write_text("<title>Report</title>")
     page = front_page(tmp_path)
     links = _links(page)
-    assert len(links) == 8
-    assert {"mismatch.html", "mismatch/rig/deep/run.html", "translation.html", "tables/a.csv"} <= set(links)
+    assert len(links) == 9
+    assert {"mismatch.html", "mismatch/rig/deep/run.html", "translation.html", *TABLES} <= set(links)
     for link in links:
         assert Path(tmp_path / link).is_file(), link
     assert any("2026-01-02" in link for link in links)
     assert "<script>" not in page
     assert "<b> tire" not in page
+    assert all(f">{name}</a>" in page for name in ("ingest report", "filter report"))
     assert not re.search("https?:", page)
 
 

@@ -58,8 +58,7 @@ def _judged(
     part = table[(table["set"] == name) & (table["translator"] == best["name"])]
     acted = int((part["verdict"] == TRANSLATED).sum())
     others = [who for who in table["translator"].unique() if who not in (best["name"], NO_CHANGE)]
-    left = len(part) - acted
-    unchanged = f"; the other {left} were left unchanged and count as such" if left else ""
+    unchanged = _unchanged(len(part) - acted)
     tires = part["tire"].nunique()
     uncertain = f" With {tires} tires, both figures are uncertain." if tires < _FEW else ""
     return [
@@ -75,6 +74,13 @@ def _judged(
             if who in rms
         ),
     ]
+
+
+def _unchanged(count: int) -> str:
+    if not count:
+        return ""
+    said = "one was left unchanged and counts" if count == 1 else f"{count} were left unchanged and count"
+    return f"; the other {said} as such"
 
 
 def _subject(name: str) -> str:

@@ -68,7 +68,7 @@ REPORTS = (
             ),
         ),
     ),
-    ("Tables (CSV), the newest of each", (("tables/*.csv", "Table", "kedro run"),)),
+    ("Tables (CSV), the newest of each", (("tables/*.csv", "Tables", "kedro run"),)),
     (
         "Retraining and lineage",
         (
@@ -146,11 +146,18 @@ def _items(folder: Path, pattern: str, name: str, command: str) -> list[tuple[st
     return [
         (
             path.relative_to(folder).as_posix(),
-            f"{name}: {_title(path) or path.stem}" if several else name,
+            _one_of(name, path) if several else name,
             _date(path),
         )
         for path in found
     ]
+
+
+def _one_of(name: str, path: Path) -> str:
+    """What one of several reports of a kind is called."""
+    if path.suffix == ".csv":
+        return path.stem.replace("_", " ")
+    return f"{name}: {_title(path) or path.stem}"
 
 
 def _newest(path: Path) -> Path | None:
