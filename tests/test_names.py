@@ -12,17 +12,8 @@ from tire_pipeline.channels import SLIP_AND_LOAD
 
 ROOT = Path(tire_pipeline.__file__).parent
 
-KNOWN_CLASSES = {"Points", "Problem"}
-KNOWN_CONSTANTS = {
-    "ALIGNING",
-    "AXES",
-    "LATERAL",
-    "LONGITUDINAL",
-    "PRESSURE",
-    "RANGES",
-    "SURE",
-    "TWO_OVER_PI",
-}
+KNOWN_CLASSES = {"Problem"}
+KNOWN_CONSTANTS = {"AXES", "SURE", "TWO_OVER_PI"}
 KNOWN_MODULES: set[tuple[str, str]] = set()
 """What still stands twice, in the formula, its solvers and ``mismatch``. Nothing is added here; what is
 resolved is removed, or the tests fail."""

@@ -16,7 +16,7 @@ Model = Callable[[np.ndarray, np.ndarray, bool], tuple[np.ndarray, np.ndarray | 
 
 
 @dataclass(frozen=True)
-class Problem:
+class LeastSquares:
     """A batch of n bounded least-squares problems with p parameters and m residuals.
 
     Attributes
@@ -70,7 +70,7 @@ class Steps:
     hold: bool = True
 
 
-def solve(problem: Problem, steps: Steps = Steps()) -> tuple[np.ndarray, np.ndarray]:
+def solve(problem: LeastSquares, steps: Steps = Steps()) -> tuple[np.ndarray, np.ndarray]:
     """Minimise the squares of every problem of the batch.
 
     Each problem has its own damping and stops on its own; so the result of one does not depend on
@@ -78,7 +78,7 @@ def solve(problem: Problem, steps: Steps = Steps()) -> tuple[np.ndarray, np.ndar
 
     Parameters
     ----------
-    problem : Problem
+    problem : LeastSquares
     steps : Steps
 
     Returns
@@ -121,7 +121,9 @@ def solve(problem: Problem, steps: Steps = Steps()) -> tuple[np.ndarray, np.ndar
     return best, costs
 
 
-def _cost(problem: Problem, parameters: np.ndarray, rows: np.ndarray, residual: np.ndarray) -> np.ndarray:
+def _cost(
+    problem: LeastSquares, parameters: np.ndarray, rows: np.ndarray, residual: np.ndarray
+) -> np.ndarray:
     """The cost (k,), penalty included."""
     stiffness, apart = problem.stiffness[rows], parameters - problem.prior[rows]
     penalty: np.ndarray = (stiffness * apart * apart).sum(axis=1)
@@ -130,7 +132,7 @@ def _cost(problem: Problem, parameters: np.ndarray, rows: np.ndarray, residual: 
 
 
 def _normal(
-    problem: Problem,
+    problem: LeastSquares,
     parameters: np.ndarray,
     rows: np.ndarray,
     residual: np.ndarray,
@@ -146,7 +148,7 @@ def _normal(
 
 
 def _step(
-    problem: Problem,
+    problem: LeastSquares,
     parameters: np.ndarray,
     rows: np.ndarray,
     normal: np.ndarray,

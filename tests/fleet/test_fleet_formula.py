@@ -8,9 +8,9 @@ from tire_pipeline.fleet.fits.habits import HABITS, fit_setup
 from tire_pipeline.magic_formula import TireModel
 
 PARTS = {
-    "lateral": formula.LATERAL,
-    "longitudinal": formula.LONGITUDINAL,
-    "aligning": formula.ALIGNING,
+    "lateral": formula.FITTED_LATERAL,
+    "longitudinal": formula.FITTED_LONGITUDINAL,
+    "aligning": formula.FITTED_ALIGNING,
 }
 
 
@@ -22,7 +22,7 @@ def _draw(names: list[str], count: int, rng: np.random.Generator) -> np.ndarray:
 
 def _case(count: int = 5, points: int = 60):
     rng = np.random.default_rng(3)
-    where = formula.Points(
+    where = formula.FitPoints(
         slip=rng.uniform(-0.24, 0.24, (count, points)),
         camber=rng.uniform(-0.09, 0.09, (count, points)),
         normal_load=rng.uniform(1500.0, 9000.0, (count, points)),
@@ -33,7 +33,7 @@ def _case(count: int = 5, points: int = 60):
     return where, drawn
 
 
-def _evaluate(name: str, parameters: np.ndarray, where: formula.Points, lateral: np.ndarray):
+def _evaluate(name: str, parameters: np.ndarray, where: formula.FitPoints, lateral: np.ndarray):
     if name == "aligning":
         return formula.aligning(parameters, where, lateral)
     return getattr(formula, name)(parameters, where)
@@ -49,7 +49,7 @@ def test_values_are_those_of_the_engine(name: str) -> None:
             coefficients.update(zip(names, drawn[part][i], strict=True))
         coefficients.update(LONGVL=16.7)
         if name == "aligning":  # the engine adds the lever of Fx; without Fx there is none
-            coefficients.update(dict.fromkeys(formula.LONGITUDINAL[-4:], 0.0))
+            coefficients.update(dict.fromkeys(formula.FITTED_LONGITUDINAL[-4:], 0.0))
         tire = TireModel.from_coefficients(coefficients, version="5.2")
         slip = "slip_ratio" if name == "longitudinal" else "slip_angle"
         forces = tire.forces(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from tire_pipeline.levenberg_marquardt import Problem, Steps, solve
+from tire_pipeline.levenberg_marquardt import LeastSquares, Steps, solve
 
 
 def _decay(x: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -14,7 +14,7 @@ def _decay(x: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return a * decay + c, np.stack([decay, -a * x * decay, np.ones_like(x)], axis=1)
 
 
-def _problem(count: int = 7, points: int = 40, freeze: bool = False, lazy: bool = False) -> Problem:
+def _problem(count: int = 7, points: int = 40, freeze: bool = False, lazy: bool = False) -> LeastSquares:
     rng = np.random.default_rng(11)
     x = np.sort(rng.uniform(0.0, 4.0, (count, points)), axis=1)
     truth = rng.uniform([1.0, 0.4, -0.5], [3.0, 2.0, 0.5], (count, 3))
@@ -29,7 +29,7 @@ def _problem(count: int = 7, points: int = 40, freeze: bool = False, lazy: bool 
         residual = (value - target[rows]) * weight[rows]
         return residual, None if lazy and not slopes else jacobian * weight[rows][:, None]
 
-    return Problem(
+    return LeastSquares(
         model=model,
         start=np.tile([1.0, 0.5, 0.0], (count, 1)),
         lower=lower,
@@ -77,7 +77,7 @@ def test_a_problem_does_not_depend_on_its_neighbours() -> None:
     for i in range(len(together)):
         rows = np.array([i])
         alone, _ = solve(
-            Problem(
+            LeastSquares(
                 model=lambda p, _, slopes, rows=rows: problem.model(p, rows, slopes),
                 **{
                     name: getattr(problem, name)[rows]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.levenberg_marquardt import Problem, Steps, solve
+from tire_pipeline.levenberg_marquardt import LeastSquares, Steps, solve
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.representations.lateral_curve import lateral_factors, lateral_force
 
@@ -97,7 +97,7 @@ def _fit_chunk(
         return here, found
 
     zero = np.zeros_like(source_values)
-    problem = Problem(model, zero, zero - np.inf, zero + np.inf, zero, zero)
+    problem = LeastSquares(model, zero, zero - np.inf, zero + np.inf, zero, zero)
     rule = Steps(most=steps, tolerance=1e-9, damping=1e-3, easier=5.0, largest=_MAX_DAMPING)
     moves, _ = solve(problem, rule)
     return np.asarray(source_values + moves * spans)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tire_pipeline.fleet.fits.formula import ALIGNING, LATERAL, LONGITUDINAL
+from tire_pipeline.fleet.fits.formula import FITTED_ALIGNING, FITTED_LATERAL, FITTED_LONGITUDINAL
 
 _COMBINED_X = ["RBX1", "RBX2", "RCX1", "REX1", "REX2", "RHX1"]
 _COMBINED_Y = [
@@ -43,11 +43,11 @@ _SCALE_FACTORS = [
 
 # The coefficient sections in file order. Each key is a column of the table of values.
 WRITTEN_SECTIONS: dict[str, list[str]] = {
-    "LONGITUDINAL_COEFFICIENTS": [*LONGITUDINAL, *_COMBINED_X, "PTX1", "PTX2", "PTX3"],
+    "LONGITUDINAL_COEFFICIENTS": [*FITTED_LONGITUDINAL, *_COMBINED_X, "PTX1", "PTX2", "PTX3"],
     "OVERTURNING_COEFFICIENTS": ["QSX1", "QSX2", "QSX3"],
-    "LATERAL_COEFFICIENTS": [*LATERAL, *_COMBINED_Y[0].split(), "PTY1", "PTY2"],
+    "LATERAL_COEFFICIENTS": [*FITTED_LATERAL, *_COMBINED_Y[0].split(), "PTY1", "PTY2"],
     "ROLLING_COEFFICIENTS": ["QSY1", "QSY2", "QSY3", "QSY4"],
-    "ALIGNING_COEFFICIENTS": [*ALIGNING, "SSZ1", "SSZ2", "SSZ3", "SSZ4", "QTZ1", "MBELT"],
+    "ALIGNING_COEFFICIENTS": [*FITTED_ALIGNING, "SSZ1", "SSZ2", "SSZ3", "SSZ4", "QTZ1", "MBELT"],
 }
 
 _REMARKS: dict[str, str] = {

@@ -9,17 +9,17 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.fleet.fits.formula import (
-    ALIGNING,
-    LATERAL,
-    LONGITUDINAL,
+    FITTED_ALIGNING,
+    FITTED_LATERAL,
+    FITTED_LONGITUDINAL,
+    FitPoints,
     LateralPart,
-    Points,
     lateral,
     longitudinal,
 )
 from tire_pipeline.fleet.fits.habits import Habit, fit_setup, nominal_loads
 from tire_pipeline.fleet.rig.sweeps import Sweeps
-from tire_pipeline.levenberg_marquardt import Problem, solve
+from tire_pipeline.levenberg_marquardt import LeastSquares, solve
 from tire_pipeline.progress import track
 
 CHUNK = 48  # tires fitted together: keeps the derivatives in the processor's cache
@@ -96,7 +96,7 @@ def fit_all(tasks: list[FitTask], threads: int) -> list[pd.DataFrame]:
             owner.append(number)
     with ThreadPoolExecutor(threads) as pool:
         done = list(track(pool.map(fit_chunk, chunks), "fitting the fleet", total=len(chunks)))
-    columns = [*LATERAL, *LONGITUDINAL, *ALIGNING, "FNOMIN"]
+    columns = [*FITTED_LATERAL, *FITTED_LONGITUDINAL, *FITTED_ALIGNING, "FNOMIN"]
     tables = []
     for number in range(len(tasks)):
         parts = [part for part, own in zip(done, owner, strict=True) if own == number]
@@ -114,14 +114,14 @@ def fit_chunk(task: FitTask) -> np.ndarray:
     Returns
     -------
     ndarray, shape (n, 59)
-        Coefficients in the order of ``LATERAL + LONGITUDINAL + ALIGNING``, then F_z0.
+        Coefficients in the order of ``FITTED_LATERAL + FITTED_LONGITUDINAL + FITTED_ALIGNING``, then F_z0.
     """
     nominal = nominal_loads(task.habit, task.rated_load)
     points_y = _points(task.lateral, nominal, task.radius)
     points_x = _points(task.longitudinal, nominal, task.radius)
     fy = _fit(
         task,
-        LATERAL,
+        FITTED_LATERAL,
         lambda p, rows: lateral(p, points_y.take(rows)),
         task.lateral,
         task.lateral.force,
@@ -129,7 +129,7 @@ def fit_chunk(task: FitTask) -> np.ndarray:
     )
     fx = _fit(
         task,
-        LONGITUDINAL,
+        FITTED_LONGITUDINAL,
         lambda p, rows: longitudinal(p, points_x.take(rows)),
         task.longitudinal,
         task.longitudinal.force,
@@ -139,7 +139,7 @@ def fit_chunk(task: FitTask) -> np.ndarray:
     assert task.lateral.moment is not None
     mz = _fit(
         task,
-        ALIGNING,
+        FITTED_ALIGNING,
         lambda p, rows: part.take(rows).aligning(p, points_y.take(rows)),
         task.lateral,
         task.lateral.moment,
@@ -148,8 +148,8 @@ def fit_chunk(task: FitTask) -> np.ndarray:
     return np.concatenate([fy, fx, mz, nominal[:, None]], axis=1)
 
 
-def _points(sweeps: Sweeps, nominal: np.ndarray, radius: np.ndarray) -> Points:
-    return Points(sweeps.slip, sweeps.camber, sweeps.normal_load, nominal[:, None], radius[:, None])
+def _points(sweeps: Sweeps, nominal: np.ndarray, radius: np.ndarray) -> FitPoints:
+    return FitPoints(sweeps.slip, sweeps.camber, sweeps.normal_load, nominal[:, None], radius[:, None])
 
 
 def _fit(
@@ -167,5 +167,5 @@ def _fit(
         jacobian *= weight[rows][:, None, :]
         return (value - target[rows]) * weight[rows], jacobian
 
-    problem = Problem(residuals, setup.start, setup.lower, setup.upper, setup.start, setup.stiffness)
+    problem = LeastSquares(residuals, setup.start, setup.lower, setup.upper, setup.start, setup.stiffness)
     return solve(problem)[0]

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-LATERAL = [
+FITTED_LATERAL = [
     "PCY1",
     "PDY1",
     "PDY2",
@@ -31,7 +31,7 @@ LATERAL = [
     "PVY3",
     "PVY4",
 ]
-LONGITUDINAL = [
+FITTED_LONGITUDINAL = [
     "PCX1",
     "PDX1",
     "PDX2",
@@ -48,7 +48,7 @@ LONGITUDINAL = [
     "PVX1",
     "PVX2",
 ]
-ALIGNING = [
+FITTED_ALIGNING = [
     "QBZ1",
     "QBZ2",
     "QBZ3",
@@ -78,7 +78,7 @@ ALIGNING = [
 
 
 @dataclass(frozen=True)
-class Points:
+class FitPoints:
     """Operating points of a batch, arrays of shape (n, m).
 
     Attributes
@@ -97,9 +97,9 @@ class Points:
     nominal_load: np.ndarray
     radius: np.ndarray
 
-    def take(self, rows: np.ndarray) -> Points:
+    def take(self, rows: np.ndarray) -> FitPoints:
         """Return some of the tires."""
-        return Points(
+        return FitPoints(
             self.slip[rows],
             self.camber[rows],
             self.normal_load[rows],
@@ -134,14 +134,14 @@ class _Sine:
         self.stiffness_factor = b
 
 
-def lateral(parameters: np.ndarray, points: Points) -> tuple[np.ndarray, np.ndarray]:
+def lateral(parameters: np.ndarray, points: FitPoints) -> tuple[np.ndarray, np.ndarray]:
     """Lateral force, A.16 to A.26.
 
     Parameters
     ----------
     parameters : ndarray, shape (n, 18)
-        In the order of :data:`LATERAL`.
-    points : Points
+        In the order of :data:`FITTED_LATERAL`.
+    points : FitPoints
 
     Returns
     -------
@@ -192,14 +192,14 @@ def lateral(parameters: np.ndarray, points: Points) -> tuple[np.ndarray, np.ndar
     return fy, jac
 
 
-def longitudinal(parameters: np.ndarray, points: Points) -> tuple[np.ndarray, np.ndarray]:
+def longitudinal(parameters: np.ndarray, points: FitPoints) -> tuple[np.ndarray, np.ndarray]:
     """Longitudinal force, A.4 to A.14.
 
     Parameters
     ----------
     parameters : ndarray, shape (n, 15)
-        In the order of :data:`LONGITUDINAL`.
-    points : Points
+        In the order of :data:`FITTED_LONGITUDINAL`.
+    points : FitPoints
 
     Returns
     -------
@@ -255,15 +255,15 @@ def _bell(
 
 
 def aligning(
-    parameters: np.ndarray, points: Points, lateral_parameters: np.ndarray
+    parameters: np.ndarray, points: FitPoints, lateral_parameters: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Aligning torque, A.28 to A.41 (C_r = 1), on top of a lateral force that is already fitted.
 
     Parameters
     ----------
     parameters : ndarray, shape (n, 25)
-        In the order of :data:`ALIGNING`.
-    points : Points
+        In the order of :data:`FITTED_ALIGNING`.
+    points : FitPoints
     lateral_parameters : ndarray, shape (n, 18)
 
     Returns
@@ -278,7 +278,7 @@ def aligning(
 class LateralPart:
     """What the aligning torque takes from the lateral force: Fy0, its shift S_Hf and B_y C_y."""
 
-    def __init__(self, lateral_parameters: np.ndarray, points: Points) -> None:
+    def __init__(self, lateral_parameters: np.ndarray, points: FitPoints) -> None:
         _, d1, d2, d3, _, _, _, _, k1, k2, k3, h1, h2, h3, v1, v2, v3, v4 = _columns(lateral_parameters)
         fz, fz0, g = points.normal_load, points.nominal_load, points.camber
         df = (fz - fz0) / fz0
@@ -296,9 +296,9 @@ class LateralPart:
         part.by_cy = self.by_cy[rows]
         return part
 
-    def aligning(self, parameters: np.ndarray, points: Points) -> tuple[np.ndarray, np.ndarray]:
+    def aligning(self, parameters: np.ndarray, points: FitPoints) -> tuple[np.ndarray, np.ndarray]:
         """See :func:`aligning`."""
-        p = dict(zip(ALIGNING, _columns(parameters), strict=True))
+        p = dict(zip(FITTED_ALIGNING, _columns(parameters), strict=True))
         fz, fz0, g, r0 = points.normal_load, points.nominal_load, points.camber, points.radius
         df = (fz - fz0) / fz0
         df2, ag, turn = df * df, np.abs(g), np.cos(points.slip)

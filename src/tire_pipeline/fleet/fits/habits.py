@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tire_pipeline.fleet.fits.formula import ALIGNING, LATERAL, LONGITUDINAL
+from tire_pipeline.fleet.fits.formula import FITTED_ALIGNING, FITTED_LATERAL, FITTED_LONGITUDINAL
 
 # coefficient: start, expected spread (for the weak penalty), lower bound, upper bound
 _LATERAL_TABLE: dict[str, tuple[float, float, float, float]] = {
@@ -207,7 +207,8 @@ def fit_setup(names: list[str], habit: Habit, freeze_draw: np.ndarray) -> Setup:
     Parameters
     ----------
     names : list of str
-        :data:`.formula.LATERAL`, :data:`.formula.LONGITUDINAL` or :data:`.formula.ALIGNING`.
+        :data:`.formula.FITTED_LATERAL`, :data:`.formula.FITTED_LONGITUDINAL` or
+        :data:`.formula.FITTED_ALIGNING`.
     habit : Habit
     freeze_draw : ndarray, shape (n,)
         Uniform in [0, 1), one a physical tire: decides what is frozen in its project.
@@ -237,10 +238,10 @@ def fit_setup(names: list[str], habit: Habit, freeze_draw: np.ndarray) -> Setup:
 
 
 __all__ = [
-    "ALIGNING",
+    "FITTED_ALIGNING",
+    "FITTED_LATERAL",
+    "FITTED_LONGITUDINAL",
     "HABITS",
-    "LATERAL",
-    "LONGITUDINAL",
     "Habit",
     "Setup",
     "fit_setup",

@@ -15,7 +15,7 @@ from tire_pipeline.channels import POINT_CHANNELS
 from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula.parameters.coefficients import (
     INDEX,
-    RANGES,
+    RANGE_KEYS,
     are_moderate,
     check_values,
     family_of,
@@ -111,7 +111,7 @@ class TireParameters:
     def ranges(self) -> dict[str, tuple[str, str, float, float]]:
         """The ranges that the model is valid for: input -> names and values of its two ends."""
         found = {}
-        for name, (low_key, high_key) in RANGES.items():
+        for name, (low_key, high_key) in RANGE_KEYS.items():
             low = self.coefficients.get(low_key, -np.inf)
             high = self.coefficients.get(high_key, np.inf)
             if low < high and np.isfinite([low, high]).any() and (name != "pressure" or self.family == 6):

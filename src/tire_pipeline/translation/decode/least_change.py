@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.levenberg_marquardt import Problem, Steps, solve
+from tire_pipeline.levenberg_marquardt import LeastSquares, Steps, solve
 from tire_pipeline.translation.curves.features import GROUPS, Group
 from tire_pipeline.translation.curves.pure_slip import columns
 from tire_pipeline.translation.decode.physics import curvature_excess
@@ -150,5 +150,5 @@ class _Solver:
             (values - source) / self.spread for values in (start, self.low[rows], self.high[rows])
         )
         zero = np.zeros_like(start)
-        moves, cost = solve(Problem(model, start, lower, upper, zero, zero + _PULL), _STEPS)
+        moves, cost = solve(LeastSquares(model, start, lower, upper, zero, zero + _PULL), _STEPS)
         return np.where(lower == upper, source, source + moves * self.spread), cost
