@@ -125,7 +125,7 @@ def _verdict(verdict: str, effects: Sequence[EffectReport], remainder: Remainder
         fault = "a fault" if len(faults) == 1 else "faults"
         parts.append(f"from {' and '.join(faults)}, {fault} of the recording")
     text = f"{verdict.capitalize()}: the difference comes {', and '.join(parts)}"
-    return f"{text}; something else is left ({left}) and gets no name" if remainder.significant else text
+    return f"{text}; an unexplained residual remains ({left})" if remainder.significant else text
 
 
 def _cause(effect: EffectReport, ranges: Ranges) -> str:
