@@ -25,7 +25,7 @@ from tire_pipeline.recordings import check_recording, read_recording
 from tire_pipeline.recordings.readers.mat_elements import check_elements
 
 SUFFIX = {"TYDEX": ".tdx", "CSV": ".csv", "MDF4": ".mf4", "MAT": ".mat", "Parquet": ".parquet"}
-QUICK, LONG = 400, 100_000  # for each of the five formats
+QUICK, LONG = 150, 100_000  # for each of the five formats
 FOLDER = TemporaryDirectory()
 # asammdf closes in __del__ what it could not open; that is its noise, not ours.
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")]
@@ -161,12 +161,13 @@ def test_the_parser_s_own_examples_pass():
         check_elements(file)
 
 
+@pytest.mark.parametrize("count", [20, pytest.param(200, marks=pytest.mark.long)])
 @pytest.mark.parametrize("kind", SUFFIX)
-def test_memory_of_damaged_files(kind, monkeypatch):
+def test_memory_of_damaged_files(kind, count, monkeypatch):
     monkeypatch.setattr(logging.root.manager, "disable", logging.CRITICAL)  # pytest keeps every line,
     monkeypatch.setattr(sys, "unraisablehook", lambda _: None)  # and what asammdf's __del__ trips over
     rng = random.Random(kind)
-    for _ in range(60):
+    for _ in range(count):
         content = damaged(kind, *drawn(rng))
         # the second time: what a parser loads once (code pages, its own code) is not the file's
         _, peak = peak_memory(kind, content), peak_memory(kind, content)

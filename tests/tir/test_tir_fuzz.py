@@ -100,13 +100,13 @@ def mutated(rng: random.Random) -> bytes:
     return bytes(data)
 
 
-@settings(max_examples=500, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=200, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.binary(max_size=400))
 def test_any_bytes(data: bytes):
     check(data)
 
 
-@settings(max_examples=700, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=250, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.lists(st.sampled_from(PIECES), max_size=60))
 def test_pieces_of_the_format(pieces: list[bytes]):
     check(b"".join(pieces))
@@ -114,7 +114,7 @@ def test_pieces_of_the_format(pieces: list[bytes]):
 
 def test_mutations_of_real_files():
     rng = random.Random(20240607)
-    for _ in range(800):
+    for _ in range(200):
         check(mutated(rng))
 
 

@@ -233,7 +233,7 @@ def test_hostile_comments(text: str, source: bool, tmp_path):
     assert all(set(line) & set("[]{}$") == set() and len(line) < 200 for line in added)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(st.text(max_size=300))
 def test_any_comment_and_any_text_value(text: str):
     metadata = {f"X.{text}": 1.0, text: text, "MODEL.NAME": text, "DIMENSION.WIDTH": 0.2}
