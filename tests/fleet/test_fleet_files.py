@@ -115,7 +115,9 @@ def test_texts_do_not_tell_the_truth(small_fleet) -> None:
 
 
 def test_compound_is_written_only_when_asked(small_settings) -> None:
-    told = make_fleet(replace(small_settings, files=330, compound_in_metadata=True))
+    told = make_fleet(
+        replace(small_settings, files=330, hidden_tires=1, tuning_tires=1, compound_in_metadata=True)
+    )
     origin = told.truth.files.set_index("file")
     compound = told.truth.tires["compound"]
     for path, text in told.files.items():
@@ -132,7 +134,7 @@ def test_same_seed_same_bytes_whatever_the_threads(small_fleet, small_settings) 
 
 
 def test_another_seed_is_another_fleet(small_fleet, small_settings) -> None:
-    other = make_fleet(replace(small_settings, seed=8))
+    other = make_fleet(replace(small_settings, seed=8, files=330, hidden_tires=1, tuning_tires=1))
     assert not set(other.files.values()) & set(small_fleet.files.values())
 
 

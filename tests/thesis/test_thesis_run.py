@@ -20,6 +20,7 @@ def test_a_killed_run_goes_on_where_it_stopped(interrupted_run):
     assert len([name for name in now if name.startswith("06_models")]) == 2 * 2  # cells x seeds
 
 
+@pytest.mark.long
 def test_another_run_computes_nothing_and_more_seeds_only_those(interrupted_run):
     before = stored_results(interrupted_run.folder)
     conf = interrupted_run.folder / "conf" / "small" / "parameters.yml"
