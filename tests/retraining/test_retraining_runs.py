@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import json
+import multiprocessing
 import os
 import shutil
-import signal
 import subprocess
 import sys
 import threading
@@ -33,16 +35,16 @@ def _prepared(folder: Path) -> Path:
     return folder
 
 
-def _command(folder: Path, pipeline: str = "retrain", **parameters: object) -> list[str]:
-    settings = {"retrain.settle_seconds": SETTLE, "dedupe_filter.minimum_per_category": 5, **parameters}
-    text = ",".join(f"{name}={value}" for name, value in settings.items())
+def _settings(parameters: dict[str, object]) -> dict[str, object]:
+    return {"retrain.settle_seconds": SETTLE, "dedupe_filter.minimum_per_category": 5, **parameters}
+
+
+def _command(folder: Path, pipeline: str = "retrain", **parameters: object) -> str:
+    """As cron starts it."""
+    text = ",".join(f"{name}={value}" for name, value in _settings(parameters).items())
     command = [sys.executable, "-m", "kedro", "run", "--env", "small", "--conf-source", str(folder / "conf")]
-    return [*command, "--pipeline", pipeline, "--params", text]
-
-
-def _run(folder: Path, pipeline: str = "retrain", **parameters: object) -> str:
     done = subprocess.run(
-        _command(folder, pipeline, **parameters),
+        [*command, "--pipeline", pipeline, "--params", text],
         cwd=ROOT,
         env={**os.environ, "OMP_NUM_THREADS": "1"},
         capture_output=True,
@@ -52,6 +54,27 @@ def _run(folder: Path, pipeline: str = "retrain", **parameters: object) -> str:
     )
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
+
+
+def _run(folder: Path, pipeline: str = "retrain", **parameters: object) -> str:
+    """The same in this process, which has all imports."""
+    from kedro.framework.session import KedroSession
+    from kedro.framework.startup import bootstrap_project
+
+    nested: dict[str, dict[str, object]] = {}
+    for name, value in _settings(parameters).items():
+        group, key = name.split(".")
+        nested.setdefault(group, {})[key] = value
+    bootstrap_project(ROOT)
+    said = io.StringIO()
+    with (
+        contextlib.redirect_stdout(said),
+        KedroSession.create(
+            project_path=ROOT, env="small", conf_source=str(folder / "conf"), runtime_params=nested
+        ) as session,
+    ):
+        session.run(pipeline_names=[pipeline])
+    return said.getvalue()
 
 
 def _outcome(folder: Path) -> dict[str, object]:
@@ -84,7 +107,7 @@ def _assert_right(folder: Path) -> None:
 def test_files_that_arrive_before_and_during_a_run(tmp_path):
     folder = _prepared(tmp_path)
     tir = folder / "data/01_raw/tir"
-    _run(folder)
+    _command(folder)
     assert _outcome(folder)["event"] == "released"
     first = _in_use(folder).release.current
 
@@ -143,12 +166,22 @@ def test_files_that_arrive_before_and_during_a_run(tmp_path):
     assert "https:" not in page
 
 
-def test_a_killed_run_loses_nothing_and_the_next_ends_right(tmp_path):
+@pytest.fixture
+def processes():
+    """Each is forked from one that has the imports and nothing else."""
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(
+        ["kedro.framework.session", "tire_pipeline.hooks", "tire_pipeline.retraining.candidate"]
+    )
+    return context
+
+
+def test_a_killed_run_loses_nothing_and_the_next_ends_right(tmp_path, processes):
     folder = _prepared(tmp_path)
     data = folder / "data"
     marks = {
         "before anything is stored": ".runs/*.json",
-        "files stored, nothing released": "02_intermediate/ingested/table-*",
+        "files stored, nothing released": "02_intermediate/ingested/part-*",
         "compared, perhaps released": "07_model_output/retraining_comparison.csv/*/*",
         "released": "06_models/released/record.json",
     }
@@ -157,17 +190,16 @@ def test_a_killed_run_loses_nothing_and_the_next_ends_right(tmp_path):
         put_fleet(data / "01_raw/tir", range(number := next(tires), number + 3))
         seen = set(data.glob(mark))
         dates = {path: path.stat().st_mtime_ns for path in seen}
-        running = subprocess.Popen(
-            _command(folder), cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        )
-        while running.poll() is None:
+        running = processes.Process(target=_run, args=(folder,))
+        running.start()
+        while running.is_alive():
             now = set(data.glob(mark))
             if any(path not in dates or _date(path) != dates[path] for path in now):
                 break
             time.sleep(0.002)
-        assert running.poll() is None, f"the run ended before it could be killed: {place}"
-        running.send_signal(signal.SIGKILL)
-        running.wait()
+        assert running.is_alive(), f"the run ended before it could be killed: {place}"
+        running.kill()
+        running.join()
         _stored(folder)  # the old state or the new one: both load
         _in_use(folder)
     _run(folder)

@@ -48,7 +48,9 @@ def _results(folder: Path) -> set[str]:
     return {path.name for path in (folder / "data/02_intermediate/retraining_files.csv").glob("*")}
 
 
+@pytest.mark.long
 def test_a_killed_run_is_taken_back_from_another_namespace(folder):
+    """Whole runs; `test_living_and_killed_with_and_without_locks` holds the same of what a run does."""
     with _kedro(folder, "killed") as run:
         run.wait_until(lambda: _results(folder))
         run.kill()
