@@ -18,6 +18,7 @@ import pandas as pd
 
 from tire_pipeline.datasets import IngestStoreDataset
 from tire_pipeline.retraining import Manifest, ManifestEntry, Store, difference, ingest, look_at
+from tire_pipeline.retraining.partition import Partition
 from tire_pipeline.tire_table import KNOWN_COEFFICIENTS, SIZE_KEYS, physical_tire_ids
 
 NEW = "[MODEL]\nFITTYP = 6\n[VERTICAL]\nFNOMIN = 4000\n"
@@ -59,7 +60,7 @@ def made_up(folder: Path, known: int) -> Store:
     names = pd.Series(sorted(looks), dtype="str")
     texts = {"file": names, "category": names.str[0], "version": pd.Series(["5.2"] * known, dtype="str")}
     table = pd.concat([pd.DataFrame(texts), table], axis=1)
-    return Store(Manifest(1, entries), table.assign(tire_id=physical_tire_ids(table)))
+    return Store(Manifest(1, entries), Partition.of(table.assign(tire_id=physical_tire_ids(table))))
 
 
 if __name__ == "__main__":

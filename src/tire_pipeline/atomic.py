@@ -33,7 +33,8 @@ def check_before_replacing(check: Callable[[], None]) -> Callable[[], None]:
     return stop
 
 
-def _check() -> None:
+def check_now() -> None:
+    """Call what was given to :func:`check_before_replacing`."""
     for check in list(_CHECKS):
         check()
 
@@ -69,7 +70,7 @@ def replaced_file(path: str | os.PathLike[str], *, parents: bool = True) -> Iter
         Make the folders above it.
     """
     path = Path(path)
-    _check()
+    check_now()
     if parents:
         path.parent.mkdir(parents=True, exist_ok=True)
     handle, name = tempfile.mkstemp(prefix=".", suffix=".part", dir=path.parent)
@@ -80,7 +81,7 @@ def replaced_file(path: str | os.PathLike[str], *, parents: bool = True) -> Iter
         with temporary.open("rb") as stream:
             os.fsync(stream.fileno())
         temporary.chmod(0o644)
-        _check()
+        check_now()
         temporary.replace(path)
     finally:
         with contextlib.suppress(OSError):
@@ -94,14 +95,14 @@ def replaced_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
     Between two renamings ``path`` is absent; if the second fails the first is undone.
     """
     path = Path(path)
-    _check()
+    check_now()
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = Path(tempfile.mkdtemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent))
     old = temporary.with_suffix(".old")
     try:
         yield temporary
         temporary.chmod(0o755)
-        _check()
+        check_now()
         if path.exists():
             path.rename(old)
         temporary.rename(path)

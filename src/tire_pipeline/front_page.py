@@ -20,11 +20,11 @@ _BEGINNING = 40_000
 
 def _beginnings(reports: Objects, folder: Path) -> None:
     """The reports' names, and of pages as much as the front page quotes."""
-    for name, date in reports.dates().items():
+    for name, listed in reports.listing().items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(reports.read(name, _BEGINNING) if name.endswith(".html") else b"")
-        os.utime(path, (date, date))
+        os.utime(path, (listed.written, listed.written))
 
 
 class FrontPageHooks:

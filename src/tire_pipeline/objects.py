@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
+from tire_pipeline.atomic import check_now
 from tire_pipeline.errors import DomainError
 
 _REFUSED = ("PreconditionFailed", "pre-conditions", "ConditionalRequestConflict")
@@ -17,6 +19,29 @@ _REFUSED = ("PreconditionFailed", "pre-conditions", "ConditionalRequestConflict"
 
 class ConflictError(Exception):
     """The object is not the one that was read: another run has written it."""
+
+
+class UnreachableError(DomainError):
+    """The store does not answer as it should: that says nothing about any one object."""
+
+
+@dataclass(frozen=True)
+class Listed:
+    """What a store tells of an object without reading it.
+
+    Attributes
+    ----------
+    size : int
+        Bytes.
+    stamp : str
+        Changes with the content.
+    written : float
+        s since 1970, by the store's clock.
+    """
+
+    size: int
+    stamp: str
+    written: float
 
 
 def is_remote(path: object) -> bool:
@@ -78,7 +103,31 @@ class Objects:
         FileNotFoundError
         """
         with self._plain_errors(name):
-            return bytes(self._fs.cat_file(self._key(name), start=None if most is None else 0, end=most))
+            try:
+                return bytes(self._fs.cat_file(self._key(name), start=None if most is None else 0, end=most))
+            except OSError as error:
+                if not _of_nothing(error):
+                    raise
+                return b""
+
+    def read_many(self, names: Iterable[str], most: int) -> dict[str, bytes | OSError]:
+        """So many bytes of the beginning of each object, many at once; or why that one cannot be read.
+
+        Raises
+        ------
+        UnreachableError
+            The store does not answer.
+        """
+        wanted = list(names)
+        with self._plain_errors(""):
+            keys = [self._key(name) for name in wanted]
+            ends = [most] * len(keys)
+            found = self._fs.cat_ranges(keys, [0] * len(keys), ends, on_error="return") if keys else []
+            found = [b"" if _of_nothing(each) else each for each in found]
+            for each in found:
+                if isinstance(each, Exception) and not isinstance(each, FileNotFoundError | PermissionError):
+                    raise each
+        return dict(zip(wanted, found, strict=True))
 
     def read_stamped(self, name: str) -> tuple[bytes, str]:
         """The content and the stamp of that very content, for :meth:`replace`.
@@ -98,12 +147,14 @@ class Objects:
 
     def write(self, name: str, content: bytes) -> None:
         """Put an object in place, whatever was there."""
-        with self._plain_errors(name, writing=True):
+        check_now()
+        with self._plain_errors(name, bucket_only=True):
             self._fs.pipe_file(self._key(name), content)
 
     def write_many(self, contents: Mapping[str, bytes]) -> None:
         """Put objects in place, many at once; a kill leaves any of them."""
-        with self._plain_errors("", writing=True):
+        check_now()
+        with self._plain_errors("", bucket_only=True):
             self._fs.pipe({self._key(name): content for name, content in contents.items()})
 
     def create(self, name: str, content: bytes) -> None:
@@ -114,7 +165,7 @@ class Objects:
         ConflictError
             It is there.
         """
-        with self._plain_errors(name, writing=True):
+        with self._plain_errors(name, bucket_only=True):
             try:
                 self._fs.pipe_file(self._key(name), content, mode="create")
             except FileExistsError as error:
@@ -128,11 +179,12 @@ class Objects:
         ConflictError
             Another one is there.
         """
+        check_now()
         if stamp is None:
             self.create(name, content)
             return
         bucket, _, key = self._key(name).partition("/")
-        with self._plain_errors(name, writing=True):
+        with self._plain_errors(name, bucket_only=True):
             try:
                 self._fs.call_s3("put_object", Bucket=bucket, Key=key, Body=content, IfMatch=stamp)
             except OSError as error:
@@ -151,50 +203,68 @@ class Objects:
             start = len(self.root) + 1 if self.root else 0
             return [path[start:] for path in self._fs.glob(self._key(pattern))]
 
-    def stamps(self, under: str = "") -> dict[str, str]:
-        """Name -> stamp (changes with the content) of all objects below ``address/under``."""
+    def listing(self, under: str = "") -> dict[str, Listed]:
+        """Name -> what is told of it, of all objects below ``address/under``, sorted."""
         with self._plain_errors(under):
             try:
                 found = self._fs.find(self._key(under), detail=True)
             except FileNotFoundError:
                 return {}
         start = len(self.root) + 1 if self.root else 0
-        return {path[start:]: str(info.get("ETag", info["size"])) for path, info in sorted(found.items())}
+        return {
+            path[start:]: Listed(
+                int(info["size"]), str(info.get("ETag", info["size"])), info["LastModified"].timestamp()
+            )
+            for path, info in sorted(found.items())
+        }
+
+    def stamps(self, under: str = "") -> dict[str, str]:
+        """Name -> stamp (changes with the content) of all objects below ``address/under``."""
+        return {name: each.stamp for name, each in self.listing(under).items()}
 
     def names(self, under: str = "") -> list[str]:
         """Names of all objects below ``address/under``, sorted."""
-        return list(self.stamps(under))
+        return list(self.listing(under))
 
-    def dates(self) -> dict[str, float]:
-        """Name -> when it was written, s since 1970, of all objects."""
-        with self._plain_errors(""):
-            found = self._fs.find(self.root, detail=True)
-        start = len(self.root) + 1
-        return {path[start:]: info["LastModified"].timestamp() for path, info in found.items()}
+    def is_empty(self) -> bool:
+        """Whether there is nothing below the address; asks for one object only."""
+        bucket, _, key = self.root.partition("/")
+        with self._plain_errors("", bucket_only=True):
+            prefix = f"{key}/" if key else ""
+            found = self._fs.call_s3("list_objects_v2", Bucket=bucket, Prefix=prefix, MaxKeys=1)
+            return not found.get("Contents")
 
     def delete(self, names: Iterable[str]) -> None:
         """Take objects away; those that are gone already do not matter."""
         keys = [self._key(name) for name in names]
+        check_now()
         if keys:
-            with contextlib.suppress(FileNotFoundError):
+            with contextlib.suppress(FileNotFoundError), self._plain_errors(""):
                 self._fs.rm(keys)
 
     @contextlib.contextmanager
-    def _plain_errors(self, name: str, *, writing: bool = False) -> Iterator[None]:
+    def _plain_errors(self, name: str, *, bucket_only: bool = False) -> Iterator[None]:
         """Whatever the library raises, in one sentence without addresses of requests or keys."""
         try:
             yield
         except (ConflictError, DomainError):
             raise
         except FileNotFoundError:
-            if not writing:
+            if not bucket_only:
                 raise
             todo = "make it, or correct the address"
             raise DomainError("there is no such bucket", where=self.address, todo=todo) from None
         except Exception as error:
             kind = type(error).__name__
-            raise DomainError(
+            told = DomainError if isinstance(error, PermissionError) else UnreachableError
+            raise told(
                 f"the object store did not do what was asked ({kind})",
                 where=f"{self.address}/{name}",
                 todo="are bucket, permissions, keys and endpoint in the environment right?",
             ) from None
+
+
+def _of_nothing(found: object) -> bool:
+    """Whether it is the error that the beginning of an empty object was asked for."""
+    told = getattr(getattr(found, "__cause__", None), "response", None) or {}
+    return bool(told.get("Error", {}).get("Code") == "InvalidRange")

@@ -65,7 +65,7 @@ def _stored(raw: Path, folder: Path) -> dict[str, bytes]:
     blocks = ComputedFolderDataset(path=str(folder / "blocks"), one_after_another=True)
     blocks.save(read_files(files))
     table, report, _ = join_files(blocks.load(), IngestParameters())
-    assert list(table["file"]) == sorted(f for f in files if "bad" not in f)
+    assert list(table.frame()["file"]) == sorted(f for f in files if "bad" not in f)
     assert (report["status"] == "set aside").sum() == 3
     explained = ComputedFolderDataset(path=str(folder / "explained"))
     explained.save(explain_each(recordings, ExplainParameters()))
@@ -143,7 +143,7 @@ def test_a_file_that_ends_its_reader_is_in_the_report_by_name(tmp_path, chosen):
     dataset = ComputedFolderDataset(path=str(tmp_path / "blocks"), one_after_another=True)
     dataset.save(read_files(files))
     table, report, summary = join_files(dataset.load(), IngestParameters())
-    assert table["file"].tolist() == ["A/0.tir", "A/1.tir", "A/2.tir"]
+    assert table.frame()["file"].tolist() == ["A/0.tir", "A/1.tir", "A/2.tir"]
     assert summary["set_aside"] == 1
     row = report.set_index("file").loc["A/killer.tir"]
     assert row["status"] == "set aside"
@@ -151,7 +151,7 @@ def test_a_file_that_ends_its_reader_is_in_the_report_by_name(tmp_path, chosen):
     (tmp_path / "log").unlink()
     (tmp_path / "more memory").touch()
     dataset.save(read_files(files))
-    assert "A/killer.tir" in join_files(dataset.load(), IngestParameters())[0]["file"].tolist()
+    assert "A/killer.tir" in join_files(dataset.load(), IngestParameters())[0].frame()["file"].tolist()
     assert not (tmp_path / "log").exists()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import signal
@@ -95,13 +96,45 @@ def test_files_and_recordings_go_from_bucket_to_bucket(kedro, data, tmp_path, ca
         assert KEY.encode() not in content
 
 
+def test_a_model_is_released_in_a_bucket_and_taken_back(kedro, data, tmp_path, capsys):
+    """Files arrive in the bucket, store and models lie there; one bad file and nothing on this disk."""
+    sys.path.insert(0, str(ROOT / "tests" / "retraining"))
+    from retraining_files import tir_text
+
+    def put(tires: range) -> None:
+        texts = {f"{name}/T{tire:04d}.tir": tir_text(tire, name) for tire in tires for name in "ABD"}
+        data.below("01_raw/tir").write_many({name: text.encode() for name, text in texts.items()})
+
+    conf = tmp_path / "conf"
+    few = {"dedupe_filter": {"minimum_per_category": 5}}
+    put(range(30))
+    data.write("01_raw/tir/A/bad.tir", b"no tire")
+    _run(conf, "retrain", **few)
+    put(range(100, 110))
+    data.write("01_raw/tir/A/bad.tir", tir_text(200, "A").encode())
+    _run(conf, "retrain", **few)
+    _run(conf, "retrain", **few)
+    record = json.loads(data.read("06_models/released/record.json"))
+    assert [event["event"] for event in record["history"]] == ["released", "released"]
+    _run(conf, "rollback")
+    record = json.loads(data.read("06_models/released/record.json"))
+    assert record["models"] == [record["history"][0]["model"]]
+    names = data.names()
+    assert "08_reporting/retraining.html" in names
+    assert sum(name.startswith("02_intermediate/ingested/") for name in names) == 2
+    said = capsys.readouterr()
+    for secret in (SECRET, KEY):
+        assert secret not in said.out + said.err
+        assert not any(secret.encode() in data.read(name) for name in names)
+
+
 def test_what_a_killed_run_wrote_is_taken_back(kedro, data):
     example = (ROOT / "examples" / "tire.tir").read_bytes()
     for number in range(3):
         data.write(f"01_raw/tir/A/{number}.tir", example.replace(b"\n", f"\n$ {number}\n".encode(), 1))
     few = f"{QUICK},dedupe_filter.minimum_per_category=1"
     first = kedro("--pipelines", "ingest_tir,dedupe_filter", "--params", few)
-    while not any("tire_table_raw.parquet" in name for name in data.names("02_intermediate")):
+    while not any("tire_table_raw" in name for name in data.names("02_intermediate")):
         assert first.poll() is None, first.said()
         time.sleep(0.05)
     first.send_signal(signal.SIGKILL)

@@ -54,7 +54,7 @@ def test_no_change_keeps_the_sequence_and_the_table(tmp_path):
     store, _ = _update(Store(), tmp_path)
     again, report = _update(store, tmp_path)
     assert again.manifest == store.manifest
-    assert again.table is store.table
+    assert again.partition is store.partition
     assert report.empty
 
 

@@ -10,7 +10,8 @@ from retraining_files import put, tir_text
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.retraining import Manifest, Store, difference, ingest, look_at, settled_difference
-from tire_pipeline.retraining.scan import check_removed, fingerprint
+from tire_pipeline.retraining.places import fingerprint
+from tire_pipeline.retraining.scan import check_removed
 
 
 @pytest.fixture
@@ -24,7 +25,7 @@ def known(tmp_path):
 
 def test_nothing_new_reads_nothing(known, monkeypatch):
     folder, manifest = known
-    monkeypatch.setattr("tire_pipeline.retraining.scan.fingerprint", lambda path: pytest.fail("was read"))
+    monkeypatch.setattr("tire_pipeline.retraining.places.fingerprint", lambda path: pytest.fail("was read"))
     assert not difference(folder, manifest)
 
 

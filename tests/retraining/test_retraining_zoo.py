@@ -207,7 +207,7 @@ COMMON = {"deadline": None, "suppress_health_check": list(HealthCheck), "derando
 
 
 def test_a_fixed_slice_of_the_zoo():
-    run_state_machine_as_test(Machine, settings=settings(max_examples=4, stateful_step_count=30, **COMMON))
+    run_state_machine_as_test(Machine, settings=settings(max_examples=2, stateful_step_count=30, **COMMON))
 
 
 @pytest.mark.long

@@ -140,8 +140,9 @@ class Zoo:
         ticket = Ticket.draw(self.base / ".runs", run=version, places=[place])
         try:
             take_turn(ticket)
-            store, table, report = nodes.read_new_files(self.ingested.load(), self.tir, PARAMETERS)
+            store, report = nodes.read_new_files(self.ingested.load(), self.tir, PARAMETERS)
             self.ingested.save(store)
+            table = nodes.stored_table(self.ingested.load())
             (self.base / place).mkdir(parents=True)
             report.to_csv(self.base / place / "files.csv")
             kept, _ = keep_usable(

@@ -9,6 +9,7 @@ from tire_pipeline.datasets.made_files import MadeFilesDataset
 from tire_pipeline.datasets.recording_folder import RecordingFolderDataset
 from tire_pipeline.datasets.release import ReleaseDataset
 from tire_pipeline.datasets.state import StateDataset
+from tire_pipeline.datasets.table_parts import TablePartsDataset
 from tire_pipeline.datasets.text_folder import TextFolderDataset
 from tire_pipeline.datasets.tir_file import TirDataset
 from tire_pipeline.datasets.tir_folder import TirFolderDataset
@@ -23,6 +24,7 @@ __all__ = [
     "RecordingFolderDataset",
     "ReleaseDataset",
     "StateDataset",
+    "TablePartsDataset",
     "TextFolderDataset",
     "TirDataset",
     "TirFolderDataset",

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from tire_pipeline.atomic import replaced_file
+from tire_pipeline.atomic import check_now, replaced_file
 from tire_pipeline.objects import Objects, is_remote
 
 
@@ -49,6 +49,7 @@ class Files:
 
     def delete(self, names: Iterable[str]) -> None:
         """Take files away, and folders that are empty then."""
+        check_now()
         for name in names:
             path = self.root / name
             path.unlink(missing_ok=True)

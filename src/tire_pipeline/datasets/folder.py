@@ -8,11 +8,11 @@ from typing import Any, NoReturn
 from kedro.io.core import AbstractDataset
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.objects import is_remote
+from tire_pipeline.objects import Objects, is_remote
 
 
-class FolderDataset(AbstractDataset[NoReturn, Path]):
-    """Loads as the path of a local folder that is there; never written.
+class FolderDataset(AbstractDataset[NoReturn, Path | Objects]):
+    """Loads as the path of a folder that is there, or as the objects below an address; never written.
 
     Parameters
     ----------
@@ -23,21 +23,22 @@ class FolderDataset(AbstractDataset[NoReturn, Path]):
     Raises
     ------
     DomainError
-        The folder is absent.
+        The folder is absent, or there is nothing below the address.
     """
 
     def __init__(self, *, path: str, metadata: dict[str, Any] | None = None) -> None:
         self._path = path
         self.metadata = metadata
 
-    def load(self) -> Path:
-        """The path."""
+    def load(self) -> Path | Objects:
+        """The path, or the objects."""
         if is_remote(self._path):
-            raise DomainError(
-                "new files are recognised by the dates of a local or mounted folder",
-                where=self._path,
-                todo="set tir_folder to one; the other pipelines read from an object store",
-            )
+            objects = Objects(self._path)
+            if objects.is_empty():
+                raise DomainError(
+                    "there is nothing below this address", where=self._path, todo="correct tir_folder"
+                )
+            return objects
         path = Path(self._path)
         if not path.is_dir():
             raise DomainError(
@@ -50,7 +51,7 @@ class FolderDataset(AbstractDataset[NoReturn, Path]):
         raise DomainError("files of the user are never changed", where=self._path)
 
     def _exists(self) -> bool:
-        return Path(self._path).is_dir()
+        return not Objects(self._path).is_empty() if is_remote(self._path) else Path(self._path).is_dir()
 
     def _describe(self) -> dict[str, Any]:
         return {"path": self._path}

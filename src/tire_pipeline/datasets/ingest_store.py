@@ -1,33 +1,47 @@
-"""The table of all files read so far and its manifest, replaced together in one step."""
+"""The table of all files read so far, in parts, and the manifest that says which parts count."""
 
 from __future__ import annotations
 
 import hashlib
-import io
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-import pandas as pd
 from kedro.io.core import AbstractDataset
 
 from tire_pipeline.datasets._one_at_a_time import held, refuse_other_revision, replace_unless_changed
 from tire_pipeline.datasets.files_at import Files, files_at
+from tire_pipeline.datasets.table_parts import read_part
 from tire_pipeline.errors import DomainError
 from tire_pipeline.objects import Objects
+from tire_pipeline.packed import as_parquet
 from tire_pipeline.retraining.ingest import Store
 from tire_pipeline.retraining.manifest import Manifest
+from tire_pipeline.retraining.partition import Partition
+from tire_pipeline.tire_table.in_pieces import Piece
 
 _MANIFEST = "manifest.json"
 _TODO = "delete this folder: the next run reads all files again"
 
 
-class IngestStoreDataset(AbstractDataset[Store, Store]):
-    """A folder with ``manifest.json`` and the one ``table-*.parquet`` that it names.
+@dataclass(frozen=True)
+class _Read:
+    """A manifest, what stands beside it, and the stamp of its file; nothing if there is none."""
 
-    The table is written under a new name first; renaming the manifest is the single step that makes it
-    count. In an object store the manifest is replaced only if it is still the one that was read. Whatever is
-    killed before that leaves the old state, and a stray table that the next save removes.
+    manifest: Manifest = field(default_factory=Manifest)
+    partition: Partition = field(default_factory=Partition)
+    stamp: str | None = None
+    there: bool = False
+
+
+class IngestStoreDataset(AbstractDataset[Store, Store]):
+    """A folder with ``manifest.json`` and the ``part-*.parquet`` that it names.
+
+    Parts that are new are written first, under names that no other content has; renaming the manifest is the
+    single step that makes them count. In an object store the manifest is replaced only if it is still the
+    one that was read. Whatever is killed before that leaves the old state, and stray parts that the next
+    save removes. Loading reads the manifest; a part is read when it is needed.
 
     Parameters
     ----------
@@ -39,7 +53,7 @@ class IngestStoreDataset(AbstractDataset[Store, Store]):
     Raises
     ------
     DomainError
-        On loading: manifest or table are damaged. On saving: another run was faster.
+        On loading: the manifest is damaged, or a part when it is read. On saving: another run was faster.
     """
 
     def __init__(self, *, path: str, metadata: dict[str, Any] | None = None) -> None:
@@ -48,63 +62,56 @@ class IngestStoreDataset(AbstractDataset[Store, Store]):
 
     def load(self) -> Store:
         """Manifest and table; both empty if nothing was stored yet."""
-        folder = files_at(self._path)
-        for _ in range(3):  # the table may be replaced between the two reads
-            manifest, table, _ = self._manifest()
-            if table is None:
-                return Store()
-            path = f"{self._path}/{table['name']}"
-            try:
-                content = folder.read(table["name"])
-            except FileNotFoundError:
-                continue
-            if hashlib.sha256(content).hexdigest() != table["sha256"]:
-                raise DomainError("the stored table is damaged", where=path, todo=_TODO)
-            return Store(manifest, pd.read_parquet(io.BytesIO(content)))
-        raise DomainError("the table that the manifest names is gone", where=self._path, todo=_TODO)
+        found = self._read()
+        return Store(found.manifest, found.partition)
 
     def manifest(self) -> Manifest:
         """The manifest alone."""
-        return self._manifest()[0]
+        return self._read().manifest
 
     def save(self, data: Store) -> None:
         """Store both, or neither."""
         folder = files_at(self._path)
         with held(folder):
-            present, table, stamp = self._manifest()
-            refuse_other_revision(present.revision, data.manifest.revision, self._path)
-            if table is not None and data.manifest == present:
+            present = self._read()
+            refuse_other_revision(present.manifest.revision, data.manifest.revision, self._path)
+            if present.there and data.manifest == present.manifest:
                 return
-            if table is None or data.manifest.sequence != present.sequence:
-                table = self._write_table(folder, data)
-            new = replace(data.manifest, revision=present.revision + 1)
-            content = new.to_json(table=table)
-            replace_unless_changed(folder, _MANIFEST, content, stamp)
-            strays = (n for n in folder.names() if _is_table(n) and n != table["name"])
-            folder.delete(strays)
+            parts = {n: _stored(folder, n, piece) for n, piece in sorted(data.partition.parts.items())}
+            new = replace(data.manifest, revision=present.manifest.revision + 1)
+            table = {"count": data.partition.count, "parts": parts}
+            replace_unless_changed(folder, _MANIFEST, new.to_json(table=table), present.stamp)
+            named = {part[0] for part in parts.values()}
+            folder.delete(name for name in folder.names() if _is_part(name) and name not in named)
 
-    def _write_table(self, folder: Files | Objects, data: Store) -> dict[str, str]:
-        buffer = io.BytesIO()
-        data.table.to_parquet(buffer, index=False)
-        content = buffer.getvalue()
-        digest = hashlib.sha256(content).hexdigest()
-        name = f"table-{data.manifest.sequence:06d}-{data.manifest.revision + 1}.parquet"
-        if isinstance(folder, Objects):  # two writers at once must not have one name
-            name = f"table-{data.manifest.sequence:06d}-{digest[:16]}.parquet"
-        folder.write(name, content)
-        return {"name": name, "sha256": digest}
-
-    def _manifest(self) -> tuple[Manifest, dict[str, str] | None, str | None]:
+    def _read(self) -> _Read:
         folder, path = files_at(self._path), f"{self._path}/{_MANIFEST}"
         try:
             content, stamp = folder.read_stamped(_MANIFEST)
         except FileNotFoundError:
-            return Manifest(), None, None
+            return _Read()
         manifest, more = Manifest.from_json(content, where=path)
         table = more.get("table")
-        if not (isinstance(table, dict) and set(table) == {"name", "sha256"} and _plain(str(table["name"]))):
-            raise DomainError("the manifest of files is damaged", where=path, todo=_TODO)
-        return manifest, {str(key): str(value) for key, value in table.items()}, stamp
+        try:
+            return _Read(manifest, self._partition(table), stamp, there=True)
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            if isinstance(error, DomainError):
+                raise
+            raise DomainError("the manifest of files is damaged", where=path, todo=_TODO) from error
+
+    def _partition(self, table: Any) -> Partition:
+        if "name" in table:  # of before there were parts: one file
+            piece = self._piece(table["name"], table["sha256"], 0, ())
+            frame = piece.load()
+            return Partition(1, {0: replace(Piece.of(frame), stored=piece.stored)} if len(frame) else {})
+        parts = {int(number): self._piece(*part) for number, part in table["parts"].items()}
+        return Partition(int(table["count"]), parts)
+
+    def _piece(self, name: str, sha256: str, rows: int, numbers: list[str] | tuple[str, ...]) -> Piece:
+        if not _is_part(name):
+            raise ValueError(name)
+        load = partial(read_part, self._path, name, sha256, _TODO)
+        return Piece(int(rows), tuple(map(str, numbers)), load, (name, sha256))
 
     def _exists(self) -> bool:
         return files_at(self._path).exists(_MANIFEST)
@@ -113,9 +120,17 @@ class IngestStoreDataset(AbstractDataset[Store, Store]):
         return {"path": self._path}
 
 
-def _is_table(name: str) -> bool:
-    return name.startswith("table-") and name.endswith(".parquet") and "/" not in name
+def _stored(folder: Files | Objects, number: int, piece: Piece) -> tuple[str, str, int, tuple[str, ...]]:
+    """Name, SHA-256, rows and number columns of a part; it is written unless it is there already."""
+    if piece.stored is None:
+        content = as_parquet(piece.load())
+        digest = hashlib.sha256(content).hexdigest()
+        name = f"part-{number:06d}-{digest[:16]}.parquet"
+        folder.write(name, content)
+        return name, digest, piece.rows, piece.numbers
+    return *piece.stored, piece.rows, piece.numbers
 
 
-def _plain(name: str) -> bool:
-    return Path(name).name == name and name.startswith("table-") and name.endswith(".parquet")
+def _is_part(name: str) -> bool:
+    plain = Path(name).name == name and name.startswith(("part-", "table-"))
+    return plain and name.endswith(".parquet")

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import logging
 import os
-import tempfile
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import dataclass
 from typing import Any, NoReturn
 
 from kedro_datasets.partitions import PartitionedDataset
 
 from tire_pipeline.datasets.tir_file import TirDataset
 from tire_pipeline.errors import DomainError, TirError
+from tire_pipeline.file_names import shown_name
 from tire_pipeline.folder_walk import walk
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.objects import Objects
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tir.sidecar import SUFFIX
+from tire_pipeline.tire_table.object_files import read_object
 
 _LOG = logging.getLogger(__name__)
 
@@ -81,7 +81,7 @@ class TirFolderDataset(PartitionedDataset):
         folder = Objects(self._path)
         stamps = folder.stamps()
         return {
-            name: ObjectLoader(folder, name, stamp, stamps.get(name + SUFFIX))
+            shown_name(name): ObjectLoader(folder, name, stamp, stamps.get(name + SUFFIX))
             for name, stamp in stamps.items()
             if _is_tir(name) and not any(part.startswith(".") for part in name.split("/"))
         }
@@ -141,15 +141,7 @@ class ObjectLoader:
 
     def __call__(self) -> TireModel:
         """The model."""
-        address = f"{self.folder}/{self.name}"
-        if self.sidecar is None:
-            return read_tir(self.folder.read(self.name), path=address)
-        with tempfile.TemporaryDirectory() as copy:
-            place = Path(copy) / "tire.tir"
-            for suffix in ("", SUFFIX):
-                Path(f"{place}{suffix}").write_bytes(self.folder.read(self.name + suffix))
-            model = read_tir(place)
-        return replace(model, path=address)
+        return read_object(self.folder, self.name, sidecar=self.sidecar is not None)
 
     def fingerprint(self) -> str:
         """Changes when the object or its sidecar does."""

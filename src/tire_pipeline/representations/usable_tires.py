@@ -8,7 +8,7 @@ from pydantic import Field
 from tire_pipeline.errors import DomainError
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.representations.encoded_tires import RepresentParameters, needed_coefficients
-from tire_pipeline.tire_table import dedupe_and_filter
+from tire_pipeline.tire_table import TableInPieces, usable_files
 
 
 class DedupeFilterParameters(Parameters):
@@ -18,13 +18,16 @@ class DedupeFilterParameters(Parameters):
     ----------
     minimum_per_category : int
         Smaller categories are set aside.
+    most_files : int
+        So many are learned from at most; they are held in memory together.
     """
 
     minimum_per_category: int = Field(20, ge=1)
+    most_files: int = Field(100_000, ge=1)
 
 
 def keep_usable(
-    tire_table_raw: pd.DataFrame,
+    tire_table_raw: TableInPieces,
     parameters: DedupeFilterParameters,
     represent: RepresentParameters,
     target_category: str,
@@ -33,7 +36,7 @@ def keep_usable(
 
     Parameters
     ----------
-    tire_table_raw : DataFrame
+    tire_table_raw : TableInPieces
         Tire table of all files that could be read.
     parameters : DedupeFilterParameters
     represent : RepresentParameters
@@ -52,10 +55,11 @@ def keep_usable(
     DomainError
         If fewer than two categories remain, or the target is not among them.
     """
-    kept, report = dedupe_and_filter(
+    kept, report = usable_files(
         tire_table_raw,
         minimum_per_category=parameters.minimum_per_category,
         features=needed_coefficients(represent),
+        most_files=parameters.most_files,
     )
     counts = kept.groupby("category").size().to_dict()
     have = ", ".join(f"{name} ({count})" for name, count in counts.items()) or "none"

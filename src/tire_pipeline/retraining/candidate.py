@@ -14,6 +14,7 @@ from pydantic import Field
 
 from tire_pipeline.classifiers.parameters import TrainClassifierParameters
 from tire_pipeline.classifiers.random_forest import RandomForest
+from tire_pipeline.objects import Objects
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.representations.encoded_tires import RepresentParameters, unfitted
 from tire_pipeline.retraining import (
@@ -34,6 +35,7 @@ from tire_pipeline.retraining.compare import CANDIDATE, RELEASED, balanced_accur
 from tire_pipeline.retraining.release import UNCHANGED, check_split
 from tire_pipeline.retraining.scan import check_removed
 from tire_pipeline.tasks import Map, in_turn
+from tire_pipeline.tire_table import TableInPieces
 from tire_pipeline.tire_table.binned_features import BinParameters
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 
@@ -71,15 +73,15 @@ class RetrainParameters(Parameters):
 
 
 def read_new_files(
-    ingested: Store, tir_folder: Path, parameters: RetrainParameters, *, work: Map = in_turn
-) -> tuple[Store, pd.DataFrame, pd.DataFrame]:
+    ingested: Store, tir_folder: Path | Objects, parameters: RetrainParameters, *, work: Map = in_turn
+) -> tuple[Store, pd.DataFrame]:
     """Read new and changed files, and none of the others.
 
     Parameters
     ----------
     ingested : Store
         As the last run left it.
-    tir_folder : Path
+    tir_folder : Path or Objects
     parameters : RetrainParameters
     work : Map
         Does the reading.
@@ -88,8 +90,6 @@ def read_new_files(
     -------
     store : Store
         Stored at once, whatever happens later in the run.
-    table : DataFrame
-        Its tire table.
     report : DataFrame
         ``file, category, status, reason`` of all files that are not simply as before.
     """
@@ -101,8 +101,12 @@ def read_new_files(
         rehash_all=parameters.rehash_all,
     )
     check_removed(found, ingested.manifest, parameters.most_removed_share, str(tir_folder))
-    store, report = ingest(ingested, tir_folder, found, work=work)
-    return store, store.table, report
+    return ingest(ingested, tir_folder, found, work=work)
+
+
+def stored_table(ingested: Store) -> TableInPieces:
+    """The tire table of all files read so far, as it is stored now."""
+    return ingested.partition.table
 
 
 def hold_out(

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
-from functools import partial
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
 import pandas as pd
 
 from tire_pipeline.errors import TirePipelineError
-from tire_pipeline.file_names import path_of, printable
+from tire_pipeline.file_names import printable
 from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.objects import Objects, UnreachableError
 from tire_pipeline.retraining.manifest import Manifest, ManifestEntry
-from tire_pipeline.retraining.scan import FolderDifference, fingerprint
+from tire_pipeline.retraining.partition import Partition
+from tire_pipeline.retraining.places import UNREADABLE, Look, Place, place_at
+from tire_pipeline.retraining.scan import FolderDifference
 from tire_pipeline.tasks import Map, in_blocks, in_turn
 from tire_pipeline.tir import read_tir
-from tire_pipeline.tire_table import from_models, physical_tire_ids
+from tire_pipeline.tire_table import from_models
+from tire_pipeline.tire_table.in_pieces import PIECE_ROWS, Scratch
 
 INGEST_COLUMNS = ["file", "category", "status", "reason"]
 READ, PENDING, GROWING, REMOVED = "read", "pending", "growing", "removed"
@@ -30,17 +33,22 @@ class Store:
     Attributes
     ----------
     manifest : Manifest
-    table : DataFrame
-        A tire table, sorted by ``file``.
+    partition : Partition
+        The table.
     """
 
     manifest: Manifest = field(default_factory=Manifest)
-    table: pd.DataFrame = field(default_factory=lambda: from_models([]))
+    partition: Partition = field(default_factory=Partition)
+
+    @property
+    def table(self) -> pd.DataFrame:
+        """The whole as one table, sorted by ``file``: for what is known to be small."""
+        return self.partition.table.frame()
 
 
 def ingest(
     store: Store,
-    folder: str | Path,
+    folder: str | Path | Objects,
     found: FolderDifference,
     read: Callable[[str | Path], TireModel] = read_tir,
     work: Map = in_turn,
@@ -48,16 +56,17 @@ def ingest(
     """Read what is new, drop what is gone, keep all the rest as it is.
 
     A file that cannot be read is pending: an earlier reading of it stays in the table, and it is tried again
-    when its content changes. A file whose content changes while it is read counts as growing.
+    when its content changes, or at once if it could not be opened. A file whose content changes while it is
+    read counts as growing.
 
     Parameters
     ----------
     store : Store
-    folder : path
+    folder : path or Objects
     found : FolderDifference
         Of this folder against the store's manifest.
     read : callable
-        Reads one file.
+        Reads one file of a disk.
     work : Map
         Does the reading.
 
@@ -68,76 +77,64 @@ def ingest(
     report : DataFrame
         ``file, category, status, reason``: one row a file that is new, changed, removed, growing or still
         pending, and one an entry of the folder that is set aside or leads to what is taken already.
+
+    Raises
+    ------
+    UnreachableError
+        An object store does not answer.
     """
     number = store.manifest.sequence + 1
     removed = set(found.removed)
     files = {name: entry for name, entry in store.manifest.files.items() if name not in removed}
     for name, look in found.touched.items():
-        files[name] = replace(files[name], size=look.size, mtime_ns=look.mtime_ns, ctime_ns=look.ctime_ns)
+        files[name] = replace(files[name], **asdict(look))
     rows = [_row(name, REMOVED, "") for name in found.removed]
     rows += [_row(name, GROWING, "changed too lately; left for the next run") for name in found.growing]
     rows += [_row(name, ASIDE, reason) for name, reason in found.aside.items()]
     rows += [_row(name, AGAIN, f"a link to {other}") for name, other in found.again.items()]
-    new = from_models(
-        _models(Path(folder), {**found.added, **found.changed}, files, rows, number, read, work)
-    )
+    wanted = {**found.added, **found.changed}
+    gone = [name for name in found.removed if store.manifest.files[name].row_sha256]
+    scratch, place = Scratch(), place_at(folder, read)
+    partition = store.partition.for_rows(len(store.partition.table) + len(wanted), scratch)
+    before = partition
+    for some in _together(wanted, partition):
+        new = from_models(_models(place, {name: wanted[name] for name in some}, files, rows, number, work))
+        partition = partition.with_rows(new, (), scratch)
+    partition = partition.with_rows(from_models([]), gone, scratch)
     reported = {row["file"] for row in rows}
     rows += [_row(n, PENDING, e.reason) for n, e in files.items() if e.pending and n not in reported]
     report = pd.DataFrame(rows, columns=INGEST_COLUMNS, dtype="str").sort_values("file", ignore_index=True)
-    gone = [name for name in found.removed if store.manifest.files[name].row_sha256]
-    if not len(new) and not gone:
-        return Store(replace(store.manifest, files=files), store.table), report
-    table = merged(store.table, new, gone)
-    return Store(replace(store.manifest, sequence=number, files=files), table), report
+    if partition is before:
+        return Store(replace(store.manifest, files=files), store.partition), report
+    return Store(replace(store.manifest, sequence=number, files=files), partition), report
 
 
-def merged(old: pd.DataFrame, new: pd.DataFrame, gone: list[str]) -> pd.DataFrame:
-    """Rows of ``old`` that are neither replaced nor gone, and ``new``: as if all had been read at once."""
-    kept = old[~old["file"].isin({*new["file"], *gone})]
-    parts = [part for part in (kept, new) if len(part)]
-    if not parts:
-        return from_models([])
-    if len(parts) == 1:
-        table = parts[0].dropna(axis=1, how="all")
-    else:
-        table = pd.concat(parts, ignore_index=True).dropna(axis=1, how="all")
-    order = from_models([]).columns.tolist()
-    table = table.reindex(columns=_ordered([*table.columns, *order]))
-    table["date"] = table["date"].fillna("").astype("str")  # a table of before there were dates has none
-    table["tire_id"] = physical_tire_ids(table)
-    return table.sort_values("file", ignore_index=True)
-
-
-def _ordered(names: list[str]) -> list[str]:
-    from tire_pipeline.tire_table.from_models import ALWAYS, KNOWN_COEFFICIENTS, TEXTS
-
-    present = set(names)
-    numbers = [name for name in KNOWN_COEFFICIENTS if name in present]
-    return [*TEXTS, *numbers, *(name for name in ALWAYS if name not in numbers), "tire_id"]
+def _together(names: Collection[str], partition: Partition) -> Iterator[list[str]]:
+    """Files that are read together, one part after the other, so that each part is made once or twice."""
+    ordered = sorted(names, key=lambda name: (partition.part_of(name), name))
+    for start in range(0, len(ordered), PIECE_ROWS):
+        yield ordered[start : start + PIECE_ROWS]
 
 
 def _models(
-    folder: Path,
-    wanted: Mapping[str, tuple[object, str]],
+    place: Place,
+    wanted: Mapping[str, tuple[Look, str]],
     files: dict[str, ManifestEntry],
     rows: list[dict[str, str]],
     number: int,
-    read: Callable[[str | Path], TireModel],
     work: Map,
 ) -> Iterator[tuple[str, str, TireModel]]:
-    tasks = {name: partial(_read, read, path_of(folder, name), wanted[name][1]) for name in wanted}
+    tasks = {name: place.reading(name, digest) for name, (_, digest) in wanted.items()}
     for done in in_blocks(work, tasks, "reading new .tir files"):
         name = done.name
+        if isinstance(done.error, UnreachableError):
+            raise done.error
         look, digest = wanted[name]
+        if digest.startswith(UNREADABLE):  # whether it can be opened now is not told by its look
+            look = replace(look, size=-1)
         before = files.get(name)
-        entry = ManifestEntry(
-            digest,
-            before.row_sha256 if before else "",
-            look.size,  # type: ignore[attr-defined]
-            look.mtime_ns,  # type: ignore[attr-defined]
-            look.ctime_ns,  # type: ignore[attr-defined]
-            before.sequence if before else number,
-        )
+        known = before.row_sha256 if before else ""
+        entry = ManifestEntry(digest, known, **asdict(look), sequence=before.sequence if before else number)
         if isinstance(done.error, TirePipelineError | OSError):
             reason = printable(str(done.error))
             files[name] = replace(entry, reason=reason)
@@ -151,12 +148,6 @@ def _models(
         files[name] = replace(entry, row_sha256=digest, sequence=number)
         rows.append(_row(name, READ, ""))
         yield name, category_of(name), tire
-
-
-def _read(read: Callable[[str | Path], TireModel], path: Path, digest: str) -> TireModel | None:
-    """The model; nothing if the file changed while it was read."""
-    tire = read(path)
-    return tire if fingerprint(path) == digest else None
 
 
 def category_of(name: str) -> str:

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import astuple, dataclass, field
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.retraining.places import Look
 
 MANIFEST_FORMAT = 1
 
@@ -22,8 +23,8 @@ class ManifestEntry:
         Of the content, together with its sidecar's.
     row_sha256 : str
         Of the content that the table's row was read from; empty if the table has no row of this file.
-    size, mtime_ns, ctime_ns : int
-        If all three are as before, the content is taken as unchanged and not read.
+    size, mtime_ns, ctime_ns, stamp
+        As in :class:`.places.Look`. If all are as before, the content is taken as unchanged and not read.
     sequence : int
         The store's sequence number when the row was read.
     reason : str
@@ -37,6 +38,12 @@ class ManifestEntry:
     ctime_ns: int
     sequence: int
     reason: str = ""
+    stamp: str = ""
+
+    @property
+    def look(self) -> Look:
+        """What was told of it without reading it."""
+        return Look(self.size, self.mtime_ns, self.ctime_ns, self.stamp)
 
     @property
     def pending(self) -> bool:

@@ -2,31 +2,16 @@
 
 from __future__ import annotations
 
-import errno
 import hashlib
-import os
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.file_names import path_of
-from tire_pipeline.folder_walk import Found, walk
-from tire_pipeline.regular_file import open_regular
+from tire_pipeline.objects import Objects
 from tire_pipeline.retraining.manifest import Manifest
-from tire_pipeline.tir import MOST_FILE_BYTES
-
-SIDECAR = ".sidecar.json"
-
-
-@dataclass(frozen=True, slots=True)
-class Look:
-    """Size and dates of a file and its sidecar together."""
-
-    size: int
-    mtime_ns: int
-    ctime_ns: int
+from tire_pipeline.retraining.places import UNREADABLE, Look, place_at
 
 
 @dataclass(frozen=True)
@@ -36,7 +21,8 @@ class FolderDifference:
     Attributes
     ----------
     added, changed : dict
-        File -> (its look, SHA-256 of its content). ``changed`` is in the manifest with another content.
+        File -> (its look, SHA-256 of its content, :func:`.places.fingerprint`). ``changed`` is in the
+        manifest with another content.
     removed : list of str
     growing : list of str
         Changed too lately to be trusted; they are in neither of the others.
@@ -72,12 +58,12 @@ class FolderDifference:
         return total.hexdigest()[:24]
 
 
-def look_at(folder: str | Path) -> dict[str, Look]:
+def look_at(folder: str | Path | Objects) -> dict[str, Look]:
     """Size and dates of all ``.tir`` files below a folder, each once, hidden ones left out.
 
     Parameters
     ----------
-    folder : path
+    folder : path or Objects
 
     Returns
     -------
@@ -89,65 +75,11 @@ def look_at(folder: str | Path) -> dict[str, Look]:
     DomainError
         The folder itself may not be read.
     """
-    return _looks(walk(folder, _wanted))
-
-
-def _wanted(name: str) -> bool:
-    return name.lower().endswith((".tir", ".tir" + SIDECAR))
-
-
-def _looks(found: Found) -> dict[str, Look]:
-    """Looks of the files that were found; what cannot be looked at is added to what was not seen."""
-    looks: dict[str, Look] = {}
-    for name, path in found.files.items():
-        if name.endswith(SIDECAR):
-            continue
-        try:
-            stats = [os.stat(path)]
-            if name + SIDECAR in found.files:
-                stats.append(os.stat(path + SIDECAR))
-        except FileNotFoundError:  # gone since the folder was listed
-            continue
-        except OSError as error:
-            found.aside[name] = f"cannot be looked at ({error.strerror})"
-            found.unseen.append(name)
-            continue
-        looks[name] = Look(
-            sum(s.st_size for s in stats),
-            max(s.st_mtime_ns for s in stats),
-            max(s.st_ctime_ns for s in stats),
-        )
-    return looks
-
-
-def fingerprint(path: str | Path) -> str:
-    """SHA-256 of a file's content, and of its sidecar's where there is one; empty if it is gone.
-
-    A file that grows is read to the size that it had when it was opened. Of a file that is too large to be a
-    ``.tir`` file only the beginning and the size count.
-    """
-    total = hashlib.sha256()
-    for each in (str(path), f"{path}{SIDECAR}"):
-        try:
-            with open_regular(each) as file:
-                size = os.fstat(file.fileno()).st_size
-                total.update(file.read(min(size, MOST_FILE_BYTES + 1)))
-                if size > MOST_FILE_BYTES:
-                    total.update(f"{size} bytes".encode())
-        except FileNotFoundError:
-            if not each.endswith(SIDECAR):
-                return ""
-            continue
-        except OSError as error:
-            if each.endswith(SIDECAR) and error.errno == errno.ENAMETOOLONG:
-                continue  # no sidecar can have that name
-            total.update(f"cannot be read: {error.errno}".encode())
-        total.update(b"\0")
-    return total.hexdigest()
+    return place_at(folder).look()[0]
 
 
 def difference(
-    folder: str | Path,
+    folder: str | Path | Objects,
     manifest: Manifest,
     *,
     settle_seconds: float = 5.0,
@@ -159,11 +91,12 @@ def difference(
 
     Only files whose size or dates differ from the manifest's are read. A file whose date lies less than
     ``settle_seconds`` back counts as growing. A date in the future says nothing (clocks differ, and go
-    back): with a single look such a file is taken; :func:`settled_difference` looks twice.
+    back): with a single look such a file is taken; :func:`settled_difference` looks twice. An object of a
+    store is whole when it is there, so none counts as growing.
 
     Parameters
     ----------
-    folder : path
+    folder : path or Objects
     manifest : Manifest
     settle_seconds : float
         s.
@@ -175,26 +108,27 @@ def difference(
         What earlier looks saw. With it a file that is dated in the future waits, too.
     """
     clock = time.time() if now is None else now
-    found = walk(folder, _wanted)
-    looks = _looks(found)
+    place = place_at(folder)
+    looks, found = place.look()
     gone = (name for name in manifest.files if name not in looks and not found.may_be_there(name))
     result = FolderDifference(removed=sorted(gone), aside=found.aside, again=found.again)
+    other: list[str] = []
     for name, look in looks.items():
         known = manifest.files.get(name)
-        seen = known is not None and look == Look(known.size, known.mtime_ns, known.ctime_ns)
-        if seen and not rehash_all:
-            continue
-        if not seen and _grows(name, look, clock, settle_seconds, still):
+        seen = known is not None and look == known.look
+        if not seen and place.grows and _grows(name, look, clock, settle_seconds, still):
             result.growing.append(name)
-            continue
-        digest = fingerprint(path_of(folder, name))
+        elif rehash_all or not seen:
+            other.append(name)
+    for name, digest in place.fingerprints(other):
+        known, look = manifest.files.get(name), looks[name]
         if not digest:
             continue  # gone meanwhile; the next run sees it as removed
         if known is None:
             result.added[name] = (look, digest)
         elif known.sha256 != digest:
             result.changed[name] = (look, digest)
-        else:
+        elif not digest.startswith(UNREADABLE):
             result.touched[name] = look
     result.growing.sort()
     return result
@@ -236,7 +170,7 @@ def _grows(name: str, look: Look, clock: float, settle_seconds: float, still: St
 
 
 def settled_difference(
-    folder: str | Path,
+    folder: str | Path | Objects,
     manifest: Manifest,
     *,
     settle_seconds: float = 5.0,

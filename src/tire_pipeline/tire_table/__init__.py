@@ -1,8 +1,16 @@
 """Many tires as one table: what can be learned from, one nominal load, splits, bins."""
 
 from tire_pipeline.tire_table.bins import Binning
-from tire_pipeline.tire_table.dedupe import IDENTICAL, NO_VALUE, TOO_SMALL, dedupe_and_filter
+from tire_pipeline.tire_table.dedupe import (
+    IDENTICAL,
+    NO_VALUE,
+    OVER_MOST,
+    TOO_SMALL,
+    dedupe_and_filter,
+    usable_files,
+)
 from tire_pipeline.tire_table.from_models import KNOWN_COEFFICIENTS, METADATA, from_models, join_tables
+from tire_pipeline.tire_table.in_pieces import Piece, TableInPieces
 from tire_pipeline.tire_table.normalize import normalize_table
 from tire_pipeline.tire_table.physical_tire import SIZE_KEYS, physical_tire_ids
 from tire_pipeline.tire_table.splits import random_split, split_by_tire, split_table
@@ -12,9 +20,12 @@ __all__ = [
     "KNOWN_COEFFICIENTS",
     "METADATA",
     "NO_VALUE",
+    "OVER_MOST",
     "SIZE_KEYS",
     "TOO_SMALL",
     "Binning",
+    "Piece",
+    "TableInPieces",
     "dedupe_and_filter",
     "from_models",
     "join_tables",
@@ -23,4 +34,5 @@ __all__ = [
     "random_split",
     "split_by_tire",
     "split_table",
+    "usable_files",
 ]

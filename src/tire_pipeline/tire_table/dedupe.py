@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
 from collections.abc import Sequence
 
+import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.tire_table.in_pieces import TableInPieces
 
 IDENTICAL = "identical coefficients"
 NO_VALUE = "feature without a value"
 TOO_SMALL = "category too small"
+OVER_MOST = "more files than training takes"
 
 _FORCE_COEFFICIENT = re.compile(r"[PQRS][A-Z]+\d+|L[A-Z]{2,4}|FNOMIN").fullmatch
 
@@ -50,42 +54,118 @@ def dedupe_and_filter(
     DomainError
         A feature is no column of the table.
     """
-    unknown = [name for name in features if name not in table.columns]
+    _refuse_unknown(features, table.columns)
+    force = [name for name in table.columns if _FORCE_COEFFICIENT(name)]
+    keys = _keys(table, force, list(features))
+    reason, detail = _marks(keys, minimum_per_category)
+    return table[(reason == "").to_numpy()].reset_index(drop=True), _report(keys, reason, detail)
+
+
+def usable_files(
+    table: TableInPieces, *, minimum_per_category: int, features: Sequence[str], most_files: int
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """The same of a table that need not fit into memory; what stays is held whole, so it is bounded.
+
+    Of each file its name, category and a hash of its coefficients are held, about 0.3 kB.
+
+    Parameters
+    ----------
+    table : TableInPieces
+    minimum_per_category, features
+        As in :func:`dedupe_and_filter`.
+    most_files : int
+        If more files than this are usable, large categories give up files until there are so many; small
+        ones keep all of theirs. Which files stay depends on their physical tires alone
+        (:func:`.physical_tire.physical_tire_ids`), so that each category keeps the same ones. The others
+        are reported as ``OVER_MOST``.
+
+    Returns
+    -------
+    kept, report : DataFrame
+        As in :func:`dedupe_and_filter`, in the order of ``file``.
+    """
+    _refuse_unknown(features, table.numbers)
+    force = sorted(name for name in table.numbers if _FORCE_COEFFICIENT(name))
+    parts = [_keys(part, force, list(features)) for part in table]
+    keys = pd.concat(parts or [_keys(table.frame(), force, list(features))], ignore_index=True)
+    keys = keys.sort_values("file", ignore_index=True)
+    reason, detail = _marks(keys, minimum_per_category)
+    _mark_more(keys, most_files, reason, detail)
+    return table.rows_of(set(keys["file"][reason == ""])), _report(keys, reason, detail)
+
+
+def _refuse_unknown(features: Sequence[str], columns: Sequence[str] | pd.Index) -> None:
+    unknown = [name for name in features if name not in columns]
     if unknown:
         raise DomainError(
             f"no file has a value for {', '.join(unknown)}",
             todo="choose a representation that these files can give",
         )
-    reason = pd.Series("", index=table.index, dtype="str")
+
+
+def _keys(table: pd.DataFrame, force: list[str], features: list[str]) -> pd.DataFrame:
+    """Of each file what is needed to judge it among all others."""
+    values = table[force].to_numpy(dtype=float) + 0.0  # one zero only
+    values[np.isnan(values)] = np.nan  # and one NaN
+    keys = table[["file", "category"]].reset_index(drop=True)
+    keys["equal"] = [hashlib.blake2b(row.tobytes(), digest_size=16).digest() for row in values]
+    keys["tire"] = table["tire_id"].to_numpy() if "tire_id" in table else ""
+    empty = table[features].isna().to_numpy()
+    names = np.array(features, dtype=object)
+    keys["missing"] = [", ".join(names[row]) if row.any() else "" for row in empty]
+    return keys
+
+
+def _marks(keys: pd.DataFrame, minimum: int) -> tuple[pd.Series, pd.Series]:
+    """Why each file is dropped, empty if it is not, and the detail."""
+    reason = pd.Series("", index=keys.index, dtype="str")
     detail = reason.copy()
-    _mark_identical(table, reason, detail)
-    _mark_empty(table, list(features), reason, detail)
-    _mark_small(table, minimum_per_category, reason, detail)
+    _mark_identical(keys, reason, detail)
+    here = (keys["missing"] != "") & (reason == "")
+    reason[here] = NO_VALUE
+    detail[here] = keys["missing"][here]
+    _mark_small(keys, minimum, reason, detail)
+    return reason, detail
+
+
+def _report(keys: pd.DataFrame, reason: pd.Series, detail: pd.Series) -> pd.DataFrame:
     dropped = reason != ""
-    report = table.loc[dropped, ["file", "category"]].assign(reason=reason[dropped], detail=detail[dropped])
-    return table[~dropped].reset_index(drop=True), report.reset_index(drop=True)
+    report = keys.loc[dropped, ["file", "category"]].assign(reason=reason[dropped], detail=detail[dropped])
+    return report.reset_index(drop=True)
 
 
-def _mark_identical(table: pd.DataFrame, reason: pd.Series, detail: pd.Series) -> None:
-    columns = [name for name in table.columns if _FORCE_COEFFICIENT(name)]
-    if not columns:
-        return
-    groups = table.groupby(columns, dropna=False, sort=False)["file"]
-    first = groups.transform("first")
-    double = first != table["file"]
+def _mark_identical(keys: pd.DataFrame, reason: pd.Series, detail: pd.Series) -> None:
+    first = keys.groupby("equal", sort=False)["file"].transform("first")
+    double = first != keys["file"]
     reason[double] = IDENTICAL
     detail[double] = "as " + first[double]
 
 
-def _mark_empty(table: pd.DataFrame, features: list[str], reason: pd.Series, detail: pd.Series) -> None:
-    empty = table[features].isna()
-    here = empty.any(axis=1) & (reason == "")
-    reason[here] = NO_VALUE
-    detail[here] = [", ".join(empty.columns[row]) for row in empty[here].to_numpy()]
+def _mark_more(keys: pd.DataFrame, most: int, reason: pd.Series, detail: pd.Series) -> None:
+    usable = keys[reason == ""]
+    if len(usable) <= most:
+        return
+    each = _most_of_each(sorted(usable.groupby("category").size()), most)
+    place = usable["tire"].map(lambda tire: hashlib.sha256(tire.encode()).digest())
+    rank = usable.assign(place=place).sort_values(["place", "file"]).groupby("category").cumcount()
+    more = rank.index[rank >= each]
+    reason[more] = OVER_MOST
+    detail[more] = f"{each} of its category are taken"
 
 
-def _mark_small(table: pd.DataFrame, minimum: int, reason: pd.Series, detail: pd.Series) -> None:
-    left = table.loc[reason == "", "category"]
+def _most_of_each(counts: Sequence[int], most: int) -> int:
+    """How many of each category there may be, so that all together are at most so many."""
+    left = most
+    for done, count in enumerate(counts):
+        each = left // (len(counts) - done)
+        if count > each:
+            return each
+        left -= count
+    return most
+
+
+def _mark_small(keys: pd.DataFrame, minimum: int, reason: pd.Series, detail: pd.Series) -> None:
+    left = keys.loc[reason == "", "category"]
     counts = left.map(left.value_counts())
     small = counts.index[counts < minimum]
     reason[small] = TOO_SMALL

@@ -118,6 +118,23 @@ def join_tables(parts: Iterable[pd.DataFrame]) -> pd.DataFrame:
     return table.sort_values("file", ignore_index=True)
 
 
+def as_in_whole(part: pd.DataFrame, numbers: Iterable[str]) -> pd.DataFrame:
+    """Rows of a table as they stand in the whole: all its columns, and ``tire_id`` made of them.
+
+    Parameters
+    ----------
+    part : DataFrame
+        A tire table.
+    numbers : iterable of str
+        Number columns of the whole.
+    """
+    columns = [*TEXTS, *_column_order([tuple(numbers)])]
+    whole = part.reindex(columns=columns)
+    whole["date"] = whole["date"].fillna("").astype("str")  # a table of before there were dates has none
+    whole["tire_id"] = physical_tire_ids(whole)
+    return whole
+
+
 def _column_order(groups: Iterable[tuple[str, ...]]) -> list[str]:
     found = {*ALWAYS}.union(*groups)
     first = [name for name in KNOWN_COEFFICIENTS if name in found]

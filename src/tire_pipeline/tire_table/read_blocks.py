@@ -14,6 +14,7 @@ from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import TirePipelineError, chain
 from tire_pipeline.file_names import printable
 from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.objects import UnreachableError
 from tire_pipeline.packed import as_parquet, from_parquet, pack, unpack
 from tire_pipeline.tire_table.from_models import from_models, join_tables
 
@@ -61,7 +62,7 @@ class ReadBlock:
                 tire = load()
             except Exception as error:  # a loader may wrap what went wrong
                 cause = _cause(error)
-                if cause is None:
+                if cause is None or isinstance(cause, UnreachableError):
                     raise
                 _set_aside(row, str(cause), getattr(cause, "line", None))
                 if not isinstance(cause, TirePipelineError):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import pandas as pd
@@ -12,7 +13,7 @@ from pydantic import Field
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.parameters import Parameters
-from tire_pipeline.tire_table.from_models import join_tables
+from tire_pipeline.tire_table.in_pieces import Piece, TableInPieces, numbers_of
 from tire_pipeline.tire_table.read_blocks import ReadBlock, blocks_of, unpacked
 
 _LOG = logging.getLogger(__name__)
@@ -44,8 +45,8 @@ def read_files(tir_files: Mapping[str, Callable[[], TireModel]]) -> dict[str, Re
 
 def join_files(
     blocks: Mapping[str, Callable[[], bytes]], parameters: IngestParameters
-) -> tuple[pd.DataFrame, pd.DataFrame, dict[str, Any]]:
-    """Put what was read into one table.
+) -> tuple[TableInPieces, pd.DataFrame, dict[str, Any]]:
+    """Put what was read into one table and one report.
 
     Parameters
     ----------
@@ -55,8 +56,8 @@ def join_files(
 
     Returns
     -------
-    table : DataFrame
-        The tire table (docs/reference/architecture.md).
+    table : TableInPieces
+        The tire table (docs/reference/architecture.md), a piece a block.
     report : DataFrame
         One row a file: ``file, category, status, version, line, reason, defaulted, notes``.
     summary : dict
@@ -67,8 +68,13 @@ def join_files(
     DomainError
         If more than ``most_failed_share`` of the files cannot be read.
     """
-    parts = [unpacked(read()) for read in blocks.values()]
-    report = pd.DataFrame([row for _, rows in parts for row in rows])
+    pieces: list[Piece] = []
+    rows: list[dict[str, Any]] = []
+    for read in blocks.values():
+        part, of_part = unpacked(read())
+        rows += of_part
+        pieces.append(Piece(len(part), numbers_of(part.columns), partial(_table_of, read)))
+    report = pd.DataFrame(rows)
     report = report.sort_values("file", ignore_index=True)
     summary = _summary(report)
     aside = report[report["status"] == "set aside"]
@@ -81,7 +87,11 @@ def join_files(
             where="ingest_tir",
             todo="correct or remove those files, or raise ingest_tir.most_failed_share",
         )
-    return join_tables(table for table, _ in parts), report, summary
+    return TableInPieces(tuple(pieces)), report, summary
+
+
+def _table_of(read: Callable[[], bytes]) -> pd.DataFrame:
+    return unpacked(read())[0]
 
 
 def _summary(report: pd.DataFrame) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from tire_pipeline.retraining.candidate import (
     hold_out,
     measure_drift,
     read_new_files,
+    stored_table,
     train_candidate,
 )
 
@@ -30,9 +31,10 @@ def create_pipeline(**_: object) -> Pipeline:
         Node(
             given_map(read_new_files, without_cluster=1),
             inputs=["ingested", "tir_folder", "params:retrain"],
-            outputs=["ingested_updated", "ingested_table", "retraining_files"],
+            outputs=["ingested_updated", "retraining_files"],
             name="read_new_files",
-        )
+        ),
+        Node(stored_table, inputs="ingested_updated", outputs="ingested_table", name="stored_table"),
     ]
     cleaning = Pipeline(
         [dedupe_filter(), normalize()],

@@ -1,0 +1,112 @@
+"""A tire table as Parquet files of some thousand rows each, and an index that says which they are."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from functools import partial
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+import pandas as pd
+from kedro.io.core import AbstractVersionedDataset, Version, get_protocol_and_path
+
+from tire_pipeline.datasets.files_at import files_at
+from tire_pipeline.errors import DomainError
+from tire_pipeline.objects import Objects
+from tire_pipeline.packed import as_parquet, from_parquet
+from tire_pipeline.tire_table.in_pieces import Piece, TableInPieces, numbers_of
+
+_TODO = "run again; what lies there is not used"
+
+
+class TablePartsDataset(AbstractVersionedDataset[TableInPieces, TableInPieces]):
+    """Saves a tire table piece by piece, and loads it to be read piece by piece.
+
+    ``part-*.parquet`` lie beside the index, which is written last: without it nothing there counts. Each part
+    can be read by itself, for example with ``pandas.read_parquet``.
+
+    Parameters
+    ----------
+    filepath : str
+        Of the index: local path or address of an object.
+    version : kedro.io.Version, optional
+        Given by the catalog when ``versioned: true``.
+    metadata : dict, optional
+        For kedro-viz.
+
+    Raises
+    ------
+    DomainError
+        When a part is read that is gone or was changed.
+    """
+
+    def __init__(
+        self,
+        *,
+        filepath: str,
+        version: Version | None = None,
+        metadata: dict[str, Any] | None = None,
+    ) -> None:
+        self._protocol, path = get_protocol_and_path(filepath)
+        if self._protocol == "file":
+            super().__init__(PurePosixPath(path), version)
+        else:
+            objects = Objects(f"{self._protocol}://")
+            super().__init__(
+                PurePosixPath(path), version, exists_function=objects.exists, glob_function=objects.glob
+            )
+        self.metadata = metadata
+
+    def _place(self, index: PurePosixPath | Path) -> tuple[str, str]:
+        """Folder and name of the index."""
+        address = "" if self._protocol == "file" else f"{self._protocol}://"
+        return f"{address}{index.parent}", index.name
+
+    def save(self, data: TableInPieces) -> None:
+        """Write the parts, then the index."""
+        folder, index = self._place(self._get_save_path())
+        files, parts = files_at(folder), []
+        for number, frame in enumerate(data.gathered()):
+            name, content = f"part-{number:06d}.parquet", as_parquet(frame)
+            files.write(name, content)
+            numbers = numbers_of(frame.columns[frame.notna().any()])
+            digest = hashlib.sha256(content).hexdigest()
+            parts.append({"name": name, "sha256": digest, "rows": len(frame), "numbers": numbers})
+        files.write(index, json.dumps({"parts": parts}).encode())
+
+    def load(self) -> TableInPieces:
+        """The index; a part is read when it is needed."""
+        folder, index = self._place(self._get_load_path())
+        parts = json.loads(files_at(folder).read(index))["parts"]
+        return TableInPieces(
+            tuple(
+                Piece(
+                    part["rows"],
+                    tuple(part["numbers"]),
+                    partial(read_part, folder, part["name"], part["sha256"], _TODO),
+                )
+                for part in parts
+            )
+        )
+
+    def _describe(self) -> dict[str, Any]:
+        return {"filepath": self._filepath, "version": self._version}
+
+
+def read_part(folder: str, name: str, sha256: str, todo: str) -> pd.DataFrame:
+    """A part of a table.
+
+    Raises
+    ------
+    DomainError
+        It is gone, or not what was written.
+    """
+    try:
+        content = files_at(folder).read(name)
+    except FileNotFoundError as error:
+        where = f"{folder}/{name}"
+        raise DomainError("this part of the table is gone", where=where, todo=todo) from error
+    if hashlib.sha256(content).hexdigest() != sha256:
+        raise DomainError("this part of the table is damaged", where=f"{folder}/{name}", todo=todo)
+    return from_parquet(content)
