@@ -200,7 +200,10 @@ class _DaskMap:
             yield self._alone(name, tasks[name], what)
 
     def _room(self, running: Mapping[str, str]) -> int:
-        threads = sum(self._client.nthreads().values())
+        try:
+            threads = sum(self._client.nthreads().values())
+        except (CancelledError, OSError, TimeoutError) as lost:
+            raise self._gone() from lost
         return max(_AHEAD * max(threads, 1) - len(running), 0)
 
     def _submit(
