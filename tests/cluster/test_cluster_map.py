@@ -98,6 +98,15 @@ def test_a_scheduler_elsewhere_needs_tls(tmp_path):
     assert check_address(ClusterParameters(scheduler="tls://10.0.0.1:8786", **files))
 
 
+def test_a_scheduler_that_goes_while_it_is_asked_for_its_workers_is_told(work, monkeypatch):
+    def gone(_):
+        raise OSError("Connection reset by peer")
+
+    monkeypatch.setattr("distributed.Client.nthreads", gone)
+    with pytest.raises(DomainError, match="the Dask scheduler is gone"):
+        list(work({"1": partial(tasks.double, 1)}, "counting"))
+
+
 def test_where_nothing_answers_a_run_says_so():
     pytest.importorskip("distributed")
     from dask_processes import free_port
