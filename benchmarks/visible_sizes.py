@@ -37,14 +37,10 @@ import tire_pipeline.mismatch
 from tire_pipeline.concealed import Case, CaseSettings, make_case
 from tire_pipeline.concealed.real import RealPlan, make_real_case
 from tire_pipeline.errors import DomainError, RecordingError
-from tire_pipeline.mismatch import explain_mismatch
-from tire_pipeline.mismatch.inference import search as searching
-from tire_pipeline.mismatch.inference.restart import search_all
-from tire_pipeline.mismatch.inference.search_state import Search
-from tire_pipeline.mismatch.inference.thinning import thinned
+from tire_pipeline.mismatch import Explainer, explain_mismatch
 from tire_pipeline.mismatch.proof.trial import put_in
 from tire_pipeline.mismatch.proof.visible import Sight, one_sided, sights
-from tire_pipeline.mismatch.recording.checks import prepare
+from tire_pipeline.mismatch.report.assemble import Explained
 
 RECORDINGS = Path(__file__).resolve().parents[2] / "shared" / "recordings"
 RESULTS = Path(__file__).parent / "results"
@@ -89,40 +85,40 @@ def turns(sources: list[str]) -> Iterator[tuple[str, int]]:
 
 
 @cache
-def searched(source: str, seed: int) -> tuple[Case, Search] | None:
-    """Return a recording and its search as it is; None where something is named with nothing put in.
-
-    Of a simulated one next to nothing is ever named: the search itself is left out.
-    """
+def weighed(source: str, seed: int) -> tuple[Case, Explained] | None:
+    """Return a recording and what the posterior says; None where something is named with nothing put in."""
     try:
         case = case_of(source, seed)
-        search = searching.begin(thinned(prepare(case.tire, case.recording).data))
-        if source != "simulated":
-            search_all(search)
+        it = Explainer().weigh(case.tire, case.recording)
     except (DomainError, RecordingError) as error:
         print(f"{source} {seed}: {error}", flush=True)
         return None
-    if search.fit.names:
-        print(f"{source} {seed}: {'+'.join(search.fit.names)} is named with nothing put in", flush=True)
+    if it.answer.names:
+        print(f"{source} {seed}: {'+'.join(it.answer.names)} is named with nothing put in", flush=True)
         return None
-    return case, search
+    return case, it
+
+
+def shown(it: Explained) -> Iterator[Sight]:
+    """Yield what a recording shows of each parameter."""
+    yield from sights(it.analysis, it.sets, it.answer.named)
 
 
 @cache
 def drawn(source: str, seed: int) -> list[Sight]:
     """Return what can be seen in a recording, in an order that is drawn."""
-    known = searched(source, seed)
+    known = weighed(source, seed)
     if known is None:
         return []
-    found = [s for s in sights(known[1]) if np.isfinite(s.seen)]
+    found = [s for s in shown(known[1]) if np.isfinite(s.seen)]
     return [found[k] for k in np.random.default_rng(seed).permutation(len(found))]
 
 
-def try_one(case: Case, search: Search, sight: Sight, seed: int) -> dict[str, object]:
+def try_one(case: Case, it: Explained, sight: Sight, seed: int) -> dict[str, object]:
     """Put one effect in and explain."""
     rng = np.random.default_rng([seed, *sight.variant.name.encode(), *sight.parameter.name.encode()])
     size = sight.seen * (1.0 if one_sided(sight.parameter) else float(rng.choice([-1.0, 1.0])))
-    truth = sight.values(search.data, size)
+    truth = sight.values(it.analysis.data, size)
     recording = put_in(case.tire, case.recording, sight.variant.name, truth)
     begun = time.process_time()
     report = explain_mismatch(case.tire, recording)
@@ -134,7 +130,7 @@ def try_one(case: Case, search: Search, sight: Sight, seed: int) -> dict[str, ob
                 if error > 0.0 and name not in sight.form:
                     z[name] = (value - truth.get(name, 0.0)) / error
     return {
-        "rows": search.data.size,
+        "rows": it.analysis.data.size,
         "size": size,
         "error": sight.error,
         "told": sight.told,
@@ -177,7 +173,7 @@ def count_found(sources: list[str], over: Callable[[], bool]) -> None:
         for source, seed in turns(sources):
             if over():
                 return
-            known, found = searched(source, seed), drawn(source, seed)
+            known, found = weighed(source, seed), drawn(source, seed)
             if known is None or k >= len(found):
                 continue
             more, sight = True, found[k]
@@ -192,7 +188,7 @@ def count_found(sources: list[str], over: Callable[[], bool]) -> None:
 def count_sizes(sources: list[str], over: Callable[[], bool]) -> None:
     """Compare sizes with those of a likelihood-ratio test, until the time is over.
 
-    Nothing is missing, and next to nothing is ever named: the search itself is left out.
+    Nothing is missing in these recordings.
     """
     past = done(SIZES, KEY[:2])
     for source, seed in turns(sources):
@@ -200,19 +196,17 @@ def count_sizes(sources: list[str], over: Callable[[], bool]) -> None:
             continue
         if over():
             return
-        try:
-            case = case_of(source, seed)
-            search = searching.begin(thinned(prepare(case.tire, case.recording).data))
-        except (DomainError, RecordingError) as error:
-            print(f"{source} {seed}: {error}", flush=True)
+        known = weighed(source, seed)
+        if known is None:
             continue
+        analysis = known[1].analysis
         rows: list[dict[str, object]] = []
-        for s in sights(search):
+        for s in shown(known[1]):
             key = dict(zip(KEY, (source, seed, s.variant.name, s.parameter.name), strict=True))
-            figures = (search.data.size, search.misfit, s.seen, s.told, s.value, s.error)
+            figures = (analysis.data.size, analysis.misfit, s.seen, s.told, s.value, s.error)
             rows.append(key | dict(zip(OF_SIZES, figures, strict=True)))
         append(SIZES, OF_SIZES, rows)
-        print(source, seed, search.data.size, len(rows), flush=True)
+        print(source, seed, analysis.data.size, len(rows), flush=True)
 
 
 def newest(path: Path) -> pd.DataFrame:

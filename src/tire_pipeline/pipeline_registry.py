@@ -36,6 +36,7 @@ PIPELINE_GROUPS = {
     "reproduce_thesis": "evaluation",
     "explain_mismatch": "mismatch",
     "prove_concealed": "proof",
+    "calibrate_mismatch": "proof",
     "retrain": "retraining",
     "rollback": "retraining",
 }

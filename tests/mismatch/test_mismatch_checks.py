@@ -69,11 +69,11 @@ def test_noise_of_a_slip_has_no_unit(tire, record):
 
 
 def test_equations_that_cannot_be_solved_are_said_with_the_step(tire, record, monkeypatch):
-    def broken(_):
+    def broken(*_):
         raise np.linalg.LinAlgError("Singular matrix")
 
-    monkeypatch.setattr("tire_pipeline.mismatch.explain.search_all", broken)
-    with pytest.raises(RecordingError, match=r"step search: .*Singular matrix"):
+    monkeypatch.setattr("tire_pipeline.mismatch.explain.enumerate_sets", broken)
+    with pytest.raises(RecordingError, match=r"step sets: .*Singular matrix"):
         explain_mismatch(tire, record())
 
 

@@ -137,14 +137,13 @@ def test_a_thrust_is_a_side_force_that_fades_where_the_tire_slides(tire, record)
     assert np.abs(added[sliding]).max() < 0.3 * np.abs(added[straight]).min()
 
 
-def test_one_of_the_parameters_that_make_an_effect_what_it_is_stays(tire, record):
-    """A force that fades needs no other beside it; without both it would be an offset of the angle."""
+def test_a_thrust_that_fades_is_told_though_an_offset_of_the_angle_looks_alike(tire, record):
+    """Equal by nature where nothing but slip varies: one is named, the other is an alternative."""
     recording = record(4)
     added = _conicity(prepare(tire, recording).data, thrust=0.03)
     report = explain_mismatch(tire, recording.assign(fy=recording["fy"] + added))
-    assert [e.name for e in report.effects] == ["plysteer_conicity"]
-    assert set(report.effects[0].parameters) == {"thrust"}
-    assert report.effects[0].parameters["thrust"][0] == pytest.approx(0.03, rel=0.1)
+    ((names, _),) = report.sets
+    assert "plysteer_conicity" in names
 
 
 def test_a_file_fitted_at_one_load_has_another_stiffness_at_others(tire, record):
@@ -175,10 +174,10 @@ def test_a_leak_of_the_normal_load_into_both_forces_is_crosstalk(tire, record):
     report = explain_mismatch(braked, recording)
     assert [e.name for e in report.effects] == ["crosstalk"]
     found = {name: value for name, (value, _, _) in report.effects[0].parameters.items()}
-    assert found == {
-        "load_into_fy": pytest.approx(0.015, abs=0.002),
-        "load_into_fx": pytest.approx(-0.02, abs=0.003),
-    }
+    assert found["load_into_fy"] == pytest.approx(0.015, abs=0.002)
+    assert found["load_into_fx"] == pytest.approx(-0.02, abs=0.003)
+    assert found["into_fy"] == pytest.approx(0.0, abs=0.002)
+    assert found["into_fx"] == pytest.approx(0.0, abs=0.002)
 
 
 def test_a_leak_of_the_load_into_one_force_is_not_told_from_conicity(tire, record):

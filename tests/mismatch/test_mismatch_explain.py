@@ -43,7 +43,7 @@ def test_pressure_is_found_located_and_put_in(pressed, record, tmp_path):
     effect = report.effects[0]
     value, error, unit = effect.parameters["friction"]
     assert value == pytest.approx(-0.35, abs=0.05)
-    assert 0.0 < error < 0.05
+    assert 0.0 < error < 0.1  # beside a background of usual effects
     assert unit == "1"
     assert min(a for a, _ in effect.when) > 49.0
     assert report.fit["fy"].rms_after < 0.5 * report.fit["fy"].rms_before

@@ -1,43 +1,51 @@
-"""The posterior over sets of effects: evidence, background, priors and answers."""
+"""The posterior over sets of effects: likelihood, background, priors, answers, and what is learnt."""
+
+import dataclasses
 
 import numpy as np
 import pytest
 from scipy.stats import multivariate_normal
 
+from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.discrepancy.background import principal
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.inference.posterior.answer import answered
-from tire_pipeline.mismatch.inference.posterior.calibrate import START, Tuning, learn, log_scores, pruned
-from tire_pipeline.mismatch.inference.posterior.enumerate import enumerated
-from tire_pipeline.mismatch.inference.posterior.evidence import gaussian, hypotheses, log_posterior
-from tire_pipeline.mismatch.inference.posterior.priors import prior, spread
-from tire_pipeline.mismatch.inference.posterior.sizes import learnt
-from tire_pipeline.mismatch.inference.search_state import begin
+from tire_pipeline.mismatch.explain import Explainer
+from tire_pipeline.mismatch.inference.analysis import analyse
+from tire_pipeline.mismatch.inference.calibrate import START, Tuning, learn, log_scores, pruned
+from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_posterior
+from tire_pipeline.mismatch.inference.evidence.likelihood import Weights
+from tire_pipeline.mismatch.inference.evidence.priors import prior
+from tire_pipeline.mismatch.inference.learnt.sizes import learnt
+from tire_pipeline.mismatch.inference.sets.answer import answered
+from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets
 from tire_pipeline.mismatch.recording.checks import prepare
 
 
 @pytest.fixture(scope="module")
-def searches(tire, record):
+def analyses(tire, record):
     """A recording without anything, and one with 12% less friction."""
     return {
-        names: begin(prepare(tire, record(**how)).data)
+        names: analyse(prepare(tire, record(**how)).data)
         for names, how in (((), {}), (("friction_scale",), {"friction": 0.88}))
     }
 
 
 @pytest.fixture(scope="module")
-def cases(searches):
-    return {names: enumerated(search, START, [names] if names else []) for names, search in searches.items()}
+def cases(analyses):
+    return {names: enumerate_sets(a, START, [names] if names else []).case for names, a in analyses.items()}
 
 
-def test_the_evidence_is_that_of_a_normal_distribution():
+def test_what_is_never_known_is_integrated_out():
+    """Reduced products are those of the precision matrix of a normal distribution."""
     rng = np.random.default_rng(0)
-    columns, scale = rng.normal(size=(40, 3)), np.array([0.3, 2.0, 0.01])
-    y = columns @ np.array([0.5, -1.0, 0.2]) + rng.normal(size=40)
-    both = np.column_stack([columns, y])
-    covariance = np.eye(40) + (columns * scale**2) @ columns.T
-    wanted = multivariate_normal.logpdf(y, cov=covariance) + 20.0 * np.log(2.0 * np.pi)
-    assert gaussian((both.T @ both)[None], scale)[0] == pytest.approx(wanted, rel=1e-10)
+    columns, y, scale = rng.normal(size=(40, 3)), rng.normal(size=40), np.array([0.3, 2.0, 0.01])
+    gram = columns.T @ columns / 40.0 * scale[:, None] * scale[None, :]
+    values, vectors = np.linalg.eigh(gram)
+    weights = Weights(25.0, values, scale[:, None] * vectors)
+    found = weights.reduced(np.array([[y @ y / 40.0]]), (columns.T @ y / 40.0)[:, None])[0, 0]
+    covariance = np.eye(40) * 40.0 / 25.0 + (columns * scale**2) @ columns.T
+    told = multivariate_normal.logpdf(y, cov=covariance) - multivariate_normal.logpdf(0 * y, cov=covariance)
+    assert -0.5 * found == pytest.approx(told, rel=1e-9)
 
 
 def test_directions_of_the_background_have_the_size_of_the_largest_force():
@@ -58,13 +66,13 @@ def test_an_effect_says_its_family_and_where_its_priors_come_from(name):
     assert all(p.prior < p.high - p.low for p in effect.parameters if not p.prior_in)
 
 
-def test_a_prior_is_a_share_of_what_it_says(searches):
-    data = searches[()].data
-    parameter = catalogue()["force_offset"].parameter("fy")
-    assert spread(data, parameter) == pytest.approx(parameter.prior * 4000.0)
+def test_a_prior_is_a_share_of_what_it_says(analyses):
+    data = analyses[()].data
+    offset, friction = catalogue()["force_offset"], catalogue()["friction_scale"]
+    assert offset.usual(data, "fy") == pytest.approx((0.0, offset.parameter("fy").prior * 4000.0))
     off, wide = prior(data, [("friction_scale", {"friction": -0.1})], [(0, "friction")])
     assert off == pytest.approx([-0.1])
-    assert wide == pytest.approx([catalogue()["friction_scale"].parameter("friction").prior])
+    assert wide == pytest.approx([friction.parameter("friction").prior])
 
 
 def test_probabilities_are_of_all_sets_together(cases):
@@ -90,6 +98,12 @@ def test_a_missing_friction_is_among_the_names(cases):
     assert answer.agreement < 0.05
 
 
+def test_a_name_is_said_from_the_level_on_that_is_asked_for(cases):
+    case = cases[("friction_scale",)]
+    sure = answered(case, learnt()).sets[0][1]
+    assert answered(case, learnt(), level=min(sure + 1e-6, 1.0)).sets == ()
+
+
 def test_the_fit_finds_the_friction(cases):
     case = cases[("friction_scale",)]
     changes = next(each.changes for each in case.sets if each.names == ("friction_scale",))
@@ -103,3 +117,18 @@ def test_learning_betters_the_log_score(cases):
     before = log_scores(tuning, START).mean()
     after = log_scores(tuning, learn(tuning, START, steps=())).mean()
     assert after > before
+
+
+def test_a_prior_of_the_user_takes_the_place_of_the_stated_one(tire, record):
+    recording = record(2, friction=0.88)
+    narrow = Explainer(priors={"friction_scale": {"friction": 1e-4}, "force_gain": {"fy": 1e-4}})
+    names = {n for group, _ in narrow.explain(tire, recording).sets for n in group}
+    assert not names & {"friction_scale", "force_gain"}
+    with pytest.raises(RecordingError, match="the catalogue has no warp"):
+        Explainer(priors={"warp": {}}).explain(tire, recording)
+
+
+def test_what_is_learnt_is_named_and_finite():
+    for field in dataclasses.fields(learnt()):
+        value = getattr(learnt(), field.name)
+        assert np.all(np.isfinite(list(value.values()) if field.name == "background" else [value]))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from tire_pipeline.mismatch.corrected.model import CorrectedModel
-    from tire_pipeline.mismatch.explain import explain_mismatch
+    from tire_pipeline.mismatch.explain import Explainer, explain_mismatch
     from tire_pipeline.mismatch.proof.measured import OutputFit
     from tire_pipeline.mismatch.report.result import EffectReport, HeldOutFit, MismatchReport
     from tire_pipeline.mismatch.several import explain_recordings
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 _MODULES = {
     "CorrectedModel": "corrected.model",
     "EffectReport": "report.result",
+    "Explainer": "explain",
     "HeldOutFit": "report.result",
     "MismatchReport": "report.result",
     "OutputFit": "proof.measured",
@@ -25,6 +26,7 @@ _MODULES = {
 __all__ = [
     "CorrectedModel",
     "EffectReport",
+    "Explainer",
     "HeldOutFit",
     "MismatchReport",
     "OutputFit",

@@ -11,7 +11,7 @@ import pandas as pd
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
-from tire_pipeline.mismatch.explain import explain_mismatch
+from tire_pipeline.mismatch.explain import Explainer
 from tire_pipeline.mismatch.recording.checks import INPUTS
 from tire_pipeline.mismatch.report.result import HeldOutFit, MismatchReport, PredictionError
 from tire_pipeline.mismatch.report.sentences import TRY_IT, on_held_out
@@ -23,7 +23,11 @@ _STRETCHES = 24
 
 
 def explain_recordings(
-    tire: Any, recordings: Mapping[str, pd.DataFrame], *, held_out: str | None = None
+    tire: Any,
+    recordings: Mapping[str, pd.DataFrame],
+    *,
+    held_out: str | None = None,
+    explainer: Explainer | None = None,
 ) -> MismatchReport:
     """Explain recordings of one tire together.
 
@@ -36,6 +40,8 @@ def explain_recordings(
         As for :func:`explain_mismatch`.
     recordings : mapping of str to DataFrame
         Name -> canonical columns in SI, in the order they were recorded in.
+    explainer : Explainer, optional
+        What looks for the effects, if not that of :func:`explain_mismatch`.
     held_out : str, optional
         The name of the recording that is left out of the explanation. The explained model predicts it, and
         ``report.held_out`` has the errors before and after.
@@ -91,7 +97,7 @@ def explain_recordings(
     else:
         joined = join_recordings(explained)
         notes = list(joined.attrs["notes"])
-    report = explain_mismatch(tire, joined)
+    report = (explainer or Explainer()).explain(tire, joined)
     report = replace(report, recordings=tuple(explained), notes=[*notes, *report.notes])
     if held_out is None:
         return report

@@ -7,7 +7,7 @@ import json
 import tempfile
 import uuid
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -16,7 +16,8 @@ import pandas as pd
 
 from tire_pipeline.errors import RecordingError, TirePipelineError
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.mismatch import MismatchReport, explain_recordings
+from tire_pipeline.mismatch import Explainer, MismatchReport, explain_recordings
+from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes, learnt
 from tire_pipeline.packed import Passing, pack
 
 COLUMNS = ("recording", "verdict", "summary", "effects", "alternatives", "held_out", "problem")
@@ -38,17 +39,21 @@ class ExplainTask:
         Recording -> what is stated of it: ``axes``, ``units``, ``names``, ``tir``.
     held_out : str, optional
         The recording that takes no part and is predicted.
+    learnt : LearntSizes
+        What the posterior has learnt.
     """
 
     name: str
     loads: Mapping[str, Load]
     how: Mapping[str, Mapping[str, Any]]
     held_out: str | None
+    learnt: LearntSizes = field(default_factory=learnt)
 
     @property
     def key(self) -> str:
         """A hash of all that the result depends on; another one each time where a reader cannot tell."""
-        total = hashlib.sha256(f"{self.name}\0{self.held_out}\0".encode())
+        sizes = json.dumps(self.learnt.to_dict(), sort_keys=True)
+        total = hashlib.sha256(f"{self.name}\0{self.held_out}\0{sizes}\0".encode())
         for each, load in self.loads.items():
             own = getattr(load, "fingerprint", None)
             content = uuid.uuid4().hex if own is None else own(self.how[each].get("tir", ""))
@@ -62,7 +67,9 @@ class ExplainTask:
         loads = {each: partial(load, **self.how[each]) for each, load in self.loads.items()}
         try:
             tire, runs = _read(loads)
-            report = explain_recordings(tire, runs, held_out=self.held_out)
+            report = explain_recordings(
+                tire, runs, held_out=self.held_out, explainer=Explainer(learnt=self.learnt)
+            )
         except TirePipelineError as error:
             return self.lost(str(error))
         row["verdict"] = report.verdict

@@ -16,6 +16,7 @@ from pydantic import Field
 
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.packed import unpack
 from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.progress import track
@@ -67,6 +68,8 @@ class ExplainParameters(Parameters):
         Axes of all recordings, unless a rule of ``recordings`` says otherwise.
     recordings : list of RecordingRule
         What is known of some recordings, by pattern.
+    learnt : str
+        File of learnt sizes that ``calibrate_mismatch`` wrote; those of the package if empty.
     """
 
     together: bool = False
@@ -74,6 +77,7 @@ class ExplainParameters(Parameters):
     only: Several = []
     axes: Literal["ISO", "SAE"] | None = None
     recordings: list[RecordingRule] = []
+    learnt: str = ""
 
     def how(self, name: str) -> dict[str, Any]:
         """What is stated of a recording; a later rule counts more than an earlier one."""
@@ -105,11 +109,11 @@ def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, 
     groups = by_folder(recordings) if parameters.together else {name: [name] for name in recordings}
     held_out = _held_out(groups, parameters)
     code = code_hash("mismatch", "magic_formula", "tir", "recordings", "reporting")
-    tasks = {}
+    sizes, tasks = learnt(parameters.learnt), {}
     for name, members in groups.items():
         loads = {each: recordings[each] for each in members}
         how = {each: parameters.how(each) for each in members}
-        task = ExplainTask(name, loads, how, held_out.get(name))
+        task = ExplainTask(name, loads, how, held_out.get(name), sizes)
         tasks[f"{code}/{task.key}.zip"] = task
     return tasks
 

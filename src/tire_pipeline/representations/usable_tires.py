@@ -61,6 +61,12 @@ def keep_usable(
         features=needed_coefficients(represent),
         most_files=parameters.most_files,
     )
+    _check_categories(kept, target_category)
+    return kept, report
+
+
+def _check_categories(kept: pd.DataFrame, target_category: str) -> None:
+    """Raise if fewer than two categories remain, or the target is not among them."""
     counts = kept.groupby("category").size().to_dict()
     have = ", ".join(f"{name} ({count})" for name, count in counts.items()) or "none"
     if len(counts) < 2:
@@ -75,4 +81,3 @@ def keep_usable(
             where="dedupe_filter",
             todo="set target_category to one of these",
         )
-    return kept, report

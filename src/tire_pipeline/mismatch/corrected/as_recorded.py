@@ -1,6 +1,6 @@
 """Errors on the rows as they were recorded: what ``tire.forces`` and ``corrected.predict`` leave there.
 
-The search works on rows that are repaired, averaged to 50 to 100 Hz and cleaned. Its errors are smaller by
+Sets are weighed on rows that are repaired, averaged to 50 to 100 Hz and cleaned. Its errors are smaller by
 the noise that this takes off, and must not stand beside those of the user's own rows.
 """
 
@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.mismatch.corrected.model import CorrectedModel, rms
-from tire_pipeline.mismatch.inference.search import Search
+from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.forces import simulate_moments
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.measured import OutputFit
@@ -24,15 +24,15 @@ Array = np.ndarray
 
 
 def as_recorded(
-    fit: dict[str, OutputFit], search: Search, corrected: CorrectedModel, recording: pd.DataFrame
+    fit: dict[str, OutputFit], analysis: Analysis, corrected: CorrectedModel, recording: pd.DataFrame
 ) -> dict[str, OutputFit]:
     """Return the errors on the recorded rows.
 
     Parameters
     ----------
     fit : dict of OutputFit
-        Errors on the rows that the search has seen.
-    search : Search
+        Errors on the rows that were weighed.
+    analysis : Analysis
     corrected : CorrectedModel
     recording : pandas.DataFrame
         As it came.
@@ -47,11 +47,11 @@ def as_recorded(
     before = _errors(corrected.as_it_came, recording, fit)
     same = not (corrected.changes or corrected.factors or corrected.limits)
     after = before if same else _errors(corrected, recording, fit)
-    here = residual(search.data, search.fit.changes)
+    here = residual(analysis.data, analysis.fit.changes)
     moments = [o for o in fit if o not in here]
     if moments:
-        there = simulate_moments(search.data, search.fit.changes, moments)
-        here |= {o: search.data.channels[o] - there[o] for o in moments}
+        there = simulate_moments(analysis.data, analysis.fit.changes, moments)
+        here |= {o: analysis.data.channels[o] - there[o] for o in moments}
     inside = {o: rms(r) for o, r in here.items()}
     return {o: _moved(f, o, before[o], after[o], inside[o], recording, same) for o, f in fit.items()}
 

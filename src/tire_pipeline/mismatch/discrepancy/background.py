@@ -55,7 +55,7 @@ def make_background(
     ways: dict[str, list[Columns]] = {}
     for name, columns in screened:
         ways.setdefault(name, []).append(columns)
-    ways[UNNAMED] = [form.columns for form in forms(data, [])]
+    ways[UNNAMED] = list(forms(data, []))
     parts: list[Columns] = []
     families: list[str] = []
     for name, own in ways.items():

@@ -14,7 +14,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.effects.shared import first_order
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import plain_forces
@@ -48,6 +47,14 @@ _MEMORIES = (1.0, 4.0)
 """Seconds over which a tread remembers."""
 _SHIFT_OF_FX = 2.5
 """Braking and driving are no mirror images: a fit makes up for their difference by a shift at zero slip."""
+
+
+ONE_LOAD = 6.0
+"""Factor on what coefficients may be off by in a recording at one load, for what keeps the mirror symmetry: a
+fit to many loads may be off at any one of them."""
+ASYMMETRY_SHARE = 0.12
+"""What part of the misfit may break the tire's mirror symmetry (slip angle and camber turned over): a clean
+tire breaks it by 0.1 to 0.2 of the misfit in the clean tuning cases."""
 
 
 class Sizes(NamedTuple):
@@ -262,8 +269,8 @@ def _halves(data: Data, name: str, here: dict[str, Array], jacobian: Array) -> A
     least = 1e-2 * np.sqrt(np.mean(jacobian**2, axis=0))
     broken = broken[:, np.sqrt(np.mean(broken**2, axis=0)) > least]
     kept = kept[:, np.sqrt(np.mean(kept**2, axis=0)) > least]
-    size = 1.0 if data.varies("normal_load") else settings.ONE_LOAD
-    return np.hstack([size * _orthonormal(kept), settings.ASYMMETRY_SHARE * _orthonormal(broken)])
+    size = 1.0 if data.varies("normal_load") else ONE_LOAD
+    return np.hstack([size * _orthonormal(kept), ASYMMETRY_SHARE * _orthonormal(broken)])
 
 
 def _orthonormal(columns: Array) -> Array:
@@ -339,7 +346,7 @@ def _gaussian_process(
     sign = -1.0 if name == "fy" else 1.0
     kernels = [_Mirrored(points, mirror, sign, _NEAR, 1.0)]
     if mirror.min() < 0.0:
-        kernels.append(_Mirrored(points, mirror, -sign, _FAR, settings.ASYMMETRY_SHARE))
+        kernels.append(_Mirrored(points, mirror, -sign, _FAR, ASYMMETRY_SHARE))
     top = np.quantile(data.get("normal_load"), 0.99)
     slip, half = ("slip_angle" if name == "fy" else "slip_ratio"), _slip_at_half(data, name)
     lean = max(float(np.quantile(np.abs(data.get("camber")), 0.99)), 0.01)

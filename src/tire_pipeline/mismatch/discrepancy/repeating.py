@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tire_pipeline.mismatch.discrepancy.form import Form
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import residual
@@ -20,7 +19,7 @@ _HARMONICS = 4
 _PADDED = 4
 
 
-def repeating_forms(data: Data, changes: list[Change]) -> Iterator[Form]:
+def repeating_forms(data: Data, changes: list[Change]) -> Iterator[dict[str, Array]]:
     """Yield for each output the waves of the length that repeats most clearly in what the effects leave."""
     if data.time is None or not data.has("speed"):
         return
@@ -33,10 +32,7 @@ def repeating_forms(data: Data, changes: list[Change]) -> Iterator[Form]:
         phase = 2.0 * np.pi * data.distance / length
         waves = [f(k * phase) * share for k in range(1, _HARMONICS + 1) for f in (np.cos, np.sin)]
         own = np.column_stack(waves)
-        yield Form(
-            f"repeats every {length:.2f} m in {output}",
-            {o: own if o == output else np.zeros_like(own) for o in data.outputs},
-        )
+        yield {o: own if o == output else np.zeros_like(own) for o in data.outputs}
 
 
 def strongest_length(data: Data, rest: Array) -> float | None:

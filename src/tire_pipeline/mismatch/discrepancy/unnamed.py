@@ -2,8 +2,7 @@
 
 An effect of the catalogue may resemble a cause that is not in it. Every input of the tire can act on
 friction and stiffness through how fast it changes and through what it was some seconds ago, and can
-reach the tire through a joint with play; and what the tire rolls on may repeat every few metres. If such
-a form explains the recording better than a named effect, the name is not proven.
+reach the tire through a joint with play; and what the tire rolls on may repeat every few metres.
 """
 
 from __future__ import annotations
@@ -12,8 +11,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.discrepancy.form import Form
 from tire_pipeline.mismatch.discrepancy.repeating import repeating_forms
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import first_order, play
@@ -21,6 +18,7 @@ from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
 
 Array = np.ndarray
+Columns = dict[str, Array]
 _SLIPS = {"slip_angle": "fy", "slip_ratio": "fx"}
 _LAGS = (1.0, 4.0)
 _PLAYS = {"slip_angle": (0.001, 0.003, 0.008), "slip_ratio": (0.008,)}
@@ -30,7 +28,7 @@ _CELLS = 16
 """Sizes of slip, and of load, within which a rate is compared with itself."""
 
 
-def constant_form(data: Data, changes: list[Change]) -> Form:
+def constant_form(data: Data, changes: list[Change]) -> Columns:
     """Friction and stiffness off by a constant: what a form gains only beyond this speaks against a name."""
     h = 0.01
     now = simulate(data, changes)
@@ -41,27 +39,26 @@ def constant_form(data: Data, changes: list[Change]) -> Form:
         there = simulate(data, [*changes, (name, {effect.constant: h})])
         for o in data.outputs:
             ways[o].append((there[o] - now[o]) / h)
-    return Form("a constant", {o: np.column_stack(w) for o, w in ways.items()})
+    return {o: np.column_stack(w) for o, w in ways.items()}
 
 
-def forms(data: Data, changes: list[Change]) -> Iterator[Form]:
+def forms(data: Data, changes: list[Change]) -> Iterator[Columns]:
     """Yield all forms that the recording can show, around a model with some effects put in.
 
-    The rate of a slip comes twice: where slip and load are the same, and everywhere, for ``TURNS`` more
-    log evidence.
+    The rate of a slip comes twice: where slip and load are the same, and everywhere.
     """
     if data.time is None:
         return
-    ways = constant_form(data, changes).columns
-    for label, driver, less in _drivers(data):
-        yield Form(label, {o: ways[o] * driver[:, None] for o in data.outputs}, less, in_misfit=True)
+    ways = constant_form(data, changes)
+    for driver in _drivers(data):
+        yield {o: ways[o] * driver[:, None] for o in data.outputs}
     yield from repeating_forms(data, changes)
     for name, output in _SLIPS.items():
         if not data.varies(name) or output not in data.outputs:
             continue
         for width in _PLAYS[name]:
             moved = _with_play(data, name, width)
-            yield Form(f"play of {width:g} in {name}", {o: moved[o][:, None] for o in data.outputs})
+            yield {o: moved[o][:, None] for o in data.outputs}
 
 
 def _with_play(data: Data, name: str, width: float) -> dict[str, Array]:
@@ -72,8 +69,8 @@ def _with_play(data: Data, name: str, width: float) -> dict[str, Array]:
     return {o: moved[o] - data.all_base[o] for o in data.outputs}
 
 
-def _drivers(data: Data) -> Iterator[tuple[str, Array, float]]:
-    """Yield rates and memories of the inputs, each of about unit size, and how much more each must gain."""
+def _drivers(data: Data) -> Iterator[Array]:
+    """Yield rates and memories of the inputs, each of about unit size."""
     for name in ("slip_angle", "slip_ratio", "normal_load"):
         if not data.varies(name):
             continue
@@ -81,20 +78,20 @@ def _drivers(data: Data) -> Iterator[tuple[str, Array, float]]:
         rate = _rate(data, x)
         if name in _SLIPS:
             size = _unit(np.abs(rate))
-            yield f"rate of {name}", _beyond_place(data, size, name), 0.0
-            yield f"rate of {name}", size, settings.TURNS
-            yield f"rise of {name}", _unit(np.sign(x) * rate), 0.0
+            yield _beyond_place(data, size, name)
+            yield size
+            yield _unit(np.sign(x) * rate)
             level = np.abs(x)
             level = level / (level + float(np.quantile(level, 0.9)) / 3.0)
         else:
-            yield f"rate of {name}", _unit(rate), 0.0
+            yield _unit(rate)
             level = x
         for lag in _LAGS:
             gain = 1.0 - np.exp(-data.step / lag)
             memory = _unit(first_order(level, gain, data.start) - level)
-            yield f"memory of {name} over {lag:g} s", memory, 0.0
+            yield memory
             if name in _SLIPS:
-                yield f"state of {name} over {lag:g} s", _from_rest(level, gain), 0.0
+                yield _from_rest(level, gain)
 
 
 def _beyond_place(data: Data, driver: Array, name: str) -> Array:

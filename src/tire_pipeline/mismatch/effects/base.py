@@ -9,6 +9,8 @@ import numpy as np
 
 Array = np.ndarray
 Parameters = Mapping[str, float]
+_OF_UNIFORM = 12.0**-0.5
+"""Standard deviation of a uniform distribution over its width."""
 
 
 @dataclass(frozen=True)
@@ -34,8 +36,6 @@ class Parameter:
         Whether it says which form the effect has, not how large it is: a reference, a lag, a moment.
     kept : bool
         Whether a fit never drops it by itself: without it the others mean something else.
-    open_ended : bool
-        Whether its bounds are where a fit stops, not what physics allows: a fit may end at them.
     prior : float
         Standard deviation about ``zero`` that physics leaves to it where the effect is there; 0 says that
         every value between the bounds is as likely.
@@ -55,7 +55,6 @@ class Parameter:
     further: bool = False
     form: bool = False
     kept: bool = False
-    open_ended: bool = False
     prior: float = 0.0
     prior_in: str = ""
 
@@ -140,38 +139,14 @@ class Effect:
     prior_source : str
         Where the priors of its parameters come from.
     needs_time : bool
-    own_inputs : bool
-        True if it is a function of the model's own inputs, so that a flexible form of these could
-        stand for it.
-    of_coefficients : bool
-        True if the file's coefficients can hold it, so that coefficients nearly free explain it altogether.
     dynamic : bool
         True if it lags or shifts in time, so that half a sample of it is a matter of how the rig samples.
-    scales : bool
-        True if it makes the force larger or smaller by the model's own inputs alone, so that what the form of
-        one such effect gets wrong looks like another.
-    steepens : bool
-        True if it changes the slip stiffness and leaves the peak: coefficients that may move hide what tells
-        two such apart.
-    errs_like : tuple of str
-        Effects that its form error looks most like.
-    slow : bool
-        True if it is a change over the whole recording: what a state without its channel gets wrong looks
-        like it.
-    shifts : bool
-        True if it adds a side force while rolling straight: at one load and camber these look the same.
-    exact : bool
-        True for a shift of which nothing but what it is recorded beside can be wrong.
-    as_noise : bool
-        True if it counts as noise until it is modelled.
     needed : tuple of str
         Parameters of which one always stays, however small: without any it is another effect.
     scanned : tuple of str
         Parameters that the starts scan, so that the screen need not move them.
     stepped : tuple of str
         Moments (s) among them that a fit moves by trial, since the force jumps there.
-    choices : int
-        Discrete choices that its starts make (a radius found by a scan), each paid for like a parameter.
     constant : str
         Parameter by which it changes friction or stiffness by a constant factor, if it does.
     offset_of : str
@@ -183,17 +158,9 @@ class Effect:
         wrong signs and units, nothing if the effect is fitted.
     in_one_stretch : bool
         True if the samples that it spoils follow each other.
-    least_gain : float
-        Log evidence that it asks for in any case.
-    least_beside : float
-        Log evidence that it asks for beside a stronger effect.
-    unusual : bool
-        True if in a tie the other explanation is named first.
     parameters : tuple of Parameter
     looks_like : dict
         Name of another effect -> what tells them apart.
-    told_by : dict
-        Name of another effect -> the channel that has to vary before a recording tells the two apart.
     experiment : str
         What to record to be sure of it.
     """
@@ -208,31 +175,17 @@ class Effect:
     family = ""
     prior_source = ""
     needs_time = False
-    own_inputs = False
-    of_coefficients = False
     dynamic = False
-    scales = False
-    steepens = False
-    errs_like: tuple[str, ...] = ()
-    slow = False
-    shifts = False
-    exact = False
-    as_noise = False
     needed: tuple[str, ...] = ()
     scanned: tuple[str, ...] = ()
     stepped: tuple[str, ...] = ()
-    choices = 0
     constant = ""
     offset_of = ""
     instead_of_file = False
     found_in = ""
     in_one_stretch = False
-    least_gain = 0.0
-    least_beside = 0.0
-    unusual = False
     parameters: tuple[Parameter, ...] = ()
     looks_like: Mapping[str, str] = {}
-    told_by: Mapping[str, str] = {}
     experiment = ""
     order = 50
 
@@ -257,6 +210,23 @@ class Effect:
         """Return the parameter of a name."""
         return next(p for p in self.parameters if p.name == name)
 
+    def usual(self, data: object, name: str) -> tuple[float, float]:
+        """Return centre and standard deviation of a parameter's prior in a recording.
+
+        Where the parameter states none (``prior`` 0) every value between its bounds, or between the ends of
+        the recording for a moment in time, is as likely: the centre is NaN.
+        """
+        p = self.parameter(name)
+        stated = data.fixed.get("priors", {}).get(self.name, {}).get(name)  # type: ignore[attr-defined]
+        if stated is not None:
+            return self.zeros(data)[name], float(stated)
+        if p.prior:
+            return self.zeros(data)[name], p.prior * float(getattr(data, p.prior_in) if p.prior_in else 1.0)
+        width, time = p.high - p.low, data.time  # type: ignore[attr-defined]
+        if p.unit == "s" and time is not None:
+            width = min(width, float(time[-1] - time[0]))
+        return float("nan"), width * _OF_UNIFORM
+
     def outside(self, data: object, p: Parameters) -> bool:
         """Whether parameters are outside of what this recording can show; bounds are checked besides."""
         return False
@@ -264,6 +234,10 @@ class Effect:
     def starts(self, data: object) -> list[dict[str, float]]:
         """Return the parameter values to start from: one dict for each form worth trying."""
         return [self.zeros(data)]
+
+    def expected(self, data: object) -> bool:
+        """Whether physics leaves no doubt of it: what it follows varied, and the file has no term."""
+        return False
 
     def blind(self, data: object) -> bool:
         """Whether it is a state that is integrated for want of its channel."""

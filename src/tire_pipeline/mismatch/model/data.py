@@ -1,4 +1,4 @@
-"""The recording made ready for the search: channels as arrays, states, base simulation, noise."""
+"""The recording made ready: channels as arrays, states, base simulation, noise."""
 
 from __future__ import annotations
 

@@ -5,38 +5,38 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.noise import white_noise
-from tire_pipeline.mismatch.inference.left_out import each_left_out, step_without
-from tire_pipeline.mismatch.inference.search_state import Search
+from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate_moments
 from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.proof.left_out import each_left_out, step_without
 from tire_pipeline.mismatch.proof.measured import OutputFit
 
 Array = np.ndarray
 
 
-def prove(search: Search, *, resamples: int = 400, seed: int = 0) -> dict[str, OutputFit]:
+def prove(analysis: Analysis, *, resamples: int = 400, seed: int = 0) -> dict[str, OutputFit]:
     """Return for each output the error with parameters fitted without the sweep in question.
 
     The parameters move by one Gauss-Newton step from the full fit when a sweep is left out (the
     jackknife of a least-squares fit); the effects themselves are locked.
     """
-    data, fit = search.data, search.fit
+    data, fit = analysis.data, analysis.fit
     before = {o: data.recorded[o] - data.base[o] for o in data.outputs}
-    after = each_left_out(search, fit)
+    after = each_left_out(analysis, fit)
     rng = np.random.default_rng(seed)
     name, rows = held_out_condition(data)
-    condition = _condition(search, rows) if rows is not None else None
+    condition = _condition(analysis, rows) if rows is not None else None
     out = {}
     for o in data.outputs:
-        b = _by_sweep(before[o], search.block, search.system.count)
-        a = _by_sweep(after[o], search.block, search.system.count)
-        n = np.bincount(search.block, minlength=search.system.count)
+        b = _by_sweep(before[o], analysis.block, analysis.system.count)
+        a = _by_sweep(after[o], analysis.block, analysis.system.count)
+        n = np.bincount(analysis.block, minlength=analysis.system.count)
         draws = []
         for _ in range(resamples):
             pick = rng.integers(n.size, size=n.size)
             draws.append(np.sqrt(a[pick].sum() / max(n[pick].sum(), 1)))
-        floor = search.noise[o].floor
+        floor = analysis.noise[o].floor
         rms_b, rms_a = float(np.sqrt(b.sum() / n.sum())), float(np.sqrt(a.sum() / n.sum()))
         above = rms_b**2 - floor**2
         low, high = np.quantile(draws, [0.025, 0.975])
@@ -60,25 +60,25 @@ def prove(search: Search, *, resamples: int = 400, seed: int = 0) -> dict[str, O
     return out
 
 
-def prove_moments(search: Search, *, resamples: int = 400, seed: int = 0) -> dict[str, OutputFit]:
+def prove_moments(analysis: Analysis, *, resamples: int = 400, seed: int = 0) -> dict[str, OutputFit]:
     """Return the errors of the recorded moments, N m, which no fit has seen: only fx and fy were fitted.
 
     Moments that the model does not give (no coefficients, or another simulator's output in its place) are
     left out.
     """
-    data = search.data
+    data = analysis.data
     names = recorded_moments(data)
     if not names:
         return {}
     plain = simulate_moments(data, [], names)
-    corrected = simulate_moments(data, search.fit.changes, names)
-    count = np.bincount(search.block, minlength=search.system.count)
+    corrected = simulate_moments(data, analysis.fit.changes, names)
+    count = np.bincount(analysis.block, minlength=analysis.system.count)
     rng = np.random.default_rng(seed)
     out = {}
     for name in names:
         recorded = data.channels[name]
         before, after = recorded - plain[name], recorded - corrected[name]
-        sums = _by_sweep(after, search.block, search.system.count)
+        sums = _by_sweep(after, analysis.block, analysis.system.count)
         picks = rng.integers(count.size, size=(resamples, count.size))
         draws = np.sqrt(sums[picks].sum(axis=1) / np.maximum(count[picks].sum(axis=1), 1))
         low, high = np.quantile(draws, [0.025, 0.975])
@@ -125,18 +125,18 @@ def held_out_condition(data: Data) -> tuple[str, Array | None]:
     return "", None
 
 
-def _condition(search: Search, rows: Array) -> dict[str, Array] | None:
+def _condition(analysis: Analysis, rows: Array) -> dict[str, Array] | None:
     """Return residuals in the condition with parameters fitted to the sweeps that do not enter it."""
-    if not search.fit.labels:
-        return {o: r[rows] for o, r in residual(search.data, search.fit.changes).items()}
-    count = search.system.count
-    touched = np.bincount(search.block, rows.astype(float), count) > 0
-    after = residual(search.data, search.fit.changes)
+    if not analysis.fit.labels:
+        return {o: r[rows] for o, r in residual(analysis.data, analysis.fit.changes).items()}
+    count = analysis.system.count
+    touched = np.bincount(analysis.block, rows.astype(float), count) > 0
+    after = residual(analysis.data, analysis.fit.changes)
     if touched.mean() > 0.7:
-        inside = np.bincount(search.block, rows.astype(float), count)
-        size = np.bincount(search.block, minlength=count)
+        inside = np.bincount(analysis.block, rows.astype(float), count)
+        size = np.bincount(analysis.block, minlength=count)
         touched = inside / np.maximum(size, 1) > 0.5
     if touched.all() or not touched.any():
         return None
-    delta = step_without(search.fit, touched) - step_without(search.fit, np.zeros(count, bool))
-    return {o: after[o][rows] - search.fit.columns[o][rows] @ delta for o in after}
+    delta = step_without(analysis.fit, touched) - step_without(analysis.fit, np.zeros(count, bool))
+    return {o: after[o][rows] - analysis.fit.columns[o][rows] @ delta for o in after}

@@ -76,8 +76,8 @@ class Remainder:
         A sparse equation for it (PySINDy), or nothing.
     significant : bool
         Whether it counts.
-    statistic, log_evidence : float
-        Its power over that of noise at the worst scale, and what that is worth.
+    probability : float
+        That something without a name is there.
     gaussian : list of GaussianForm
         The output first in which most is left.
     """
@@ -86,6 +86,5 @@ class Remainder:
     located: list[Located]
     form: str
     significant: bool
-    statistic: float = 0.0
-    log_evidence: float = 0.0
+    probability: float = 0.0
     gaussian: list[GaussianForm] = field(default_factory=list)

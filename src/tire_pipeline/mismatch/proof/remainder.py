@@ -6,11 +6,10 @@ import warnings
 
 import numpy as np
 
-from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm, gaussian_form
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
-from tire_pipeline.mismatch.inference.restart import excess, white_left
-from tire_pipeline.mismatch.inference.search import Search
+from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.locate import locate
 from tire_pipeline.mismatch.proof.measured import Remainder
@@ -19,43 +18,41 @@ Array = np.ndarray
 _MOST_TERMS = 5
 
 
-def remainder(search: Search) -> Remainder:
-    """Measure what neither the effects nor a misfit of the usual size explains."""
-    data, fit = search.data, search.fit
-    left = white_left(search)
-    statistic, log_evidence = excess(search, left)
+def remainder(analysis: Analysis, answer: SetAnswer) -> Remainder:
+    """Measure what neither the effects nor a misfit of the usual size explains.
+
+    Whether it counts is the posterior's matter: something without a name is likelier than not.
+    """
+    data, fit = analysis.data, analysis.fit
     rest = residual(data, fit.changes)
-    sensor = estimate_noise(data, rest)  # what changes slowly is noise to the search, but not a sensor's
+    sensor = estimate_noise(data, rest)
     size = {}
     for o, r in rest.items():
-        floor = min(sensor[o].floor, search.noise[o].floor)
+        floor = min(sensor[o].floor, analysis.noise[o].floor)
         size[o] = float(np.sqrt(max(float(np.mean(r**2)) - floor**2, 0.0)))
-    share = max(size[o] / search.largest[o] for o in data.outputs)
-    stated = any(f"{o}_std" in data.channels for o in data.outputs)
-    above = not stated or any(size[o] > 0.5 * search.noise[o].floor for o in data.outputs)
-    much = statistic > settings.REMAINDER_LIMIT and log_evidence > settings.REMAINDER_LOG_EVIDENCE
-    significant = (above and much) or share > settings.REMAINDER_SHARE
-    plain = {o: left[o] * search.noise[o].sigma for o in data.outputs}
-    located = locate(data, plain, search.noise, search.block) if significant else []
-    form = sparse_form(search) if significant else ""
-    gaussian = gaussian_forms(search, size) if significant else []
-    return Remainder(size, located, form, bool(significant), statistic, log_evidence, gaussian)
+    significant = answer.agreement < LEVEL and (answer.unnamed > LEVEL or not answer.sets)
+    located = locate(data, rest, analysis.noise, analysis.block) if significant else []
+    form = sparse_form(analysis) if significant else ""
+    gaussian = gaussian_forms(analysis, size) if significant else []
+    return Remainder(size, located, form, significant, answer.unnamed, gaussian)
 
 
-def gaussian_forms(search: Search, size: dict[str, float]) -> list[GaussianForm]:
+def gaussian_forms(analysis: Analysis, size: dict[str, float]) -> list[GaussianForm]:
     """Return a Gaussian process for each output that has something left, the largest first."""
-    rest = residual(search.data, search.fit.changes)
+    rest = residual(analysis.data, analysis.fit.changes)
     order = sorted(size, key=lambda o: -size[o])
-    wanted = [o for o in order if o == order[0] or size[o] > 0.5 * search.noise[o].floor]
-    forms = [gaussian_form(search.data, rest[o], o, search.block, search.noise[o].floor) for o in wanted]
+    wanted = [o for o in order if o == order[0] or size[o] > 0.5 * analysis.noise[o].floor]
+    forms = [
+        gaussian_form(analysis.data, rest[o], o, analysis.block, analysis.noise[o].floor) for o in wanted
+    ]
     return [f for f in forms if f is not None]
 
 
-def sparse_form(search: Search) -> str:
+def sparse_form(analysis: Analysis) -> str:
     """Return a sparse equation (PySINDy's sequentially thresholded least squares) for the remainder."""
     import pysindy
 
-    data, fit = search.data, search.fit
+    data, fit = analysis.data, analysis.fit
     rest = residual(data, fit.changes)
     names = [n for n in ("slip_angle", "slip_ratio", "camber", "normal_load", "speed") if data.varies(n)]
     columns, labels = [], []

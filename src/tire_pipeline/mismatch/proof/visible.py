@@ -1,44 +1,36 @@
 """How large an effect would have to be to be seen in a recording, and what size is ruled out.
 
-The engine's own linearisation, at what it has found: the column of a parameter is what the recording
-would show of it, and its information is what is left of that column beside the noise, the misfit of the
-formula, the coefficients and the effects that are named. A size is seen if, in 95% of repetitions, it is
-worth the evidence that the gates ask for, and removes the share of the mismatch that they ask for.
+Each size of each parameter is put into what is left. The log evidence of the set with the effect is compared
+with that of the set without it, by the same likelihood and the same odds by which names are found.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import ndtri
 
-from tire_pipeline.mismatch import settings
-from tire_pipeline.mismatch.discrepancy.gram import Sums, System
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount
 from tire_pipeline.mismatch.effects.base import Parameter
-from tire_pipeline.mismatch.inference.gates import (
-    asked_for,
-    floors_of,
-    mismatch_of,
-    of_coefficients,
-    part_of_samples,
-)
-from tire_pipeline.mismatch.inference.refit import finish, inverse
-from tire_pipeline.mismatch.inference.search_state import Search
-from tire_pipeline.mismatch.model.candidates import Variant, screening_columns
+from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts
+from tire_pipeline.mismatch.inference.evidence.products import OfSet
+from tire_pipeline.mismatch.inference.fit import Fit
+from tire_pipeline.mismatch.inference.learnt.sizes import EXPECTED
+from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
+from tire_pipeline.mismatch.inference.sets.screen import screened_forms
+from tire_pipeline.mismatch.model.candidates import Variant
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.model.residual import residual
-from tire_pipeline.mismatch.proof.intervals import roomy, standard_errors
 from tire_pipeline.mismatch.proof.measured import Visible
 
 Array = np.ndarray
 _SEEN = float(ndtri(0.95))
 _RULED_OUT = float(ndtri(0.975))
-_ROUNDS = 4
-_CLOSE = 0.05
+_ROUNDS = 7
 _MOST_FORMS = 3
 _SMALL, _SIZES, _HALVINGS = 1e-4, 97, 40
 FALSE = 0.02
@@ -59,10 +51,10 @@ class Sight:
         Smallest size that is named in 95% of repetitions; infinite if none within the bounds is.
     told : float
         The size that a likelihood-ratio test sees in 95% of the same repetitions which knows the form and the
-        covariance of noise, misfit and coefficients, at the level ``FALSE`` over all of the catalogue; none
+        size of what is left, at the level ``FALSE`` over all of the catalogue; none
         that no tire has.
     value, error : float
-        Estimate beside what is named, and its standard error with the room that an interval asks for.
+        Estimate beside what is named, and its standard error.
     """
 
     variant: Variant
@@ -101,7 +93,7 @@ def largest(parameter: Parameter) -> float:
     return min(abs(b - parameter.zero) for b in (parameter.low, parameter.high) if b != parameter.zero)
 
 
-def sights(search: Search) -> Iterator[Sight]:
+def sights(analysis: Analysis, enumerated: Enumerated, named: OfSet) -> Iterator[Sight]:
     """Yield what a recording shows of each parameter of each effect that is not named.
 
     Of several forms of one effect (references of a temperature, moments of a change) the one in the middle of
@@ -109,19 +101,22 @@ def sights(search: Search) -> Iterator[Sight]:
 
     Parameters
     ----------
-    search : Search
-        At its end.
+    analysis : Analysis
+    enumerated : Enumerated
+        Its sets, with the likelihood by which they were weighed.
+    named : OfSet
+        The set that is named.
     """
-    scene = _Scene(search)
-    for name in dict.fromkeys(v.name for v in search.variants):
-        if name in search.fit.names:
+    scene = _Scene(analysis, enumerated, named)
+    for name in dict.fromkeys(v.name for v in analysis.variants):
+        if name in named.names:
             continue
         effect = catalogue()[name]
         for p in effect.parameters:
             alone = not effect.needed or p.name in effect.needed
             if p.form or p.further or p.ratio or not alone:
                 continue
-            forms = [v for v in search.variants if v.name == name and p.name in v.free]
+            forms = [v for v in analysis.variants if v.name == name and p.name in v.free]
             picks = np.unique(np.linspace(0, len(forms) - 1, _MOST_FORMS + 2).astype(int)[1:-1])
             seen = [s for s in (scene.sight(forms[i], p) for i in picks if forms) if s is not None]
             if seen:
@@ -129,47 +124,83 @@ def sights(search: Search) -> Iterator[Sight]:
 
 
 class _Scene:
-    """One recording at the end of its search."""
+    """One recording beside the set that is named."""
 
-    def __init__(self, search: Search) -> None:
-        self.search, self.data, self.changes = search, search.data, list(search.fit.changes)
-        self.rest = residual(search.data, self.changes)
-        fit = finish(search.system, self.changes, search.fit.free, search.fit.objective)
-        self.own = fit.columns if fit.labels else None
-        self.floors = floors_of(search, search.fit)
-        self.total = mismatch_of(residual(search.data, []), self.floors)
-        self.count = len({v.name for v in search.variants})
-        self.roomy = roomy(search)
-        self.alike: list[dict[str, Array]] | None = None
+    def __init__(self, analysis: Analysis, enumerated: Enumerated, named: OfSet) -> None:
+        self.data, self.changes = analysis.data, list(named.changes)
+        self.products = enumerated.products
+        self.rest = residual(self.data, self.changes)
+        self.count = len({v.name for v in analysis.variants})
+        own = named.parameters + named.errors
+        self.own = enumerated.products.columns_of_set(named.changes, named.free)
+        self.own = {o: x[:, :own] for o, x in self.own.items()}
+        learnt = enumerated.likelihood.learnt
+        self.scale = np.r_[np.full(named.parameters, learnt.prior), np.full(named.errors, learnt.form_error)]
+        self.odds = {True: -EXPECTED, False: -(learnt.further if named.names else learnt.effect)}
+        found = enumerated.likelihood.evidence(named.products.take(range(own)), self.scale)
+        self.likelihood = enumerated.likelihood.at(found.weights)
 
     def sight(self, variant: Variant, parameter: Parameter) -> Sight | None:
         """Return what shows of one parameter, or None if nothing does.
 
         The column is that of a finite size, the size that is seen: some effects are far from linear.
         """
+        forms = screened_forms(self.data, [variant], self.changes)
+        if not forms:
+            return None
+        (form,) = forms
         size, most = parameter.step, largest(parameter)
         out = Sight(variant, parameter, np.inf, np.inf, 0.0, np.inf)
         before = self._simulated(out, 0.0)
-        for _ in range(_ROUNDS):
+        column = self._column(out, size, before)
+        while not any(np.any(c) for c in column.values()) and size < most:
+            size = min(4.0 * size, most)  # a lag of less than a sample does nothing
             column = self._column(out, size, before)
-            while not any(np.any(c) for c in column.values()) and size < most:
-                size = min(4.0 * size, most)  # a lag of less than a sample does nothing
-                column = self._column(out, size, before)
-            sums = self._sums(column)
-            info, score = self._profiled(self.search.system, sums)
-            power = sum(float(np.sum((c / self.search.noise[o].sigma) ** 2)) for o, c in column.items())
-            if not info > 1e-10 * power:
-                return None
-            error = self._error(info)
-            spread = max(error, self._error(self._profiled(self.roomy, sums)[0]))
-            loose = self._error(self._profiled(self.search.loose, sums)[0])
-            seen = self._possible(out, self._seen(variant.name, column, (error, spread, loose)))
-            told = self._possible(out, self._told(error, spread))
-            out = Sight(variant, parameter, seen, told, score / info, spread)
-            if abs(seen - size) < _CLOSE * size or (seen > most and size == most):
+        if not any(np.any(c) for c in column.values()):
+            return None
+        odds = self.odds[variant.effect.expected(self.data)]
+        for _ in range(2):  # the column of the size that is seen, from that of a small one
+            value, error, seen = self._weighed(column, form.columns, most, odds)
+            if not np.isfinite(seen) or seen > most:
                 break
-            size = min(seen, most)
-        return out
+            column = self._column(out, seen, before)
+        told = (_SEEN - float(ndtri(0.5 * FALSE / max(self.count, 1)))) * error
+        return Sight(variant, parameter, self._possible(out, seen), self._possible(out, told), value, error)
+
+    def _weighed(
+        self, column: Mapping[str, Array], form: Mapping[str, Array], most: float, odds: float
+    ) -> tuple[float, float, float]:
+        """Return estimate and standard error of a size, and the size that is named in 95% of repetitions."""
+        one = self.products.of(
+            {o: np.column_stack([self.own[o], form[o], column[o], self.rest[o]]) for o in self.rest}
+        )
+        count, inner = self.scale.size, form[self.data.outputs[0]].shape[1]
+        alone = one.take([*range(count), count + inner])
+        wide = max(most, 1e-300)
+        found = self.likelihood.evidence(alone, np.r_[self.scale, wide], wide=True)
+        value, error = float(found.mode[-1]), float(np.sqrt(found.covariance[-1, -1]))
+
+        def gain(size: float) -> float:
+            moved = _moved(one, size)
+            with_it = self.likelihood.evidence(
+                moved.take(range(count + inner)),
+                np.r_[self.scale, np.full(inner, self.likelihood.learnt.prior)],
+            )
+            return with_it.value - self.likelihood.evidence(moved.take(range(count)), self.scale).value
+
+        low, high = 0.0, 3.0 * error
+        for _ in range(_ROUNDS):
+            if gain(high) > odds or high > most:
+                break
+            low, high = high, 2.0 * high
+        else:
+            return value, error, np.inf
+        if gain(high) <= odds:
+            return value, error, np.inf
+        for _ in range(_ROUNDS):
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if gain(middle) > odds else (middle, high)
+        return value, error, high + _SEEN * error
 
     def _column(self, sight: Sight, size: float, before: dict[str, Array]) -> dict[str, Array]:
         there = self._simulated(sight, size)
@@ -178,81 +209,6 @@ class _Scene:
     def _simulated(self, sight: Sight, size: float) -> dict[str, Array]:
         changes: list[Change] = [*self.changes, (sight.variant.name, sight.values(self.data, size))]
         return simulate(self.data, changes)
-
-    def _sums(self, column: dict[str, Array]) -> Sums:
-        """Return the sums of a column and the named effects: the same whatever room nuisance has."""
-        one = {o: c[:, None] for o, c in column.items()}
-        joined = one if self.own is None else {o: np.hstack([self.own[o], one[o]]) for o in one}
-        return self.search.system.sums(self.rest, joined)
-
-    def _profiled(self, system: System, sums: Sums) -> tuple[float, float]:
-        """Return information and score of a column beside nuisance and the named effects."""
-        info, score, _ = system.reduce(sums)
-        head = np.linalg.lstsq(info[:-1, :-1], np.column_stack([info[:-1, -1], score[:-1]]), rcond=1e-12)[0]
-        left = np.array([info[-1, -1], score[-1]]) - info[-1, :-1] @ head
-        return float(left[0]), float(left[1])
-
-    def _error(self, info: float) -> float:
-        return float(np.sqrt(self.search.inflation / max(info, 1e-300)))
-
-    def _told(self, error: float, spread: float) -> float:
-        """Return the size that a test sees which knows form and noise."""
-        return _SEEN * spread - float(ndtri(0.5 * FALSE / max(self.count, 1))) * error
-
-    def _seen(self, name: str, column: dict[str, Array], errors: tuple[float, float, float]) -> float:
-        """Return the size that passes the gates of evidence and of share.
-
-        Evidence goes by the first of three errors, the engine's own, or by the third, with coefficients
-        nearly free; but repetitions differ by the second, the interval's.
-        """
-        error, spread, _ = errors
-        power = sum(float(np.mean(c**2)) / self.floors[o] ** 2 for o, c in column.items())
-        cross = sum(float(np.mean(self.rest[o] * c)) / self.floors[o] ** 2 for o, c in column.items())
-        price, aside, part = self.search.price, abs(cross) / power, part_of_samples(self.search, column)
-        size, by_loose = 0.0, 0.0
-        for _ in range(2):  # what is asked for depends on the share
-            share = power * size**2 / (self.total + power * size**2)
-            log_evidence, loose, least = asked_for(self.search, name, share)
-            least *= part
-            size = _sure_at(log_evidence + price, error, spread)
-            if not by_loose and not of_coefficients(name):
-                by_loose = self._by_loose(column, loose, errors, size)
-            size = max(size, by_loose)
-            by_share = aside + np.sqrt(aside**2 + least / (1.0 - least) * self.total / power)
-            if not self.changes:  # alone, and sure, it need not be a share of noise and misfit
-                sure = _sure_at(settings.REMAINDER_LOG_EVIDENCE + price, error, spread)
-                by_share = min(by_share, max(sure, 2.0 * aside))
-            size = max(size, by_share)
-        return float(size)
-
-    def _by_loose(
-        self, column: dict[str, Array], log_evidence: float, errors: tuple[float, float, float], enough: float
-    ) -> float:
-        """Return the size that coefficients nearly free do not explain, if more than a size is needed.
-
-        Or, where nothing is named, the size at which it is likelier by ``LEAST_GAIN_ALONE`` than every effect
-        that coefficients explain.
-        """
-        (error, spread, loose), price = errors, self.search.price
-        size = _sure_at(log_evidence + price, loose, max(loose, spread))
-        if self.changes or size <= enough:
-            return size
-        own = 1.0 - self._alike(column)
-        gain = max(settings.LEAST_GAIN_ALONE + price, settings.LEAST_GAIN_ALONE / max(own, 1e-6))
-        return min(size, _sure_at(gain, error, spread))
-
-    def _alike(self, column: dict[str, Array]) -> float:
-        """Return the largest part of a column's information that one effect of the coefficients takes up."""
-        if self.alike is None:
-            forms = [v for v in self.search.variants if of_coefficients(v.name)]
-            self.alike = [screening_columns(self.data, self.changes, v) for v in forms]
-        system, parts = self.search.system, [0.0]
-        for form in self.alike:
-            joined = {o: np.column_stack([form[o], c]) for o, c in column.items()}
-            info, _, _ = system.reduce(system.sums(self.rest, joined))
-            own, cross = inverse(info[:-1, :-1]), info[:-1, -1]
-            parts.append(float(cross @ own @ cross / max(info[-1, -1], 1e-300)))
-        return min(max(parts), 1.0)
 
     def _possible(self, sight: Sight, size: float) -> float:
         """Return the smallest size from this one on that a tire or a rig can have, or infinity."""
@@ -276,41 +232,50 @@ class _Scene:
         return sight.variant.effect.outside(self.data, sight.values(self.data, size))
 
 
-def _sure_at(log_evidence: float, error: float, spread: float) -> float:
-    """Return the size that is worth some log evidence in 95% of repetitions, which differ by ``spread``."""
-    return float(np.sqrt(2.0 * log_evidence)) * error + _SEEN * spread
+def _moved(products: ColumnProducts, size: float) -> ColumnProducts:
+    """Return products with a size of the last column but one put into the residual, which comes last."""
+    count = next(iter(products.own.values())).shape[0]
+    turn = np.delete(np.eye(count), count - 2, axis=1)
+    turn[count - 2, -1] = size
+    return ColumnProducts(
+        {o: turn.T @ a @ turn for o, a in products.own.items()},
+        {o: a @ turn for o, a in products.nuisance.items()},
+    )
 
 
-def visible(search: Search, *, unexplained: bool) -> list[Visible]:
+def visible(analysis: Analysis, enumerated: Enumerated, named: OfSet, *, unexplained: bool) -> list[Visible]:
     """Return what a recording can say of each effect of the catalogue.
 
     Parameters
     ----------
-    search : Search
-        At its end.
+    analysis : Analysis
+    enumerated : Enumerated
+    named : OfSet
+        The set that is named.
     unexplained : bool
         Whether there is an unexplained residual: then nothing is ruled out.
     """
-    named = [_named(name, dict(values), search, i) for i, (name, values) in enumerate(search.fit.changes)]
-    found = list(sights(search))
+    fit = analysis.fit
+    rows = [_named(name, dict(values), fit, i) for i, (name, values) in enumerate(fit.changes)]
+    found = list(sights(analysis, enumerated, named))
     said = {s.variant.name for s in found}
-    out = [row for rows in named for row in rows] + [_row(s, unexplained=unexplained) for s in found]
+    out = [row for each in rows for row in each] + [_row(s, unexplained=unexplained) for s in found]
     for name, effect in catalogue().items():
-        if name in said or name in search.fit.names:
+        if name in said or name in fit.names:
             continue
         if not effect.parameters:
             text = "is looked for in the channels themselves, whatever its size"
         else:
-            text = f"{search.absent.get(name, 'this recording does not show it')}, nothing can be said"
+            text = f"{analysis.absent.get(name, 'this recording does not show it')}, nothing can be said"
         out.append(Visible(name, "", "", np.nan, np.nan, f"{effect.title}: {text}"))
     order = list(catalogue())
     return sorted(out, key=lambda row: order.index(row.name))
 
 
-def _named(name: str, values: dict[str, float], search: Search, index: int) -> list[Visible]:
+def _named(name: str, values: dict[str, float], fit: Fit, index: int) -> list[Visible]:
     """Rows of an effect that is named."""
     effect, rows = catalogue()[name], []
-    for (i, parameter), error in zip(search.fit.labels, standard_errors(search, search.fit), strict=True):
+    for (i, parameter), error in zip(fit.labels, fit.errors, strict=True):
         if i != index:
             continue
         unit = effect.parameter(parameter).unit

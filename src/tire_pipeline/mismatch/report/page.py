@@ -126,18 +126,9 @@ def _certainty(effect: EffectReport) -> str:
 
 def _evidence(evidence: dict[str, float | str]) -> str:
     """What a reader needs to judge the evidence; the JSON has all of it."""
-    if "gain_nats" not in evidence:
+    if "log_evidence" not in evidence:
         return in_words(str(evidence.get("found", "")))
-    gain, loose, frozen = (
-        number(evidence[key])
-        for key in ("gain_nats", "gain_with_loose_coefficients", "gain_with_frozen_coefficients")
-    )
-    p = evidence["wilcoxon_p"]
-    p_value = "p below 0.001" if isinstance(p, float) and p < 1e-3 else f"p = {number(p, 2)}"
-    return (
-        f"Log evidence {gain} ({loose} with the formula's coefficients free, {frozen} with them fixed); "
-        f"better on held-out sweeps with {p_value} (Wilcoxon, {evidence['sweeps']} sweeps)"
-    )
+    return f"Log evidence {number(evidence['log_evidence'])} above the best explanation without it"
 
 
 def _candidate(row: dict[str, Any]) -> dict[str, Any]:

@@ -32,7 +32,7 @@ class EffectReport:
     alternatives : tuple of str
         Names that the data cannot exclude.
     confidence : float
-        Probability that the cause is the name or one of its alternatives, calibrated on tuning cases.
+        Posterior probability that the cause is the name or one of its alternatives.
     output : str
         Force in which it is largest.
     where : dict
@@ -45,7 +45,7 @@ class EffectReport:
     parameters : dict
         Name -> (value, standard error, unit).
     evidence : dict
-        Gain in log evidence, Wilcoxon p, and so on.
+        ``log_evidence``: how much the best set with it has above the best one without.
     """
 
     name: str
@@ -179,6 +179,8 @@ class MismatchReport:
     assumed: list[str] = field(default_factory=list)
     visible: list[Visible] = field(default_factory=list)
     unnamed: UnnamedReport | None = None
+    withheld: tuple[str, ...] = ()
+    probabilities: list[tuple[tuple[str, ...], float]] = field(default_factory=list)
 
     @property
     def sets(self) -> list[tuple[tuple[str, ...], float]]:
@@ -235,6 +237,8 @@ class MismatchReport:
             "recordings": list(self.recordings),
             "held_out": None if self.held_out is None else asdict(self.held_out),
             "unnamed": None if self.unnamed is None else asdict(self.unnamed),
+            "withheld": list(self.withheld),
+            "probabilities": [{"names": list(names), "probability": p} for names, p in self.probabilities],
             "corrected": [{"name": n, "parameters": dict(p)} for n, p in self.corrected.changes],
         }
         return json.loads(json.dumps(_plain(raw)))

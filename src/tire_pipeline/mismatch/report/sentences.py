@@ -78,6 +78,16 @@ def on_held_out(fit: HeldOutFit) -> str:
     return f"In {fit.recording}, which was held out, the RMS error of {', that of '.join(parts)}."
 
 
+def on_withheld(names: Sequence[str]) -> str:
+    """Say which named effects are not in the corrected model."""
+    if not names:
+        return ""
+    titles = " and ".join(catalogue()[n].title for n in names)
+    return (
+        f"The corrected model is without {titles}: with it, sweeps that its fit has not seen would be worse."
+    )
+
+
 def on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
     """Return what is known of the part without a name, in a sentence or two; empty where nothing is."""
     if found is None or found.physics is None:

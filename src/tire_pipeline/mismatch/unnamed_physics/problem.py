@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.gram import System
-from tire_pipeline.mismatch.inference.search import Search
-from tire_pipeline.mismatch.inference.search_state import nuisance_scale
+from tire_pipeline.mismatch.discrepancy.misfit import nuisance_scale
+from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.unnamed_physics.grammar import SymbolTable
 from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues, table_of
@@ -22,6 +21,9 @@ _OTHERS = ((0.002, 0.0002), (0.006, 0.01), (0.013, 0.002))
 that the engine has learnt: a part that has no name must not have to pass for misfit."""
 
 
+USUAL_MISFIT = 0.01
+"""What a formula fitted to a clean tire leaves at most, RMS over largest force: the tuning tires 0.4 to 0.9%,
+calspan 2%, DART 3%."""
 _A_SWEEP = 8.0
 """Independent values of the formula's misfit along one sweep, about: it bends as the slip does."""
 
@@ -76,14 +78,14 @@ class Problem:
         return tuple(self.rest)
 
 
-def problem_of(search: Search) -> Problem:
+def problem_of(analysis: Analysis) -> Problem:
     """Return what the search leaves; the parameters of its effects may move by what they are known to."""
-    data, fit = search.data, search.fit
-    system, known = _beside_effects(search)
-    order = np.argsort(search.block, kind="stable")
+    data, fit = analysis.data, analysis.fit
+    system, known = _beside_effects(analysis)
+    order = np.argsort(analysis.block, kind="stable")
     sizes = [system.scale]
     for share, path in _OTHERS:
-        scale = nuisance_scale(search.sizes, share, path)
+        scale = nuisance_scale(analysis.sizes, share, path)
         sizes.append({o: np.concatenate([s, known[o]]) for o, s in scale.items()})
     table, nominal = table_of(data, fit.changes)
     moves = {n for n in data.present if data.varies(n)} | ({"time"} if data.time is not None else set())
@@ -92,17 +94,17 @@ def problem_of(search: Search) -> Problem:
         nominal=nominal,
         moves=frozenset(moves),
         rest=residual(data, fit.changes),
-        largest=search.largest,
-        block=search.block,
+        largest=analysis.largest,
+        block=analysis.block,
         order=order,
-        whiten=lambda o, x: search.noise[o].whiten(x, data.start)[order],
+        whiten=lambda o, x: analysis.noise[o].whiten(x, data.start)[order],
         nuisance=system.white,
         sizes=sizes,
-        inflation=search.inflation,
+        inflation=analysis.inflation,
     )
 
 
-def coarsely(problem: Problem, search: Search) -> Problem:
+def coarsely(problem: Problem, analysis: Analysis) -> Problem:
     """Return the same with the formula's misfit as noise of its usual size, that changes along a sweep.
 
     The engine's misfit is a flexible form whose size the recording sets. Where fine structure asks for a
@@ -110,10 +112,10 @@ def coarsely(problem: Problem, search: Search) -> Problem:
     sweep holds a few independent values of it, and only the coefficients may move: what is large in newtons
     comes first.
     """
-    usual = {o: settings.USUAL_MISFIT * problem.largest[o] for o in problem.rest}
-    size = {o: np.hypot(usual[o], search.noise[o].floor) for o in usual}
-    count = {o: search.sizes[o].coefficients for o in usual}
-    columns = {o: search.columns[o][problem.order, : count[o]] / size[o] for o in usual}
+    usual = {o: USUAL_MISFIT * problem.largest[o] for o in problem.rest}
+    size = {o: np.hypot(usual[o], analysis.noise[o].floor) for o in usual}
+    count = {o: analysis.sizes[o].coefficients for o in usual}
+    columns = {o: analysis.columns[o][problem.order, : count[o]] / size[o] for o in usual}
     return replace(
         problem,
         whiten=lambda o, x: x[problem.order] / size[o],
@@ -124,11 +126,11 @@ def coarsely(problem: Problem, search: Search) -> Problem:
     )
 
 
-def _beside_effects(search: Search) -> tuple[System, dict[str, Array]]:
+def _beside_effects(analysis: Analysis) -> tuple[System, dict[str, Array]]:
     """The system with the effects' columns as far as their parameters are uncertain, and those sizes."""
-    fit, outputs = search.fit, search.data.outputs
+    fit, outputs = analysis.fit, analysis.data.outputs
     if not fit.labels:
-        return search.system, {o: np.zeros(0) for o in outputs}
-    errors = np.sqrt(np.maximum(np.diag(fit.covariance), 0.0) * search.inflation)
+        return analysis.system, {o: np.zeros(0) for o in outputs}
+    errors = fit.errors
     known = {o: errors for o in outputs}
-    return search.system.extended({o: fit.columns[o] for o in outputs}, known), known
+    return analysis.system.extended({o: fit.columns[o] for o in outputs}, known), known

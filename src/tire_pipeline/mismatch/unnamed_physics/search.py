@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.mismatch import settings
 from tire_pipeline.mismatch.discrepancy.noise import white_noise
-from tire_pipeline.mismatch.inference.search import Search
+from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
@@ -20,7 +19,7 @@ from tire_pipeline.mismatch.unnamed_physics.found import Alternative, UnnamedPhy
 from tire_pipeline.mismatch.unnamed_physics.grammar import number, parse
 from tire_pipeline.mismatch.unnamed_physics.ideas import matching
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
-from tire_pipeline.mismatch.unnamed_physics.problem import Problem, coarsely, problem_of
+from tire_pipeline.mismatch.unnamed_physics.problem import USUAL_MISFIT, Problem, coarsely, problem_of
 from tire_pipeline.mismatch.unnamed_physics.products import Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import (
     Proven,
@@ -44,28 +43,28 @@ _ONE_SIDED = "the recording turns to one side, and no equation from it can be tr
 _NOT_PROVED = "no equation makes sweeps better that neither its choice nor its fit has seen"
 
 
-def unnamed_physics(search: Search, *, plainly: bool = False) -> UnnamedReport:
+def unnamed_physics(analysis: Analysis, *, plainly: bool = False) -> UnnamedReport:
     """Look for an equation of what a search leaves unexplained, and prove it.
 
     Parameters
     ----------
-    search : Search
-        After the search.
+    analysis : Analysis
+        After the analysis.
     plainly : bool
         Ask for more, because what is left might be the formula's usual misfit.
     """
-    problem = problem_of(search)
-    return find(problem, coarsely(problem, search), plainly=plainly)
+    problem = problem_of(analysis)
+    return find(problem, coarsely(problem, analysis), plainly=plainly)
 
 
-def more_than_usual(search: Search) -> bool:
+def more_than_usual(analysis: Analysis) -> bool:
     """Whether more is left than a fitted formula usually leaves, though nothing is significant.
 
     What repeats or changes slowly may pass for coloured noise, and what follows a channel for the formula's
     misfit. The noise here is that of neighbouring samples alone.
     """
-    for o, rest in residual(search.data, search.fit.changes).items():
-        least = max(settings.USUAL_MISFIT * search.largest[o], _ABOVE_NOISE * white_noise(rest))
+    for o, rest in residual(analysis.data, analysis.fit.changes).items():
+        least = max(USUAL_MISFIT * analysis.largest[o], _ABOVE_NOISE * white_noise(rest))
         if float(np.sqrt(np.mean(rest**2))) > least:
             return True
     return False

@@ -17,9 +17,6 @@ class CamberOffset(Effect):
     title = "an offset of the camber"
     equation = "camber = recorded camber - offset"
     source = "alignment of the rig"
-    own_inputs = True
-    unusual = True
-    shifts = True
     offset_of = "camber"
     family = "side"
     prior_source = "Judged: a wheel is set up to about a degree"

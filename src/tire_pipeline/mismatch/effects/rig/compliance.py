@@ -18,9 +18,6 @@ class Compliance(Effect):
     title = "compliance of suspension or rig"
     equation = "slip angle at the wheel = recorded slip angle - steer Fy / Fz0 - steer_by_fx Fx / Fz0"
     source = "Milliken and Milliken, Race Car Vehicle Dynamics, ch. 23 (lateral, longitudinal force steer)"
-    own_inputs = True
-    scales = True
-    steepens = True
     needed = ("steer",)
     family = "scale"
     prior_source = (
@@ -36,7 +33,6 @@ class Compliance(Effect):
         "crosstalk": "crosstalk is there without a side force too, and where the tire slides",
         "relaxation_length": "relaxation needs slip that changes",
     }
-    told_by = {"stiffness_scale": "normal_load"}
     experiment = "small-slip sweeps at three loads or more, one with brakes; or measure the toe at the wheel"
     order = 20
 

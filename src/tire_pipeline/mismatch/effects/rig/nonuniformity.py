@@ -26,8 +26,6 @@ class Nonuniformity(Effect):
     source = "SAE J332: lateral and radial force variation, first harmonic"
     needs_time = True
     used = ("speed",)
-    as_noise = True
-    choices = 1
     family = "wheel"
     prior_source = "SAE J332 grades force variations of some percent of the load"
     parameters = (

@@ -17,9 +17,6 @@ class SlipAngleOffset(Effect):
     title = "an offset of the slip angle"
     equation = "slip angle = recorded slip angle - offset"
     source = "alignment of rig or optical sensor"
-    own_inputs = True
-    shifts = True
-    exact = True
     offset_of = "slip_angle"
     family = "side"
     prior_source = "Judged: an angle is zeroed to about half a degree"

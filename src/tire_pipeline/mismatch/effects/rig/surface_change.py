@@ -20,8 +20,6 @@ class SurfaceChange(Effect):
     equation = "friction *= 1 + friction H(t - moment)"
     source = "a step of LMUX = LMUY in time"
     needs_time = True
-    slow = True
-    least_gain = 35.0  # its moment may lie anywhere: false ones have up to 32 in the tuning cases
     scanned = ("moment",)
     stepped = ("moment",)
     family = "slow"

@@ -21,7 +21,6 @@ class Crosstalk(Effect):
         "Fy recorded = Fy + into_fy Fx + load_into_fy Fz; Fx recorded = Fx + into_fx Fy + load_into_fx Fz"
     )
     source = "six-component load cell: off-diagonal terms of the calibration matrix"
-    own_inputs = True
     family = "side"
     prior_source = "Judged: load cells leak 1 to 5% before they are calibrated, the larger load less"
     parameters = (

@@ -18,8 +18,6 @@ class ForceGain(Effect):
     title = "a wrong gain of a force channel"
     equation = "F recorded = (1 + gain) F"
     source = "load cell calibration"
-    own_inputs = True
-    scales = True
     family = "scale"
     prior_source = "Judged: a gain is wrong by some percent, or by a whole unit, which is found without a fit"
     parameters = (

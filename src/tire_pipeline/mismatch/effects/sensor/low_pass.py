@@ -23,7 +23,6 @@ class LowPass(Effect):
     source = "amplifier or acquisition filter"
     needs_time = True
     dynamic = True
-    unusual = True
     family = "lag"
     prior_source = "Judged: filters of force channels end at 1 to 30 Hz"
     parameters = (Parameter("lag", "s", 0.0, 2.0, 0.004, prior=0.1),)

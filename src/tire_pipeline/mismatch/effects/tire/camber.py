@@ -24,7 +24,6 @@ class Camber(Effect):
     )
     source = "MF 5.2: PHY3, PVY3, PVY4, PDY3, PKY3, PDX3 (thesis, Appendix A, pure slip)"
     channels = ("camber",)
-    of_coefficients = True
     family = "inclination"
     prior_source = (
         "Camber stiffness of a car tire is about a tenth of its cornering stiffness (Pacejka, 3rd ed., "
@@ -45,6 +44,10 @@ class Camber(Effect):
     }
     experiment = "the same slip sweep at camber of both signs and at zero"
     order = 40
+
+    def expected(self, data: object) -> bool:
+        """The file knows no camber: every tire answers to it (Pacejka, 3rd ed., 4.3.1)."""
+        return not data.knows_camber  # type: ignore[attr-defined]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """All but the longitudinal friction where nothing brakes or drives."""

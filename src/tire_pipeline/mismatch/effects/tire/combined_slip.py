@@ -29,20 +29,17 @@ class CombinedSlip(Effect):
     )
     source = "MF 5.2 weighting functions (thesis, Appendix A, combined slip); Bayle et al. 1993"
     used = ("slip_angle", "slip_ratio")
-    own_inputs = True
-    scales = True
     family = "scale"
     prior_source = "Published RBX1 and RBY1 lie at 5 to 15"
     parameters = (
-        *(Parameter(n, "1", 0.5, 400.0, 0.2, ratio=True, open_ended=True) for n in _NAMES),
-        *(Parameter(n, "1", 0.0, 60.0, 0.1, kept=True, open_ended=True, prior=5.0) for n in _MORE),
+        *(Parameter(n, "1", 0.5, 400.0, 0.2, ratio=True) for n in _NAMES),
+        *(Parameter(n, "1", 0.0, 60.0, 0.1, kept=True, prior=5.0) for n in _MORE),
     )
     looks_like = {
         "friction_scale": "friction acts on pure slip too",
         "force_gain": "a gain acts on pure slip too",
         "temperature": "heat acts on pure slip too",
     }
-    told_by = dict.fromkeys(("friction_scale", "force_gain", "temperature"), "slip_angle")
     experiment = "brake ramps at three slip angles or more"
     order = 40
 

@@ -18,8 +18,6 @@ class FrictionScale(Effect):
     title = "another friction level"
     equation = "F = m F0(slip / m), m = 1 + friction; the slope at zero slip stays"
     source = "Pacejka, Tire and Vehicle Dynamics, 3rd ed., similarity method (4.2.1); LMUX, LMUY"
-    own_inputs = True
-    scales = True
     constant = "friction"
     family = "scale"
     prior_source = "Judged: dry surfaces differ by 10 to 20%, as LMUX and LMUY are set between rig and road"

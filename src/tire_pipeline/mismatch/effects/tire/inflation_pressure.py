@@ -7,6 +7,8 @@ import numpy as np
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
+_OF_PRESSURE = "PPX1 PPX2 PPX3 PPX4 PPY1 PPY2 PPY3 PPY4".split()
+
 
 class InflationPressure(Effect):
     """The model is right at one pressure and wrong at others.
@@ -45,6 +47,10 @@ class InflationPressure(Effect):
         """Return each pressure at which the model may be right: the file's, or those of the recording."""
         zero = self.zeros(data)
         return [{**zero, "reference": p} for p in data.pressure_levels]  # type: ignore[attr-defined]
+
+    def expected(self, data: object) -> bool:
+        """The file has no coefficient of pressure: every tire answers to it (Besselink et al. 2010)."""
+        return not any(data.tire_coefficients.get(n, 0.0) for n in _OF_PRESSURE)  # type: ignore[attr-defined]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """All but the reference; one stiffness where one force alone is driven."""

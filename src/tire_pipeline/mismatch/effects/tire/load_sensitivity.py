@@ -26,8 +26,6 @@ class LoadSensitivity(Effect):
         "Appendix A); Grosch 1996 on load dependence"
     )
     channels = ("normal_load",)
-    own_inputs = True
-    scales = True
     family = "scale"
     prior_source = "PDX2, PDY2 and the curvature of the stiffness over load of published files: tenths"
     parameters = (
@@ -42,8 +40,6 @@ class LoadSensitivity(Effect):
     }
     experiment = "sweeps to full sliding at four loads or more"
     order = 40
-    least_gain = 15.0
-    least_beside = 25.0  # false ones have a log evidence of 13 alone and 17 beside camber: few loads
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """One stiffness where one force alone is driven."""

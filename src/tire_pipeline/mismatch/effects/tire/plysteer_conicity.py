@@ -24,8 +24,6 @@ class PlysteerConicity(Effect):
         "SAE J1106; Pacejka, 3rd ed., 4.2.1: ply steer as equivalent slip angle, conicity as equivalent "
         "camber; 4.E27: camber's thrust over K as a shift of the slip angle"
     )
-    own_inputs = True
-    shifts = True
     family = "side"
     prior_source = (
         "Conicity and ply steer of car tires are some percent of the load and some tenths of a "
@@ -45,7 +43,6 @@ class PlysteerConicity(Effect):
     }
     experiment = "straight rolling at three loads, then with the tire turned on its rim"
     order = 12
-    errs_like = ("stiffness_scale", "compliance", "camber")
     needed = ("conicity", "pseudo_camber", "thrust")
 
     def starts(self, data: object) -> list[dict[str, float]]:

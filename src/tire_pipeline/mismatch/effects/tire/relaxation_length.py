@@ -43,7 +43,6 @@ class RelaxationLength(Effect):
         "time_delay": "a delay is the same at every speed",
         "low_pass": "a filter is the same at every speed",
     }
-    told_by = {"time_delay": "speed", "low_pass": "speed"}
     experiment = "the same slip-angle sine at two speeds that differ by a factor of two or more"
     order = 30
 

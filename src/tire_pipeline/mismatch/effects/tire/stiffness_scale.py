@@ -18,10 +18,6 @@ class StiffnessScale(Effect):
     title = "another slip stiffness"
     equation = "F = F0(k slip), k = 1 + stiffness, for Fy times 1 + lateral_stiffness; the peak stays"
     source = "Pacejka, Tire and Vehicle Dynamics, 3rd ed., similarity method (4.2.1); LKX, LKY"
-    own_inputs = True
-    scales = True
-    steepens = True
-    errs_like = ("friction_scale", "force_gain")
     constant = "stiffness"
     family = "scale"
     prior_source = "Judged: tires of one size differ by about a quarter"

@@ -9,6 +9,10 @@ from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 _WARMER = 25.0
 """degC above the warmest of the recording."""
+_AROUND = 15.0
+"""degC by which the temperature of the file's own test is usually off the middle of a recording."""
+_AROUND_BLIND = 0.6
+"""The same in the unit of the integrated heat, whose 90% quantile is 1."""
 
 
 class Temperature(Effect):
@@ -46,7 +50,6 @@ class Temperature(Effect):
         "surface_change": "a surface change is sudden",
         "friction_scale": "a friction factor does not change over time",
     }
-    told_by = dict.fromkeys(("wear", "surface_change", "friction_scale", "force_gain"), "tread_temperature")
     experiment = "repeat the first sweep after cooling: temperature comes back, wear does not"
     order = 40
 
@@ -90,6 +93,14 @@ class Temperature(Effect):
         if self.blind(data):
             names.append("lag")
         return tuple(names)
+
+    def usual(self, data: object, name: str) -> tuple[float, float]:
+        """Place the reference, at which the model is right, near the middle of the recording."""
+        if name != "reference":
+            return super().usual(data, name)
+        if self.blind(data):
+            return 0.5, _AROUND_BLIND
+        return float(np.median(data.smooth("tread_temperature"))), _AROUND  # type: ignore[attr-defined]
 
     def blind(self, data: object) -> bool:
         """Without a temperature channel, now or where the effect was found."""

@@ -21,7 +21,6 @@ class Wear(Effect):
     source = "Archard's law with friction power; Grosch 2008, Rubber Chem. Technol. 81"
     needs_time = True
     used = ("speed",)
-    slow = True
     family = "slow"
     prior_source = "Judged: a test ends before a tenth of friction is lost"
     parameters = (
@@ -33,7 +32,6 @@ class Wear(Effect):
         "sensor_drift": "drift is there at zero slip too",
         "surface_change": "a surface change is sudden",
     }
-    told_by = {"surface_change": "tread_temperature"}
     experiment = "repeat the first sweep at the end, after cooling"
     order = 40
 

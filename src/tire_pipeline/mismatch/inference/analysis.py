@@ -1,0 +1,160 @@
+"""What is known of one recording while it is explained: noise, misfit, and the set that is named."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from tire_pipeline.mismatch.discrepancy.gram import System
+from tire_pipeline.mismatch.discrepancy.misfit import PATH_SHARES, SHARES, nuisance_scale
+from tire_pipeline.mismatch.discrepancy.noise import Noise, estimate_noise, refined
+from tire_pipeline.mismatch.discrepancy.nuisance import Sizes, largest_force, make_nuisance
+from tire_pipeline.mismatch.inference.fit import Fit
+from tire_pipeline.mismatch.model.blocks import sweeps
+from tire_pipeline.mismatch.model.candidates import Variant, variants
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.residual import residual
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """One recording, and how its samples are weighed.
+
+    Parameters
+    ----------
+    data : Data
+    noise : dict of Noise
+    block : ndarray of int, shape (n,)
+        Sweep of each sample.
+    columns : dict of ndarray, shape (n, q)
+        What may be wrong without anything being left out, N: coefficients and the formula's misfit.
+    sizes : dict of Sizes
+        How many of these columns are which.
+    system : System
+        Sums of whitened products.
+    misfit, path : float
+        Likeliest sizes of the misfit, and of its dependence on the way, over the largest force.
+    inflation : float
+        How many whitened samples make one independent one.
+    variants : list of Variant
+        All forms of all effects that this recording can show.
+    absent : dict of str
+        Effect -> why it cannot be looked for.
+    largest : dict of float
+        Largest force of each output, N.
+    fit : Fit
+        The set that is named.
+    """
+
+    data: Data
+    noise: dict[str, Noise]
+    block: Array
+    columns: dict[str, Array]
+    sizes: dict[str, Sizes]
+    system: System
+    misfit: float
+    path: float
+    inflation: float
+    variants: list[Variant]
+    absent: dict[str, str]
+    largest: dict[str, float]
+    fit: Fit = field(default_factory=lambda: Fit([], []))
+
+
+def analyse(data: Data, without: Collection[str] = ()) -> Analysis:
+    """Estimate noise and misfit, and set up the sums.
+
+    Parameters
+    ----------
+    data : Data
+    without : collection of str
+        Effects that are not looked for, as if the catalogue lacked them.
+    """
+    rest = residual(data, [])
+    noise = estimate_noise(data, rest)
+    block = sweeps(data)
+    found, absent = variants(data)
+    found = [v for v in found if v.name not in without]
+    absent |= dict.fromkeys(without, "it was taken out of the catalogue")
+    nuisance = make_nuisance(data)
+    scale = nuisance_scale(nuisance.sizes, SHARES[0], PATH_SHARES[0])
+    first = Analysis(
+        data=data,
+        noise=noise,
+        block=block,
+        columns=nuisance.columns,
+        sizes=nuisance.sizes,
+        system=System(data, noise, block, nuisance.columns, scale),
+        misfit=SHARES[-1],
+        path=PATH_SHARES[0],
+        inflation=1.0,
+        variants=found,
+        absent=absent,
+        largest={o: largest_force(data, o) for o in data.outputs},
+    )
+    return with_fit(first, first.fit)
+
+
+def with_fit(analysis: Analysis, fit: Fit) -> Analysis:
+    """Return the analysis with another set named: noise and misfit are learnt from what that set leaves."""
+    weighed = _rescaled(replace(analysis, fit=fit))
+    data, rest = weighed.data, residual(weighed.data, fit.changes)
+    c = weighed.system.fitted(rest, fit.columns if fit.labels else None)
+    calm = {o: r - weighed.columns[o] @ c[o] for o, r in rest.items()}
+    noise = {o: refined(data, n, calm[o]) for o, n in estimate_noise(data, calm).items()}
+    system = System(data, noise, weighed.block, weighed.columns, weighed.system.scale)
+    return _rescaled(replace(weighed, noise=noise, system=system))
+
+
+def _rescaled(analysis: Analysis) -> Analysis:
+    """Take the likeliest size of the flexible form for what the named effects leave."""
+    base = analysis.system
+    rest = residual(analysis.data, analysis.fit.changes)
+    sums = base.sums(rest)
+    depends = any(size.path for size in analysis.sizes.values())
+    trials = []
+    for share in SHARES:
+        for path in PATH_SHARES if depends else PATH_SHARES[:1]:
+            trial = base.rescaled(nuisance_scale(analysis.sizes, share, path))
+            trials.append((trial.reduce(sums)[2], trial.log_determinant(), share, path))
+    inflation, out = analysis.inflation, analysis
+    for _ in range(2):  # the size depends on the inflation, and the other way round
+        _, share, path = max((-0.5 * left / inflation - 0.5 * det, s, p) for left, det, s, p in trials)
+        system = base.rescaled(nuisance_scale(analysis.sizes, share, path))
+        left = system.left(rest, analysis.fit.columns or None)
+        inflation = inflation_of(left, in_time=analysis.data.time is not None)
+        out = replace(analysis, system=system, misfit=share, path=path, inflation=inflation)
+    return out
+
+
+def inflation_of(left: dict[str, Array], *, in_time: bool) -> float:
+    """How many whitened samples make one independent one: size and colour that the noise model missed.
+
+    The size is that of the power, not of the middle: what real rigs leave has longer tails than normal noise,
+    and each sample counts by its square.
+
+    Parameters
+    ----------
+    left : dict of ndarray, shape (n,)
+        Whitened residual of each output, in the order of time.
+    in_time : bool
+        Whether neighbours are neighbours in time.
+    """
+    total, weight = 0.0, 0.0
+    for white in left.values():
+        size = float(np.median(white**2) / 0.4549)
+        x = np.clip(white, -4.0 * np.sqrt(size), 4.0 * np.sqrt(size))
+        colour = 1.0
+        if in_time:
+            lags = [float(np.mean(x[k:] * x[:-k])) / max(float(np.mean(x**2)), 1e-12) for k in range(1, 13)]
+            for value in lags:
+                if value < 0.02:
+                    break
+                colour += 2.0 * value
+        total += max(float(np.mean(x**2)), 0.5) * colour
+        weight += 1.0
+    return float(np.clip(total / weight, 1.0, 25.0))

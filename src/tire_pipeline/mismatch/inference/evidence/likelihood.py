@@ -1,0 +1,218 @@
+"""The likelihood of a recording: everything linear is integrated out, the size of the error is unknown.
+
+``y = J x + E e + Z c + error``, in units of the largest force of each output: ``x`` the parameters of a set
+of effects (unit prior after scaling by their priors' spread), ``e`` what their forms get wrong, ``c`` what is
+never known: coefficients, the formula's misfit, and a background of usual effects. The *error* is what this
+model still gets wrong. It is white and its size is unknown. Neighbours of a real recording err alike, so that
+it counts for fewer independent samples than were recorded: for a learnt part of those that the correlation of
+what is left leaves independent. This is the one power to which the likelihood is taken.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import product
+
+import numpy as np
+
+from tire_pipeline.mismatch.discrepancy.misfit import nuisance_scale
+from tire_pipeline.mismatch.discrepancy.nuisance import Sizes
+from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
+
+Array = np.ndarray
+MISFITS = (0.002, 0.006, 0.02)
+"""Sizes of the formula's misfit over the largest force; all as likely beforehand."""
+PATHS = (0.0005, 0.008)
+"""Sizes of what a rising slip leaves otherwise than a falling one."""
+BACKGROUNDS = (0.3, 1.0)
+"""Sizes of the background over the usual one: some rigs have hardly any, and its many directions show it."""
+ERRORS = np.geomspace(2e-4, 0.4, 60)
+"""Sizes of the error over the largest force over which it is summed."""
+_ROUNDS = 4
+
+
+@dataclass(frozen=True)
+class ColumnProducts:
+    """Mean products of some columns, the residual last, with each other and with what is never known.
+
+    Parameters
+    ----------
+    own : dict of ndarray, shape (m + 1, m + 1)
+        For each output, over the square of its largest force.
+    nuisance : dict of ndarray, shape (q, m + 1)
+    """
+
+    own: Mapping[str, Array]
+    nuisance: Mapping[str, Array]
+
+    def take(self, columns: Sequence[int] | Array) -> ColumnProducts:
+        """Return the products of some of the columns, with the residual."""
+        last = next(iter(self.own.values())).shape[0] - 1
+        picked = np.r_[np.asarray(columns, dtype=int), last]
+        return ColumnProducts(
+            {o: a[np.ix_(picked, picked)] for o, a in self.own.items()},
+            {o: a[:, picked] for o, a in self.nuisance.items()},
+        )
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """What is never known in one recording: products of its columns, and what they are.
+
+    Parameters
+    ----------
+    gram : dict of ndarray, shape (q, q)
+        Mean products of the columns of each output over the square of its largest force.
+    sizes : dict of Sizes
+        Numbers of columns of coefficients and misfit.
+    families : tuple of str
+        Of the background's columns, which follow them.
+    samples : int
+    independent : dict of float
+        Samples of each output that are independent by the correlation of what is left beside all that is
+        looked for.
+    in_time : bool
+        Whether samples follow each other; each of some steady points is a measurement of its own.
+    white : dict of float
+        White noise of neighbouring samples, RMS over the largest force.
+    expected : frozenset of str
+        Effects of which physics leaves no doubt in this recording.
+    """
+
+    gram: Mapping[str, Array]
+    sizes: Mapping[str, Sizes]
+    families: tuple[str, ...]
+    samples: int
+    independent: Mapping[str, float]
+    in_time: bool = True
+    white: Mapping[str, float] = field(default_factory=dict)
+    expected: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True)
+class Weights:
+    """How one output is weighed: by one size of the misfit and one of the error."""
+
+    precision: float
+    values: Array
+    vectors: Array
+
+    def reduced(self, own: Array, nuisance: Array) -> Array:
+        """Return products given what is never known, shape as ``own``."""
+        seen = self.vectors.T @ nuisance
+        shrunk = seen / (1.0 + self.precision * self.values)[:, None]
+        return np.asarray(self.precision * own - self.precision**2 * seen.T @ shrunk)
+
+    def known(self, nuisance: Array) -> Array:
+        """Return the mean of the coefficients of what is never known, given its products with a residual."""
+        seen = self.vectors.T @ nuisance
+        return np.asarray(self.vectors @ (self.precision * seen / (1.0 + self.precision * self.values)))
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """Log evidence of a set of columns, mean and covariance of their coefficients, and the weights there."""
+
+    value: float
+    mode: Array
+    covariance: Array
+    weights: Mapping[str, Weights]
+    errors: Mapping[str, float]
+
+
+class Likelihood:
+    """Log evidence of columns in one recording.
+
+    Parameters
+    ----------
+    unknown : Unknown
+    learnt : LearntSizes
+    """
+
+    def __init__(self, unknown: Unknown, learnt: LearntSizes) -> None:
+        self.unknown, self.learnt = unknown, learnt
+        background = learnt.of(unknown.families)
+        depends = any(size.path for size in unknown.sizes.values())
+        self._cells: dict[str, list[tuple[Array, Array]]] = {o: [] for o in unknown.gram}
+        for share, path, part in product(MISFITS, PATHS if depends else PATHS[:1], BACKGROUNDS):
+            scale = nuisance_scale(dict(unknown.sizes), share, path)
+            for o, gram in unknown.gram.items():
+                s = np.r_[scale[o], part * background]
+                values, vectors = np.linalg.eigh(gram * s[:, None] * s[None, :])
+                self._cells[o].append((np.maximum(values, 0.0), s[:, None] * vectors))
+
+    def at(self, weights: Mapping[str, Weights]) -> Likelihood:
+        """Return the same with the misfit at one size for each output, that of some weights; much faster."""
+        other = object.__new__(Likelihood)
+        other.unknown, other.learnt = self.unknown, self.learnt
+        other._cells = {o: [(w.values, w.vectors)] for o, w in weights.items()}
+        return other
+
+    @cached_property
+    def count(self) -> Mapping[str, float]:
+        """How many independent samples each output of the recording counts for."""
+        part = self.learnt.independent if self.unknown.in_time else 1.0
+        return {o: part * n for o, n in self.unknown.independent.items()}
+
+    def evidence(self, products: ColumnProducts, scale: Array, *, wide: bool = False) -> Evidence:
+        """Return the log evidence of columns with normal coefficients.
+
+        Parameters
+        ----------
+        products : ColumnProducts
+        scale : ndarray, shape (m,)
+            Standard deviations of the coefficients.
+        wide : bool
+            Whether the error may be of any size, as where something without a name is; else it is of the
+            size that is usual.
+        """
+        seen = {o: [v.T @ products.nuisance[o] for _, v in cells] for o, cells in self._cells.items()}
+        z: Array = np.zeros(scale.size)
+        for _ in range(_ROUNDS if scale.size else 1):
+            inner, aim = np.eye(scale.size), np.zeros(scale.size)
+            total, power = 0.0, 0.0
+            weights, errors = {}, {}
+            for o, own in products.own.items():
+                u = np.r_[-z * scale, 1.0]
+                values = self._values(o, float(u @ own @ u), [r @ u for r in seen[o]], wide=wide)
+                k, j = np.unravel_index(int(np.argmax(values)), values.shape)
+                weights[o] = Weights(self.count[o] / ERRORS[j] ** 2, *self._cells[o][k])
+                errors[o] = float(ERRORS[j])
+                reduced = weights[o].reduced(own, products.nuisance[o])
+                inner += reduced[:-1, :-1] * scale[:, None] * scale[None, :]
+                aim += reduced[:-1, -1] * scale
+                power += float(reduced[-1, -1])
+                total += _log_sum(values) + 0.5 * float(u @ reduced @ u)
+            z = np.linalg.solve(inner, aim)
+        value = total - 0.5 * (power - float(aim @ z)) - 0.5 * float(np.linalg.slogdet(inner)[1])
+        covariance = np.linalg.inv(inner) * scale[:, None] * scale[None, :]
+        return Evidence(value, z * scale, covariance, weights, errors)
+
+    @cached_property
+    def _grid(self) -> Mapping[str, tuple[Array, Array]]:
+        """For each output what does not depend on a residual, over sizes of misfit and error.
+
+        Weights of its squared parts, shape (cells, errors, q), and what stands before, shape (cells, errors).
+        """
+        out = {}
+        for o, cells in self._cells.items():
+            precision = self.count[o] / ERRORS**2
+            inner = 1.0 + precision[None, :, None] * np.array([v for v, _ in cells])[:, None, :]
+            size = 0.5 * np.log(inner).sum(axis=2) + self.count[o] * np.log(ERRORS)
+            out[o] = (0.5 * precision[None, :, None] ** 2 / inner, -size - np.log(len(cells)))
+        return out
+
+    def _values(self, o: str, power: float, parts: list[Array], *, wide: bool) -> Array:
+        """Return the log likelihood for each size of misfit and error, shape (cells, errors)."""
+        weights, before = self._grid[o]
+        explained = (weights @ (np.array(parts) ** 2)[:, :, None])[:, :, 0]
+        prior = self.learnt.log_error(ERRORS, self.unknown.white.get(o, 0.0), wide=wide)
+        return np.asarray(before + prior - 0.5 * self.count[o] / ERRORS**2 * power + explained)
+
+
+def _log_sum(values: Array) -> float:
+    """Logarithm of a sum of exponentials."""
+    top = float(values.max())
+    return top + float(np.log(np.exp(values - top).sum()))

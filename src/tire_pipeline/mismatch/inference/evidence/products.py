@@ -1,0 +1,167 @@
+"""ColumnProducts of columns in one recording, in units of the largest force of each output."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tire_pipeline.mismatch.discrepancy.background import Background
+from tire_pipeline.mismatch.discrepancy.form_error import shape_columns
+from tire_pipeline.mismatch.discrepancy.noise import white_noise
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Evidence, Unknown
+from tire_pipeline.mismatch.inference.evidence.priors import prior
+from tire_pipeline.mismatch.inference.fit import columns_of
+from tire_pipeline.mismatch.model.forces import Change
+from tire_pipeline.mismatch.model.residual import residual
+
+Array = np.ndarray
+Free = Sequence[tuple[str, ...]]
+_STRETCHES = 15
+"""Fewest stretches whose variance says anything."""
+
+
+@dataclass(frozen=True)
+class OfSet:
+    """One set of effects where its fit has ended.
+
+    Parameters
+    ----------
+    changes : tuple of (name, parameters)
+    free : tuple of tuple of str
+        Parameters of each effect that float.
+    parameters : int
+        Columns of parameters, each times the spread of its prior; those of form errors follow, then those of
+        what has no name, then the residual with all parameters at the centres of their priors.
+    errors : int
+        Columns of form errors.
+    products : ColumnProducts
+    """
+
+    changes: tuple[Change, ...]
+    free: tuple[tuple[str, ...], ...]
+    parameters: int
+    errors: int
+    products: ColumnProducts
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the effects, in alphabetical order."""
+        return tuple(sorted(name for name, _ in self.changes))
+
+    @property
+    def unnamed(self) -> int:
+        """Columns of what has no name."""
+        return int(next(iter(self.products.own.values())).shape[0]) - 1 - self.parameters - self.errors
+
+
+@dataclass(frozen=True)
+class OfCase:
+    """What a recording says: what is never known in it, and every set that was fitted; empty first."""
+
+    unknown: Unknown
+    sets: tuple[OfSet, ...]
+
+
+class RecordingProducts:
+    """Makes the products of one recording.
+
+    Parameters
+    ----------
+    analysis : Analysis
+        Noise and the columns of coefficients and misfit.
+    background : Background
+    unnamed : dict of ndarray, shape (n, u)
+        Columns of what has no name, N.
+    """
+
+    def __init__(self, analysis: Analysis, background: Background, unnamed: Mapping[str, Array]) -> None:
+        self.analysis, self.data = analysis, analysis.data
+        own = {o: float(np.sqrt(np.mean(f**2))) for o, f in self.data.recorded.items()}
+        self.largest = {o: max(size, own[o]) for o, size in analysis.largest.items()}
+        self._beside = {
+            o: np.hstack([analysis.columns[o], background.columns[o]]) / self.largest[o]
+            for o in self.data.outputs
+        }
+        self._unnamed = unnamed
+        self.families = background.families
+        self.gram = {o: z.T @ z / self.data.size for o, z in self._beside.items()}
+
+    def unknown(self, independent: Mapping[str, float]) -> Unknown:
+        """Return what is never known, with the number of samples of each output that are independent."""
+        in_time, rest = self.data.time is not None, residual(self.data, [])
+        white = {o: white_noise(r) / self.largest[o] if in_time else 0.0 for o, r in rest.items()}
+        names = {v.name for v in self.analysis.variants}
+        sure = frozenset(n for n in names if catalogue()[n].expected(self.data))
+        sizes, count = self.analysis.sizes, self.data.size
+        return Unknown(self.gram, sizes, self.families, count, independent, in_time, white, sure)
+
+    def independent(self, columns: Mapping[str, Array], found: Evidence) -> dict[str, float]:
+        """Return how many samples of each output are independent, by the correlation of what is left.
+
+        Sums over stretches of white noise have the variance of their length; what is left has more. The
+        stretch at which the excess is largest counts. Steady points have no neighbours: each is one.
+
+        Parameters
+        ----------
+        columns : mapping of ndarray, shape (n, m + 1)
+            All that is looked for, in N, the residual last.
+        found : Evidence
+            Of these columns.
+        """
+        if self.data.time is None:
+            return dict.fromkeys(columns, float(self.data.size))
+        out = {}
+        for o, x in columns.items():
+            left = x @ np.r_[-found.mode, 1.0] / self.largest[o]
+            left = left - self._beside[o] @ found.weights[o].known(self._beside[o].T @ left / left.size)
+            out[o] = left.size / _most_alike(left / max(float(np.sqrt(np.mean(left**2))), 1e-300))
+        return out
+
+    def of(self, columns: Mapping[str, Array]) -> ColumnProducts:
+        """Return products of some columns in N, the residual last; shape (n, m + 1) for each output."""
+        own, nuisance = {}, {}
+        for o, x in columns.items():
+            scaled = x / self.largest[o]
+            own[o] = scaled.T @ scaled / self.data.size
+            nuisance[o] = self._beside[o].T @ scaled / self.data.size
+        return ColumnProducts(own, nuisance)
+
+    def of_set(self, changes: Sequence[Change], free: Free) -> OfSet:
+        """Return a set at given parameters, with columns for its form errors and for what has no name."""
+        labels, _ = columns_of(self.data, list(changes), list(free))
+        every = self.columns_of_set(changes, free)
+        count = next(iter(every.values())).shape[1] - 1 - len(labels)
+        unnamed = next(iter(self._unnamed.values())).shape[1]
+        copied = tuple((name, dict(values)) for name, values in changes)
+        return OfSet(copied, tuple(free), len(labels), count - unnamed, self.of(every))
+
+    def columns_of_set(self, changes: Sequence[Change], free: Free) -> dict[str, Array]:
+        """Return the columns of a set, N: parameters, form errors, what has no name, and the residual."""
+        data = self.data
+        rest = residual(data, changes)
+        labels, columns = columns_of(data, list(changes), list(free))
+        off, wide = prior(data, changes, labels)
+        shapes = [shape_columns(data, changes, i) for i in range(len(changes))]
+        every = {}
+        for o in data.outputs:
+            errors = [
+                part[o] if other == o else np.zeros_like(part[o]) for part in shapes for other in data.outputs
+            ]
+            every[o] = np.column_stack(
+                [columns[o] * wide, *errors, self._unnamed[o], rest[o] + columns[o] @ off]
+            )
+        return every
+
+
+def _most_alike(x: Array) -> float:
+    """Largest variance of sums over stretches of a series of unit power, over that of white noise."""
+    worst, length = 1.0, 1
+    while x.size // length >= _STRETCHES:
+        whole = x[: x.size // length * length].reshape(-1, length)
+        worst = max(worst, float(np.mean(whole.sum(axis=1) ** 2)) / length)
+        length *= 2
+    return worst

@@ -1,0 +1,114 @@
+"""A set of effects with its parameters: what it is linearised to, and how it moves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from tire_pipeline.mismatch.discrepancy.gram import Sums, System
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.model.candidates import Variant, derivatives
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.forces import Change, simulate
+from tire_pipeline.mismatch.model.residual import residual
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Effects with fitted parameters.
+
+    Parameters
+    ----------
+    changes : list of (name, parameters)
+    free : list of tuple of str
+        Parameters of each effect that float.
+    covariance : ndarray
+        Of the floating parameters, in the order of ``labels``, in their units.
+    labels : list of (index of effect, parameter)
+    columns : dict of ndarray, shape (n, k)
+        Derivatives at the fit.
+    sums : Sums
+        Of the residual at the fit and these columns, over each sweep.
+    """
+
+    changes: list[Change]
+    free: list[tuple[str, ...]]
+    covariance: Array = field(default_factory=lambda: np.zeros((0, 0)))
+    labels: list[tuple[int, str]] = field(default_factory=list)
+    columns: dict[str, Array] = field(default_factory=dict)
+    sums: Sums | None = None
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the effects."""
+        return [name for name, _ in self.changes]
+
+    @property
+    def variants(self) -> list[Variant]:
+        """Its effects as forms to fit, from where they are."""
+        return [Variant(n, p, f) for (n, p), f in zip(self.changes, self.free, strict=True)]
+
+    def part(self, kept: Sequence[int], system: System) -> Fit:
+        """Return some of its effects, by number, as they stand."""
+        rows = [k for k, (i, _) in enumerate(self.labels) if i in kept]
+        covariance = self.covariance[np.ix_(rows, rows)]
+        return linearised(system, [self.changes[i] for i in kept], [self.free[i] for i in kept], covariance)
+
+    @property
+    def errors(self) -> Array:
+        """Standard errors of the floating parameters, in the order of ``labels``."""
+        return np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
+
+
+def linearised(
+    system: System, changes: Sequence[Change], free: Sequence[tuple[str, ...]], covariance: Array
+) -> Fit:
+    """Return a set at its parameters with columns and sums."""
+    labels, columns = columns_of(system.data, list(changes), list(free))
+    sums = system.sums(residual(system.data, changes), columns)
+    return Fit(list(changes), list(free), covariance, labels, columns, sums)
+
+
+def columns_of(
+    data: Data, changes: list[Change], free: list[tuple[str, ...]]
+) -> tuple[list[tuple[int, str]], dict[str, Array]]:
+    """Return (index of effect, parameter) and d force / d parameter, shape (n, k), of all that float."""
+    labels: list[tuple[int, str]] = []
+    parts: list[dict[str, Array]] = []
+    here = simulate(data, changes)
+    for i in range(len(changes)):
+        for name, column in derivatives(data, changes, i, free[i], here):
+            labels.append((i, name))
+            parts.append(column)
+    if not parts:
+        return [], {o: np.zeros((data.size, 0)) for o in data.outputs}
+    return labels, {o: np.column_stack([p[o] for p in parts]) for o in data.outputs}
+
+
+def moved(changes: Sequence[Change], labels: Sequence[tuple[int, str]], delta: Array) -> list[Change]:
+    """Return effects with some parameters, named by ``labels``, moved, within bounds."""
+    out: list[Any] = [(n, dict(p)) for n, p in changes]
+    for (i, name), d in zip(labels, delta, strict=True):
+        parameter = catalogue()[out[i][0]].parameter(name)
+        values = out[i][1]
+        width = parameter.high - parameter.low
+        if parameter.ratio:
+            there = values[name] * np.exp(np.clip(d / max(values[name], parameter.low), -1.0, 1.0))
+        else:
+            there = values[name] + np.clip(d, -width, width)
+        values[name] = float(np.clip(there, parameter.low, parameter.high))
+    return out
+
+
+def inverse(info: Array, rcond: float = 1e-10) -> Array:
+    """Pseudo-inverse of an information matrix, scaled; directions below ``rcond`` are left out."""
+    if info.size == 0:
+        return np.zeros((0, 0))
+    size = np.sqrt(np.maximum(np.diag(info), 1e-300))
+    scaled = info / size[:, None] / size[None, :]
+    return np.linalg.pinv(scaled, rcond=rcond, hermitian=True) / size[:, None] / size[None, :]

@@ -1,0 +1,110 @@
+"""What the posterior has learnt: sizes of the background, of form errors and of the error, and odds."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tire_pipeline.errors import RecordingError
+
+Array = np.ndarray
+EXPECTED = 4.0
+"""Log odds of an effect of which physics leaves no doubt: 50 to 1. By hand: no tuning case lacks such an
+effect where it could be."""
+_OF_NOISE = 0.5
+"""Second differences take what changes from one sample to the next for noise, too."""
+
+
+@dataclass(frozen=True)
+class LearntSizes:
+    """The learnt numbers.
+
+    Parameters
+    ----------
+    background : mapping
+        Family -> RMS that an effect of it has in a usual recording, over the largest force.
+    form_error : float
+        How wrong the form of a named effect is, as a share of it.
+    prior : float
+        Factor on the spread of all physical priors.
+    independent : float
+        Part of the samples that look independent which are.
+    error, spread : float
+        Usual size of what is left, over the largest force, and standard deviation of its logarithm.
+    wide : float
+        Size of what has no name, over the largest force.
+    effect, further, unnamed : float
+        Log odds of one effect, of each further one beside it, and of something without a name.
+    """
+
+    background: Mapping[str, float]
+    form_error: float
+    prior: float
+    independent: float
+    error: float
+    spread: float
+    wide: float
+    effect: float
+    further: float
+    unnamed: float
+
+    def of(self, families: tuple[str, ...]) -> Array:
+        """Return the standard deviation of each column of a background, shape (b,)."""
+        usual = float(np.median(list(self.background.values())))
+        return np.array([self.background.get(family, usual) for family in families])
+
+    def log_prior(self, count: int, expected: int = 0, *, unnamed: bool) -> float:
+        """Return the log odds of a set, with something unnamed or without.
+
+        Parameters
+        ----------
+        count : int
+            Effects that nothing leads one to expect.
+        expected : int
+            Effects of which physics leaves no doubt.
+        unnamed : bool
+        """
+        named = self.effect * (count > 0) + self.further * max(count - 1, 0)
+        return named + EXPECTED * expected + self.unnamed * unnamed
+
+    def log_error(self, errors: Array, white: float, *, wide: bool) -> Array:
+        """Return the log probability of each size of the error; all alike where something is unnamed.
+
+        Where the white noise of a recording is larger than the usual error, its size is that of the noise.
+        """
+        away = (np.log(errors) - np.log(max(self.error, _OF_NOISE * white))) / self.spread
+        value = np.zeros(errors.size) if wide else -0.5 * away**2
+        value = value - value.max()
+        return np.asarray(value - np.log(np.exp(value).sum()))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the numbers for a file."""
+        return {**asdict(self), "background": dict(self.background)}
+
+
+def learnt(path: str | Path | None = None) -> LearntSizes:
+    """Return the sizes that ship with the package, or those of a file of ``calibrate_mismatch``.
+
+    Their provenance stands beside them in the file.
+
+    Raises
+    ------
+    RecordingError
+        The file is not there, or holds no learnt sizes.
+    """
+    shipped = resources.files("tire_pipeline.mismatch.inference.learnt").joinpath("learnt.json")
+    try:
+        text = (Path(path) if path else shipped).read_text(encoding="utf-8")
+        return LearntSizes(**json.loads(text)["sizes"])
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise RecordingError(
+            f"there are no learnt sizes ({error})",
+            where=str(path or shipped),
+            todo="give a file that kedro run --pipeline calibrate_mismatch has written",
+        ) from error

@@ -1,0 +1,144 @@
+"""What a posterior says: names, alternatives, confidence, agreement, and whether something has no name."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import logsumexp
+
+from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_evidence, log_prior
+from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
+from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
+from tire_pipeline.mismatch.model.forces import Change
+
+Array = np.ndarray
+Names = tuple[str, ...]
+LEVEL = 0.5
+"""A name, with its alternatives, is said where it is likelier than not."""
+OPEN = 0.05
+"""What is less likely than this part of the first is no alternative: what 95% leave open."""
+MOST_ALTERNATIVES = 2
+"""More names would be no answer."""
+
+
+@dataclass(frozen=True)
+class SetAnswer:
+    """What the posterior over sets says of one recording.
+
+    Parameters
+    ----------
+    sets : tuple of (names, probability)
+        One of the names is a cause; the likeliest comes first. The probability is that of all sets which hold
+        one of them.
+    named : OfSet
+        The set of the first names.
+    agreement : float
+        Probability that nothing is missing.
+    unnamed : float
+        Probability that something without a name is there, beside names or not.
+    probabilities : mapping
+        Set of names -> probability, with something unnamed or without.
+    gains : mapping
+        Effect -> how much log evidence the best set with it has above the best one without.
+    case : OfCase
+    """
+
+    sets: tuple[tuple[Names, float], ...]
+    named: OfSet
+    agreement: float
+    unnamed: float
+    probabilities: Mapping[Names, float]
+    gains: Mapping[str, float]
+    case: OfCase
+
+    def single(self, name: str) -> tuple[Change, ...]:
+        """Return an effect alone, where its own fit has ended."""
+        return next(each.changes for each in self.case.sets if each.names == (name,))
+
+    @property
+    def names(self) -> Names:
+        """First name of each set."""
+        return tuple(names[0] for names, _ in self.sets)
+
+
+def answered(case: OfCase, sizes: LearntSizes, level: float = LEVEL) -> SetAnswer:
+    """Return what the sets of a case say together.
+
+    Parameters
+    ----------
+    case : OfCase
+    sizes : LearntSizes
+    level : float
+        Probability from which a name, with its alternatives, is said.
+    """
+    every, evidence = hypotheses(case), log_evidence(case, sizes)
+    value = evidence + log_prior(case, sizes)
+    mass = np.exp(value - logsumexp(value))
+    probabilities: dict[Names, float] = defaultdict(float)
+    for each, p in zip(every, mass, strict=True):
+        probabilities[each.names] += float(p)
+    agreement = sum(float(p) for e, p in zip(every, mass, strict=True) if not e.names and not e.unnamed)
+    unnamed = sum(float(p) for e, p in zip(every, mass, strict=True) if e.unnamed)
+    without = {each.names: float(p) for each, p in zip(every, mass, strict=True) if not each.unnamed}
+    sets = _named(probabilities, without, level)
+    named = _set_of(case, probabilities, tuple(names[0] for names, _ in sets))
+    return SetAnswer(sets, named, agreement, unnamed, dict(probabilities), _gains(case, evidence), case)
+
+
+def nothing(case: OfCase) -> SetAnswer:
+    """Return the answer that says nothing, where nothing may be explained."""
+    return SetAnswer((), case.sets[0], 1.0, 0.0, {(): 1.0}, {}, case)
+
+
+def _named(
+    probabilities: Mapping[Names, float], without: Mapping[Names, float], level: float
+) -> tuple[tuple[Names, float], ...]:
+    """Return each member of the likeliest set that holds names, with what could stand in its place.
+
+    A name has to be likelier than not whether or not something unnamed is beside it: what resembles a part of
+    something unknown gets no name by it.
+    """
+    named = {names: p for names, p in probabilities.items() if names}
+    if not named:
+        return ()
+    best = max(named, key=lambda names: named[names])
+    out: list[tuple[Names, float]] = []
+    for name in best:
+        taken = {n for names, _ in out for n in names}
+        group = (name, *(n for n in _instead(named, best, name) if n not in taken))
+        sure = sum(p for names, p in named.items() if set(names) & set(group))
+        alone = sum(p for names, p in without.items() if set(names) & set(group))
+        if sure > level and alone > level * sum(without.values()) and name not in taken:
+            out.append((group, min(sure, 1.0)))
+    return tuple(sorted(out, key=lambda each: -each[1]))
+
+
+def _instead(named: Mapping[Names, float], best: Names, name: str) -> Names:
+    """Return the likeliest effects in the place of one of a set, at most two."""
+    others = set(best) - {name}
+    swaps = {
+        next(iter(set(names) - others)): p
+        for names, p in named.items()
+        if len(names) == len(best) and others < set(names) and name not in names
+    }
+    order = sorted(swaps, key=lambda other: -swaps[other])
+    return tuple(other for other in order if swaps[other] > OPEN * named[best])[:MOST_ALTERNATIVES]
+
+
+def _set_of(case: OfCase, probabilities: Mapping[Names, float], names: Names) -> OfSet:
+    """Return the set of some names, or the likeliest that holds them and was fitted."""
+    wanted = tuple(sorted(names))
+    holding = [each for each in case.sets if set(wanted) <= set(each.names)]
+    return min(holding, key=lambda each: (len(each.names), -probabilities[each.names]))
+
+
+def _gains(case: OfCase, evidence: Array) -> dict[str, float]:
+    plain = evidence[: len(case.sets)]
+    out = {}
+    for name in sorted({name for each in case.sets for name in each.names}):
+        holds = np.array([name in each.names for each in case.sets])
+        out[name] = float(plain[holds].max() - plain[~holds].max())
+    return out

@@ -1,0 +1,108 @@
+"""Enumerate: singles and pairs of what the screen has left, triples by adding to the likeliest pairs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from tire_pipeline.mismatch.discrepancy.background import make_background, principal
+from tire_pipeline.mismatch.discrepancy.unnamed import forms as unnamed_forms
+from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.inference.evidence.hypotheses import plain_evidence
+from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
+from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet, RecordingProducts
+from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
+from tire_pipeline.mismatch.inference.sets.fitting import fitted
+from tire_pipeline.mismatch.inference.sets.screen import Screened, screen, screened_forms
+from tire_pipeline.mismatch.model.candidates import Variant
+
+Array = np.ndarray
+Names = tuple[str, ...]
+PAIRS = 20
+TRIPLES = 6
+"""Sets that are fitted by their own equations; the screen has scored all singles and pairs."""
+_STEPS = 4
+_INDEPENDENT = 100.0
+"""Independent samples, for the screen: how many there are is known only beside its effects."""
+
+
+@dataclass(frozen=True)
+class Enumerated:
+    """Every set that was fitted, and by what it is weighed."""
+
+    products: RecordingProducts
+    likelihood: Likelihood
+    sets: tuple[OfSet, ...]
+
+    @property
+    def case(self) -> OfCase:
+        """What is kept of a recording to learn from."""
+        return OfCase(self.likelihood.unknown, self.sets)
+
+
+def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Names] = ()) -> Enumerated:
+    """Return what a recording says about every set that is worth a fit.
+
+    Parameters
+    ----------
+    analysis : Analysis
+    sizes : LearntSizes
+    beside : iterable of tuple of str
+        Sets that are fitted in any case: the truth of tuning cases.
+    """
+    forms = screened_forms(analysis.data, analysis.variants)
+    background = make_background(
+        analysis.data, ((f.variant.name, f.columns) for f in forms), analysis.largest
+    )
+    products = RecordingProducts(analysis, background, _unnamed(analysis))
+    guess = products.unknown(dict.fromkeys(analysis.data.outputs, _INDEPENDENT))
+    found = screen(products, Likelihood(guess, sizes), forms)
+    likelihood = Likelihood(products.unknown(found.independent), sizes)
+    fits: dict[Names, OfSet] = {(): products.of_set([], [])}
+    expected = sorted(likelihood.unknown.expected & set(found.forms))
+    wanted = [tuple(sorted(names)) for names in beside if set(names) <= set(found.forms)]
+    wanted += [(name,) for name in expected]
+    pairs = [*_likeliest_pairs(found), *(names for names in wanted if len(names) == 2)]
+    pairs += [tuple(sorted((first, n))) for first in expected for n in found.forms if n != first]
+    for name in dict.fromkeys([*found.kept, *(n for names in pairs + wanted for n in names)]):
+        fits[(name,)] = fitted(products, likelihood, [found.forms[name]], _STEPS)
+    for pair in dict.fromkeys(pairs):
+        fits[pair] = fitted(products, likelihood, _from_singles(found, fits, pair), _STEPS - 1)
+    for triple in _triples(likelihood, list(fits.values()), found):
+        fits[triple] = fitted(products, likelihood, _from_singles(found, fits, triple), _STEPS - 1)
+    return Enumerated(products, likelihood, tuple(fits.values()))
+
+
+def _unnamed(analysis: Analysis) -> dict[str, Array]:
+    """Return the main directions of all that rates, memories, play and the road may do without a name."""
+    data = analysis.data
+    found = principal(list(unnamed_forms(data, [])), analysis.largest)
+    return found if found is not None else {o: np.zeros((data.size, 0)) for o in data.outputs}
+
+
+def _likeliest_pairs(found: Screened) -> list[Names]:
+    pairs: list[Names] = list(combinations(sorted(found.kept), 2))
+    return sorted(pairs, key=lambda pair: -found.evidence[pair])[:PAIRS]
+
+
+def _from_singles(found: Screened, fits: dict[Names, OfSet], names: Names) -> list[Variant]:
+    """Return the forms of some effects, each where its own fit has ended."""
+    return [Variant(n, dict(fits[(n,)].changes[0][1]), found.forms[n].free) for n in names]
+
+
+def _triples(likelihood: Likelihood, fits: Sequence[OfSet], found: Screened) -> list[Names]:
+    """Return the likeliest pair with each effect that does best beside its members."""
+    pairs = [each for each in fits if len(each.names) == 2]
+    if not pairs:
+        return []
+    first = max(pairs, key=lambda each: plain_evidence(likelihood, each)).names
+    others = [name for name in found.kept if name not in first]
+
+    def beside(name: str) -> float:
+        return float(np.sum([found.evidence[tuple(sorted((name, n)))] for n in first]))
+
+    chosen = sorted(others, key=lambda name: -beside(name))[:TRIPLES]
+    return [tuple(sorted((*first, name))) for name in chosen]

@@ -1,0 +1,137 @@
+"""Fit one set of effects with its physical priors (damped Gauss-Newton)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Likelihood, Weights
+from tire_pipeline.mismatch.inference.evidence.priors import Labels, prior
+from tire_pipeline.mismatch.inference.evidence.products import OfSet, RecordingProducts
+from tire_pipeline.mismatch.inference.fit import columns_of, moved
+from tire_pipeline.mismatch.model.candidates import Variant
+from tire_pipeline.mismatch.model.forces import Change
+from tire_pipeline.mismatch.model.residual import residual
+
+Array = np.ndarray
+_DAMPINGS = (1e-6, 0.1, 3.0)
+_ENOUGH = 0.05
+"""Log evidence below which a step is the last one."""
+_LEAST_STEP = 0.05
+"""s; moments are not told apart any better."""
+
+
+def fitted(
+    products: RecordingProducts, likelihood: Likelihood, variants: Sequence[Variant], steps: int
+) -> OfSet:
+    """Find the likeliest parameters of a set and return its products.
+
+    Parameters
+    ----------
+    products : RecordingProducts
+    likelihood : Likelihood
+    variants : sequence of Variant
+        The effects, each where the fit begins.
+    steps : int
+        Most steps.
+    """
+    changes: list[Change] = [(v.name, dict(v.start)) for v in variants]
+    free = [tuple(v.free) for v in variants]
+    smooth = [tuple(p for p in v.free if p not in v.effect.scanned) for v in variants]
+    best = _cost(products, likelihood, changes, smooth)
+    for step in range(steps):
+        changes, cost = _step(products, likelihood, changes, smooth, best)
+        changes, cost = _scan(products, likelihood, changes, smooth, cost, 50.0 if step == 0 else 800.0)
+        if best - cost < _ENOUGH:
+            break
+        best = cost
+    return products.of_set(changes, free)
+
+
+def _cost(
+    products: RecordingProducts,
+    likelihood: Likelihood,
+    changes: Sequence[Change],
+    free: Sequence[tuple[str, ...]],
+) -> float:
+    """Negative log posterior of the parameters, summed over the sizes of misfit and error."""
+    rest = residual(products.data, changes)
+    found = likelihood.evidence(products.of({o: r[:, None] for o, r in rest.items()}), np.zeros(0), wide=True)
+    off, wide = prior(products.data, changes, _moving(changes, free))
+    return -found.value + 0.5 * float(np.sum((off / wide) ** 2))
+
+
+def _moving(changes: Sequence[Change], free: Sequence[tuple[str, ...]]) -> Labels:
+    return [
+        (i, p.name)
+        for i, ((name, _), names) in enumerate(zip(changes, free, strict=True))
+        for p in catalogue()[name].parameters
+        if p.name in names
+    ]
+
+
+def _step(
+    products: RecordingProducts,
+    likelihood: Likelihood,
+    changes: list[Change],
+    free: Sequence[tuple[str, ...]],
+    best: float,
+) -> tuple[list[Change], float]:
+    """Make one step, damped until it helps."""
+    data = products.data
+    labels, columns = columns_of(data, changes, list(free))
+    if not labels:
+        return changes, best
+    off, wide = prior(data, changes, labels)
+    rest = residual(data, changes)
+    here = products.of({o: np.column_stack([columns[o] * wide, r]) for o, r in rest.items()})
+    found = likelihood.evidence(here, np.ones(wide.size), wide=True)
+    inner, aim = _normal_equations(found.weights, here, wide.size)
+    inner, aim = inner + np.eye(wide.size), aim - off / wide
+    for damping in _DAMPINGS:
+        delta = np.linalg.solve(inner + damping * np.diag(np.diag(inner)), aim) * wide
+        trial = moved(changes, labels, delta)
+        cost = _cost(products, likelihood, trial, free)
+        if cost < best:
+            return trial, cost
+    return changes, best
+
+
+def _scan(
+    products: RecordingProducts,
+    likelihood: Likelihood,
+    changes: list[Change],
+    free: Sequence[tuple[str, ...]],
+    best: float,
+    part: float,
+) -> tuple[list[Change], float]:
+    """Move moments at which the force jumps by trial: the derivative by such a moment is a spike."""
+    time = products.data.time
+    moments = [(i, m) for i, (name, _) in enumerate(changes) for m in catalogue()[name].stepped]
+    for i, moment in moments:
+        assert time is not None  # the effect needs a time line
+        width = float(time[-1] - time[0]) / part
+        while width > _LEAST_STEP:
+            for sign in (1.0, -1.0):
+                trial: list[Change] = [(n, dict(p)) for n, p in changes]
+                there = float(np.clip(changes[i][1][moment] + sign * width, time[0], time[-1]))
+                trial[i] = (changes[i][0], {**changes[i][1], moment: there})
+                cost = _cost(products, likelihood, trial, free)
+                if cost < best:
+                    changes, best = trial, cost
+                    break
+            width *= 0.5
+    return changes, best
+
+
+def _normal_equations(
+    weights: Mapping[str, Weights], products: ColumnProducts, count: int
+) -> tuple[Array, Array]:
+    inner, aim = np.zeros((count, count)), np.zeros(count)
+    for o, each in weights.items():
+        reduced = each.reduced(products.own[o], products.nuisance[o])
+        inner += reduced[:-1, :-1]
+        aim += reduced[:-1, -1]
+    return inner, aim

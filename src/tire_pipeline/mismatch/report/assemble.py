@@ -1,0 +1,340 @@
+"""The report of one recording: effects, the corrected model, errors on unseen sweeps, what could be seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.mismatch.corrected.as_recorded import as_recorded, never_worse, with_unnamed
+from tire_pipeline.mismatch.corrected.model import CorrectedModel, force_limits, rms
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects.base import Finding
+from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.inference.sets.answer import SetAnswer
+from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
+from tire_pipeline.mismatch.model.forces import simulate
+from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
+from tire_pipeline.mismatch.proof.left_out import each_left_out, shares_left
+from tire_pipeline.mismatch.proof.locate import AXES, everywhere, locate, when, where
+from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
+from tire_pipeline.mismatch.proof.never_worse import harmless
+from tire_pipeline.mismatch.proof.remainder import remainder
+from tire_pipeline.mismatch.proof.visible import visible
+from tire_pipeline.mismatch.recording.checks import Prepared
+from tire_pipeline.mismatch.report.next_experiment import next_experiment
+from tire_pipeline.mismatch.report.result import EffectReport, MismatchReport
+from tire_pipeline.mismatch.report.sentences import on_unnamed, on_withheld, summary
+from tire_pipeline.mismatch.report.words import not_looked_for
+from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
+from tire_pipeline.mismatch.unnamed_physics.search import more_than_usual, unnamed_physics
+
+Array = np.ndarray
+_SOMETHING_LEFT = ("unexplained", "partly explained")
+_MOST_SHOWN = 4000
+"""Samples of a curve on the page."""
+
+
+@dataclass(frozen=True)
+class Explained:
+    """What a report is made of.
+
+    Parameters
+    ----------
+    prepared : Prepared
+    analysis : Analysis
+        With the set that is named.
+    sets : Enumerated
+    answer : SetAnswer
+    recording : pandas.DataFrame
+        As it came.
+    """
+
+    prepared: Prepared
+    analysis: Analysis
+    sets: Enumerated
+    answer: SetAnswer
+    recording: pd.DataFrame
+
+
+def assembled(it: Explained) -> MismatchReport:
+    """Return the report."""
+    prepared, analysis, answer = it.prepared, it.analysis, it.answer
+    data = analysis.data
+    left = remainder(analysis, answer)
+    if prepared.stopped:
+        left = replace(left, significant=False, located=[])
+    effects = [_exact(finding, prepared) for finding in prepared.findings]
+    effects += [_found(analysis, answer, name) for name in answer.names]
+    verdict = prepared.stopped or _verdict(effects, left)
+    corrected, withheld = _corrected(it)
+    inside = replace(analysis, fit=corrected.fit)
+    fit = as_recorded({**prove(inside), **prove_moments(inside)}, inside, corrected.model, it.recording)
+    unnamed, model, fit = _unnamed(it, verdict, bool(effects), corrected.model, fit)
+    silent = prepared.stopped or verdict == "agrees"
+    before = residual(data, [])
+    located = [] if silent else locate(data, before, analysis.noise, analysis.block)
+    following = _following(it, verdict)
+    question = prepared.question
+    told = (
+        ""
+        if prepared.stopped
+        else summary(
+            verdict,
+            effects,
+            fit,
+            located,
+            left,
+            following,
+            _ranges(analysis),
+            everywhere(data, before, located),
+        )
+    )
+    parts = [
+        "" if question is None else question.in_words,
+        told,
+        on_withheld(withheld),
+        on_unnamed(unnamed, verdict),
+    ]
+    return MismatchReport(
+        verdict=verdict,
+        effects=effects,
+        fit=fit,
+        next_experiment=following,
+        corrected=model,
+        summary=" ".join(filter(None, parts)),
+        unnamed=unnamed,
+        located=located,
+        remainder=left,
+        notes=[*prepared.notes, *filter(None, [_searched(it), not_looked_for(analysis.absent)])],
+        candidates=_candidates(analysis, answer),
+        series=_series(analysis),
+        assumed=prepared.assumed,
+        visible=[]
+        if prepared.stopped
+        else visible(analysis, it.sets, answer.named, unexplained=left.significant),
+        withheld=withheld,
+        probabilities=_probabilities(answer),
+    )
+
+
+def _verdict(effects: Sequence[EffectReport], left: Remainder) -> str:
+    if not effects:
+        return "unexplained" if left.significant else "agrees"
+    if left.significant:
+        return "partly explained"
+    return "ambiguous" if any(e.alternatives for e in effects) else "explained"
+
+
+def _searched(it: Explained) -> str:
+    """Say that a long recording was searched in parts."""
+    seen, whole = it.analysis.data.size, it.prepared.data.size
+    if seen == whole:
+        return ""
+    refitted = "; parameters are fitted to all" if it.answer.names else ""
+    return f"effects were searched for in {seen:,} of {whole:,} samples, stretches spread over them{refitted}"
+
+
+@dataclass(frozen=True)
+class _Corrected:
+    """A corrected model, and the fit of what was put into it."""
+
+    model: CorrectedModel
+    fit: Any
+
+
+def _corrected(it: Explained) -> tuple[_Corrected, tuple[str, ...]]:
+    """Put the named effects into the model, without those that make sweeps worse; and say which these are."""
+    fit = harmless(it.analysis)
+    model = _model(it, fit.changes)
+    plain = _model(it, [])
+    if fit.names and not _no_worse(it, model, plain):
+        fit, model = it.analysis.fit.part([], it.analysis.system), plain
+    return _Corrected(model, fit), tuple(n for n in it.analysis.fit.names if n not in fit.names)
+
+
+def _no_worse(it: Explained, model: CorrectedModel, plain: CorrectedModel) -> bool:
+    """Whether the rows as they were recorded are predicted no worse, all forces together."""
+    after, before = (
+        sum((rms(it.recording[o] - forces[o]) / it.analysis.largest[o]) ** 2 for o in model.outputs)
+        for forces in (model.predict(it.recording), plain.predict(it.recording))
+    )
+    return after <= before
+
+
+def _model(it: Explained, changes: Sequence[Any]) -> CorrectedModel:
+    data, prepared = it.analysis.data, it.prepared
+    outputs = tuple(prepared.data.outputs)
+    load = data.get("normal_load")
+    reference: dict[str, Any] = {"scales": data.scales, "measured": tuple(sorted(data.present))}
+    reference["load_range"] = {"low": float(load.min()), "high": float(load.max())}
+    if "pressure" in data.present:
+        reference["pressure_nominal"] = data.pressure_nominal
+    if "speed" in data.present:
+        reference["speed_nominal"] = data.speed_nominal
+    return CorrectedModel(
+        data.tire,
+        tuple(changes),
+        reference,
+        outputs,
+        data.beside is not None,
+        recorded_moments(data),
+        factors=prepared.factors,
+        limits=force_limits(prepared.findings, outputs),
+        question=prepared.question,
+        cleaned={c.channel: c.removed for c in prepared.cleaned if c.smoothed},
+    ).cleaned_where_it_helps(it.recording)
+
+
+def _unnamed(
+    it: Explained, verdict: str, named: bool, model: CorrectedModel, fit: dict[str, OutputFit]
+) -> tuple[UnnamedReport | None, CorrectedModel, dict[str, OutputFit]]:
+    """Look for an equation of what is left, and put it in where it proves right."""
+    plainly = verdict not in _SOMETHING_LEFT
+    beside_names = named and not it.prepared.stopped and more_than_usual(it.analysis)
+    if plainly and not beside_names:
+        return None, model, fit
+    found, model = never_worse(unnamed_physics(it.analysis, plainly=plainly), model, it.recording)
+    fit = with_unnamed(fit, found)
+    return None if plainly and found.physics is None else found, model, fit
+
+
+def _following(it: Explained, verdict: str) -> str:
+    """Return what to record or to settle next."""
+    question = it.prepared.question
+    if it.prepared.stopped and question is not None:
+        return f"{question.todo}."
+    told = next_experiment(it.analysis, it.answer, _model(it, []))
+    if told or verdict != "unexplained":
+        return told
+    return (
+        "Record the same sweeps again, and then with one channel changed at a time: what repeats is "
+        "the tire or the rig, and what follows a channel has found its cause."
+    )
+
+
+def _exact(finding: Finding, prepared: Prepared) -> EffectReport:
+    effect = catalogue()[finding.name]
+    spans: list[tuple[float, float]] = []
+    if prepared.data.time is not None:
+        spans = [(float(prepared.data.time[0]), float(prepared.data.time[-1]))]
+    if finding.span is not None:
+        spans = [finding.span]
+    return EffectReport(
+        name=finding.name,
+        kind=effect.kind,
+        title=f"{effect.title} ({finding.text})",
+        alternatives=(),
+        confidence=finding.evidence,
+        output=finding.channel,
+        where={},
+        when=spans,
+        share=float("nan"),
+        equation=effect.equation,
+        source=effect.source,
+        parameters=finding.parameters,
+        evidence={"found": finding.text},
+    )
+
+
+def _found(analysis: Analysis, answer: SetAnswer, name: str) -> EffectReport:
+    data, fit = analysis.data, analysis.fit
+    index = fit.names.index(name)
+    (group, confidence) = next(each for each in answer.sets if each[0][0] == name)
+    effect = catalogue()[name]
+    rest = [change for j, change in enumerate(fit.changes) if j != index]
+    whole, without = simulate(data, fit.changes), simulate(data, rest)
+    part = {o: whole[o] - without[o] for o in data.outputs}
+    output = max(data.outputs, key=lambda o: float(np.mean(part[o] ** 2)))
+    units = {p.name: p.unit for p in effect.parameters}
+    parameters = {
+        n: (float(fit.changes[index][1][n]), float(error), units[n])
+        for (i, n), error in zip(fit.labels, fit.errors, strict=True)
+        if i == index
+    }
+    return EffectReport(
+        name=name,
+        kind=effect.kind,
+        title=effect.title,
+        alternatives=group[1:],
+        confidence=confidence,
+        output=output,
+        where=where(part[output], data),
+        when=when(part[output], data, analysis.noise[output].floor),
+        share=_share(analysis, index, output),
+        equation=effect.equation,
+        source=effect.source,
+        parameters=parameters,
+        evidence={"log_evidence": answer.gains.get(name, float("nan"))},
+    )
+
+
+def _share(analysis: Analysis, index: int, output: str) -> float:
+    """Share of the squared mismatch that an effect removes on sweeps that the fit has not seen."""
+    fit, before = analysis.fit, residual(analysis.data, [])
+    others = fit.part([j for j in range(len(fit.names)) if j != index], analysis.system)
+    with_it, without = (shares_left(each_left_out(analysis, f), before)[output] for f in (fit, others))
+    return without - with_it
+
+
+def _ranges(analysis: Analysis) -> dict[str, tuple[float, float]]:
+    """Lowest and highest value of each axis (0.5 and 99.5% quantile)."""
+    data, out = analysis.data, {}
+    for axis in ("time", *AXES):
+        values = data.time if axis == "time" else data.channels.get(axis)
+        if values is not None:
+            low, high = np.quantile(values, [0.005, 0.995])
+            out[axis] = (float(low), float(high))
+    return out
+
+
+def _candidates(analysis: Analysis, answer: SetAnswer) -> list[dict[str, Any]]:
+    """Each effect of the catalogue with its log evidence, and why it is not named."""
+    likely = {n for names, _ in answer.sets for n in names}
+    rows = []
+    for name, effect in catalogue().items():
+        gain, why = answer.gains.get(name), ""
+        if name in analysis.absent:
+            gain, why = None, analysis.absent[name]
+        elif gain is None:
+            why = "is looked for in the channels themselves" if not effect.parameters else "screened out"
+        elif name in likely and name not in answer.names:
+            why = "is an alternative to what is named"
+        elif name not in likely:
+            why = "is less likely than what is named" if answer.names else "does not pay for itself"
+        row = {"name": name, "kind": effect.kind, "accepted": name in answer.names, "gain": gain, "why": why}
+        rows.append(row)
+    return sorted(rows, key=lambda r: (not r["accepted"], -(r["gain"] if r["gain"] is not None else -1e9)))
+
+
+def _probabilities(answer: SetAnswer) -> list[tuple[tuple[str, ...], float]]:
+    """Sets that together hold 95% of the posterior, the likeliest first."""
+    out, total = [], 0.0
+    for names, p in sorted(answer.probabilities.items(), key=lambda each: -each[1]):
+        out.append((names, p))
+        total += p
+        if total > 0.95:
+            break
+    return out
+
+
+def _series(analysis: Analysis) -> dict[str, Any]:
+    """Arrays for the page's figures."""
+    data = analysis.data
+    step = max(1, data.size // _MOST_SHOWN)
+    before, after = residual(data, []), residual(data, analysis.fit.changes)
+    out: dict[str, Any] = {
+        "time": None if data.time is None else data.time[::step],
+        "normal_load": data.get("normal_load")[::step],
+        "slip_angle": data.get("slip_angle")[::step],
+        "slip_ratio": data.get("slip_ratio")[::step],
+    }
+    for o in data.outputs:
+        out[f"before_{o}"] = before[o][::step]
+        out[f"after_{o}"] = after[o][::step]
+        out[f"floor_{o}"] = analysis.noise[o].floor
+    return out
