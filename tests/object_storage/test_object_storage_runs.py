@@ -18,8 +18,11 @@ from moto_keys import KEY, SECRET
 
 from tire_pipeline.objects import Objects
 
-pytestmark = pytest.mark.long
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "retraining"))
+from retraining_files import tir_text  # noqa: E402
+
+pytestmark = pytest.mark.long
 QUICK = "one_run_at_a_time.expiry_seconds=3"
 
 
@@ -69,6 +72,12 @@ def _run(conf: Path, *pipelines: str, **parameters: object) -> None:
         session.run(pipeline_names=list(pipelines))
 
 
+def _put(data: Objects, tires: range) -> None:
+    """All organisations' files of some tires."""
+    texts = {f"{name}/T{tire:04d}.tir": tir_text(tire, name) for tire in tires for name in "ABD"}
+    data.below("01_raw/tir").write_many({name: text.encode() for name, text in texts.items()})
+
+
 def test_files_and_recordings_go_from_bucket_to_bucket(kedro, data, tmp_path, capsys):
     conf = tmp_path / "conf"
     _run(conf, "make_fleet")
@@ -98,19 +107,12 @@ def test_files_and_recordings_go_from_bucket_to_bucket(kedro, data, tmp_path, ca
 
 def test_a_model_is_released_in_a_bucket_and_taken_back(kedro, data, tmp_path, capsys):
     """Files arrive in the bucket, store and models lie there; one bad file and nothing on this disk."""
-    sys.path.insert(0, str(ROOT / "tests" / "retraining"))
-    from retraining_files import tir_text
-
-    def put(tires: range) -> None:
-        texts = {f"{name}/T{tire:04d}.tir": tir_text(tire, name) for tire in tires for name in "ABD"}
-        data.below("01_raw/tir").write_many({name: text.encode() for name, text in texts.items()})
-
     conf = tmp_path / "conf"
     few = {"dedupe_filter": {"minimum_per_category": 5}}
-    put(range(30))
+    _put(data, range(30))
     data.write("01_raw/tir/A/bad.tir", b"no tire")
     _run(conf, "retrain", **few)
-    put(range(100, 110))
+    _put(data, range(100, 110))
     data.write("01_raw/tir/A/bad.tir", tir_text(200, "A").encode())
     _run(conf, "retrain", **few)
     _run(conf, "retrain", **few)
@@ -129,11 +131,9 @@ def test_a_model_is_released_in_a_bucket_and_taken_back(kedro, data, tmp_path, c
 
 
 def test_what_a_killed_run_wrote_is_taken_back(kedro, data):
-    example = (ROOT / "examples" / "tire.tir").read_bytes()
-    for number in range(3):
-        data.write(f"01_raw/tir/A/{number}.tir", example.replace(b"\n", f"\n$ {number}\n".encode(), 1))
-    few = f"{QUICK},dedupe_filter.minimum_per_category=1"
-    first = kedro("--pipelines", "ingest_tir,dedupe_filter", "--params", few)
+    _put(data, range(30))
+    more = "dedupe_filter,normalize,represent,bin,train_classifier"  # it is killed long before its end
+    first = kedro("--pipelines", f"ingest_tir,{more}", "--params", QUICK)
     while not any("tire_table_raw" in name for name in data.names("02_intermediate")):
         assert first.poll() is None, first.said()
         time.sleep(0.05)
