@@ -89,7 +89,8 @@ class Explainer:
 
     def _answer(self, prepared: Prepared, analysis: Analysis, sets: Enumerated) -> SetAnswer:
         """Return what the posterior says, if the recording carries an answer or one effect could give it."""
-        answer, question = answered(sets.case, self.learnt, self.level), prepared.question
+        answer = answered(sets.case, self.learnt, self.level, sets.likelihood)
+        question = prepared.question
         if not prepared.stopped or question is None:
             return answer
         left = residual(analysis.data, answer.named.changes)

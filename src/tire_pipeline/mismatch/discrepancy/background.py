@@ -38,6 +38,12 @@ class Background:
     columns: dict[str, Array]
     families: tuple[str, ...]
 
+    @property
+    def unnamed(self) -> dict[str, Array]:
+        """The columns of what has no name."""
+        which = np.array([family == UNNAMED for family in self.families], bool)
+        return {o: x[:, which] for o, x in self.columns.items()}
+
 
 def make_background(
     data: Data, screened: Iterable[tuple[str, Columns]], largest: Mapping[str, float]

@@ -11,8 +11,8 @@ import scipy
 from tire_pipeline.mismatch.inference.evidence.hypotheses import (
     hypotheses,
     log_evidence,
+    plain,
     position,
-    scales,
 )
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase
@@ -158,9 +158,7 @@ def background_power(case: OfCase, index: int, sizes: LearntSizes) -> Array:
         Mean of the outputs. 1 if the recording says nothing of it.
     """
     likelihood, each = Likelihood(case.unknown, sizes), case.sets[index]
-    own = np.arange(each.parameters + each.errors)
-    products = each.products.take(own)
-    found = likelihood.evidence(products, scales(each, sizes)[own])
+    products, found = each.plain, plain(likelihood, each)
     count, spread = len(case.unknown.families), sizes.of(case.unknown.families)
     power = np.zeros(count)
     for o, weights in found.weights.items():

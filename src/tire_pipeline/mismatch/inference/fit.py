@@ -10,7 +10,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.gram import Sums, System
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.model.candidates import Variant, derivatives
+from tire_pipeline.mismatch.model.candidates import derivatives
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.model.residual import residual
@@ -47,11 +47,6 @@ class Fit:
     def names(self) -> list[str]:
         """Names of the effects."""
         return [name for name, _ in self.changes]
-
-    @property
-    def variants(self) -> list[Variant]:
-        """Its effects as forms to fit, from where they are."""
-        return [Variant(n, p, f) for (n, p), f in zip(self.changes, self.free, strict=True)]
 
     def part(self, kept: Sequence[int], system: System) -> Fit:
         """Return some of its effects, by number, as they stand."""

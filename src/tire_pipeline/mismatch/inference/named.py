@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
-from tire_pipeline.mismatch.inference.evidence.hypotheses import scales
+from tire_pipeline.mismatch.inference.evidence.hypotheses import plain
 from tire_pipeline.mismatch.inference.evidence.priors import prior
 from tire_pipeline.mismatch.inference.fit import Fit, columns_of, linearised
 from tire_pipeline.mismatch.inference.sets.answer import SetAnswer
@@ -39,9 +37,7 @@ def _fit_of(analysis: Analysis, sets: Enumerated, answer: SetAnswer) -> Fit:
     each = answer.named
     labels, _ = columns_of(analysis.data, list(each.changes), list(each.free))
     _, wide = prior(analysis.data, each.changes, labels)
-    own = np.arange(each.parameters + each.errors)
-    found = sets.likelihood.evidence(each.products.take(own), scales(each, sets.likelihood.learnt)[own])
-    inner = found.covariance[: each.parameters, : each.parameters]
+    inner = plain(sets.likelihood, each).covariance[: each.parameters, : each.parameters]
     fit = linearised(analysis.system, each.changes, each.free, inner * wide[:, None] * wide[None, :])
     kept = [i for i, (name, _) in enumerate(each.changes) if name in answer.names]
     return fit if len(kept) == len(each.changes) else fit.part(kept, analysis.system)

@@ -1,9 +1,4 @@
-"""What a set leaves on loads, or runs, that the fit of its parameters has not seen.
-
-An effect in the model's own inputs is what other coefficients would do, too. A formula that misfits is
-improved by it on the loads that were recorded. It is more than that only if the loads that were left out come
-out better.
-"""
+"""What a set leaves on sweeps that the fit of its parameters has not seen."""
 
 from __future__ import annotations
 
@@ -15,55 +10,6 @@ from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
 _LOCKED = {"moment", "radius"}
-_LEAST_GROUPS = 3
-_APART = 0.1
-"""Loads are levels of their own where they are so far apart, over the median load."""
-
-
-def groups(analysis: Analysis) -> Array | None:
-    """Return the load level of each sweep, or its run where the load stands still; None below three.
-
-    Parameters
-    ----------
-    analysis : Analysis
-
-    Returns
-    -------
-    ndarray of int, shape (sweeps,), or None
-    """
-    data, count = analysis.data, analysis.system.count
-    load, runs = data.get("normal_load"), np.cumsum(data.start) - 1
-    at = np.array([np.median(load[analysis.block == k]) for k in range(count)])
-    order = np.argsort(at)
-    level = np.zeros(count, int)
-    level[order] = np.r_[0, np.cumsum(np.diff(at[order]) > _APART * np.median(at))]
-    if level.max() + 1 >= _LEAST_GROUPS:
-        return level
-    _, run = np.unique([runs[analysis.block == k][0] for k in range(count)], return_inverse=True)
-    return run if run.max() + 1 >= _LEAST_GROUPS else None
-
-
-def each_group_left_out(analysis: Analysis, fit: Fit, group: Array) -> dict[str, Array]:
-    """Return residuals, N, with each group of sweeps predicted by parameters fitted without it.
-
-    Parameters
-    ----------
-    analysis : Analysis
-    fit : Fit
-        Its parameters move by one Gauss-Newton step when a group is left out.
-    group : ndarray of int, shape (sweeps,)
-    """
-    out = residual(analysis.data, fit.changes)
-    if not fit.labels or fit.sums is None:
-        return out
-    base = step_without(fit, np.zeros(analysis.system.count, bool))
-    for number in np.unique(group):
-        left = group == number
-        delta = step_without(fit, left) - base
-        rows = left[analysis.block]
-        for o in out:
-            out[o][rows] -= fit.columns[o][rows] @ delta
-    return out
 
 
 def shares_left(after: dict[str, Array], before: dict[str, Array]) -> dict[str, float]:
@@ -72,8 +18,25 @@ def shares_left(after: dict[str, Array], before: dict[str, Array]) -> dict[str, 
 
 
 def each_left_out(analysis: Analysis, fit: Fit) -> dict[str, Array]:
-    """Return residuals, N, with each sweep predicted by parameters fitted without it (no nuisance here)."""
-    return each_group_left_out(analysis, fit, np.arange(analysis.system.count))
+    """Return residuals, N, with each sweep predicted by parameters fitted without it (no nuisance here).
+
+    Parameters
+    ----------
+    analysis : Analysis
+    fit : Fit
+        Its parameters move by one Gauss-Newton step when a sweep is left out.
+    """
+    out = residual(analysis.data, fit.changes)
+    if not fit.labels or fit.sums is None:
+        return out
+    count = analysis.system.count
+    base = step_without(fit, np.zeros(count, bool))
+    for number in range(count):
+        delta = step_without(fit, np.arange(count) == number) - base
+        rows = analysis.block == number
+        for o in out:
+            out[o][rows] -= fit.columns[o][rows] @ delta
+    return out
 
 
 def step_without(fit: Fit, dropped: Array) -> Array:

@@ -77,7 +77,7 @@ class Remainder:
     significant : bool
         Whether it counts.
     probability : float
-        That something without a name is there.
+        That something unnamed is there.
     gaussian : list of GaussianForm
         The output first in which most is left.
     """

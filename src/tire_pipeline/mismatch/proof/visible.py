@@ -16,6 +16,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount
 from tire_pipeline.mismatch.effects.base import Parameter
 from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.inference.evidence.hypotheses import plain, scales
 from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts
 from tire_pipeline.mismatch.inference.evidence.products import OfSet
 from tire_pipeline.mismatch.inference.fit import Fit
@@ -132,13 +133,12 @@ class _Scene:
         self.rest = residual(self.data, self.changes)
         self.count = len({v.name for v in analysis.variants})
         own = named.parameters + named.errors
-        self.own = enumerated.products.columns_of_set(named.changes, named.free)
-        self.own = {o: x[:, :own] for o, x in self.own.items()}
+        columns = enumerated.products.columns_of_set(named.changes, named.free)
+        self.own = {o: x[:, :own] for o, x in columns.items()}
         learnt = enumerated.likelihood.learnt
-        self.scale = np.r_[np.full(named.parameters, learnt.prior), np.full(named.errors, learnt.form_error)]
+        self.scale = scales(named, learnt)[:own]
         self.odds = {True: -EXPECTED, False: -(learnt.further if named.names else learnt.effect)}
-        found = enumerated.likelihood.evidence(named.products.take(range(own)), self.scale)
-        self.likelihood = enumerated.likelihood.at(found.weights)
+        self.likelihood = enumerated.likelihood.at(plain(enumerated.likelihood, named).weights)
 
     def sight(self, variant: Variant, parameter: Parameter) -> Sight | None:
         """Return what shows of one parameter, or None if nothing does.

@@ -14,6 +14,7 @@ from tire_pipeline.mismatch.corrected.model import CorrectedModel, force_limits,
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.inference.fit import Fit
 from tire_pipeline.mismatch.inference.sets.answer import SetAnswer
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.forces import simulate
@@ -71,14 +72,16 @@ def assembled(it: Explained) -> MismatchReport:
     effects = [_exact(finding, prepared) for finding in prepared.findings]
     effects += [_found(analysis, answer, name) for name in answer.names]
     verdict = prepared.stopped or _verdict(effects, left)
-    corrected, withheld = _corrected(it)
-    inside = replace(analysis, fit=corrected.fit)
-    fit = as_recorded({**prove(inside), **prove_moments(inside)}, inside, corrected.model, it.recording)
-    unnamed, model, fit = _unnamed(it, verdict, bool(effects), corrected.model, fit)
+    plain = _model(it, [])
+    model, put_in = _corrected(it, plain)
+    withheld = tuple(n for n in analysis.fit.names if n not in put_in.names)
+    inside = replace(analysis, fit=put_in)
+    fit = as_recorded({**prove(inside), **prove_moments(inside)}, inside, model, it.recording)
+    unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit)
     silent = prepared.stopped or verdict == "agrees"
     before = residual(data, [])
     located = [] if silent else locate(data, before, analysis.noise, analysis.block)
-    following = _following(it, verdict)
+    following = _following(it, verdict, plain)
     question = prepared.question
     told = (
         ""
@@ -139,22 +142,13 @@ def _searched(it: Explained) -> str:
     return f"effects were searched for in {seen:,} of {whole:,} samples, stretches spread over them{refitted}"
 
 
-@dataclass(frozen=True)
-class _Corrected:
-    """A corrected model, and the fit of what was put into it."""
-
-    model: CorrectedModel
-    fit: Any
-
-
-def _corrected(it: Explained) -> tuple[_Corrected, tuple[str, ...]]:
-    """Put the named effects into the model, without those that make sweeps worse; and say which these are."""
+def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Fit]:
+    """Put the named effects into the model, without those that make sweeps worse; what was put in, too."""
     fit = harmless(it.analysis)
     model = _model(it, fit.changes)
-    plain = _model(it, [])
     if fit.names and not _no_worse(it, model, plain):
-        fit, model = it.analysis.fit.part([], it.analysis.system), plain
-    return _Corrected(model, fit), tuple(n for n in it.analysis.fit.names if n not in fit.names)
+        return plain, it.analysis.fit.part([], it.analysis.system)
+    return model, fit
 
 
 def _no_worse(it: Explained, model: CorrectedModel, plain: CorrectedModel) -> bool:
@@ -203,12 +197,12 @@ def _unnamed(
     return None if plainly and found.physics is None else found, model, fit
 
 
-def _following(it: Explained, verdict: str) -> str:
+def _following(it: Explained, verdict: str, plain: CorrectedModel) -> str:
     """Return what to record or to settle next."""
     question = it.prepared.question
     if it.prepared.stopped and question is not None:
         return f"{question.todo}."
-    told = next_experiment(it.analysis, it.answer, _model(it, []))
+    told = next_experiment(it.analysis, it.answer, plain)
     if told or verdict != "unexplained":
         return told
     return (

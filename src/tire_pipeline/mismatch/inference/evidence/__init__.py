@@ -1,1 +1,1 @@
-"""One posterior over sets of effects: each set that is enumerated has a log evidence. Not the default yet."""
+"""What a recording says of a set of effects: priors, products of columns, likelihood, log evidence."""

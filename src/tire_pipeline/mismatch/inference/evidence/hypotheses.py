@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
-from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
+from tire_pipeline.mismatch.inference.evidence.likelihood import Evidence, Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 
@@ -17,7 +17,7 @@ Array = np.ndarray
 
 @dataclass(frozen=True)
 class Hypothesis:
-    """One explanation: a set of effects, with something without a name beside it or not."""
+    """One explanation: a set of effects, with something unnamed beside it or not."""
 
     effects: OfSet
     unnamed: bool
@@ -42,10 +42,15 @@ def scales(each: OfSet, learnt: LearntSizes) -> Array:
     ]
 
 
+def plain(likelihood: Likelihood, each: OfSet) -> Evidence:
+    """Return the evidence of a set with nothing unnamed beside it."""
+    own = scales(each, likelihood.learnt)[: each.parameters + each.errors]
+    return likelihood.evidence(each.plain, own)
+
+
 def plain_evidence(likelihood: Likelihood, each: OfSet) -> float:
     """Return the log evidence of a set with nothing unnamed beside it."""
-    own = np.arange(each.parameters + each.errors)
-    return likelihood.evidence(each.products.take(own), scales(each, likelihood.learnt)[own]).value
+    return plain(likelihood, each).value
 
 
 def unnamed_evidence(likelihood: Likelihood, each: OfSet) -> float:
@@ -53,9 +58,17 @@ def unnamed_evidence(likelihood: Likelihood, each: OfSet) -> float:
     return likelihood.evidence(each.products, scales(each, likelihood.learnt), wide=True).value
 
 
-def log_evidence(case: OfCase, sizes: LearntSizes) -> Array:
-    """Return the log evidence of each of :func:`hypotheses`, shape (h,)."""
-    likelihood = Likelihood(case.unknown, sizes)
+def log_evidence(case: OfCase, sizes: LearntSizes, likelihood: Likelihood | None = None) -> Array:
+    """Return the log evidence of each of :func:`hypotheses`, shape (h,).
+
+    Parameters
+    ----------
+    case : OfCase
+    sizes : LearntSizes
+    likelihood : Likelihood, optional
+        Of this case and these sizes, where it is at hand.
+    """
+    likelihood = likelihood or Likelihood(case.unknown, sizes)
     ways = (plain_evidence, unnamed_evidence)
     return np.array([way(likelihood, each) for way in ways for each in case.sets])
 

@@ -11,7 +11,7 @@ what is left leaves independent. This is the one power to which the likelihood i
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
 
@@ -143,6 +143,13 @@ class Likelihood:
                 values, vectors = np.linalg.eigh(gram * s[:, None] * s[None, :])
                 self._cells[o].append((np.maximum(values, 0.0), s[:, None] * vectors))
 
+    def counting(self, independent: Mapping[str, float]) -> Likelihood:
+        """Return the same for another number of independent samples of each output."""
+        other = object.__new__(Likelihood)
+        other.unknown, other.learnt = replace(self.unknown, independent=independent), self.learnt
+        other._cells = self._cells
+        return other
+
     def at(self, weights: Mapping[str, Weights]) -> Likelihood:
         """Return the same with the misfit at one size for each output, that of some weights; much faster."""
         other = object.__new__(Likelihood)
@@ -165,7 +172,7 @@ class Likelihood:
         scale : ndarray, shape (m,)
             Standard deviations of the coefficients.
         wide : bool
-            Whether the error may be of any size, as where something without a name is; else it is of the
+            Whether the error may be of any size, as where something unnamed is; else it is of the
             size that is usual.
         """
         seen = {o: [v.T @ products.nuisance[o] for _, v in cells] for o, cells in self._cells.items()}

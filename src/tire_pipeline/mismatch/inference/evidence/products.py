@@ -53,6 +53,11 @@ class OfSet:
         return tuple(sorted(name for name, _ in self.changes))
 
     @property
+    def plain(self) -> ColumnProducts:
+        """Products without the columns of what has no name."""
+        return self.products.take(np.arange(self.parameters + self.errors))
+
+    @property
     def unnamed(self) -> int:
         """Columns of what has no name."""
         return int(next(iter(self.products.own.values())).shape[0]) - 1 - self.parameters - self.errors
@@ -74,11 +79,9 @@ class RecordingProducts:
     analysis : Analysis
         Noise and the columns of coefficients and misfit.
     background : Background
-    unnamed : dict of ndarray, shape (n, u)
-        Columns of what has no name, N.
     """
 
-    def __init__(self, analysis: Analysis, background: Background, unnamed: Mapping[str, Array]) -> None:
+    def __init__(self, analysis: Analysis, background: Background) -> None:
         self.analysis, self.data = analysis, analysis.data
         own = {o: float(np.sqrt(np.mean(f**2))) for o, f in self.data.recorded.items()}
         self.largest = {o: max(size, own[o]) for o, size in analysis.largest.items()}
@@ -86,7 +89,7 @@ class RecordingProducts:
             o: np.hstack([analysis.columns[o], background.columns[o]]) / self.largest[o]
             for o in self.data.outputs
         }
-        self._unnamed = unnamed
+        self._unnamed = background.unnamed
         self.families = background.families
         self.gram = {o: z.T @ z / self.data.size for o, z in self._beside.items()}
 

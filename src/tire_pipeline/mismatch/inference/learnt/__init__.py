@@ -1,1 +1,1 @@
-"""One posterior over sets of effects: each set that is enumerated has a log evidence. Not the default yet."""
+"""What the posterior has learnt, and where from."""

@@ -40,7 +40,7 @@ class LearntSizes:
     wide : float
         Size of what has no name, over the largest force.
     effect, further, unnamed : float
-        Log odds of one effect, of each further one beside it, and of something without a name.
+        Log odds of one effect, of each further one beside it, and of something unnamed.
     """
 
     background: Mapping[str, float]

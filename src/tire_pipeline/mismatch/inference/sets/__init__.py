@@ -1,1 +1,1 @@
-"""One posterior over sets of effects: each set that is enumerated has a log evidence. Not the default yet."""
+"""The sets of effects: screened, fitted, enumerated, and what their posterior says."""

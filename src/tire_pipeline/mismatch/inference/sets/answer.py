@@ -10,6 +10,7 @@ import numpy as np
 from scipy.special import logsumexp
 
 from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_evidence, log_prior
+from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 from tire_pipeline.mismatch.model.forces import Change
@@ -38,7 +39,7 @@ class SetAnswer:
     agreement : float
         Probability that nothing is missing.
     unnamed : float
-        Probability that something without a name is there, beside names or not.
+        Probability that something unnamed is there, beside names or not.
     probabilities : mapping
         Set of names -> probability, with something unnamed or without.
     gains : mapping
@@ -64,7 +65,9 @@ class SetAnswer:
         return tuple(names[0] for names, _ in self.sets)
 
 
-def answered(case: OfCase, sizes: LearntSizes, level: float = LEVEL) -> SetAnswer:
+def answered(
+    case: OfCase, sizes: LearntSizes, level: float = LEVEL, likelihood: Likelihood | None = None
+) -> SetAnswer:
     """Return what the sets of a case say together.
 
     Parameters
@@ -73,8 +76,10 @@ def answered(case: OfCase, sizes: LearntSizes, level: float = LEVEL) -> SetAnswe
     sizes : LearntSizes
     level : float
         Probability from which a name, with its alternatives, is said.
+    likelihood : Likelihood, optional
+        Of this case and these sizes, where it is at hand.
     """
-    every, evidence = hypotheses(case), log_evidence(case, sizes)
+    every, evidence = hypotheses(case), log_evidence(case, sizes, likelihood)
     value = evidence + log_prior(case, sizes)
     mass = np.exp(value - logsumexp(value))
     probabilities: dict[Names, float] = defaultdict(float)

@@ -8,8 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
-from tire_pipeline.mismatch.discrepancy.background import make_background, principal
-from tire_pipeline.mismatch.discrepancy.unnamed import forms as unnamed_forms
+from tire_pipeline.mismatch.discrepancy.background import make_background
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.evidence.hypotheses import plain_evidence
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
@@ -19,7 +18,6 @@ from tire_pipeline.mismatch.inference.sets.fitting import fitted
 from tire_pipeline.mismatch.inference.sets.screen import Screened, screen, screened_forms
 from tire_pipeline.mismatch.model.candidates import Variant
 
-Array = np.ndarray
 Names = tuple[str, ...]
 PAIRS = 20
 TRIPLES = 6
@@ -57,10 +55,10 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
     background = make_background(
         analysis.data, ((f.variant.name, f.columns) for f in forms), analysis.largest
     )
-    products = RecordingProducts(analysis, background, _unnamed(analysis))
-    guess = products.unknown(dict.fromkeys(analysis.data.outputs, _INDEPENDENT))
-    found = screen(products, Likelihood(guess, sizes), forms)
-    likelihood = Likelihood(products.unknown(found.independent), sizes)
+    products = RecordingProducts(analysis, background)
+    guess = Likelihood(products.unknown(dict.fromkeys(analysis.data.outputs, _INDEPENDENT)), sizes)
+    found = screen(products, guess, forms)
+    likelihood = guess.counting(found.independent)
     fits: dict[Names, OfSet] = {(): products.of_set([], [])}
     expected = sorted(likelihood.unknown.expected & set(found.forms))
     wanted = [tuple(sorted(names)) for names in beside if set(names) <= set(found.forms)]
@@ -74,13 +72,6 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
     for triple in _triples(likelihood, list(fits.values()), found):
         fits[triple] = fitted(products, likelihood, _from_singles(found, fits, triple), _STEPS - 1)
     return Enumerated(products, likelihood, tuple(fits.values()))
-
-
-def _unnamed(analysis: Analysis) -> dict[str, Array]:
-    """Return the main directions of all that rates, memories, play and the road may do without a name."""
-    data = analysis.data
-    found = principal(list(unnamed_forms(data, [])), analysis.largest)
-    return found if found is not None else {o: np.zeros((data.size, 0)) for o in data.outputs}
 
 
 def _likeliest_pairs(found: Screened) -> list[Names]:
