@@ -18,7 +18,7 @@ SPEC = importlib.util.spec_from_file_location("audit", FILE)
 TOOL = importlib.util.module_from_spec(SPEC)
 sys.modules["audit"] = TOOL  # dataclasses look there
 SPEC.loader.exec_module(TOOL)
-TODAY = datetime.datetime.now(datetime.UTC)
+TODAY = datetime.datetime(2026, 11, 24, 12, 0, 0, 500000, tzinfo=datetime.UTC)  # advisories end in .123 s
 LOCK = "# pinned\nJinja2==3.1.6\nnumpy==2.4.0rc1 --hash=sha256:00\n\nkedro-viz==12.5.0  # why\n"
 
 

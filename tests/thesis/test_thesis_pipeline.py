@@ -19,8 +19,10 @@ def _cells(pipeline: Pipeline) -> set[str]:
     return {n.namespace.split(".")[1] for n in pipeline.nodes if n.namespace.startswith("agents.")}
 
 
-@pytest.fixture(scope="module")
-def whole() -> Pipeline:
+@pytest.fixture
+def whole(monkeypatch) -> Pipeline:
+    """The pipeline of the default grid, whichever grid a run of another test in this process chose."""
+    monkeypatch.setitem(chosen_grid._CHOSEN, "grid", GridParameters())
     return create_pipeline()
 
 

@@ -15,7 +15,6 @@ import pandas as pd
 from tire_pipeline.concealed import case_plan, make_case
 from tire_pipeline.concealed.real import make_real_case, real_plan
 from tire_pipeline.concealed.real.sources import available
-from tire_pipeline.concealed.second import CAUSES, draw_case
 from tire_pipeline.magic_formula import fit_magic_formula
 from tire_pipeline.mismatch.effects import catalogue
 
@@ -132,6 +131,8 @@ def _known(source: str, case: Any, answer: Any) -> KnownCase:
 
 def _second(seed: int, number: int) -> KnownCase:
     """A case of the second simulator, with a formula fitted to its references; half have nothing missing."""
+    from tire_pipeline.concealed.second import CAUSES, draw_case  # loads scipy.signal
+
     names = [cause for cause in CAUSES if cause not in _LEFT_OUT]
     rng = np.random.default_rng([seed, number])
     several = rng.random() >= 0.3
