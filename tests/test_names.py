@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections import defaultdict
+from functools import cache
 from itertools import combinations
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from tire_pipeline.channels import SLIP_AND_LOAD
 ROOT = Path(tire_pipeline.__file__).parent
 
 KNOWN_CLASSES = {"Problem"}
-KNOWN_CONSTANTS = {"AXES", "TWO_OVER_PI"}
+KNOWN_CONSTANTS = {"AXES"}
 KNOWN_MODULES: set[tuple[str, str]] = set()
 """What still stands twice, in the formula, its solvers and ``mismatch``. Nothing is added here; what is
 resolved is removed, or the tests fail."""
@@ -24,6 +25,7 @@ SEALED = ("concealed.second.", "concealed.open_world.")
 METAPHORS = ("wish", "caution", "cautious", "doubt", "doubts", "doubtful")
 
 
+@cache
 def _modules() -> dict[str, ast.Module]:
     every = {
         ".".join(path.relative_to(ROOT).with_suffix("").parts): ast.parse(path.read_text(encoding="utf-8"))

@@ -118,9 +118,10 @@ def check_sizes(answer):
     before = sum(o["rms_before"] ** 2 for o in answer.oracle.values())
     best = sum(o["rms_oracle"] ** 2 for o in answer.oracle.values())
     names = {e.name for e in answer.effects}
-    if names and min(e.over_misfit for e in answer.effects) > 3.0:
-        # a new tire is not worn, and a channel is stuck for a while only
-        assert best < before or names & {"wear", "stuck_channel"}, names
+    # In the held-out run a new tire is not worn and the channel is free again: nothing is gained there.
+    gone = names & {"wear", "stuck_channel"}
+    if names and not gone and min(e.over_misfit for e in answer.effects) > 3.0:
+        assert best < before, names
 
 
 def test_the_oracle_gains_by_a_large_effect(made):

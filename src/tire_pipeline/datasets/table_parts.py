@@ -5,22 +5,19 @@ from __future__ import annotations
 import hashlib
 import json
 from functools import partial
-from pathlib import Path, PurePosixPath
-from typing import Any
 
 import pandas as pd
-from kedro.io.core import AbstractVersionedDataset, Version, get_protocol_and_path
 
 from tire_pipeline.datasets.files_at import files_at
+from tire_pipeline.datasets.versioned import VersionedDataset
 from tire_pipeline.errors import DomainError
-from tire_pipeline.objects import Objects
 from tire_pipeline.packed import as_parquet, from_parquet
 from tire_pipeline.tire_table.in_pieces import Piece, TableInPieces, numbers_of
 
 _TODO = "run again; what lies there is not used"
 
 
-class TablePartsDataset(AbstractVersionedDataset[TableInPieces, TableInPieces]):
+class TablePartsDataset(VersionedDataset[TableInPieces]):
     """Saves a tire table piece by piece, and loads it to be read piece by piece.
 
     ``part-*.parquet`` lie beside the index, which is written last: without it nothing there counts. Each part
@@ -41,32 +38,10 @@ class TablePartsDataset(AbstractVersionedDataset[TableInPieces, TableInPieces]):
         When a part is read that is gone or was changed.
     """
 
-    def __init__(
-        self,
-        *,
-        filepath: str,
-        version: Version | None = None,
-        metadata: dict[str, Any] | None = None,
-    ) -> None:
-        self._protocol, path = get_protocol_and_path(filepath)
-        if self._protocol == "file":
-            super().__init__(PurePosixPath(path), version)
-        else:
-            objects = Objects(f"{self._protocol}://")
-            super().__init__(
-                PurePosixPath(path), version, exists_function=objects.exists, glob_function=objects.glob
-            )
-        self.metadata = metadata
-
-    def _place(self, index: PurePosixPath | Path) -> tuple[str, str]:
-        """Folder and name of the index."""
-        address = "" if self._protocol == "file" else f"{self._protocol}://"
-        return f"{address}{index.parent}", index.name
-
     def save(self, data: TableInPieces) -> None:
         """Write the parts, then the index."""
-        folder, index = self._place(self._get_save_path())
-        files, parts = files_at(folder), []
+        files, index = self._files(self._get_save_path())
+        parts = []
         for number, frame in enumerate(data.gathered()):
             name, content = f"part-{number:06d}.parquet", as_parquet(frame)
             files.write(name, content)
@@ -89,9 +64,6 @@ class TablePartsDataset(AbstractVersionedDataset[TableInPieces, TableInPieces]):
                 for part in parts
             )
         )
-
-    def _describe(self) -> dict[str, Any]:
-        return {"filepath": self._filepath, "version": self._version}
 
 
 def read_part(folder: str, name: str, sha256: str, todo: str) -> pd.DataFrame:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from tire_pipeline.magic_formula.equations.jit import jitable
 from tire_pipeline.magic_formula.equations.ops import (
+    TWO_OVER_PI,
     absolute,
     arctan,
     cos,
@@ -26,8 +27,6 @@ from tire_pipeline.magic_formula.equations.shapes import (
     sine_curve,
     weight,
 )
-
-TWO_OVER_PI = 0.6366197723675814
 
 
 @jitable

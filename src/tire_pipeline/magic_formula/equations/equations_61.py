@@ -11,6 +11,7 @@ from collections import namedtuple
 
 from tire_pipeline.magic_formula.equations.jit import jitable
 from tire_pipeline.magic_formula.equations.ops import (
+    TWO_OVER_PI,
     absolute,
     arctan,
     cos,
@@ -30,8 +31,6 @@ from tire_pipeline.magic_formula.equations.shapes import (
     sine_curve,
     weight,
 )
-
-TWO_OVER_PI = 0.6366197723675814
 
 Zetas = namedtuple("Zetas", ["z0", "z1", "z2", "z3", "z4", "z5", "z6", "z7", "z8"])
 Zetas.__doc__ = "The nine reduction factors of turn slip (4.76 to 4.105)."

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
+TWO_OVER_PI = 0.6366197723675814
+
 HUGE = 1e150
 """Bound for slopes times slips that may overflow: arctan of it is pi/2 to the last bit."""
 
