@@ -1,4 +1,4 @@
-# make run | make cluster | make quick | make test | make docs | make viz | make long | make bench | make lint | make coverage | make audit | make build | make schedule
+# make run | make cluster | make quick | make test | make checks | make docs | make viz | make long | make bench | make lint | make coverage | make audit | make build | make schedule
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
@@ -7,8 +7,10 @@ DIST := dist
 COMMA := ,
 export OMP_NUM_THREADS ?= 2
 export PYTHONUNBUFFERED = 1
+# Two processes, each file of tests in one of them, in the order of tests/conftest.py.
+TWO := -n 2 --dist loadfile --no-loadscope-reorder
 
-.PHONY: run cluster quick test docs lint long bench coverage audit build sbom viz viz-page schedule install
+.PHONY: run cluster quick test checks docs lint long bench coverage audit build sbom viz viz-page schedule install
 
 run: install
 	@if [ -z "$$(find $(DATA)/01_raw/tir -iname '*.tir' -print -quit 2>/dev/null)" ]; then \
@@ -19,12 +21,17 @@ run: install
 
 # For daily work. Run the tests of the folder that you changed besides.
 quick: install
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "not slow and not long" -n 2 --dist loadfile --no-loadscope-reorder
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "not slow and not ci and not long" $(TWO)
 
-# Two processes, each file of tests in one of them, in the order of tests/conftest.py.
+# Every public behaviour, by the cheapest test that shows it.
 test: install
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "not long" -n 2 --dist loadfile --no-loadscope-reorder
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "not ci and not long" $(TWO)
 
+# What CI runs besides: more cases, whole runs, real recordings (tests/ci_only.txt).
+checks: install
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "ci and not long" $(TWO)
+
+# Rates over many cases, and runs of an hour.
 long: install
 	$(BIN)/python -m pytest -m long
 

@@ -136,3 +136,13 @@ def test_a_file_of_tests_bears_the_name_of_its_folder_and_the_folder_that_of_wha
     assert [str(file) for file in files if not file.stem.startswith(f"test_{file.parts[0]}")] == []
     parts = {path.stem for path in ROOT.iterdir()}
     assert {file.parts[0] for file in files} - parts == TOPICS
+
+
+def test_what_only_ci_runs_is_there():
+    tests = Path(__file__).parent
+    lines = (tests / "ci_only.txt").read_text(encoding="utf-8").splitlines()
+    for line in lines:
+        if line.startswith("tests/"):
+            file, _, case = line.partition("::")
+            text = (tests.parent / file).read_text(encoding="utf-8")
+            assert not case or f"def {case.partition('[')[0]}(" in text, line

@@ -28,6 +28,9 @@ def test_what_two_recordings_share_is_found_and_predicts_the_third(together):
     assert error.rms_after < 0.3 * error.rms_before
     assert error.ratio_low < error.rms_after / error.rms_before < error.ratio_high < 0.5
     assert "In b, which was held out, the RMS error of Fy falls from" in report.summary
+    assert report.summary.endswith(
+        "Next, use the corrected model within the ranges of the explained recordings."
+    )
 
 
 def test_the_held_out_recording_takes_no_part(tire, together, record):
@@ -38,6 +41,7 @@ def test_the_held_out_recording_takes_no_part(tire, together, record):
     assert again.held_out.errors["fy"].ratio_low > 1.0
     assert "rises" in again.summary
     assert "does not hold there" in again.summary
+    assert "Next, find out what differs between b and the explained recordings" in again.summary
 
 
 def test_page_and_data_have_the_held_out_recording(together, tmp_path):

@@ -14,7 +14,7 @@ from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.explain import Explainer
 from tire_pipeline.mismatch.recording.checks import INPUTS
 from tire_pipeline.mismatch.report.result import HeldOutFit, MismatchReport, PredictionError
-from tire_pipeline.mismatch.report.sentences import TRY_IT, on_held_out
+from tire_pipeline.mismatch.report.sentences import with_held_out
 from tire_pipeline.recordings.join import join_recordings
 
 Array = np.ndarray
@@ -113,8 +113,7 @@ def explain_recordings(
             why = f"it predicts {held_out}, which was held out, no better"
             unnamed = replace(report.unnamed, physics=None, why_not=why)
             report, tried = replace(report, corrected=named, unnamed=unnamed), plain
-    told = report.summary.removesuffix(TRY_IT).rstrip()
-    return replace(report, held_out=tried, summary=f"{told} {on_held_out(tried)}")
+    return replace(report, held_out=tried, summary=with_held_out(report.summary, tried, report.effects))
 
 
 def predict_held_out(corrected: CorrectedModel, recording: pd.DataFrame, name: str) -> HeldOutFit:

@@ -21,7 +21,7 @@ _HARDLY = 0.2
 """What is most of the time or of the mismatch, and below which part of its RMS a mean difference shows hardly
 anything of it."""
 
-TRY_IT = "Next, test the corrected model on a recording that took no part before you use it."
+_TRY_IT = "Next, test the corrected model on a recording that took no part before you use it."
 _RECORD_ANEW = "Next, correct the recording at its source and explain it again."
 _NOTHING_TO_DO = "There is nothing to correct; the page lists the effects that this recording rules out."
 
@@ -63,7 +63,36 @@ def summary(
     return " ".join(part for part in parts if part)
 
 
-def on_held_out(fit: HeldOutFit) -> str:
+def with_held_out(told: str, fit: HeldOutFit, effects: Sequence[EffectReport]) -> str:
+    """Return a summary with what the held-out recording says, and what to do next in view of it.
+
+    Parameters
+    ----------
+    told : str
+        The summary without it.
+    fit : HeldOutFit
+    effects : sequence of EffectReport
+    """
+    told = " ".join(told.replace(_TRY_IT, "").split())
+    parts = [told, _on_held_out(fit)]
+    if effects and "Next, " not in told:
+        parts.append(_next_after(fit))
+    return " ".join(parts)
+
+
+def _next_after(fit: HeldOutFit) -> str:
+    errors = fit.errors.values()
+    if any(e.ratio_low > 1.0 for e in errors):
+        return (
+            f"Next, find out what differs between {fit.recording} and the explained recordings (tire, wear, "
+            "rig set-up) before you use the corrected model."
+        )
+    if any(e.ratio_high < 1.0 for e in errors):
+        return "Next, use the corrected model within the ranges of the explained recordings."
+    return f"Next, keep the model as it is for recordings like {fit.recording}: nothing is gained there."
+
+
+def _on_held_out(fit: HeldOutFit) -> str:
     """Return how the explained model predicts a recording that was held out, in a sentence."""
     parts = []
     for output, error in fit.errors.items():
@@ -196,7 +225,7 @@ def _next(effects: Sequence[EffectReport], experiment: str) -> str:
         return f"Next, {in_words(f'{experiment[:1].lower()}{experiment[1:]}')}"
     if not effects:
         return ""
-    return TRY_IT if any(e.kind == "physics" for e in effects) else _RECORD_ANEW
+    return _TRY_IT if any(e.kind == "physics" for e in effects) else _RECORD_ANEW
 
 
 def _to_both_sides(
