@@ -104,13 +104,18 @@ def test_exact_artefacts_get_their_name_and_nothing_else(tire, record, change, n
     assert physics(report) == []
 
 
+@pytest.fixture(scope="module")
+def noise(tire, record):
+    """That of a right recording, N."""
+    return explain_mismatch(tire, record(0)).fit["fy"].noise_floor
+
+
 @pytest.mark.parametrize(
     "factors", [{"slip_angle": 57.29578}, {"fy": -1.0}, {"normal_load": 1e-3}, {"fy": 1e-3}]
 )
-def test_the_corrected_model_says_what_the_same_rig_would_record(tire, record, factors):
+def test_the_corrected_model_says_what_the_same_rig_would_record(tire, record, noise, factors):
     """Wrong signs and units are in what it is given and in what it gives."""
     right, other = record(0), record(1)
-    noise = explain_mismatch(tire, right).fit["fy"].noise_floor
     wrong, again = (r.assign(**{n: r[n] * f for n, f in factors.items()}) for r in (right, other))
     predicted = explain_mismatch(tire, wrong).corrected.predict(again.drop(columns="fy"))["fy"]
     left = (predicted - again["fy"]) / abs(factors.get("fy", 1.0))

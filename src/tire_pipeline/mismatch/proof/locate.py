@@ -17,7 +17,15 @@ _LEAST_FORCE = 0.1
 _EVEN = 0.7
 """One share of the force that is this part of the squared difference is off throughout, in no stretch."""
 _BINS = 16
-AXES = ("slip_angle", "slip_ratio", "camber", "normal_load", "speed", "pressure", "tread_temperature")
+OPERATING_AXES = (
+    "slip_angle",
+    "slip_ratio",
+    "camber",
+    "normal_load",
+    "speed",
+    "pressure",
+    "tread_temperature",
+)
 
 
 @dataclass(frozen=True)
@@ -100,7 +108,7 @@ def _axes(
 ) -> list[Located]:
     """Test all stretches of all axes; the largest statistic of each flip gives the p-values."""
     tests: list[tuple[str, float, float, Array]] = []
-    for axis in ("time", *AXES):
+    for axis in ("time", *OPERATING_AXES):
         if axis == "time":
             if data.time is None:
                 continue
@@ -218,7 +226,7 @@ def where(part: Array, data: Data) -> dict[str, tuple[float, float]]:
     out: dict[str, tuple[float, float]] = {}
     if total <= 0.0:
         return out
-    for axis in AXES:
+    for axis in OPERATING_AXES:
         if not data.has(axis):
             continue
         values = data.get(axis)
