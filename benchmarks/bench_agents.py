@@ -23,7 +23,7 @@ from bench_environment import bins_and_labels, newest_table
 from sklearn.ensemble import RandomForestClassifier
 from stable_baselines3 import A2C, PPO
 
-from tire_pipeline.classifiers.compiled_forest import compile_forest
+from tire_pipeline.classifiers.methods.compiled_forest import compile_forest
 from tire_pipeline.translation.thesis.batch_environment import BatchEnv
 from tire_pipeline.translation.thesis.rules import Rules
 from tire_pipeline.translation.thesis.training import TOTAL_STEPS, make_model

@@ -27,7 +27,7 @@ from stable_baselines3 import A2C, PPO
 from stable_baselines3.common.monitor import Monitor
 from stable_baselines3.common.vec_env import DummyVecEnv
 
-from tire_pipeline.classifiers.compiled_forest import CompiledForest, compile_forest
+from tire_pipeline.classifiers.methods.compiled_forest import CompiledForest, compile_forest
 from tire_pipeline.representations import make_representation
 from tire_pipeline.tire_table import Binning
 from tire_pipeline.translation.thesis.batch_environment import BatchEnv

@@ -25,7 +25,7 @@ from sklearn.model_selection import GroupKFold, cross_val_predict
 
 from tire_pipeline.evaluation import Curves, curves_of, evaluate_translations
 from tire_pipeline.fleet import Fleet, FleetSettings, make_fleet
-from tire_pipeline.reporting.translation_page import MIXED
+from tire_pipeline.reporting.translation.translation_page import MIXED
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table

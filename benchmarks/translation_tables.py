@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 from doc_tables import markdown, write_between
 
-from tire_pipeline.reporting.translation_page import MIXED, check_goals
+from tire_pipeline.reporting.translation.translation_page import MIXED, check_goals
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benchmarks" / "results" / "translation.csv"

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from tire_pipeline.classifiers import CLASSIFIERS, classifier_from_state, make_classifier
-from tire_pipeline.classifiers.compiled_forest import CompiledForest, compile_forest
 from tire_pipeline.classifiers.evaluate import compare_classifiers, evaluate_classifier
-from tire_pipeline.classifiers.oversampling import oversample
+from tire_pipeline.classifiers.methods.compiled_forest import CompiledForest, compile_forest
+from tire_pipeline.classifiers.methods.oversampling import oversample
 from tire_pipeline.classifiers.reliability import expected_calibration_error, reliability_curve
 from tire_pipeline.errors import DomainError
 

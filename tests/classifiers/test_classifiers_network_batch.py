@@ -7,8 +7,8 @@ import pytest
 import torch
 from torch import nn
 
-from tire_pipeline.classifiers.ann import network_probabilities
-from tire_pipeline.classifiers.network_batch import HIDDEN_LAYERS, LOSSES, TrainingSet, train_networks
+from tire_pipeline.classifiers.methods.ann import network_probabilities
+from tire_pipeline.classifiers.methods.network_batch import HIDDEN_LAYERS, LOSSES, TrainingSet, train_networks
 from tire_pipeline.errors import DomainError
 
 

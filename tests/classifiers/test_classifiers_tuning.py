@@ -2,8 +2,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from tire_pipeline.classifiers.ann import Ann
-from tire_pipeline.classifiers.random_forest import RandomForest
+from tire_pipeline.classifiers.methods.ann import Ann
+from tire_pipeline.classifiers.methods.random_forest import RandomForest
 from tire_pipeline.classifiers.tuning import (
     ANN_GRID,
     ann_combinations,

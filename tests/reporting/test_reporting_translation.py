@@ -5,7 +5,7 @@ from itertools import product
 import pandas as pd
 import pytest
 
-from tire_pipeline.reporting.translation_page import MORE, RATIOS, check_goals, translation_page
+from tire_pipeline.reporting.translation.translation_page import MORE, RATIOS, check_goals, translation_page
 
 pytestmark = pytest.mark.slow
 

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 from retraining_files import put_fleet
 
-from tire_pipeline.classifiers.random_forest import RandomForest
+from tire_pipeline.classifiers.methods.random_forest import RandomForest
 from tire_pipeline.errors import DomainError
 from tire_pipeline.representations import make_representation
 from tire_pipeline.retraining import (

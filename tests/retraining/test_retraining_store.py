@@ -14,7 +14,7 @@ import pytest
 from kedro.io import DatasetError
 from retraining_files import put, put_fleet, tir_text
 
-from tire_pipeline.classifiers.random_forest import RandomForest
+from tire_pipeline.classifiers.methods.random_forest import RandomForest
 from tire_pipeline.datasets import FolderDataset, IngestStoreDataset, ReleaseDataset
 from tire_pipeline.errors import DomainError
 from tire_pipeline.packed import as_parquet

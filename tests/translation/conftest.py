@@ -4,7 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tire_pipeline.classifiers.random_forest import RandomForest
+from tire_pipeline.classifiers.methods.random_forest import RandomForest
 from tire_pipeline.representations import make_representation
 from tire_pipeline.tire_table.bins import Binning
 

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.fleet import FleetSettings, make_fleet
-from tire_pipeline.reporting.translated_folder_page import translate_page
+from tire_pipeline.reporting.translation.translated_folder_page import translate_page
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from tire_pipeline.reporting.translated_folder_page import translate_page
+from tire_pipeline.reporting.translation.translated_folder_page import translate_page
 from tire_pipeline.translation.parameters import TranslateParameters
 from tire_pipeline.translation.population import protocol_search
 from tire_pipeline.translation.population.protocol_search import Dated, find_changes

@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 from viz_browser import ROOT, browser, needs_browser
 
-from tire_pipeline.reporting.translated import translated_page
+from tire_pipeline.reporting.translation.translated import translated_page
 from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
 
 pytestmark = pytest.mark.slow

@@ -11,10 +11,10 @@ import numpy as np
 from tire_pipeline.errors import DomainError
 
 CLASSIFIERS: dict[str, tuple[str, str]] = {
-    "random_forest": ("tire_pipeline.classifiers.random_forest", "RandomForest"),
-    "naive_bayes": ("tire_pipeline.classifiers.naive_bayes", "NaiveBayes"),
-    "ann": ("tire_pipeline.classifiers.ann", "Ann"),
-    "gradient_boosting": ("tire_pipeline.classifiers.gradient_boosting", "GradientBoosting"),
+    "random_forest": ("tire_pipeline.classifiers.methods.random_forest", "RandomForest"),
+    "naive_bayes": ("tire_pipeline.classifiers.methods.naive_bayes", "NaiveBayes"),
+    "ann": ("tire_pipeline.classifiers.methods.ann", "Ann"),
+    "gradient_boosting": ("tire_pipeline.classifiers.methods.gradient_boosting", "GradientBoosting"),
     "calibrated": ("tire_pipeline.classifiers.calibrated", "CalibratedForest"),
 }
 """Name of a classifier -> module and class; imported only when asked for."""

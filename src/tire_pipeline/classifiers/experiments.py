@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.classifiers.evaluate import TRAININGS, evaluate_classifier
-from tire_pipeline.classifiers.oversampling import oversample
+from tire_pipeline.classifiers.methods.oversampling import oversample
 from tire_pipeline.progress import track
 from tire_pipeline.representations import make_representation
 from tire_pipeline.tire_table import Binning

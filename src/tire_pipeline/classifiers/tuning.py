@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.classifiers.ann import network_probabilities, standard_scale
-from tire_pipeline.classifiers.oversampling import oversample
+from tire_pipeline.classifiers.methods.ann import network_probabilities, standard_scale
+from tire_pipeline.classifiers.methods.oversampling import oversample
 from tire_pipeline.tasks import Map, all_done, in_turn
 
 TUNING_FOLDS = 4
@@ -209,7 +209,7 @@ def _forest(
     smote: bool,
     seed: int,
 ) -> Any:
-    from tire_pipeline.classifiers.random_forest import RandomForest
+    from tire_pipeline.classifiers.methods.random_forest import RandomForest
 
     part = np.asarray(labels)[train]
     pipeline = RandomForest(trees, depth, smote=smote).estimator(part, seed)
@@ -251,7 +251,7 @@ def _train_block(
     """Train networks of one batch size, optimiser and loss; score them after each number of epochs."""
     import torch
 
-    from tire_pipeline.classifiers.network_batch import TrainingSet, train_networks
+    from tire_pipeline.classifiers.methods.network_batch import TrainingSet, train_networks
 
     threads = torch.get_num_threads()
     torch.set_num_threads(1)

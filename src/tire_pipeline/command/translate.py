@@ -146,7 +146,7 @@ def _page(
     import pandas as pd
 
     from tire_pipeline.reporting import Figure, Table, Text, render_page
-    from tire_pipeline.reporting.one_translation import draw_translation
+    from tire_pipeline.reporting.translation.one_translation import draw_translation
 
     parts: list[Any] = [Text(lines, emphasis=True)]
     parts.append(Figure(*draw_translation(model, translated, result.bands), heading="Curves"))

@@ -12,8 +12,8 @@ import numpy as np
 import pandas as pd
 from pydantic import Field
 
+from tire_pipeline.classifiers.methods.random_forest import RandomForest
 from tire_pipeline.classifiers.parameters import TrainClassifierParameters
-from tire_pipeline.classifiers.random_forest import RandomForest
 from tire_pipeline.objects import Objects
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.representations.encoded_tires import RepresentParameters, unfitted

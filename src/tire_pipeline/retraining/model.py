@@ -9,7 +9,7 @@ from typing import Any, Literal, Self
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.classifiers.random_forest import RandomForest
+from tire_pipeline.classifiers.methods.random_forest import RandomForest
 from tire_pipeline.errors import DomainError
 from tire_pipeline.representations import Representation, representation_from_state
 from tire_pipeline.tire_table import Binning, normalize_table

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tire_pipeline.reporting import inline_svg
 from tire_pipeline.safe_csv import safe_table
-from tire_pipeline.thesis.figures import all_figures
+from tire_pipeline.thesis.pages.figures import all_figures
 from tire_pipeline.thesis.results import Results
 
 

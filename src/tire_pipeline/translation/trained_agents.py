@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from tire_pipeline.classifiers.random_forest import RandomForest
+from tire_pipeline.classifiers.methods.random_forest import RandomForest
 from tire_pipeline.representations import representation_from_state
 from tire_pipeline.tasks import Map, Task, all_done, in_turn
 from tire_pipeline.tire_table import Binning

@@ -3,7 +3,7 @@
 import pandas as pd
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.reporting.translation_page import translation_page
+from tire_pipeline.reporting.translation.translation_page import translation_page
 
 
 def draw_translation_page(measured: pd.DataFrame, bias: pd.DataFrame, beside_truth: pd.DataFrame) -> str:

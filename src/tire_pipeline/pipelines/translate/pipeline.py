@@ -3,7 +3,7 @@
 from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline.cluster import given_map
-from tire_pipeline.reporting.translated_folder_page import translate_page
+from tire_pipeline.reporting.translation.translated_folder_page import translate_page
 from tire_pipeline.translation.fitted import fit_translator
 from tire_pipeline.translation.translated_folder import read_sources, translate_all
 

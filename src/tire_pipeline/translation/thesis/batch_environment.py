@@ -9,7 +9,7 @@ import gymnasium
 import numpy as np
 from stable_baselines3.common.vec_env import VecEnv
 
-from tire_pipeline.classifiers.compiled_forest import CompiledForest
+from tire_pipeline.classifiers.methods.compiled_forest import CompiledForest
 from tire_pipeline.translation.thesis.compiled_step import advance
 from tire_pipeline.translation.thesis.rules import Rules
 

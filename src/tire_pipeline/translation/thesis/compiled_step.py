@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from tire_pipeline.classifiers.compiled_forest import add_leaves
+from tire_pipeline.classifiers.methods.compiled_forest import add_leaves
 from tire_pipeline.translation.thesis.rules import OUT_OF_BOUNDS, REACHED, STEP
 
 

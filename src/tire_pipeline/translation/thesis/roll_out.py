@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tire_pipeline.classifiers.compiled_forest import CompiledForest
+from tire_pipeline.classifiers.methods.compiled_forest import CompiledForest
 from tire_pipeline.translation.thesis.policy import GreedyPolicy
 from tire_pipeline.translation.thesis.rules import Rules
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.classifiers.compiled_forest import CompiledForest
+from tire_pipeline.classifiers.methods.compiled_forest import CompiledForest
 from tire_pipeline.errors import DomainError
 from tire_pipeline.training_progress import training_progress
 from tire_pipeline.translation.thesis.policy import GreedyPolicy

@@ -8,8 +8,8 @@ from typing import Any, ClassVar, Self
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.classifiers.compiled_forest import CompiledForest
-from tire_pipeline.classifiers.random_forest import RandomForest
+from tire_pipeline.classifiers.methods.compiled_forest import CompiledForest
+from tire_pipeline.classifiers.methods.random_forest import RandomForest
 from tire_pipeline.errors import DomainError
 from tire_pipeline.representations import (
     Representation,

@@ -7,8 +7,8 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from tire_pipeline.classifiers.compiled_forest import CompiledForest, compile_forest
-from tire_pipeline.classifiers.oversampling import with_smote
+from tire_pipeline.classifiers.methods.compiled_forest import CompiledForest, compile_forest
+from tire_pipeline.classifiers.methods.oversampling import with_smote
 from tire_pipeline.errors import DomainError
 
 

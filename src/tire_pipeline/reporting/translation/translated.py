@@ -19,7 +19,7 @@ from tire_pipeline.reporting.embedded import (
     quantised,
 )
 from tire_pipeline.reporting.page import HOME, Table
-from tire_pipeline.reporting.translated_rows import ROW_COLUMNS, by_supplier, rows_of
+from tire_pipeline.reporting.translation.translated_rows import ROW_COLUMNS, by_supplier, rows_of
 from tire_pipeline.safe_page import page_environment, policy, visible
 from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
 

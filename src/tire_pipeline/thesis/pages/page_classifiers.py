@@ -8,10 +8,10 @@ import pandas as pd
 
 from tire_pipeline.classifiers.tuning import ANN_GRID
 from tire_pipeline.reporting import Figure, Table, Text
-from tire_pipeline.thesis.figures import BIN_FIGURES, CLASSIFIER_FIGURES, SPLITS
+from tire_pipeline.thesis.pages.figures import BIN_FIGURES, CLASSIFIER_FIGURES, SPLITS
+from tire_pipeline.thesis.pages.words import least_within, listed, number, plus_minus, points
 from tire_pipeline.thesis.published import published_figure, published_table
 from tire_pipeline.thesis.results import Results, in_words, over_trainings
-from tire_pipeline.thesis.words import least_within, listed, number, plus_minus, points
 
 Part = Text | Table | Figure
 SHORT = {"ANN": "ann", "GNB": "naive_bayes", "RF": "random_forest"}

@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from tire_pipeline.classifiers.oversampling import with_smote
+from tire_pipeline.classifiers.methods.oversampling import with_smote
 
 _ARRAYS = ("theta_", "var_", "class_prior_")
 

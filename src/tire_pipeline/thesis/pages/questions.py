@@ -6,9 +6,9 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.reporting import Text
-from tire_pipeline.thesis.page_agents import rising
+from tire_pipeline.thesis.pages.page_agents import rising
+from tire_pipeline.thesis.pages.words import listed, number, rank_agreement
 from tire_pipeline.thesis.results import BETTER, CELL, Results, in_words, over_seeds, over_trainings
-from tire_pipeline.thesis.words import listed, number, rank_agreement
 
 QUESTIONS = (
     "RQ1: Can supervised learning be used to classify tire property files?",

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pandas as pd
 
 from tire_pipeline.reporting import HOME, Table, Text, render_page
-from tire_pipeline.thesis.page_agents import agent_parts
-from tire_pipeline.thesis.page_classifiers import Part, classifier_parts
-from tire_pipeline.thesis.questions import answers
+from tire_pipeline.thesis.pages.page_agents import agent_parts
+from tire_pipeline.thesis.pages.page_classifiers import Part, classifier_parts
+from tire_pipeline.thesis.pages.questions import answers
+from tire_pipeline.thesis.pages.words import number
 from tire_pipeline.thesis.results import BETTER, Results, over_seeds, over_trainings
-from tire_pipeline.thesis.words import number
 
 THESIS_FILES = 2061
 PAGES = (*HOME, ("report.html", "The translation, judged"))

@@ -8,7 +8,7 @@ import pandas as pd
 
 from tire_pipeline.classifiers.open_set import LEAST_PROBABILITY, LEAST_TYPICALITY
 from tire_pipeline.reporting import Table
-from tire_pipeline.reporting.translated import translated_page
+from tire_pipeline.reporting.translation.translated import translated_page
 from tire_pipeline.translation.parameters import TranslateParameters
 from tire_pipeline.translation.result import EDGE, REFUSED, TRANSLATED, UNKNOWN
 

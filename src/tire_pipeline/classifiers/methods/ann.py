@@ -7,8 +7,8 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from tire_pipeline.classifiers.gradient_boosting import softmax
-from tire_pipeline.classifiers.oversampling import oversample
+from tire_pipeline.classifiers.methods.gradient_boosting import softmax
+from tire_pipeline.classifiers.methods.oversampling import oversample
 from tire_pipeline.errors import DomainError
 
 
@@ -62,7 +62,7 @@ class Ann:
 
     def fit_many(self, features: np.ndarray, labels: np.ndarray, seeds: Sequence[int]) -> list[Self]:
         """Train one network for each seed, all side by side."""
-        from tire_pipeline.classifiers.network_batch import TrainingSet, train_networks
+        from tire_pipeline.classifiers.methods.network_batch import TrainingSet, train_networks
 
         made, sets = [], []
         for seed in seeds:

@@ -10,7 +10,7 @@ import pandas as pd
 
 from tire_pipeline.classifiers.scores import SPLITS
 from tire_pipeline.reporting import MARKERS, colour_of, new_figure
-from tire_pipeline.thesis.agent_figures import AGENT_FIGURES
+from tire_pipeline.thesis.pages.agent_figures import AGENT_FIGURES
 from tire_pipeline.thesis.results import Results, in_words
 
 if TYPE_CHECKING:

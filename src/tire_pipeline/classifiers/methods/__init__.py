@@ -1,0 +1,1 @@
+"""The methods themselves: networks, forests, naive Bayes, and the oversampling before them."""

@@ -1,0 +1,1 @@
+"""The page that shows the thesis' tables and figures beside ours."""
