@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
+from tire_pipeline.command import check
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.recordings import check_recording, read_recording
@@ -28,7 +31,14 @@ class Counted:
         return self
 
 
-@pytest.mark.parametrize("look", [check_recording, lambda frame: explain_mismatch(None, frame)])
+@pytest.mark.parametrize(
+    "look",
+    [
+        check_recording,
+        lambda frame: explain_mismatch(None, frame),
+        lambda frame: check.outcome(Path("wide.csv"), frame, [], None),
+    ],
+)
 def test_what_is_known_of_all_channels_is_not_copied_for_each(tmp_path, look):
     copies = []
     for count in (10, 100):

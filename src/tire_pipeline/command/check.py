@@ -42,12 +42,24 @@ def command(
     runs = read_runs([run], axes=axes, units=units, names=names, format_=format_)
     recording = runs[run.name]
     issues = check_recording(recording)
-    finish(_outcome(run, recording, issues, axes), f"{run.stem}_check", **output)
+    finish(outcome(run, recording, issues, axes), f"{run.stem}_check", **output)
     if any(issue.severity == "error" for issue in issues):
         click.get_current_context().exit(UNUSABLE)
 
 
-def _outcome(run: Path, recording: pd.DataFrame, issues: list[Issue], axes: str | None) -> CommandOutcome:
+def outcome(run: Path, recording: pd.DataFrame, issues: list[Issue], axes: str | None) -> CommandOutcome:
+    """What is said of a recording.
+
+    Parameters
+    ----------
+    run : Path
+        Its file.
+    recording : DataFrame
+    issues : list of Issue
+        What is wrong with it.
+    axes : str, optional
+        As stated by the user.
+    """
     attrs = recording.attrs
     errors = sum(issue.severity == "error" for issue in issues)
     verdict = "It cannot be explained as it is" if errors else "It can be explained"
@@ -55,7 +67,7 @@ def _outcome(run: Path, recording: pd.DataFrame, issues: list[Issue], axes: str 
     lines = [f"{verdict}: {' and '.join(counts)}.", _size(recording), _axes(recording, axes)]
     channels = Grid(
         ("column", "channel", "unit", "lowest", "median", "highest", "missing"),
-        [_channel(recording, str(c)) for c in recording.select_dtypes("number").columns],
+        _channels(recording),
         "Channels, in SI units",
     )
     found = Grid(
@@ -117,20 +129,18 @@ def _axes(recording: pd.DataFrame, axes: str | None) -> str:
     return f"{read}: at a positive slip angle the side force is {sign}."
 
 
-def _channel(recording: pd.DataFrame, column: str) -> tuple[Any, ...]:
-    values = recording[column].to_numpy(dtype=float)
-    finite = values[np.isfinite(values)]
-    low, middle, high = np.quantile(finite, [0.0, 0.5, 1.0]) if finite.size else [np.nan] * 3
-    attrs = recording.attrs
-    return (
-        column,
-        attrs.get("channels", {}).get(column, ""),
-        attrs.get("units", {}).get(column, ""),
-        float(low) + 0.0,
-        float(middle) + 0.0,
-        float(high) + 0.0,
-        int(values.size - finite.size),
-    )
+def _channels(recording: pd.DataFrame) -> list[tuple[Any, ...]]:
+    names, units = (recording.attrs.get(each, {}) for each in ("channels", "units"))
+    numbers = recording.select_dtypes("number")
+    rows = []
+    # all columns at once: pandas copies all attrs for each column that is taken by its name
+    for column, values in zip(map(str, numbers.columns), numbers.to_numpy(dtype=float).T, strict=True):
+        finite = values[np.isfinite(values)]
+        low, middle, high = np.quantile(finite, [0.0, 0.5, 1.0]) if finite.size else [np.nan] * 3
+        missing = int(values.size - finite.size)
+        span = (float(low) + 0.0, float(middle) + 0.0, float(high) + 0.0)
+        rows.append((column, names.get(column, ""), units.get(column, ""), *span, missing))
+    return rows
 
 
 def _page(
