@@ -1,11 +1,11 @@
 """Speed-up, overhead and memory with 1 and 2 workers of one thread: Dask and joblib side by side.
 
-Measures tasks that do nothing, reading files (blocks of about 200) and explaining recordings. The work is
-done a hundred tasks at a time, and what each hundred took is stored: whatever is interrupted goes on there.
+Measures tasks that do nothing, reading files (blocks of about 200) and explaining recordings. A call takes
+about ``--minutes`` and stores what it measured; the next one goes on there, until all is measured.
 Other work on the same cores spoils the speed-up: the load and the processor time are stored, too.
 
-Run: python benchmarks/bench_cluster.py --all      # 100,000 files, 300 and 5,000 recordings
-     python benchmarks/bench_cluster.py [--files 2000] [--recordings 4] [--rows 500] [--out FILE]
+Run: python benchmarks/bench_cluster.py --all      # 100,000 files, 300 and 5,000 recordings: many calls
+     python benchmarks/bench_cluster.py [--files 2000] [--recordings 4] [--rows 500] [--minutes 9] [--again]
      python benchmarks/bench_cluster.py --write    # the table of docs/how-to/cluster.md, nothing measured
 """
 
@@ -45,70 +45,125 @@ ROOT = Path(__file__).resolve().parents[1]
 EXAMPLE = ROOT / "examples"
 PAGE = ROOT / "docs/how-to/cluster.md"
 EMPTY = 300
-TOGETHER = 100
-WHOLE = [(100_000, 300, 18_000), (0, 5000, 500)]
+WHOLE = [(100_000, 0, 0), (0, 300, 18_000), (0, 5000, 500)]
 Found = dict[str, list[dict[str, Any]]]
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--all", action="store_true", help="what the issue asks for: many hours")
+    parser.add_argument("--all", action="store_true", help="what the issue asks for: a day, in many calls")
     parser.add_argument("--write", action="store_true", help="only put the table into the documentation")
+    parser.add_argument("--again", action="store_true", help="forget what is stored of these jobs")
     parser.add_argument("--files", type=int, default=2000)
     parser.add_argument("--recordings", type=int, default=4)
     parser.add_argument("--rows", type=int, default=500)
+    parser.add_argument("--minutes", type=float, default=9.0, help="how long this call may take, about")
     parser.add_argument("--out", type=Path, default=ROOT / "benchmarks/results/bench_cluster.json")
     asked = parser.parse_args()
+    end = time.monotonic() + 60.0 * asked.minutes
     found: Found = json.loads(asked.out.read_text()) if asked.out.exists() else {}
     if asked.write:
         write_between(PAGE, "<!-- bench_cluster -->", table(found))
         return
     wanted = WHOLE if asked.all else [(asked.files, asked.recordings, asked.rows)]
     for files, recordings, rows in wanted:
+        if time.monotonic() > end:
+            break
+        if not asked.again and all(_whole(found, job) for job in titles(files, recordings, rows).values()):
+            continue
         with tempfile.TemporaryDirectory() as place:
-            measure(Path(place), make_jobs(Path(place), files, recordings, rows), found, asked.out)
+            jobs = make_jobs(Path(place), files, recordings, rows)
+            if asked.again:
+                found = {key: each for key, each in found.items() if key.split(" | ")[0] not in jobs}
+            measure(Path(place), jobs, found, asked.out, end)
     print(table(found))
 
 
-def measure(place: Path, jobs: dict[str, Any], found: Found, out: Path) -> None:
-    """Do what is not there yet, and store what it took."""
-    for job, engine, workers in product(jobs, ("dask", "joblib"), (1, 2)):
-        done = found.setdefault(f"{job} | {engine} | {workers}", [])
-        names = list(jobs[job])[sum(each["tasks"] for each in done) :]
-        if not names:
-            continue
+def measure(place: Path, jobs: dict[str, Any], found: Found, out: Path, end: float) -> None:
+    """Measure a piece of all that is not whole yet, each in its share of the time that is left."""
+    every = [
+        (job, engine, workers, found.setdefault(f"{job} | {engine} | {workers}", []))
+        for job, engine, workers in product(jobs, ("dask", "joblib"), (1, 2))
+    ]
+    every = [each for each in every if _sum(each[-1], "tasks") < len(jobs[each[0]])]
+    for number, (job, engine, workers, done) in enumerate(every):
+        last = time.monotonic() + (end - time.monotonic()) / (len(every) - number)
+        names = list(jobs[job])
         with processes(workers, place) if engine == "dask" else no_cluster(workers) as work:
-            list(work({f"warm {n}": partial(_imports, 1.0) for n in range(4 * workers)}, "warming up"))
-            for start in range(0, len(names), TOGETHER):
-                tasks = {name: jobs[job][name] for name in names[start : start + TOGETHER]}
-                done.append(measured(work, tasks, job))
-                out.parent.mkdir(parents=True, exist_ok=True)
-                write_bytes(out, json.dumps(found, indent=1).encode())
-                print(job, engine, workers, json.dumps(done[-1]), flush=True)
+            seconds = warm(work, jobs[job][names[0]], workers)
+            if done:
+                seconds = _sum(done, "seconds") * workers / _sum(done, "tasks")
+            first = _sum(done, "tasks")
+            turns = max(int((last - time.monotonic()) / seconds), 1)
+            piece = {name: jobs[job][name] for name in names[first : first + workers * turns]}
+            done.append(measured(work, piece, job) | {"of": len(names)})
+        out.parent.mkdir(parents=True, exist_ok=True)
+        write_bytes(out, json.dumps(found, indent=1).encode())
+        print(job, engine, workers, json.dumps(done[-1]), flush=True)
+
+
+def titles(files: int, recordings: int, rows: int) -> dict[str, str]:
+    """Names of the jobs."""
+    named = {
+        "nothing": f"{EMPTY} tasks that do nothing",
+        "files": f"read {files} files" if files else "",
+        "recordings": f"explain {recordings} recordings of {rows} rows" if recordings else "",
+    }
+    return {each: title for each, title in named.items() if title}
+
+
+def _whole(found: Found, job: str) -> bool:
+    per = [each for key, each in found.items() if key.startswith(f"{job} | ")]
+    return len(per) == 4 and all(each and _sum(each, "tasks") == each[0]["of"] for each in per)
+
+
+def warm(work: Map, task: Any, workers: int) -> float:
+    """Have each worker do the first task, which imports and compiles; seconds of the second time."""
+    for _ in range(2):
+        began = time.perf_counter()
+        for done in work({f"warm {number}": task for number in range(workers)}, "warming up"):
+            done.result()
+    return time.perf_counter() - began
 
 
 def table(found: Found) -> str:
-    """What is complete, one job a row; a job of which a part is missing says how much there is."""
+    """One job a row. As long as not all of its tasks are measured, seconds are those of one task."""
     jobs = list(dict.fromkeys(key.split(" | ")[0] for key in found))
     rows = []
     for job in jobs:
         per = {key.split(" | ", 1)[1]: each for key, each in found.items() if key.startswith(f"{job} | ")}
-        most = max(_sum(each, "tasks") for each in per.values())
+        every = [each for part in per.values() for each in part]
         row = [job]
         for engine in ("dask", "joblib"):
             both = [per.get(f"{engine} | {workers}", []) for workers in (1, 2)]
-            whole = [_sum(each, "tasks") == most for each in both]
-            row += [
-                f"{_sum(each, 'seconds'):.3g} s" if ok else f"{_sum(each, 'tasks')} of {most}"
-                for each, ok in zip(both, whole, strict=True)
-            ]
-            row.append(f"{_sum(both[0], 'seconds') / _sum(both[1], 'seconds'):.2f}" if all(whole) else "")
-        every = [each for part in per.values() for each in part]
-        row.append(f"{max(each['most_memory_mib'] for each in every)} MiB")
+            row += [_seconds(each) for each in both]
+            row.append(f"{_rate(both[0]) / _rate(both[1]):.2f}" if all(both) else "")
+        row.append(_beside(per.get("dask | 2", [])))
+        row.append(f"{max(max(each['most_memory_mib'].values()) for each in every)} MiB")
         row.append(f"{min(each['load'] for each in every)} to {max(each['load'] for each in every)}")
         rows.append(row)
-    head = ["", "Dask, one", "two", "speed-up", "joblib, one", "two", "speed-up", "most memory of a process"]
-    return markdown([*head, "load"], rows)
+    head = ["", "Dask, one", "two", "speed-up", "joblib, one", "two", "speed-up"]
+    return markdown([*head, "beside the workers", "most memory of a process", "load"], rows)
+
+
+def _seconds(parts: list[dict[str, Any]]) -> str:
+    if not parts:
+        return ""
+    done, of = _sum(parts, "tasks"), parts[0]["of"]
+    if done == of:
+        return f"{_sum(parts, 'seconds'):.3g} s"
+    return f"{_rate(parts):.3g} s a task ({done} of {of})"
+
+
+def _rate(parts: list[dict[str, Any]]) -> float:
+    return float(_sum(parts, "seconds") / _sum(parts, "tasks"))
+
+
+def _beside(parts: list[dict[str, Any]]) -> str:
+    """Processor time of run, scheduler and nannies as a share of that of the workers."""
+    total = {who: sum(part["processor_seconds"].get(who, 0.0) for part in parts) for who in ROLES}
+    workers = total.pop("workers")
+    return f"{sum(total.values()) / workers:.1%}" if workers else ""
 
 
 def _sum(parts: list[dict[str, Any]], what: str) -> Any:
@@ -133,70 +188,77 @@ def make_jobs(place: Path, files: int, recordings: int, rows: int) -> dict[str, 
         forces = [name for name in repeated if name in ("fx", "fy", "mz")]
         repeated[forces] *= 1.0 + 0.02 * number / recordings  # still the same tire
         repeated.to_csv(folder / "run.csv", index=False)
-    jobs: dict[str, Any] = {
-        f"{EMPTY} tasks that do nothing": {str(number): partial(int, number) for number in range(EMPTY)}
-    }
+    titled = titles(files, recordings, rows)
+    jobs: dict[str, Any] = {titled["nothing"]: {str(number): partial(int, number) for number in range(EMPTY)}}
     if files:
-        jobs[f"read {files} files"] = blocks_of(TirFolderDataset(path=str(place / "tir")).load())
+        jobs[titled["files"]] = blocks_of(TirFolderDataset(path=str(place / "tir")).load())
     if recordings:
         found = RecordingFolderDataset(path=str(place / "recordings")).load()
-        jobs[f"explain {recordings} recordings of {rows} rows"] = explain_each(found, ExplainParameters())
+        jobs[titled["recordings"]] = explain_each(found, ExplainParameters())
     return jobs
 
 
 def measured(work: Map, tasks: dict[str, Any], job: str) -> dict[str, Any]:
-    """Seconds, processor seconds, the most memory of one process, and how busy the machine was."""
+    """Seconds, and by role: processor seconds and the most memory of a process; how busy the machine was."""
     watch, before = Watch(), _processor_seconds()
     began = time.perf_counter()
     for done in work(tasks, job):
         done.result()
     seconds = time.perf_counter() - began
+    after = _processor_seconds()
     return {
         "tasks": len(tasks),
         "seconds": round(seconds, 3),
-        "processor_seconds": round(_processor_seconds() - before, 3),
-        "most_memory_mib": round(watch.end()),
+        "processor_seconds": {who: round(after[who] - before.get(who, 0.0), 2) for who in after},
+        "most_memory_mib": watch.end(),
         "load": round(os.getloadavg()[0], 1),
         "date": time.strftime("%Y-%m-%d"),
     }
 
 
-def _processor_seconds() -> float:
-    """Of this process and of all below it that are alive."""
+ROLES = ("run", "scheduler", "nannies", "workers")
+
+
+def _by_role() -> Iterator[tuple[str, psutil.Process]]:
+    """This process and those below it that are alive."""
     me = psutil.Process()
-    total = 0.0
-    for process in (me, *me.children(recursive=True)):
+    yield "run", me
+    for process in me.children(recursive=True):
+        with suppress(psutil.Error):
+            command = " ".join(process.cmdline())
+            if "resource_tracker" not in command:
+                parts = (("dask scheduler", "scheduler"), ("dask worker", "nannies"))
+                yield next((role for part, role in parts if part in command), "workers"), process
+
+
+def _processor_seconds() -> dict[str, float]:
+    total: dict[str, float] = {}
+    for role, process in _by_role():
         with suppress(psutil.Error):
             times = process.cpu_times()
-            total += times.user + times.system
+            total[role] = total.get(role, 0.0) + times.user + times.system
     return total
 
 
-def _imports(seconds: float) -> None:
-    from tire_pipeline.mismatch import explain_recordings  # noqa: F401
-    from tire_pipeline.tir import read_tir
-
-    read_tir(EXAMPLE / "tire.tir")
-    time.sleep(seconds)
-
-
 class Watch:
-    """The most resident memory (MiB) of this process or one below it, looked at twice a second."""
+    """The most resident memory (MiB) of one process of each role, looked at twice a second."""
 
     def __init__(self) -> None:
-        self._most = 0.0
+        self._most: dict[str, int] = {}
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._look)
         self._thread.start()
 
     def _look(self) -> None:
-        me = psutil.Process()
-        while not self._stop.wait(0.5):
-            for process in (me, *me.children(recursive=True)):
+        while True:
+            for role, process in _by_role():
                 with suppress(psutil.Error):
-                    self._most = max(self._most, process.memory_info().rss / 2**20)
+                    size = round(process.memory_info().rss / 2**20)
+                    self._most[role] = max(self._most.get(role, 0), size)
+            if self._stop.wait(0.5):
+                return
 
-    def end(self) -> float:
+    def end(self) -> dict[str, int]:
         self._stop.set()
         self._thread.join()
         return self._most
