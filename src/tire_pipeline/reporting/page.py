@@ -50,6 +50,8 @@ class Table:
     digits : int
         Significant digits of numbers. A column has the same decimals in each row, unless a small value
         would lose by it.
+    decimals : int, optional
+        Of all floats, small ones too: for shares of one or of a hundred.
     most_rows : int
         Further rows are counted, not shown.
     below : str
@@ -60,6 +62,7 @@ class Table:
     caption: str = ""
     heading: str = ""
     digits: int = 3
+    decimals: int | None = None
     most_rows: int = 200
     below: str = ""
     kind: str = field(default="table", init=False)
@@ -73,7 +76,10 @@ class Table:
     def rows(self) -> list[tuple[list[tuple[str, bool]], str]]:
         """Cells as (text, is a number), and the text below."""
         shown = self.frame.head(self.most_rows)
-        decimals = [_decimals(shown[name].tolist(), self.digits) for name in self.columns]
+        decimals = [
+            _decimals(shown[name].tolist(), self.digits) if self.decimals is None else self.decimals
+            for name in self.columns
+        ]
         cells = [
             [_cell(value, self.digits, places) for value, places in zip(row, decimals, strict=True)]
             for row in shown[self.columns].itertuples(index=False)

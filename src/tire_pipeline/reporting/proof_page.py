@@ -25,16 +25,27 @@ def proof_page(
     real_details: dict[str, Any],
 ) -> str:
     """Both halves: scores with intervals beside the baselines, by strength, and every miss."""
-    simulated = _simulated(scores, misses, details)
+    simulated = _simulated(scores, misses, details, _real_in_short(real_scores, real_details["made"]))
     real = _real(real_scores, real_misses, real_details)
     return render_page("Proof on concealed effects", [*simulated, *real], pages=HOME)
 
 
-def _simulated(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -> list[Part]:
+def _real_in_short(scores: pd.DataFrame, made: dict[str, Any]) -> list[str]:
+    """The outcome on real recordings in a sentence, for the top of the page."""
+    if not len(scores):
+        return []
+    own = scores[(scores["method"] == OWN) & (scores["source"] == "all")]
+    return [f"{made['cases']} cases made from real recordings, further below. {_goals(own)}"]
+
+
+def _simulated(
+    scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any], real: list[str]
+) -> list[Part]:
     own = scores[scores["method"] == OWN]
     lines = [
         f"{details[OWN]['n']} recordings by a rig simulator that is no Magic Formula, with an "
         f"effect concealed in most. {_goals(own)}",
+        *real,
         f"The answers were sealed before anything was explained: SHA-256 {details['sha256']}.",
     ]
     parts: list[Part] = [Text(lines, emphasis=True), *_drawn(scores, "Simulated recordings")]
@@ -106,12 +117,12 @@ def _table(own: pd.DataFrame, heading: str) -> Table:
     )
     names = {"low": "95% from", "high": "to", "n": "cases", "target": "goal"}
     table["target"] = [_sign(goal) if isinstance(goal, str) else "" for goal in own["target"]]
-    table = table.round(3)
     return Table(
         table.rename(columns=names),
         "Shares, unless the score says otherwise. Too few cases: not even a perfect score would show that "
         "the goal is met (95%).",
         heading=heading,
+        decimals=3,
     )
 
 
@@ -141,7 +152,11 @@ def _drawn(scores: pd.DataFrame, what: str) -> list[Part]:
     axis.set_xlim(-0.03, 1.03)
     axis.set_xlabel("share of the cases, or overlap")
     figure.legend(loc="outside upper center", ncols=5, fontsize=8)
-    return [Figure(figure, f"{what}: our score beside the baselines. The black bar is the goal.")]
+    caption = (
+        f"{what}: our score beside the baselines. The black bar is the goal: ours should lie left of it "
+        "where the goal is an upper bound (≤), and right of it where it is a lower one (≥)."
+    )
+    return [Figure(figure, caption)]
 
 
 def _sign(goal: str) -> str:
@@ -154,4 +169,4 @@ def _beside(scores: pd.DataFrame, heading: str) -> Table:
     wide["name"] = wide["name"].map(in_words)
     wide = wide.rename(columns=METHODS)
     caption = "All methods on the same cases, scored alike. A dash: the method gives no such answer."
-    return Table(wide.rename(columns={"name": "score"}), caption, heading=heading)
+    return Table(wide.rename(columns={"name": "score"}), caption, heading=heading, decimals=3)
