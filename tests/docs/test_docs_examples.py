@@ -11,6 +11,7 @@ import pytest
 
 import tire_pipeline
 
+pytestmark = pytest.mark.slow
 ROOT = Path(tire_pipeline.__file__).parent
 REPOSITORY = ROOT.parents[1]
 

@@ -11,6 +11,7 @@ from tire_pipeline.translation.population.class_starts import starts
 from tire_pipeline.translation.population.classes import TireClasses, fit_shares, log_density
 from tire_pipeline.translation.population.mixed_effects import Design, MarginalLikelihood, posterior_weights
 
+pytestmark = pytest.mark.slow
 VARIANCES = {
     "level": 100.0,
     "metadata": 0.3,
