@@ -12,7 +12,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, from_sidecar
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
-from tire_pipeline.mismatch.unnamed_physics.problem import Problem
+from tire_pipeline.mismatch.unnamed_physics.problem import Unexplained
 from tire_pipeline.mismatch.unnamed_physics.search import find
 from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues, table_from
 from tire_pipeline.tir import read_tir
@@ -162,7 +162,7 @@ def problem(added, seed=1, noise=20.0):
     block = (time // 2.0).astype(int)
     block = np.unique(block, return_inverse=True)[1]
     nuisance = {o: np.column_stack([f, np.full(f.size, 40.0)]) / noise for o, f in (("fx", fx), ("fy", fy))}
-    return Problem(
+    return Unexplained(
         table=columns,
         nominal=NOMINAL,
         moves=frozenset("slip_angle slip_ratio camber normal_load speed tread_temperature time".split()),

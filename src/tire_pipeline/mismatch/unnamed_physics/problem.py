@@ -29,7 +29,7 @@ _A_SWEEP = 8.0
 
 
 @dataclass(frozen=True)
-class Problem:
+class Unexplained:
     """What is left unexplained and how it is weighed; all that the search for unnamed physics is given.
 
     Parameters
@@ -78,7 +78,7 @@ class Problem:
         return tuple(self.rest)
 
 
-def problem_of(analysis: Analysis) -> Problem:
+def problem_of(analysis: Analysis) -> Unexplained:
     """Return what the search leaves; the parameters of its effects may move by what they are known to."""
     data, fit = analysis.data, analysis.fit
     system, known = _beside_effects(analysis)
@@ -89,7 +89,7 @@ def problem_of(analysis: Analysis) -> Problem:
         sizes.append({o: np.concatenate([s, known[o]]) for o, s in scale.items()})
     table, nominal = table_of(data, fit.changes)
     moves = {n for n in data.present if data.varies(n)} | ({"time"} if data.time is not None else set())
-    return Problem(
+    return Unexplained(
         table=table,
         nominal=nominal,
         moves=frozenset(moves),
@@ -104,7 +104,7 @@ def problem_of(analysis: Analysis) -> Problem:
     )
 
 
-def coarsely(problem: Problem, analysis: Analysis) -> Problem:
+def coarsely(problem: Unexplained, analysis: Analysis) -> Unexplained:
     """Return the same with the formula's misfit as noise of its usual size, that changes along a sweep.
 
     The engine's misfit is a flexible form whose size the recording sets. Where fine structure asks for a

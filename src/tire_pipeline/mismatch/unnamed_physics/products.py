@@ -16,7 +16,7 @@ import scipy
 from tire_pipeline.mismatch.inference.analysis import inflation_of
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
-from tire_pipeline.mismatch.unnamed_physics.problem import Problem
+from tire_pipeline.mismatch.unnamed_physics.problem import Unexplained
 
 Array = np.ndarray
 FOLDS = 5
@@ -80,10 +80,10 @@ class Columns:
 
     Parameters
     ----------
-    problem : Problem
+    problem : Unexplained
     """
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Unexplained) -> None:
         self.problem = problem
         self._parts: dict[str, Array | None] = {}
         self.folds = np.unique(problem.block, return_inverse=True)[1] % FOLDS

@@ -19,7 +19,7 @@ from tire_pipeline.mismatch.unnamed_physics.found import Alternative, UnnamedPhy
 from tire_pipeline.mismatch.unnamed_physics.grammar import number, parse
 from tire_pipeline.mismatch.unnamed_physics.ideas import matching
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
-from tire_pipeline.mismatch.unnamed_physics.problem import USUAL_MISFIT, Problem, coarsely, problem_of
+from tire_pipeline.mismatch.unnamed_physics.problem import USUAL_MISFIT, Unexplained, coarsely, problem_of
 from tire_pipeline.mismatch.unnamed_physics.products import Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import (
     Proven,
@@ -70,7 +70,7 @@ def more_than_usual(analysis: Analysis) -> bool:
     return False
 
 
-def _one_sided(problem: Problem) -> bool:
+def _one_sided(problem: Unexplained) -> bool:
     """Whether the slip angle goes to one side only, or nearly."""
     if "slip_angle" not in problem.moves:
         return False
@@ -78,12 +78,12 @@ def _one_sided(problem: Problem) -> bool:
     return bool(min(-low, high) < _OTHER_SIDE * max(-low, high))
 
 
-def find(*views: Problem, plainly: bool = False) -> UnnamedReport:
+def find(*views: Unexplained, plainly: bool = False) -> UnnamedReport:
     """The same from what any engine leaves.
 
     Parameters
     ----------
-    views : Problem
+    views : Unexplained
         One recording, weighed in one way or in several. The one is taken whose choice does best on sweeps
         that it has not seen.
     plainly : bool
@@ -123,7 +123,7 @@ def find(*views: Problem, plainly: bool = False) -> UnnamedReport:
     )
 
 
-def _look(problem: Problem) -> tuple[Columns, ChosenModels, list[Proven]]:
+def _look(problem: Unexplained) -> tuple[Columns, ChosenModels, list[Proven]]:
     """Choose with all sweeps, and without each fold."""
     columns = Columns(problem)
     return columns, choose(columns), proven(columns)
