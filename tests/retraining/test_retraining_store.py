@@ -288,9 +288,12 @@ def test_where_no_model_is_left_it_says_what_is_left_to_do(shelf, model, count):
     text = str(caught.value)
     assert "no model left to go back to" in text
     assert all(f"{name} is gone" in text for name in names)
-    assert "from a copy" in text
-    assert "move the folder of released models away" in text
-    assert "roll back" not in text
+    with pytest.raises(DatasetError, match="the model in use is gone") as of_the_retraining:
+        shelf.load()
+    for said in (text, str(of_the_retraining.value)):
+        assert "from a copy" in said
+        assert "move the folder of released models away" in said
+        assert "rollback" not in said
 
 
 def test_where_only_the_earlier_models_are_gone_the_one_in_use_is_kept(three):

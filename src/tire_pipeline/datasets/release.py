@@ -12,7 +12,13 @@ from tire_pipeline.datasets._one_at_a_time import held, refuse_other_revision, r
 from tire_pipeline.datasets.files_at import files_at
 from tire_pipeline.errors import DomainError
 from tire_pipeline.retraining.model import CategoryModel
-from tire_pipeline.retraining.release import KEPT_MODELS, Release, Shelf
+from tire_pipeline.retraining.release import (
+    KEPT_MODELS,
+    TO_GO_BACK,
+    WITHOUT_ANY_MODEL,
+    Release,
+    Shelf,
+)
 from tire_pipeline.state_files import pack_state, unpack_state
 
 _RECORD = "record.json"
@@ -57,19 +63,26 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
             return Shelf(release, unusable=self._unusable(release))
         if release.current is None:
             return Shelf(release)
-        return Shelf(release, self._load_model(release.current))
+        return Shelf(release, self._load_model(release.current, release))
 
-    def _load_model(self, name: str) -> CategoryModel:
+    def _load_model(self, name: str, release: Release) -> CategoryModel:
         path = f"{self._path}/{_model(name)}"
-        todo = "`kedro run --pipeline rollback` puts the last one back whose file is whole; or bring it back"
         try:
             state = unpack_state(self._files.read(_model(name)), where=path)
         except FileNotFoundError as error:
+            todo = self._what_is_left_to_do(release)
             raise DomainError("the model in use is gone", where=path, todo=todo) from error
         except DomainError as error:
             what = f"{error.what} (the one in use); it is not loaded"
-            raise DomainError(what, where=path, todo=todo) from error
+            raise DomainError(what, where=path, todo=self._what_is_left_to_do(release)) from error
         return CategoryModel.from_state(state)
+
+    def _what_is_left_to_do(self, release: Release) -> str:
+        """Nobody is sent to ``rollback`` where that could only say that no model is left."""
+        unusable = self._unusable(release)
+        if all(name in unusable for name in release.models):
+            return WITHOUT_ANY_MODEL
+        return TO_GO_BACK
 
     def _unusable(self, release: Release) -> dict[str, str]:
         found: dict[str, str] = {}

@@ -11,6 +11,11 @@ from tire_pipeline.retraining.model import CategoryModel
 
 KEPT_MODELS = 20
 KEPT_EVENTS = 1000
+TO_GO_BACK = "`kedro run --pipeline rollback` puts the last one back whose file is whole; or bring it back"
+WITHOUT_ANY_MODEL = (
+    "bring a model back from a copy; or move the folder of released models away and run "
+    "`kedro run --pipeline retrain`, which trains the first model again from the files"
+)
 RELEASED, REFUSED, ROLLED_BACK, UNCHANGED = "released", "refused", "rolled back", "unchanged"
 
 
@@ -188,11 +193,7 @@ def roll_back(release: Release, *, time: str, unusable: Mapping[str, str] | None
 def _nothing_left(release: Release, broken: Mapping[str, str]) -> DomainError:
     if release.current in broken:
         wrong = "; ".join(f"{name} is {broken[name]}" for name in reversed(release.models) if name in broken)
-        return DomainError(
-            f"there is no model left to go back to: {wrong}",
-            todo="bring one of these files back from a copy; or move the folder of released models away and "
-            "run `kedro run --pipeline retrain`, which trains the first model again from the files",
-        )
+        return DomainError(f"there is no model left to go back to: {wrong}", todo=WITHOUT_ANY_MODEL)
     have = "no model was released yet"
     if len(release.models) == 1:
         have = f"only {release.current} was released"
