@@ -31,6 +31,9 @@ def choose_sources(
 ) -> dict[str, Any]:
     """Say which files are translated: the evaluation tires, or the user's own where there are none.
 
+    Evaluation tires of which no organisation is among the user's (those of the demonstration fleet, beside
+    own files) say nothing about the translation and do not count.
+
     Parameters
     ----------
     evaluation_sources : mapping
@@ -52,7 +55,8 @@ def choose_sources(
     DomainError
         If a set that was asked for is not there, though others are.
     """
-    if not evaluation_sources:
+    categories = {file.split("/")[0] for file in tir_files} - {target_category}
+    if not categories & {file.split("/")[1] for file in evaluation_sources}:
         new = splits.loc[splits["by_tire"] == "test", "file"]
         own = [file for file in new if file in tir_files and file.split("/")[0] != target_category]
         return {"folder": "tir", "files": own[: parameters.most_files_without_evaluation]}
