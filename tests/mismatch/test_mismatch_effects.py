@@ -1,3 +1,5 @@
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -202,6 +204,17 @@ def test_a_drift_that_settles_is_all_there_at_the_end(tire, record):
     whole = 1.0 - np.exp(-(data.time[-1] - data.time[0]) / 20.0)
     np.testing.assert_allclose(added[at], 100.0 * (1.0 - np.exp([-1.0, -2.0])) / whole, atol=0.3)
     assert added[-1] == pytest.approx(100.0)
+
+
+def test_a_drift_goes_nowhere_outside_of_the_time_that_was_recorded(tire, record):
+    recording = record()
+    plain = dataclasses.replace(explain_mismatch(tire, recording).corrected, cleaned={})
+    changes = (("sensor_drift", {"fy": 100.0, "fx": 0.0, "lag": 20.0}),)
+    drifting = dataclasses.replace(plain, changes=changes)
+    for later, there in ((1e4, 100.0), (-1e4, 0.0)):
+        other = recording.assign(time=recording["time"] + later)
+        added = drifting.predict(other)["fy"] - plain.predict(other)["fy"]
+        np.testing.assert_allclose(added, there, atol=1e-6)
 
 
 def test_pressure_changes_the_stiffness_more_at_large_load(tire, record):

@@ -12,7 +12,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.explain import Explainer
 from tire_pipeline.mismatch.inference.analysis import analyse
 from tire_pipeline.mismatch.inference.calibrate import START, Tuning, learn, log_scores, pruned
-from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_posterior
+from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_posterior, log_prior
 from tire_pipeline.mismatch.inference.evidence.likelihood import Weights
 from tire_pipeline.mismatch.inference.evidence.priors import prior
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
@@ -79,8 +79,28 @@ def test_probabilities_are_of_all_sets_together(cases):
     for case in cases.values():
         mass = np.exp(log_posterior(case, learnt()))
         assert mass.sum() == pytest.approx(1.0)
-        assert mass.size == len(hypotheses(case)) == 2 * len(case.sets)
+        forms = sum(len(each.forms) for each in case.sets)
+        assert mass.size == len(hypotheses(case)) == 2 * len(case.sets) + forms
         assert case.sets[0].names == ()
+
+
+def test_all_unnamed_forms_together_are_as_likely_as_one_effect(cases):
+    case, sizes = cases[()], learnt()
+    odds = log_prior(case, sizes)
+    alone = [k for k, h in enumerate(hypotheses(case)) if not h.names and h.form is not None]
+    single = next(k for k, h in enumerate(hypotheses(case)) if len(h.names) == 1 and not h.unnamed)
+    assert len(alone) == len(case.sets[0].forms) > 5
+    assert np.exp(odds[alone]).sum() == pytest.approx(np.exp(odds[single]))
+
+
+def test_a_form_beside_a_set_is_weighed_with_the_columns_of_both(cases):
+    each = next(s for s in cases[("friction_scale",)].sets if s.names == ("friction_scale",))
+    own = each.parameters + each.errors
+    for form in each.forms:
+        for o, products in form.own.items():
+            assert products.shape[0] > own + 1
+            kept = np.r_[np.arange(own), -1]
+            np.testing.assert_allclose(products[np.ix_(kept, kept)], each.plain.own[o], rtol=1e-9)
 
 
 def test_nothing_missing_is_agreement(cases):

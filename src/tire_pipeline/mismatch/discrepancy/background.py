@@ -33,10 +33,13 @@ class Background:
     columns : dict of ndarray, shape (n, b)
         Coefficients of standard deviation s give an effect an RMS of s times the largest force.
     families : tuple of str, length b
+    forms : tuple of dict of ndarray, shape (n, k)
+        The main directions of each unnamed form by itself, in the same measure.
     """
 
     columns: dict[str, Array]
     families: tuple[str, ...]
+    forms: tuple[dict[str, Array], ...] = ()
 
     @property
     def unnamed(self) -> dict[str, Array]:
@@ -72,7 +75,8 @@ def make_background(
         count = next(iter(found.values())).shape[1]
         families += [UNNAMED if name == UNNAMED else catalogue()[name].family] * count
     stacked = {o: np.hstack([np.zeros((data.size, 0)), *(p[o] for p in parts)]) for o in data.outputs}
-    return Background(stacked, tuple(families))
+    alone = (principal([form], largest) for form in ways[UNNAMED])
+    return Background(stacked, tuple(families), tuple(form for form in alone if form is not None))
 
 
 def principal(columns: Sequence[Columns], largest: Mapping[str, float]) -> dict[str, Array] | None:

@@ -9,6 +9,7 @@ import numpy as np
 import scipy
 
 from tire_pipeline.mismatch.inference.evidence.hypotheses import (
+    asked,
     hypotheses,
     log_evidence,
     plain,
@@ -173,23 +174,12 @@ class _Weighed:
     """The evidence of the hypotheses of one case, with what their odds and the score need."""
 
     def __init__(self, each: Tuning, evidence: Array, share: float) -> None:
-        every = hypotheses(each.case)
         self.evidence = evidence - evidence.max()
-        sure = each.case.unknown.expected
-        self.expected = np.array([len(sure & set(h.names)) for h in every])
-        self.count = np.array([len(h.names) for h in every]) - self.expected
-        self.unnamed = np.array([h.unnamed for h in every])
-        self.right, self.share = each.rights(), share
+        self.asked, self.right, self.share = asked(each.case), each.rights(), share
 
     def score(self, sizes: LearntSizes) -> float:
         """Return the log probability of what is right."""
-        odds = np.array(
-            [
-                sizes.log_prior(int(count), int(sure), unnamed=bool(unnamed))
-                for count, sure, unnamed in zip(self.count, self.expected, self.unnamed, strict=True)
-            ]
-        )
-        mass = scipy.special.softmax(self.evidence + odds)
+        mass = scipy.special.softmax(self.evidence + self.asked.log_prior(sizes))
         return float(np.log((1.0 - _SURPRISES) * mass[self.right].sum() + _SURPRISES / mass.size))
 
 

@@ -13,6 +13,8 @@ _LEAST_LAG, _MOST_LAG = 1.0, 300.0
 class SensorDrift(Effect):
     """An offset that grows with time, at every slip and load.
 
+    Before and after the time that was recorded it stays where it was: nothing says where a drift goes.
+
     Covers a drift in proportion to time, and one that settles as a device does that warms up, within 1 to
     300 s. Not covered: a gain that drifts (it looks like a slow change of friction), steps, and a drift
     that follows a temperature of its own.
@@ -59,7 +61,7 @@ class SensorDrift(Effect):
 
     def outputs(self, state: State, data: object, p: Parameters) -> None:
         """Add the drift."""
-        so_far = data.elapsed  # type: ignore[attr-defined]
+        so_far = np.clip(data.elapsed, 0.0, 1.0)  # type: ignore[attr-defined]
         if p["lag"] > 0.0:
             lags = data.scales["time_span"] / p["lag"]  # type: ignore[attr-defined]
             so_far = np.expm1(-lags * so_far) / np.expm1(-lags)

@@ -1,4 +1,9 @@
-"""Log evidence and probability of every hypothesis: a set of effects, with something unnamed or not."""
+"""Log evidence and probability of every hypothesis: a set of effects, with something unnamed or not.
+
+What has no name comes in two ways. It has one of the unnamed forms: an input's rate, memory or play, or what
+repeats along the road. Each of these is a hypothesis like an effect. Or it has any form: all of these at
+once, and an error of any size.
+"""
 
 from __future__ import annotations
 
@@ -17,45 +22,64 @@ Array = np.ndarray
 
 @dataclass(frozen=True)
 class Hypothesis:
-    """One explanation: a set of effects, with something unnamed beside it or not."""
+    """One explanation: a set of effects, with something unnamed beside it or not.
+
+    Parameters
+    ----------
+    effects : OfSet
+    wide : bool
+        Whether something of any form is beside them.
+    form : int, optional
+        Number of the unnamed form that is beside them.
+    """
 
     effects: OfSet
-    unnamed: bool
+    wide: bool = False
+    form: int | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the effects, in alphabetical order."""
         return self.effects.names
 
+    @property
+    def unnamed(self) -> bool:
+        """Whether something unnamed is beside the effects."""
+        return self.wide or self.form is not None
+
+    def log_evidence(self, likelihood: Likelihood) -> float:
+        """Return the log evidence of the hypothesis."""
+        each, learnt = self.effects, likelihood.learnt
+        own, products = scales(each, learnt), each.plain
+        if self.wide:
+            products = each.products
+        elif self.form is not None:
+            products = each.forms[self.form]
+        count = next(iter(products.own.values())).shape[0] - 1 - own.size
+        scale = np.r_[own, np.full(count, learnt.wide)]
+        return likelihood.evidence(products, scale, wide=self.wide).value
+
 
 def hypotheses(case: OfCase) -> list[Hypothesis]:
-    """Return every set of a case, first all without and then all with something unnamed."""
-    return [Hypothesis(each, unnamed) for unnamed in (False, True) for each in case.sets]
+    """Return every set of a case: first all alone, then all with any form, then with one form at a time."""
+    alone = [Hypothesis(each) for each in case.sets]
+    wide = [Hypothesis(each, wide=True) for each in case.sets]
+    return [*alone, *wide, *(Hypothesis(e, form=k) for e in case.sets for k in range(len(e.forms)))]
 
 
 def scales(each: OfSet, learnt: LearntSizes) -> Array:
-    """Return the standard deviations of a set's columns: parameters, form errors, what has no name."""
-    return np.r_[
-        np.full(each.parameters, learnt.prior),
-        np.full(each.errors, learnt.form_error),
-        np.full(each.unnamed, learnt.wide),
-    ]
+    """Return the standard deviations of a set's columns: parameters, then form errors."""
+    return np.r_[np.full(each.parameters, learnt.prior), np.full(each.errors, learnt.form_error)]
 
 
 def plain(likelihood: Likelihood, each: OfSet) -> Evidence:
     """Return the evidence of a set with nothing unnamed beside it."""
-    own = scales(each, likelihood.learnt)[: each.parameters + each.errors]
-    return likelihood.evidence(each.plain, own)
+    return likelihood.evidence(each.plain, scales(each, likelihood.learnt))
 
 
 def plain_evidence(likelihood: Likelihood, each: OfSet) -> float:
     """Return the log evidence of a set with nothing unnamed beside it."""
     return plain(likelihood, each).value
-
-
-def unnamed_evidence(likelihood: Likelihood, each: OfSet) -> float:
-    """Return the log evidence of a set with something unnamed beside it."""
-    return likelihood.evidence(each.products, scales(each, likelihood.learnt), wide=True).value
 
 
 def log_evidence(case: OfCase, sizes: LearntSizes, likelihood: Likelihood | None = None) -> Array:
@@ -69,18 +93,46 @@ def log_evidence(case: OfCase, sizes: LearntSizes, likelihood: Likelihood | None
         Of this case and these sizes, where it is at hand.
     """
     likelihood = likelihood or Likelihood(case.unknown, sizes)
-    ways = (plain_evidence, unnamed_evidence)
-    return np.array([way(likelihood, each) for way in ways for each in case.sets])
+    return np.array([each.log_evidence(likelihood) for each in hypotheses(case)])
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What the odds of some hypotheses depend on, each of shape (h,).
+
+    Parameters
+    ----------
+    effects : ndarray of int
+        Effects that nothing leads one to expect.
+    expected : ndarray of int
+        Effects of which physics leaves no doubt.
+    wide : ndarray of bool
+    forms : ndarray of int
+        Of how many unnamed forms one is there; 0 where none is.
+    """
+
+    effects: Array
+    expected: Array
+    wide: Array
+    forms: Array
+
+    def log_prior(self, sizes: LearntSizes) -> Array:
+        """Return the log odds of each hypothesis, shape (h,)."""
+        return sizes.log_prior(self.effects, self.expected, unnamed=self.wide, forms=self.forms)
+
+
+def asked(case: OfCase) -> Asked:
+    """Return what the odds of :func:`hypotheses` depend on."""
+    every, sure = hypotheses(case), case.unknown.expected
+    expected = np.array([len(sure & set(h.names)) for h in every])
+    forms = np.array([0 if h.form is None else len(h.effects.forms) for h in every])
+    effects = np.array([len(h.names) for h in every]) - expected
+    return Asked(effects, expected, np.array([h.wide for h in every]), forms)
 
 
 def log_prior(case: OfCase, sizes: LearntSizes) -> Array:
     """Return the log odds of each of :func:`hypotheses`, shape (h,)."""
-    return np.array([_log_odds(h, case.unknown.expected, sizes) for h in hypotheses(case)])
-
-
-def _log_odds(hypothesis: Hypothesis, expected: frozenset[str], sizes: LearntSizes) -> float:
-    sure = len(expected & set(hypothesis.names))
-    return sizes.log_prior(len(hypothesis.names) - sure, sure, unnamed=hypothesis.unnamed)
+    return asked(case).log_prior(sizes)
 
 
 def log_posterior(case: OfCase, sizes: LearntSizes) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -39,6 +39,9 @@ class OfSet:
     errors : int
         Columns of form errors.
     products : ColumnProducts
+    forms : tuple of ColumnProducts
+        Those of parameters and form errors with the columns of one unnamed form at a time; empty for sets
+        that are too unlikely to ask.
     """
 
     changes: tuple[Change, ...]
@@ -46,6 +49,7 @@ class OfSet:
     parameters: int
     errors: int
     products: ColumnProducts
+    forms: tuple[ColumnProducts, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -89,7 +93,7 @@ class RecordingProducts:
             o: np.hstack([analysis.columns[o], background.columns[o]]) / self.largest[o]
             for o in self.data.outputs
         }
-        self._unnamed = background.unnamed
+        self._unnamed, self._forms = background.unnamed, background.forms
         self.families = background.families
         self.gram = {o: z.T @ z / self.data.size for o, z in self._beside.items()}
 
@@ -141,6 +145,20 @@ class RecordingProducts:
         unnamed = next(iter(self._unnamed.values())).shape[1]
         copied = tuple((name, dict(values)) for name, values in changes)
         return OfSet(copied, tuple(free), len(labels), count - unnamed, self.of(every))
+
+    def with_forms(self, each: OfSet) -> OfSet:
+        """Return a set with what it would be with one unnamed form beside it, form by form."""
+        every = self.columns_of_set(each.changes, each.free)
+        own = {o: x[:, : each.parameters + each.errors] for o, x in every.items()}
+        beside = {o: [form[o] for form in self._forms] for o in every}
+        joined = self.of({o: np.column_stack([own[o], *beside[o], x[:, -1]]) for o, x in every.items()})
+        kept, edge = np.arange(each.parameters + each.errors), each.parameters + each.errors
+        forms = []
+        for form in self._forms:
+            count = next(iter(form.values())).shape[1]
+            forms.append(joined.take(np.r_[kept, edge : edge + count]))
+            edge += count
+        return replace(each, forms=tuple(forms))
 
     def columns_of_set(self, changes: Sequence[Change], free: Free) -> dict[str, Array]:
         """Return the columns of a set, N: parameters, form errors, what has no name, and the residual."""

@@ -59,19 +59,23 @@ class LearntSizes:
         usual = float(np.median(list(self.background.values())))
         return np.array([self.background.get(family, usual) for family in families])
 
-    def log_prior(self, count: int, expected: int = 0, *, unnamed: bool) -> float:
-        """Return the log odds of a set, with something unnamed or without.
+    def log_prior(self, effects: Array, expected: Array, *, unnamed: Array, forms: Array) -> Array:
+        """Return the log odds of some hypotheses.
 
         Parameters
         ----------
-        count : int
+        effects : ndarray of int, shape (h,)
             Effects that nothing leads one to expect.
-        expected : int
+        expected : ndarray of int, shape (h,)
             Effects of which physics leaves no doubt.
-        unnamed : bool
+        unnamed : ndarray of bool, shape (h,)
+            Whether something of any form is there.
+        forms : ndarray of int, shape (h,)
+            Where one unnamed form is there: of how many. All together are as likely as one effect.
         """
-        named = self.effect * (count > 0) + self.further * max(count - 1, 0)
-        return named + EXPECTED * expected + self.unnamed * unnamed
+        count = effects + (forms > 0)
+        found = self.effect * (count > 0) + self.further * np.maximum(count - 1, 0)
+        return np.asarray(found + EXPECTED * expected + self.unnamed * unnamed - np.log(np.maximum(forms, 1)))
 
     def log_error(self, errors: Array, white: float, *, wide: bool) -> Array:
         """Return the log probability of each size of the error; all alike where something is unnamed.

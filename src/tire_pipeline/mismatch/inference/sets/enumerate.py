@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -21,6 +21,7 @@ from tire_pipeline.mismatch.model.candidates import Variant
 Names = tuple[str, ...]
 PAIRS = 20
 TRIPLES = 6
+ASKED_FOR_FORMS = 8
 """Sets that are fitted by their own equations; the screen has scored all singles and pairs."""
 _STEPS = 4
 _INDEPENDENT = 100.0
@@ -71,7 +72,16 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
         fits[pair] = fitted(products, likelihood, _from_singles(found, fits, pair), _STEPS - 1)
     for triple in _triples(likelihood, list(fits.values()), found):
         fits[triple] = fitted(products, likelihood, _from_singles(found, fits, triple), _STEPS - 1)
-    return Enumerated(products, likelihood, tuple(fits.values()))
+    return Enumerated(products, likelihood, _with_forms(products, likelihood, fits))
+
+
+def _with_forms(
+    products: RecordingProducts, likelihood: Likelihood, fits: Mapping[Names, OfSet]
+) -> tuple[OfSet, ...]:
+    """Return all sets, the empty one and the likeliest with unnamed forms beside them."""
+    order = sorted(fits, key=lambda names: -plain_evidence(likelihood, fits[names]))
+    asked = {(), *order[:ASKED_FOR_FORMS]}
+    return tuple(products.with_forms(e) if names in asked else e for names, e in fits.items())
 
 
 def _likeliest_pairs(found: Screened) -> list[Names]:
