@@ -93,14 +93,12 @@ def test_all_unnamed_forms_together_are_as_likely_as_one_effect(cases):
     assert np.exp(odds[alone]).sum() == pytest.approx(np.exp(odds[single]))
 
 
-def test_a_form_beside_a_set_is_weighed_with_the_columns_of_both(cases):
+def test_a_form_beside_a_set_has_the_columns_of_both(cases):
     each = next(s for s in cases[("friction_scale",)].sets if s.names == ("friction_scale",))
-    own = each.parameters + each.errors
-    for form in each.forms:
-        for o, products in form.own.items():
-            assert products.shape[0] > own + 1
-            kept = np.r_[np.arange(own), -1]
-            np.testing.assert_allclose(products[np.ix_(kept, kept)], each.plain.own[o], rtol=1e-9)
+    own, size = each.parameters + each.errors, each.products.own["fy"].shape[0] - 1
+    taken = [each.columns(form=k)[own:] for k in range(len(each.forms))]
+    assert all(np.array_equal(each.columns(form=k)[:own], each.columns()) for k in range(len(taken)))
+    assert np.concatenate([each.columns(wide=True), *taken]).tolist() == list(range(size))
 
 
 def test_nothing_missing_is_agreement(cases):

@@ -58,25 +58,26 @@ class Explainer:
     def weigh(self, tire: Any, recording: pd.DataFrame) -> Explained:
         """Return what a report is made of: the recording, its sets, and what the posterior says."""
         self._check()
-        step = "check"
+        steps = track(_STEPS, "explaining the mismatch")
+        step = next(steps)
         try:
-            for step in track(_STEPS, "explaining the mismatch"):
-                if step == "check":
-                    prepared = prepare(tire, recording)
-                    prepared.data.fixed["priors"] = self.priors
-                elif step == "noise and misfit":
-                    analysis = analyse(thinned(prepared.data), self.without)
-                elif step == "sets":
-                    sets = enumerate_sets(analysis, self.learnt)
-                else:
-                    answer = self._answer(prepared, analysis, sets)
-                    analysis = with_named(analysis, sets, answer, prepared.data)
+            prepared = prepare(tire, recording)
+            prepared.data.fixed["priors"] = self.priors
+            step = next(steps)
+            analysis = analyse(thinned(prepared.data), self.without)
+            step = next(steps)
+            sets = enumerate_sets(analysis, self.learnt)
+            step = next(steps)
+            answer = self._answer(prepared, analysis, sets)
+            analysis = with_named(analysis, sets, answer, prepared.data)
         except np.linalg.LinAlgError as error:
             raise RecordingError(
                 f"the equations of this recording cannot be solved ({error})",
                 where=f"explain_mismatch, step {step}",
                 todo="leave out channels that hold nothing but noise, and please report the recording",
             ) from error
+        finally:
+            steps.close()
         return Explained(prepared, analysis, sets, answer, recording)
 
     def _check(self) -> None:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
-from tire_pipeline.mismatch.inference.evidence.likelihood import Evidence, Likelihood
+from tire_pipeline.mismatch.inference.evidence.likelihood import Evidence, Likelihood, Projected
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 
@@ -47,17 +47,12 @@ class Hypothesis:
         """Whether something unnamed is beside the effects."""
         return self.wide or self.form is not None
 
-    def log_evidence(self, likelihood: Likelihood) -> float:
-        """Return the log evidence of the hypothesis."""
-        each, learnt = self.effects, likelihood.learnt
-        own, products = scales(each, learnt), each.plain
-        if self.wide:
-            products = each.products
-        elif self.form is not None:
-            products = each.forms[self.form]
-        count = next(iter(products.own.values())).shape[0] - 1 - own.size
-        scale = np.r_[own, np.full(count, learnt.wide)]
-        return likelihood.evidence(products, scale, wide=self.wide).value
+    def log_evidence(self, likelihood: Likelihood, products: Projected) -> float:
+        """Return the log evidence of the hypothesis, with the products of all columns of its set."""
+        columns = self.effects.columns(wide=self.wide, form=self.form)
+        own = scales(self.effects, likelihood.learnt)
+        scale = np.r_[own, np.full(columns.size - own.size, likelihood.learnt.wide)]
+        return likelihood.evidence(products.take(columns), scale, wide=self.wide).value
 
 
 def hypotheses(case: OfCase) -> list[Hypothesis]:
@@ -93,7 +88,8 @@ def log_evidence(case: OfCase, sizes: LearntSizes, likelihood: Likelihood | None
         Of this case and these sizes, where it is at hand.
     """
     likelihood = likelihood or Likelihood(case.unknown, sizes)
-    return np.array([each.log_evidence(likelihood) for each in hypotheses(case)])
+    known = {each.names: likelihood.projected(each.products) for each in case.sets}
+    return np.array([each.log_evidence(likelihood, known[each.names]) for each in hypotheses(case)])
 
 
 @dataclass(frozen=True)

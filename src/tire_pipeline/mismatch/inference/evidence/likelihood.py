@@ -58,6 +58,30 @@ class ColumnProducts:
 
 
 @dataclass(frozen=True)
+class Projected:
+    """Products of some columns as every size of the misfit weighs them.
+
+    Parameters
+    ----------
+    own : dict of ndarray, shape (m + 1, m + 1)
+    parts : dict of tuple of ndarray, shape (q, m + 1)
+        For each output and each size, the products with the eigenvectors of what is never known.
+    """
+
+    own: Mapping[str, Array]
+    parts: Mapping[str, tuple[Array, ...]]
+
+    def take(self, columns: Sequence[int] | Array) -> Projected:
+        """Return those of some of the columns, with the residual."""
+        last = next(iter(self.own.values())).shape[0] - 1
+        picked = np.r_[np.asarray(columns, dtype=int), last]
+        return Projected(
+            {o: a[np.ix_(picked, picked)] for o, a in self.own.items()},
+            {o: tuple(part[:, picked] for part in parts) for o, parts in self.parts.items()},
+        )
+
+
+@dataclass(frozen=True)
 class Unknown:
     """What is never known in one recording: products of its columns, and what they are.
 
@@ -101,9 +125,12 @@ class Weights:
 
     def reduced(self, own: Array, nuisance: Array) -> Array:
         """Return products given what is never known, shape as ``own``."""
-        seen = self.vectors.T @ nuisance
-        shrunk = seen / (1.0 + self.precision * self.values)[:, None]
-        return np.asarray(self.precision * own - self.precision**2 * seen.T @ shrunk)
+        return self.shrunk(own, self.vectors.T @ nuisance)
+
+    def shrunk(self, own: Array, seen: Array) -> Array:
+        """Return the same from the products with the eigenvectors of what is never known."""
+        less = seen / (1.0 + self.precision * self.values)[:, None]
+        return np.asarray(self.precision * own - self.precision**2 * seen.T @ less)
 
     def known(self, nuisance: Array) -> Array:
         """Return the mean of the coefficients of what is never known, given its products with a residual."""
@@ -163,31 +190,38 @@ class Likelihood:
         part = self.learnt.independent if self.unknown.in_time else 1.0
         return {o: part * n for o, n in self.unknown.independent.items()}
 
-    def evidence(self, products: ColumnProducts, scale: Array, *, wide: bool = False) -> Evidence:
+    def projected(self, products: ColumnProducts) -> Projected:
+        """Return what :meth:`evidence` needs of some columns, for many choices among them."""
+        return Projected(
+            products.own,
+            {o: tuple(v.T @ products.nuisance[o] for _, v in cells) for o, cells in self._cells.items()},
+        )
+
+    def evidence(self, products: ColumnProducts | Projected, scale: Array, *, wide: bool = False) -> Evidence:
         """Return the log evidence of columns with normal coefficients.
 
         Parameters
         ----------
-        products : ColumnProducts
+        products : ColumnProducts or Projected
         scale : ndarray, shape (m,)
             Standard deviations of the coefficients.
         wide : bool
             Whether the error may be of any size, as where something unnamed is; else it is of the
             size that is usual.
         """
-        seen = {o: [v.T @ products.nuisance[o] for _, v in cells] for o, cells in self._cells.items()}
+        known = products if isinstance(products, Projected) else self.projected(products)
         z: Array = np.zeros(scale.size)
         for _ in range(_ROUNDS if scale.size else 1):
             inner, aim = np.eye(scale.size), np.zeros(scale.size)
             total, power = 0.0, 0.0
             weights, errors = {}, {}
-            for o, own in products.own.items():
+            for o, own in known.own.items():
                 u = np.r_[-z * scale, 1.0]
-                values = self._values(o, float(u @ own @ u), [r @ u for r in seen[o]], wide=wide)
+                values = self._values(o, float(u @ own @ u), [r @ u for r in known.parts[o]], wide=wide)
                 k, j = np.unravel_index(int(np.argmax(values)), values.shape)
                 weights[o] = Weights(self.count[o] / ERRORS[j] ** 2, *self._cells[o][k])
                 errors[o] = float(ERRORS[j])
-                reduced = weights[o].reduced(own, products.nuisance[o])
+                reduced = weights[o].shrunk(own, known.parts[o][k])
                 inner += reduced[:-1, :-1] * scale[:, None] * scale[None, :]
                 aim += reduced[:-1, -1] * scale
                 power += float(reduced[-1, -1])

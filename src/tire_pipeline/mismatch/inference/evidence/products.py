@@ -39,9 +39,9 @@ class OfSet:
     errors : int
         Columns of form errors.
     products : ColumnProducts
-    forms : tuple of ColumnProducts
-        Those of parameters and form errors with the columns of one unnamed form at a time; empty for sets
-        that are too unlikely to ask.
+    forms : tuple of int
+        Columns of each unnamed form by itself, which come after those of all together; empty for sets that
+        are too unlikely to ask.
     """
 
     changes: tuple[Change, ...]
@@ -49,7 +49,7 @@ class OfSet:
     parameters: int
     errors: int
     products: ColumnProducts
-    forms: tuple[ColumnProducts, ...] = ()
+    forms: tuple[int, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -59,12 +59,23 @@ class OfSet:
     @property
     def plain(self) -> ColumnProducts:
         """Products without the columns of what has no name."""
-        return self.products.take(np.arange(self.parameters + self.errors))
+        return self.products.take(self.columns())
 
     @property
     def unnamed(self) -> int:
         """Columns of what has no name."""
-        return int(next(iter(self.products.own.values())).shape[0]) - 1 - self.parameters - self.errors
+        every = int(next(iter(self.products.own.values())).shape[0]) - 1
+        return every - self.parameters - self.errors - sum(self.forms)
+
+    def columns(self, *, wide: bool = False, form: int | None = None) -> Array:
+        """Return the numbers of the set's columns, with all unnamed forms together or with one of them."""
+        own = self.parameters + self.errors
+        if wide:
+            return np.arange(own + self.unnamed)
+        if form is None:
+            return np.arange(own)
+        first = own + self.unnamed + sum(self.forms[:form])
+        return np.r_[np.arange(own), first : first + self.forms[form]]
 
 
 @dataclass(frozen=True)
@@ -147,18 +158,13 @@ class RecordingProducts:
         return OfSet(copied, tuple(free), len(labels), count - unnamed, self.of(every))
 
     def with_forms(self, each: OfSet) -> OfSet:
-        """Return a set with what it would be with one unnamed form beside it, form by form."""
+        """Return a set with the columns of every unnamed form by itself."""
         every = self.columns_of_set(each.changes, each.free)
-        own = {o: x[:, : each.parameters + each.errors] for o, x in every.items()}
-        beside = {o: [form[o] for form in self._forms] for o in every}
-        joined = self.of({o: np.column_stack([own[o], *beside[o], x[:, -1]]) for o, x in every.items()})
-        kept, edge = np.arange(each.parameters + each.errors), each.parameters + each.errors
-        forms = []
-        for form in self._forms:
-            count = next(iter(form.values())).shape[1]
-            forms.append(joined.take(np.r_[kept, edge : edge + count]))
-            edge += count
-        return replace(each, forms=tuple(forms))
+        joined = {
+            o: np.hstack([x[:, :-1], *(f[o] for f in self._forms), x[:, -1:]]) for o, x in every.items()
+        }
+        counts = tuple(next(iter(form.values())).shape[1] for form in self._forms)
+        return replace(each, products=self.of(joined), forms=counts)
 
     def columns_of_set(self, changes: Sequence[Change], free: Free) -> dict[str, Array]:
         """Return the columns of a set, N: parameters, form errors, what has no name, and the residual."""
