@@ -2,20 +2,55 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from tire_pipeline.mismatch.discrepancy.gram import Sums, System
+from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.inference.evidence.priors import prior
 from tire_pipeline.mismatch.model.candidates import derivatives
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class BySweep:
+    """What each sweep says of the parameters, and what their priors say; in the order of a fit's labels.
+
+    Parameters
+    ----------
+    information : ndarray, shape (s, k, k)
+    score : ndarray, shape (s, k)
+    precision, pull : ndarray, shape (k,)
+        Of the priors: one over their variances, and what they add to the score.
+    """
+
+    information: Array
+    score: Array
+    precision: Array
+    pull: Array
+
+    def step(self, kept: Array, free: Array) -> Array:
+        """Return the step to the likeliest parameters by some sweeps.
+
+        Parameters
+        ----------
+        kept : ndarray of bool, shape (s,)
+        free : ndarray of bool, shape (k,)
+            Parameters that move.
+        """
+        inner = self.information[kept].sum(axis=0) + np.diag(self.precision)
+        aim = self.score[kept].sum(axis=0) + self.pull
+        delta = np.zeros(free.size)
+        if free.any():
+            delta[free] = np.linalg.solve(inner[np.ix_(free, free)], aim[free])
+        return delta
 
 
 @dataclass(frozen=True)
@@ -32,8 +67,9 @@ class Fit:
     labels : list of (index of effect, parameter)
     columns : dict of ndarray, shape (n, k)
         Derivatives at the fit.
-    sums : Sums
-        Of the residual at the fit and these columns, over each sweep.
+    weight : dict of float
+        What a squared newton of each output counts for, by the likelihood.
+    sweeps : BySweep
     """
 
     changes: list[Change]
@@ -41,7 +77,8 @@ class Fit:
     covariance: Array = field(default_factory=lambda: np.zeros((0, 0)))
     labels: list[tuple[int, str]] = field(default_factory=list)
     columns: dict[str, Array] = field(default_factory=dict)
-    sums: Sums | None = None
+    weight: Mapping[str, float] = field(default_factory=dict)
+    sweeps: BySweep | None = None
 
     @property
     def names(self) -> list[str]:
@@ -52,7 +89,8 @@ class Fit:
         """Return some of its effects, by number, as they stand."""
         rows = [k for k, (i, _) in enumerate(self.labels) if i in kept]
         covariance = self.covariance[np.ix_(rows, rows)]
-        return linearised(system, [self.changes[i] for i in kept], [self.free[i] for i in kept], covariance)
+        changes, free = [self.changes[i] for i in kept], [self.free[i] for i in kept]
+        return linearised(system, changes, free, covariance, self.weight)
 
     @property
     def errors(self) -> Array:
@@ -61,12 +99,25 @@ class Fit:
 
 
 def linearised(
-    system: System, changes: Sequence[Change], free: Sequence[tuple[str, ...]], covariance: Array
+    system: System,
+    changes: Sequence[Change],
+    free: Sequence[tuple[str, ...]],
+    covariance: Array,
+    weight: Mapping[str, float],
 ) -> Fit:
-    """Return a set at its parameters with columns and sums."""
-    labels, columns = columns_of(system.data, list(changes), list(free))
-    sums = system.sums(residual(system.data, changes), columns)
-    return Fit(list(changes), list(free), covariance, labels, columns, sums)
+    """Return a set at its parameters, with columns and with what each sweep says of them."""
+    data, rest = system.data, residual(system.data, changes)
+    labels, columns = columns_of(data, list(changes), list(free))
+    off, wide = prior(data, changes, labels)
+    count, k = system.count, len(labels)
+    information, score = np.zeros((count, k, k)), np.zeros((count, k))
+    for o, x in columns.items():
+        for number in range(count):
+            rows = system.block == number
+            information[number] += weight[o] * x[rows].T @ x[rows]
+            score[number] += weight[o] * x[rows].T @ rest[o][rows]
+    sweeps = BySweep(information, score, 1.0 / wide**2, -off / wide**2)
+    return Fit(list(changes), list(free), covariance, labels, columns, weight, sweeps)
 
 
 def columns_of(

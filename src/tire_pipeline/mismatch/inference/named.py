@@ -37,7 +37,11 @@ def _fit_of(analysis: Analysis, sets: Enumerated, answer: SetAnswer) -> Fit:
     each = answer.named
     labels, _ = columns_of(analysis.data, list(each.changes), list(each.free))
     _, wide = prior(analysis.data, each.changes, labels)
-    inner = plain(sets.likelihood, each).covariance[: each.parameters, : each.parameters]
-    fit = linearised(analysis.system, each.changes, each.free, inner * wide[:, None] * wide[None, :])
+    found = plain(sets.likelihood, each)
+    inner = found.covariance[: each.parameters, : each.parameters] * wide[:, None] * wide[None, :]
+    weight = {
+        o: w.precision / sets.products.largest[o] ** 2 / analysis.data.size for o, w in found.weights.items()
+    }
+    fit = linearised(analysis.system, each.changes, each.free, inner, weight)
     kept = [i for i, (name, _) in enumerate(each.changes) if name in answer.names]
     return fit if len(kept) == len(each.changes) else fit.part(kept, analysis.system)

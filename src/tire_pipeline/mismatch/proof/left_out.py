@@ -27,7 +27,7 @@ def each_left_out(analysis: Analysis, fit: Fit) -> dict[str, Array]:
         Its parameters move by one Gauss-Newton step when a sweep is left out.
     """
     out = residual(analysis.data, fit.changes)
-    if not fit.labels or fit.sums is None:
+    if not fit.labels or fit.sweeps is None:
         return out
     count = analysis.system.count
     base = step_without(fit, np.zeros(count, bool))
@@ -42,21 +42,9 @@ def each_left_out(analysis: Analysis, fit: Fit) -> dict[str, Array]:
 def step_without(fit: Fit, dropped: Array) -> Array:
     """Return the change of the parameters when some sweeps (bool, by number) are left out.
 
-    A moment in time and a wheel's radius are locked: one sweep determines them, and a linear step says
-    nothing about them without it.
+    What is left says little of some parameters: these go to where their priors have them. A moment in time
+    and a wheel's radius are locked: one sweep determines them, and a linear step says nothing about them
+    without it.
     """
-    sums = fit.sums
-    assert sums is not None  # kept by the last fit
-    kept = ~dropped
-    free = np.array([name not in _LOCKED for _, name in fit.labels])
-    info, score = sums.ee[kept].sum(axis=0), sums.er[kept].sum(axis=0)
-    delta = np.zeros(score.size)
-    if free.any():
-        delta[free] = _solve(info[np.ix_(free, free)], score[free])
-    return delta
-
-
-def _solve(info: Array, score: Array) -> Array:
-    size = np.sqrt(np.maximum(np.diag(info), 1e-300))
-    m = info / size[:, None] / size[None, :] + 1e-6 * np.eye(size.size)
-    return np.linalg.solve(m, score / size) / size
+    assert fit.sweeps is not None  # kept by the last fit
+    return fit.sweeps.step(~dropped, np.array([name not in _LOCKED for _, name in fit.labels], bool))
