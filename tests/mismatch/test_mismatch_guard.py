@@ -64,3 +64,9 @@ def test_probabilities_in_the_report_hold_95_percent(softer, tire, record):
     assert 0.95 < total <= 1.0 + 1e-9
     assert report.probabilities[0][0] == ("friction_scale",)
     assert np.all(np.diff([p for _, p in report.probabilities]) <= 0.0)
+
+
+def test_a_correction_from_one_side_says_that_nothing_proves_it_on_the_other(tire, record):
+    both = record(3, friction=0.9)
+    said = [explain_mismatch(tire, r).notes for r in (both[both["slip_angle"] > -0.01], both)]
+    assert ["to one side" in " ".join(notes) for notes in said] == [True, False]

@@ -101,3 +101,15 @@ class RecordedChannels:
         typical = float(np.median(d[d > 0.0])) if np.any(d > 0.0) else 0.0
         d[self.start] = typical
         return d
+
+
+_OTHER_SIDE = 0.5
+"""Least slip angle to one side over that to the other (2% quantiles). A drive of DART that turns to one side
+gave an equation that took the error on its own unseen sweeps from 0.50 to 0.09 N, and on another drive from
+0.27 to 0.46 N."""
+
+
+def one_sided(slip: Array) -> bool:
+    """Whether a slip goes to one side only, or nearly."""
+    low, high = np.quantile(slip, [0.02, 0.98])
+    return bool(min(-low, high) < _OTHER_SIDE * max(-low, high))

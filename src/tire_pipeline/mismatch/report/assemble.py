@@ -17,6 +17,7 @@ from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.fit import Fit
 from tire_pipeline.mismatch.inference.sets.answer import SetAnswer
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
+from tire_pipeline.mismatch.model.channels import one_sided
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
@@ -113,7 +114,10 @@ def assembled(it: Explained) -> MismatchReport:
         unnamed=unnamed,
         located=located,
         remainder=left,
-        notes=[*prepared.notes, *filter(None, [_searched(it), not_looked_for(analysis.absent)])],
+        notes=[
+            *prepared.notes,
+            *filter(None, [_searched(it), _to_one_side(it, put_in), not_looked_for(analysis.absent)]),
+        ],
         candidates=_candidates(analysis, answer),
         series=_series(analysis),
         assumed=prepared.assumed,
@@ -140,6 +144,17 @@ def _searched(it: Explained) -> str:
         return ""
     refitted = "; parameters are fitted to all" if it.answer.names else ""
     return f"effects were searched for in {seen:,} of {whole:,} samples, stretches spread over them{refitted}"
+
+
+def _to_one_side(it: Explained, put_in: Fit) -> str:
+    """Say that nothing proves a correction on the side to which the recording does not turn."""
+    data = it.analysis.data
+    if not put_in.names or not data.varies("slip_angle") or not one_sided(data.get("slip_angle")):
+        return ""
+    return (
+        "the slip angle goes to one side, or nearly: causes that differ on the other side look alike here, "
+        "and nothing proves the corrected model there; record both sides"
+    )
 
 
 def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Fit]:

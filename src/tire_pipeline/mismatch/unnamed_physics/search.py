@@ -6,6 +6,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.noise import white_noise
 from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.model.channels import one_sided
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
@@ -35,10 +36,6 @@ Array = np.ndarray
 _SHOWN = 3
 _BINS = 30
 _ABOVE_NOISE = 1.5
-_OTHER_SIDE = 0.5
-"""Least slip angle to one side over that to the other (2% quantiles). A drive of DART that turns to one side
-gave an equation that took the error on its own unseen sweeps from 0.50 to 0.09 N, and on another drive from
-0.27 to 0.46 N."""
 _ONE_SIDED = "the recording turns to one side, and no equation from it can be trusted on the other"
 _NOT_PROVED = "no equation makes sweeps better that neither its choice nor its fit has seen"
 
@@ -72,10 +69,7 @@ def more_than_usual(analysis: Analysis) -> bool:
 
 def _one_sided(problem: Unexplained) -> bool:
     """Whether the slip angle goes to one side only, or nearly."""
-    if "slip_angle" not in problem.moves:
-        return False
-    low, high = np.quantile(problem.table.columns["s"], [0.02, 0.98])
-    return bool(min(-low, high) < _OTHER_SIDE * max(-low, high))
+    return "slip_angle" in problem.moves and one_sided(problem.table.columns["s"])
 
 
 def find(*views: Unexplained, plainly: bool = False) -> UnnamedReport:
