@@ -14,8 +14,8 @@ from tire_pipeline.mismatch.inference.analysis import analyse
 from tire_pipeline.mismatch.inference.calibrate import START, Tuning, learn, log_scores, pruned
 from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_posterior, log_prior
 from tire_pipeline.mismatch.inference.evidence.likelihood import Weights
-from tire_pipeline.mismatch.inference.evidence.priors import prior
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
+from tire_pipeline.mismatch.inference.priors import prior
 from tire_pipeline.mismatch.inference.sets.answer import answered
 from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets
 from tire_pipeline.mismatch.recording.checks import prepare
