@@ -31,7 +31,7 @@ TOLERANCE = (0.05, 0.05, 0.10, 0.10, 0.25)
 of load by its median). What fits and rigs leave: in simulated cases where nothing is missing at most two of a
 force's five are off by more, and setting them right removes 0.3 of the mismatch at most."""
 
-SURE = 3.0
+_ERRORS_OFF = 3.0
 """Standard errors by which it must be off."""
 
 SEVERAL = 3
@@ -67,7 +67,7 @@ class Figures:
     def off(self) -> Array:
         """Which figures are off, bool."""
         size = np.abs(np.nan_to_num(self.values))
-        return (size > np.array(TOLERANCE)) & (size > SURE * np.nan_to_num(self.errors, nan=np.inf))
+        return (size > np.array(TOLERANCE)) & (size > _ERRORS_OFF * np.nan_to_num(self.errors, nan=np.inf))
 
     @property
     def another(self) -> bool:
