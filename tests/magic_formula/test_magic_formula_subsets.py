@@ -7,7 +7,6 @@ import os
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
@@ -37,20 +36,22 @@ def kept(part, forces):
     return part.rows[[*inputs, *forces]]
 
 
+def over(problem, fit, best) -> float:
+    """RMS of the fit over that of other values."""
+    return problem.misfit(np.array([fit.model.value(n) for n in problem.names])) / problem.misfit(best)
+
+
 def searched(module, part, fit, forces) -> dict[str, float]:
     """RMS of the fit over the least of random starts made now, by force."""
-    rows = {f: module.judged(fit, f, part, np.random.default_rng(part.seed))[0] for f in forces}
-    return {f: row["fit"] / row["least"] for f, row in rows.items()}
+    problems = {f: module.problem_of(fit.model, f, part.rows) for f in forces}
+    return {f: over(p, fit, module.least(p, np.random.default_rng(part.seed))) for f, p in problems.items()}
 
 
 def ratios(module, part, fit, forces) -> dict[str, float]:
-    """RMS of the fit over the least that the benchmark has stored, by force."""
-    table = pd.read_csv(module.RESULTS, dtype={"version": str})
-    same = (table["seed"] == part.seed) & (table["version"] == fit.model.version)
-    least = table[same].set_index("force")["least"]
+    """RMS of the fit over the least that the benchmark has kept, by force; for moments searched now."""
     problems = {f: module.problem_of(fit.model, f, part.rows) for f in forces}
-    own = {f: p.misfit(np.array([fit.model.value(n) for n in p.names])) for f, p in problems.items()}
-    return {f: own[f] / least[f] for f in forces}
+    rng = np.random.default_rng(part.seed)
+    return {f: over(p, fit, module.stored_least(p, part, rng)) for f, p in problems.items()}
 
 
 @pytest.mark.parametrize(
@@ -81,6 +82,31 @@ def test_random_starts_made_now_leave_no_less_than_the_stored_ones(subsets, numb
     fit = fit_magic_formula(kept(part, forces))
     stored, now = (of(subsets, part, fit, forces) for of in (ratios, searched))
     assert now == pytest.approx(stored, rel=0.01)
+
+
+MISSED = pytest.mark.xfail(
+    strict=True, reason="known miss: 1.5 to 3.6 times as far as the least of the starts"
+)
+
+
+@pytest.mark.parametrize(
+    ("number", "version"),
+    [
+        (0, "5.2"),
+        (1, "5.2"),
+        pytest.param(6, "6.1", marks=MISSED),
+        pytest.param(20, "5.2", marks=MISSED),
+        pytest.param(30, "6.1", marks=MISSED),
+        pytest.param(56, "6.1", marks=MISSED),
+        pytest.param(61, "5.2", marks=MISSED),
+    ],
+)
+def test_loads_left_out_are_met_as_well_as_by_the_best_of_random_starts(subsets, number, version):
+    part = subsets.subset(number)
+    fit = fit_magic_formula(kept(part, ("fy",)), version)
+    here, there = (subsets.problem_of(fit.model, "fy", rows) for rows in (part.rows, part.left_out))
+    best = subsets.stored_least(here, part, np.random.default_rng(number))
+    assert over(there, fit, best) <= 1.2
 
 
 @pytest.mark.parametrize("number", [1, 10, 22])
