@@ -40,8 +40,8 @@ class Parameter:
         Standard deviation about ``zero`` that physics leaves to it where the effect is there; 0 says that
         every value between the bounds is as likely.
     prior_in : str
-        What of the recording (``load_nominal``, ``radius``) the prior is a share of; nothing if it is in the
-        parameter's own unit.
+        What of the recording (``load_nominal``, ``radius``, ``sampling``) the prior is a multiple of; nothing
+        if it is in the parameter's own unit.
     """
 
     name: str

@@ -17,7 +17,7 @@ GAINS = (-0.8, 2.0)
 """Least and largest gain that a force channel may be wrong by."""
 
 LONGEST_DELAY = 0.6
-"""Longest time, s, by which a rig's channels may be apart."""
+"""Longest time, s, by which a rig's channels may be apart and the slip still counts as driving the force."""
 
 CLIPPED = ("fy", "fx", "slip_angle", "normal_load", "mz")
 """Channels in which clipping is looked for."""

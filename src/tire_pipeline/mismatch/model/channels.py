@@ -17,6 +17,9 @@ ABSOLUTE_SPREAD = {
     "turn_slip": 0.003,
 }
 
+_SLOW_LOGGER = 0.025
+"""s: channels come from devices whose own clocks are about this fine, whatever the file's rate."""
+
 SLOW = 0.5
 """Mean over so many seconds, in which sensor noise goes under."""
 
@@ -101,6 +104,11 @@ class RecordedChannels:
         typical = float(np.median(d[d > 0.0])) if np.any(d > 0.0) else 0.0
         d[self.start] = typical
         return d
+
+    @cached_property
+    def sampling(self) -> float:
+        """Time from one sample to the next, s; at least that of a slow logger, 0.025 s."""
+        return max(float(np.median(self.step)), _SLOW_LOGGER)
 
 
 _OTHER_SIDE = 0.5

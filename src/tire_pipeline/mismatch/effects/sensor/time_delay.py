@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
-from tire_pipeline.mismatch.effects.shared import LONGEST_DELAY, delayed
+from tire_pipeline.mismatch.effects.shared import delayed
 
 
 class TimeDelay(Effect):
@@ -21,8 +21,8 @@ class TimeDelay(Effect):
     needs_time = True
     dynamic = True
     family = "lag"
-    prior_source = "Judged: channels of one rig are a few samples of a slow logger apart"
-    parameters = (Parameter("delay", "s", -LONGEST_DELAY, LONGEST_DELAY, 0.004, prior=0.05),)
+    prior_source = "Judged: channels of one rig are two samples apart, of the file or of a slow logger"
+    parameters = (Parameter("delay", "s", -2.0, 2.0, 0.004, prior=2.0, prior_in="sampling"),)
     looks_like = {
         "relaxation_length": "the lag of relaxation is shorter at speed",
         "low_pass": "a filter takes amplitude at high frequency",
@@ -32,7 +32,8 @@ class TimeDelay(Effect):
 
     def starts(self, data: object) -> list[dict[str, float]]:
         """Late by little or much, or early."""
-        return [{"delay": d} for d in (0.02, 0.08, -0.03)]
+        sampling = data.sampling  # type: ignore[attr-defined]
+        return [{"delay": d} for d in (0.02, 0.08, -0.03, 2.0 * sampling, 5.0 * sampling)]
 
     def outputs(self, state: State, data: object, p: Parameters) -> None:
         """Shift the forces."""
