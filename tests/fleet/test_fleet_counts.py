@@ -33,6 +33,7 @@ def test_every_size_adds_up(files: int) -> None:
     assert min(counts.kept.values()) >= 20
 
 
+@pytest.mark.slow
 def test_files_of_the_fleet_are_those_counted(small_fleet, small_settings) -> None:
     counts = file_counts(small_settings.files)
     origin = small_fleet.truth.files

@@ -261,6 +261,7 @@ def test_what_cannot_be_read_says_so(tmp_path):
         read_recording(file, format="xls")
 
 
+@pytest.mark.slow
 def test_a_bomb_is_refused(tmp_path):
     """Zeros that pack a thousandfold: refused before they fill the memory."""
     file = tmp_path / "bomb.mat"

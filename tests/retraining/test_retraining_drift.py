@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pandas as pd
+import pytest
 
 from tire_pipeline.retraining import drift_of_features
 from tire_pipeline.retraining.drift import DRIFT, NEW, SAME, TOO_FEW, stability_index
@@ -24,6 +25,7 @@ def test_a_shift_of_one_feature_in_one_category_is_found():
     assert moved[["category", "feature"]].to_numpy().tolist() == [["B", "c"]]
 
 
+@pytest.mark.slow
 def test_false_alarms_are_rarer_than_the_stated_risk():
     alarms = 0
     for seed in range(200):

@@ -249,6 +249,7 @@ def test_names_of_255_bytes_are_read_and_their_results_can_be_written(folder, tm
     assert all(name.endswith(".tir") for name in written)
 
 
+@pytest.mark.slow
 def test_ten_thousand_folders_and_as_deep_as_a_path_goes(tmp_path):
     for number in range(10_000):
         (tmp_path / f"{number % 100}/{number}").mkdir(parents=True)

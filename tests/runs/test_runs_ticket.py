@@ -101,6 +101,7 @@ def test_a_second_run_says_who_holds_the_folder_and_leaves_everything(draw, runs
     assert (runs.parent / "table.csv/2026-01-01").exists()
 
 
+@pytest.mark.slow
 def test_a_second_run_waits_if_asked_to(draw):
     first = draw("first")
     clock = Clock(lambda now: first.end() if now > 1010 else None)
@@ -132,6 +133,7 @@ def test_the_first_come_is_served_first(draw):
     _turn(second)
 
 
+@pytest.mark.slow
 def test_runs_alongside_neither_wait_nor_are_waited_for(draw):
     one, two, whole = draw("1", alongside=True), draw("2", alongside=True), draw("whole")
     _turn(two)
