@@ -22,7 +22,7 @@ Names = tuple[str, ...]
 EXACT = frozenset({"clipping", "stuck_channel", "sign_convention", "unit_error"})
 """Faults that are found without a fit."""
 _WEAK = 1.0
-"""Effects of fewer misfits may stay without a name."""
+"""Weaker effects, in misfits, may be left out of a right answer."""
 _SECOND = {
     "inflation pressure": "inflation_pressure",
     "unknown camber": "camber_offset",

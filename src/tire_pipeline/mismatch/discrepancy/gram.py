@@ -40,16 +40,6 @@ class Sums:
     er: Array
     rr: Array
 
-    def take(self, columns: Array) -> Sums:
-        """Return the sums of some of the effects' columns."""
-        return Sums(
-            {o: a[:, :, columns] for o, a in self.ne.items()},
-            self.nr,
-            self.ee[:, columns][:, :, columns],
-            self.er[:, columns],
-            self.rr,
-        )
-
 
 def _product(a: Array, b: Array) -> Array:
     """Return ``a.T @ b``, in pieces that stay in the processor's cache."""
@@ -73,11 +63,6 @@ def _block_products(x: Array, edges: Array) -> Array:
             for q in range(p):
                 out[b, q, p] = out[b, p, q]
     return out
-
-
-def _pieces(shown: Array) -> int:
-    """How many pieces each sweep is cut into, so that there are 60 or more."""
-    return max(1, int(np.ceil(60 / max(len(shown), 1))))
 
 
 class System:
@@ -155,7 +140,6 @@ class System:
 
     def _factor(self) -> None:
         self._chol: dict[Any, Any] = {}
-        self._without: dict[Any, Any] = {}
         for o, total in self._total.items():
             s = self.scale[o]
             key = (o, s.tobytes())
@@ -167,14 +151,6 @@ class System:
     def gram(self, output: str) -> Array:
         """Return the products of the whitened nuisance columns of an output, shape (q, q)."""
         return self._total[output]
-
-    def _leave_out(self, o: str) -> Array:
-        """Inverse matrices with each sweep left out, shape (blocks, q, q)."""
-        if o not in self._without:
-            s = self.scale[o]
-            a = (self._total[o][None] - self._gram[o]) * s[None, :, None] * s[None, None, :] + np.eye(s.size)
-            self._without[o] = np.linalg.inv(a)
-        return self._without[o]
 
     def whiten(self, x: dict[str, Array]) -> dict[str, Array]:
         """Return whitened arrays in the order of sweeps."""
@@ -204,16 +180,6 @@ class System:
         """Return the sums of :meth:`sums` with those of the nuisance over each sweep as well."""
         return self._sums(self.whiten(residual), self.whiten(columns), by_sweep=True)
 
-    def reduced_over(self, sums: Sums, kept: Array) -> tuple[Array, Array]:
-        """Return information and score of the effects given the nuisance, over some sweeps (bool)."""
-        ee, er = sums.ee[kept].sum(axis=0), sums.er[kept].sum(axis=0)
-        for o, s in self.scale.items():
-            ne, nr = sums.ne[o][kept].sum(axis=0) * s[:, None], sums.nr[o][kept].sum(axis=0) * s
-            own = self._gram[o][kept].sum(axis=0) * s[:, None] * s[None, :] + np.eye(s.size)
-            solved = np.linalg.solve(own, np.column_stack([ne, nr]))
-            ee, er = ee - ne.T @ solved[:, :-1], er - ne.T @ solved[:, -1]
-        return ee, er
-
     def reduce(self, sums: Sums) -> tuple[Array, Array, float]:
         """Return S, s, J: information and score of the effects given the nuisance, and the misfit left.
 
@@ -233,75 +199,6 @@ class System:
     def log_determinant(self) -> float:
         """Log determinant of the prior-weighted nuisance, for the marginal likelihood."""
         return float(sum(2.0 * np.log(np.diag(c[0])).sum() for c in self._chol.values()))
-
-    def held_out(
-        self,
-        residual: dict[str, Array],
-        columns: dict[str, Array] | None,
-        shown: Array,
-        *,
-        plain: bool,
-    ) -> Array:
-        """Return the whitened squared error of pieces of sweeps, each predicted from all other sweeps.
-
-        Parameters
-        ----------
-        residual : dict of ndarray, shape (n,)
-            N.
-        columns : dict of ndarray, shape (n, k), optional
-            Effects' columns; their parameters are fitted with the nuisance beside them.
-        shown : ndarray of int
-            The sweeps; they are cut into equal pieces so that there are 60 or more.
-        plain : bool
-            Predict by the effects alone; else by effects and nuisance.
-        """
-        r = self.whiten(residual)
-        e = {o: np.zeros((x.size, 0)) for o, x in r.items()} if columns is None else self.whiten(columns)
-        x, nuisance = self._left_out_fits(self._sums(r, e, by_sweep=True))
-        out: list[float] = []
-        for b in shown:
-            rows = slice(self._edges[b], self._edges[b + 1])
-            error = np.zeros(rows.stop - rows.start)
-            for o in r:
-                left = r[o][rows] - e[o][rows] @ x[b]
-                if not plain:
-                    a_ne, a_nr = nuisance[o]
-                    left = left - self.white[o][rows] @ ((a_nr[b] - a_ne[b] @ x[b]) * self.scale[o])
-                error += left**2
-            out += [float(piece.sum()) for piece in np.array_split(error, _pieces(shown))]
-        return np.array(out)
-
-    def _left_out_fits(self, sums: Sums) -> tuple[Array, dict[str, tuple[Array, Array]]]:
-        """Return the effects' parameters, shape (blocks, k), and the nuisance's, with each sweep left out."""
-        k = sums.er.shape[1]
-        ee = sums.ee.sum(axis=0)[None] - sums.ee
-        er = sums.er.sum(axis=0)[None] - sums.er
-        nuisance = {}
-        for o in sums.nr:
-            s = self.scale[o]
-            ne = (sums.ne[o].sum(axis=0)[None] - sums.ne[o]) * s[None, :, None]
-            nr = (sums.nr[o].sum(axis=0)[None] - sums.nr[o]) * s[None, :]
-            inverse = self._leave_out(o)
-            a_ne = inverse @ ne
-            a_nr = (inverse @ nr[:, :, None])[:, :, 0]
-            ee = ee - ne.transpose(0, 2, 1) @ a_ne
-            er = er - (ne.transpose(0, 2, 1) @ a_nr[:, :, None])[:, :, 0]
-            nuisance[o] = (a_ne, a_nr)
-        x = np.zeros((self.count, k))
-        if k:
-            size = np.sqrt(np.maximum(np.einsum("bii->bi", ee), 1e-300))
-            scaled = ee / size[:, :, None] / size[:, None, :] + 1e-7 * np.eye(k)
-            x = np.linalg.solve(scaled, (er / size)[:, :, None])[:, :, 0] / size
-        return x, nuisance
-
-    def cut(self, values: Array, shown: Array) -> Array:
-        """Return the sums of some values over the pieces that :meth:`held_out` cuts its sweeps into."""
-        ordered = values[self._order]
-        out: list[float] = []
-        for b in shown:
-            rows = ordered[self._edges[b] : self._edges[b + 1]]
-            out += [float(piece.sum()) for piece in np.array_split(rows, _pieces(shown))]
-        return np.array(out)
 
     def fitted(self, residual: dict[str, Array], columns: dict[str, Array] | None = None) -> dict[str, Array]:
         """Return the coefficients of the nuisance columns in a fit with the effects' columns."""

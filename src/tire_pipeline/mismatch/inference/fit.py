@@ -17,6 +17,8 @@ from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
+LOCKED = frozenset({"moment", "radius"})
+"""Parameters that one sweep determines: no linear step moves them."""
 
 
 @dataclass(frozen=True)

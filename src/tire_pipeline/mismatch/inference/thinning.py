@@ -11,7 +11,7 @@ from tire_pipeline.mismatch.discrepancy.misfit import nuisance_scale
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.discrepancy.nuisance import make_nuisance
 from tire_pipeline.mismatch.inference.analysis import Analysis
-from tire_pipeline.mismatch.inference.fit import Fit, inverse, linearised, moved
+from tire_pipeline.mismatch.inference.fit import LOCKED, Fit, inverse, linearised, moved
 from tire_pipeline.mismatch.model.candidates import derivatives
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.residual import residual
@@ -22,7 +22,6 @@ MOST_SAMPLES = 18_000
 _STRETCH = 40.0
 _FARTHEST = 6.0
 _RCOND = 1e-8
-_FIXED = {"radius", "moment"}
 
 
 def thinned(data: Data) -> Data:
@@ -90,7 +89,7 @@ def refit_on_all(analysis: Analysis, data: Data) -> Fit:
         part_information, part_score = _normal_equations(analysis, portion)
         information += part_information
         score += part_score
-    live = np.array([name not in _FIXED for _, name in fit.labels]) & (np.diag(information) > 0.0)
+    live = np.array([name not in LOCKED for _, name in fit.labels]) & (np.diag(information) > 0.0)
     delta = np.zeros(k)
     delta[live] = inverse(information[np.ix_(live, live)], _RCOND) @ score[live]
     most = _FARTHEST * fit.errors

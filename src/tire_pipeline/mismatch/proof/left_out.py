@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.mismatch.inference.analysis import Analysis
-from tire_pipeline.mismatch.inference.fit import Fit
+from tire_pipeline.mismatch.inference.fit import LOCKED, Fit
 from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
-_LOCKED = {"moment", "radius"}
 
 
 def shares_left(after: dict[str, Array], before: dict[str, Array]) -> dict[str, float]:
@@ -47,4 +46,4 @@ def step_without(fit: Fit, dropped: Array) -> Array:
     without it.
     """
     assert fit.sweeps is not None  # kept by the last fit
-    return fit.sweeps.step(~dropped, np.array([name not in _LOCKED for _, name in fit.labels], bool))
+    return fit.sweeps.step(~dropped, np.array([name not in LOCKED for _, name in fit.labels], bool))

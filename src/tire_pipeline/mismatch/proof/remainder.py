@@ -21,7 +21,7 @@ _MOST_TERMS = 5
 def remainder(analysis: Analysis, answer: SetAnswer) -> Remainder:
     """Measure what neither the effects nor a misfit of the usual size explains.
 
-    Whether it counts is the posterior's matter: something without a name is likelier than not.
+    It counts if the posterior says that something unnamed is likelier than not.
     """
     data, fit = analysis.data, analysis.fit
     rest = residual(data, fit.changes)
