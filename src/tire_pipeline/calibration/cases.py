@@ -15,6 +15,7 @@ import pandas as pd
 from tire_pipeline.concealed import case_plan, make_case
 from tire_pipeline.concealed.real import make_real_case, real_plan
 from tire_pipeline.concealed.real.sources import available
+from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import fit_magic_formula
 from tire_pipeline.mismatch.effects import catalogue
 
@@ -89,12 +90,24 @@ class KnownCase:
         return tuple({tuple(sorted(sum(way, ()))) for way in product(*ways)})
 
     @property
+    def unnamed(self) -> tuple[bool, ...]:
+        """Whether something unnamed has to be beside the names: either is right where it is weak."""
+        if self.kind != "unknown":
+            return (False,)
+        strongest = max(size for name, size in self.effects if name not in catalogue())
+        return (True,) if strongest >= _WEAK else (False, True)
+
+    @property
     def _told(self) -> list[tuple[str, float]]:
         return [each for each in self.effects if each[0] in catalogue() and each[0] not in EXACT]
 
 
 def plans(
-    folder: Path, real: dict[int, int], first: dict[int, int], second: dict[int, int]
+    folder: Path,
+    real: dict[int, int],
+    first: dict[int, int],
+    second: dict[int, int],
+    unnamed: dict[int, int],
 ) -> Iterator[tuple[str, Callable[[], KnownCase]]]:
     """Yield the name of each tuning case, and what makes it.
 
@@ -102,8 +115,9 @@ def plans(
     ----------
     folder : Path
         Of the real recordings; without them there are simulated cases only.
-    real, first, second : dict
-        Seed -> number of cases. Real ones are made from the sweeps of ``development.csv`` only.
+    real, first, second, unnamed : dict
+        Seed -> number of cases. Real ones are made from the sweeps of ``development.csv`` only, those without
+        a name by the mechanisms of the open world that are for tuning.
     """
     for seed, count in real.items() if available(folder) else ():
         for number, plan in enumerate(real_plan(count, seed)):
@@ -114,6 +128,9 @@ def plans(
     for seed, count in second.items():
         for number in range(count):
             yield f"second_{seed}_{number:03d}", partial(_second, seed, number)
+    for seed, count in unnamed.items():
+        for number in range(count):
+            yield f"unnamed_{seed}_{number:03d}", partial(_unnamed, seed, number)
 
 
 def _real(plan: Any, folder: Path) -> KnownCase:
@@ -151,3 +168,17 @@ def _second(seed: int, number: int) -> KnownCase:
     unknown = any(name == "unknown" for name, _ in effects)
     kind = "unknown" if unknown else ("single" if effects else "nothing")
     return KnownCase("second", kind, tire, case.recording, effects)
+
+
+def _unnamed(seed: int, number: int) -> KnownCase:
+    """A case of the second simulator with a mechanism that is in no catalogue."""
+    from tire_pipeline.concealed.open_world.tuning import MECHANISMS  # loads scipy.signal
+    from tire_pipeline.concealed.unnamed.cases import draw_open_case
+
+    try:
+        case = draw_open_case(seed * 1000 + number, [MECHANISMS[number % len(MECHANISMS)]], rows=_ROWS)
+    except ValueError as error:
+        raise DomainError(str(error), todo="take another seed") from error
+    beside = tuple((_SECOND[cause], 0.0) for cause in case.named)
+    effects = (*beside, *(("unknown", float(each.strength)) for each in case.added))
+    return KnownCase("unnamed", "unknown", case.tire, case.recording, effects)

@@ -17,7 +17,7 @@ from pydantic import Field
 
 from tire_pipeline.calibration.cases import KnownCase, plans
 from tire_pipeline.code_hash import code_hash
-from tire_pipeline.errors import DomainError
+from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.mismatch.inference.analysis import analyse
 from tire_pipeline.mismatch.inference.calibrate import START, Tuning, learn, log_scores, pruned
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
@@ -40,7 +40,7 @@ class CalibrateMismatchParameters(Parameters):
     ----------
     recordings : str
         Folder of real recordings; without it only simulated cases are used.
-    real, first, second : dict of int to int
+    real, first, second, unnamed : dict of int to int
         Seed -> number of cases of each kind.
     step : float
         Factor by which each number is tried larger and smaller; 1 learns odds and background only.
@@ -51,6 +51,7 @@ class CalibrateMismatchParameters(Parameters):
     real: dict[int, int] = {}
     first: dict[int, int] = {}
     second: dict[int, int] = {}
+    unnamed: dict[int, int] = {}
     step: float = Field(1.6, ge=1.0)
     processes: int = Field(2, ge=1)
 
@@ -58,7 +59,9 @@ class CalibrateMismatchParameters(Parameters):
 def reduce_cases(parameters: CalibrateMismatchParameters) -> Work:
     """Say how each tuning case is made and reduced to what its sets say; done once for each code."""
     code = code_hash("mismatch", "calibration", "concealed", "magic_formula")
-    made = plans(Path(parameters.recordings), parameters.real, parameters.first, parameters.second)
+    made = plans(
+        Path(parameters.recordings), parameters.real, parameters.first, parameters.second, parameters.unnamed
+    )
     return {f"{code}/{name}.pkl": _Reduced(make) for name, make in made}
 
 
@@ -71,7 +74,7 @@ class _Reduced:
     def __call__(self) -> bytes:
         try:
             return pickle.dumps(reduced(self.make()))
-        except DomainError:
+        except TirePipelineError:
             return _NOTHING
 
 
@@ -82,7 +85,7 @@ def reduced(known: KnownCase) -> Tuning | None:
         return None
     truth = known.truth
     sets = enumerate_sets(analyse(thinned(prepared.data)), START, [truth] if truth else [])
-    tuning = Tuning(sets.case, known.source, truth, known.right, known.kind == "unknown")
+    tuning = Tuning(sets.case, known.source, truth, known.right, known.unnamed)
     return pruned(tuning) if tuning.rights().any() else None
 
 
@@ -127,7 +130,7 @@ def _made_with(
 ) -> dict[str, Any]:
     return {
         "cases": dict(Counter(each.source for each in cases)),
-        "seeds": {n: list(getattr(parameters, n)) for n in ("real", "first", "second")},
+        "seeds": {n: list(getattr(parameters, n)) for n in ("real", "first", "second", "unnamed")},
         "code": code_hash("mismatch", "magic_formula", "tir"),
         "date": datetime.now(UTC).date().isoformat(),
         "log_score": float(log_scores(cases, sizes).mean()),

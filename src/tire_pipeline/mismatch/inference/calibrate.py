@@ -57,24 +57,20 @@ class Tuning:
     right : tuple of tuple of str
         All answers that are right: effects below the formula's misfit may be left out, and what a recording
         cannot tell from the truth may stand in its place.
-    unnamed : bool
-        Whether what it holds is in no catalogue.
+    unnamed : tuple of bool
+        Whether something unnamed has to be beside the names; both where either is right.
     """
 
     case: OfCase
     source: str
     truth: Names
     right: tuple[Names, ...]
-    unnamed: bool = False
+    unnamed: tuple[bool, ...] = (False,)
 
     def rights(self) -> Array:
         """Return which hypotheses are right, shape (h,)."""
-        return np.array(
-            [
-                each.unnamed if self.unnamed else each.names in self.right and not each.unnamed
-                for each in hypotheses(self.case)
-            ]
-        )
+        every = hypotheses(self.case)
+        return np.array([each.names in self.right and each.unnamed in self.unnamed for each in every])
 
 
 def pruned(each: Tuning, most: int = 16) -> Tuning:
@@ -132,7 +128,7 @@ def learnt_background(cases: Sequence[Tuning], sizes: LearntSizes) -> dict[str, 
     """Return the size of each family that makes the cases likeliest, given their true sets (one step)."""
     logs: dict[str, list[float]] = {family: [] for family in sizes.background}
     for each in cases:
-        index = None if each.unnamed else position(each.case, each.truth)
+        index = None if True in each.unnamed else position(each.case, each.truth)
         if index is None:
             continue
         power, families = background_power(each.case, index, sizes), np.array(each.case.unknown.families)
