@@ -7,7 +7,7 @@ from tir_samples import PUBLIC, need_shared
 
 from tire_pipeline.fleet.files.tir_text import HANDS
 from tire_pipeline.tir import read_tir
-from tire_pipeline.tir.header_date import measurement_date
+from tire_pipeline.tir.reading.header_date import measurement_date
 
 DAY = dt.date(2011, 1, 31)
 REST = "\n[MDI_HEADER]\nFILE_TYPE='tir'\n[UNITS]\nLENGTH='meter'\n"

@@ -12,7 +12,7 @@ from tir_samples import LATERAL, PUBLIC, tir_text
 
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tir import TirError, TirVersionError, parse_tir, read_tir, tir_bytes, write_tir
-from tire_pipeline.tir.values import format_number, format_scaled
+from tire_pipeline.tir.format.values import format_number, format_scaled
 
 ODD_TEXT = (
     "$ first = line\r\n[UNITS]\n LENGTH='mm' ! c\r\nFORCE = kN\nANGLE=deg\nMASS = gram\rTIME = 's'\n"

@@ -1,12 +1,12 @@
 """The ``.tir`` text format: reading, writing, and the file kept as it is."""
 
 from tire_pipeline.errors import TirError, TirSyntaxError, TirValueError, TirVersionError
-from tire_pipeline.tir.decode import MOST_FILE_BYTES
-from tire_pipeline.tir.document import Entry, TirFile, parse_tir
-from tire_pipeline.tir.reading import read_tir
+from tire_pipeline.tir.format.values import COMPUTED_DIGITS
+from tire_pipeline.tir.reading.read import read_tir
 from tire_pipeline.tir.sidecar import read_sidecar, sidecar_path, write_sidecar
-from tire_pipeline.tir.values import COMPUTED_DIGITS
-from tire_pipeline.tir.writing import tir_bytes, write_tir
+from tire_pipeline.tir.text.decode import MOST_FILE_BYTES
+from tire_pipeline.tir.text.document import Entry, TirFile, parse_tir
+from tire_pipeline.tir.writing.write import tir_bytes, write_tir
 
 __all__ = [
     "COMPUTED_DIGITS",

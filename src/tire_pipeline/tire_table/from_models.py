@@ -10,7 +10,7 @@ import pandas as pd
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import COEFFICIENT_NAMES, TireModel
-from tire_pipeline.tir.layout import LAYOUT
+from tire_pipeline.tir.format.layout import LAYOUT
 from tire_pipeline.tire_table.physical_tire import physical_tire_ids
 
 METADATA = {

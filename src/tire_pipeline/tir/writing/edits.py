@@ -6,9 +6,13 @@ from collections import defaultdict
 from collections.abc import Iterable
 
 from tire_pipeline.magic_formula.model import TireModel
-from tire_pipeline.tir.document import Entry, Scan, TirFile
-from tire_pipeline.tir.escaping import comment_lines
-from tire_pipeline.tir.fresh import (
+from tire_pipeline.tir.format.keys import DIMENSION, NEVER_COEFFICIENTS
+from tire_pipeline.tir.format.layout import describe, home_section
+from tire_pipeline.tir.format.values import format_scaled
+from tire_pipeline.tir.reading.read import Reading, interpret
+from tire_pipeline.tir.text.document import Entry, Scan, TirFile
+from tire_pipeline.tir.text.escaping import comment_lines
+from tire_pipeline.tir.writing.fresh import (
     NOT_GIVEN,
     entry_line,
     metadata_entries,
@@ -16,10 +20,6 @@ from tire_pipeline.tir.fresh import (
     version_labels,
     writable_defaults,
 )
-from tire_pipeline.tir.keys import DIMENSION, NEVER_COEFFICIENTS
-from tire_pipeline.tir.layout import describe, home_section
-from tire_pipeline.tir.reading import Reading, interpret
-from tire_pipeline.tir.values import format_scaled
 
 Edit = tuple[int, int, str]
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from tire_pipeline.errors import TirSyntaxError
-from tire_pipeline.tir.decode import decode, load_bytes
-from tire_pipeline.tir.keys import section_name
-from tire_pipeline.tir.values import parse_number
+from tire_pipeline.tir.format.keys import section_name
+from tire_pipeline.tir.format.values import parse_number
+from tire_pipeline.tir.text.decode import decode, load_bytes
 
 MAX_ENTRIES = 2_000
 """More keys than that are refused (real files have 100 to 400): it bounds the memory that a file can ask

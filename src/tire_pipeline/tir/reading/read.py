@@ -9,9 +9,7 @@ from dataclasses import dataclass, field
 
 from tire_pipeline.errors import TirSyntaxError, TirValueError
 from tire_pipeline.magic_formula.model import TireModel
-from tire_pipeline.tir.document import Entry, Scan, TirFile, parse_tir
-from tire_pipeline.tir.header_date import measurement_date
-from tire_pipeline.tir.keys import (
+from tire_pipeline.tir.format.keys import (
     DIMENSION,
     FORCE_SECTIONS,
     KEY_ALIASES,
@@ -20,11 +18,13 @@ from tire_pipeline.tir.keys import (
     names_coefficient,
     names_force_coefficient,
 )
-from tire_pipeline.tir.plausibility import odd_values
+from tire_pipeline.tir.format.units import FACTORS, QUANTITIES, dimension_factors, unit_factor
+from tire_pipeline.tir.format.values import parse_number
+from tire_pipeline.tir.format.version import detect_version
+from tire_pipeline.tir.reading.header_date import measurement_date
+from tire_pipeline.tir.reading.plausibility import odd_values
 from tire_pipeline.tir.sidecar import read_sidecar
-from tire_pipeline.tir.units import FACTORS, QUANTITIES, dimension_factors, unit_factor
-from tire_pipeline.tir.values import parse_number
-from tire_pipeline.tir.version import detect_version
+from tire_pipeline.tir.text.document import Entry, Scan, TirFile, parse_tir
 
 _MAX_WARNINGS = 100
 _HEADER_IN_COMMENT = re.compile(r"[$!][$! \t]*\[[^\[\]]+\]").match
@@ -55,7 +55,7 @@ def read_tir(
     """Read a tire property file.
 
     Values become SI (m, N, rad, kg, s, Pa) here, by the file's ``[UNITS]``, and nowhere else. The p, q, r, s
-    coefficients and the scale factors are taken as they are (:mod:`tire_pipeline.tir.units`). See
+    coefficients and the scale factors are taken as they are (:mod:`tire_pipeline.tir.format.units`). See
     ``docs/reference/tir_format.md`` for every rule.
 
     Parameters

@@ -7,11 +7,11 @@ from collections.abc import Iterable, Mapping
 
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.coefficients import is_possible
-from tire_pipeline.tir.escaping import comment_lines, quoted
-from tire_pipeline.tir.keys import DIMENSION, NEVER_COEFFICIENTS, names_coefficient, section_name
-from tire_pipeline.tir.layout import LAYOUT, describe, home_section
-from tire_pipeline.tir.values import format_number
-from tire_pipeline.tir.version import VERSION_FITTYP
+from tire_pipeline.tir.format.keys import DIMENSION, NEVER_COEFFICIENTS, names_coefficient, section_name
+from tire_pipeline.tir.format.layout import LAYOUT, describe, home_section
+from tire_pipeline.tir.format.values import format_number
+from tire_pipeline.tir.format.version import VERSION_FITTYP
+from tire_pipeline.tir.text.escaping import comment_lines, quoted
 
 _NAME = re.compile(r"([A-Z][A-Z0-9_ ]*)\.([A-Z_][A-Z0-9_.\-]*)").fullmatch
 _RULE = 76

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from tire_pipeline.errors import TirVersionError
-from tire_pipeline.tir.values import parse_number
+from tire_pipeline.tir.format.values import parse_number
 
 FITTYP_VERSIONS = {
     "5": "5.0",

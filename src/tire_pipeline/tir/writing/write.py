@@ -10,10 +10,10 @@ from tire_pipeline.atomic import write_bytes
 from tire_pipeline.errors import TirError
 from tire_pipeline.magic_formula.changes.convert import to_version
 from tire_pipeline.magic_formula.model import TireModel
-from tire_pipeline.tir.document import TirFile
-from tire_pipeline.tir.edits import edited_source
-from tire_pipeline.tir.fresh import fresh_text
 from tire_pipeline.tir.sidecar import sidecar_path, write_sidecar
+from tire_pipeline.tir.text.document import TirFile
+from tire_pipeline.tir.writing.edits import edited_source
+from tire_pipeline.tir.writing.fresh import fresh_text
 
 
 def write_tir(

@@ -1,0 +1,1 @@
+"""The text of a ``.tir`` file, line by line, without its meaning."""

@@ -1,0 +1,1 @@
+"""Writing a model as a ``.tir`` file, new or edited."""
