@@ -18,7 +18,7 @@ import pandas as pd
 from tire_pipeline.concealed.clean_run import fit_clean
 from tire_pipeline.concealed.constants import draw_constants
 from tire_pipeline.concealed.rig import World, add_noise, draw_noise
-from tire_pipeline.concealed.schedule import CHANNELS, Plan
+from tire_pipeline.concealed.schedule import CHANNELS, CasePlan
 from tire_pipeline.tir import write_tir
 
 HERE = Path(__file__).resolve().parent
@@ -34,7 +34,7 @@ UNITS = {"time": "s", "slip_angle": "deg", "normal_load": "N", "pressure": "kPa"
 TITLES = {"time": "ET", "slip_angle": "SA", "normal_load": "FZ", "pressure": "P", "speed": "V", "fy": "FY"}
 
 
-def sweeps(plan: Plan, pressures: tuple[float, ...], loads: tuple[float, ...]) -> pd.DataFrame:
+def sweeps(plan: CasePlan, pressures: tuple[float, ...], loads: tuple[float, ...]) -> pd.DataFrame:
     """One sweep of the slip angle to both sides at each pressure and load."""
     period = 4.0 * plan.amplitude / plan.rate
     phase = np.arange(round(period * RATE)) / RATE / period
@@ -65,7 +65,7 @@ def main(folder: Path = HERE) -> None:
     """Draw the tire, fit the file, record both runs."""
     rng = np.random.default_rng(SEED)
     constants = draw_constants(rng)
-    plan = Plan(
+    plan = CasePlan(
         blocks=(),
         single_speed=True,
         single_load=False,
