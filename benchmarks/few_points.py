@@ -17,9 +17,9 @@ import numpy as np
 import pandas as pd
 from real_recordings import error
 
-from tire_pipeline.concealed.constants import draw_constants
-from tire_pipeline.concealed.rig import World
-from tire_pipeline.concealed.schedule import CHANNELS
+from tire_pipeline.concealed.brush_rig.constants import draw_constants
+from tire_pipeline.concealed.brush_rig.schedule import CHANNELS
+from tire_pipeline.concealed.brush_rig.simulate import World
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.magic_formula.fitting import fit_magic_formula, joint, stage_fit
 from tire_pipeline.magic_formula.fitting.typical import SPREAD

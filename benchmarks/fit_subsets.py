@@ -36,9 +36,9 @@ from doc_tables import markdown, write_between
 from threadpoolctl import threadpool_limits
 
 from tire_pipeline import magic_formula
-from tire_pipeline.concealed.constants import draw_constants
-from tire_pipeline.concealed.rig import World
-from tire_pipeline.concealed.schedule import CHANNELS
+from tire_pipeline.concealed.brush_rig.constants import draw_constants
+from tire_pipeline.concealed.brush_rig.schedule import CHANNELS
+from tire_pipeline.concealed.brush_rig.simulate import World
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula, given
 from tire_pipeline.magic_formula.fitting.solve import Problem, quick

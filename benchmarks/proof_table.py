@@ -15,7 +15,7 @@ import pandas as pd
 from doc_tables import markdown, write_between
 
 from tire_pipeline.concealed.real.published import published, published_text
-from tire_pipeline.concealed.score_words import in_words, outcome
+from tire_pipeline.concealed.scoring.words import in_words, outcome
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benchmarks" / "results"

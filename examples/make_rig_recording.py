@@ -15,10 +15,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.concealed.clean_run import fit_clean
-from tire_pipeline.concealed.constants import draw_constants
-from tire_pipeline.concealed.rig import World, add_noise, draw_noise
-from tire_pipeline.concealed.schedule import CHANNELS, CasePlan
+from tire_pipeline.concealed.brush_rig.constants import draw_constants
+from tire_pipeline.concealed.brush_rig.schedule import CHANNELS, CasePlan
+from tire_pipeline.concealed.brush_rig.simulate import World, add_noise, draw_noise
+from tire_pipeline.concealed.cases.clean_run import fit_clean
 from tire_pipeline.tir import write_tir
 
 HERE = Path(__file__).resolve().parent

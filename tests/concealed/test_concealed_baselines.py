@@ -9,13 +9,13 @@ import pytest
 from tire_pipeline.concealed import held_out_errors, make_case
 from tire_pipeline.concealed.baselines import BASELINES
 from tire_pipeline.concealed.baselines.regressors import make_groups
-from tire_pipeline.concealed.clean_run import residual
+from tire_pipeline.concealed.cases.clean_run import residual
 
 
 def case_with(name: str, kind: str, over_noise: float):
     for seed in range(300):
-        from tire_pipeline.concealed.choice import choose
-        from tire_pipeline.concealed.names import CASE_KINDS
+        from tire_pipeline.concealed.cases.drawn_effects import choose
+        from tire_pipeline.concealed.effect_names import CASE_KINDS
 
         root = np.random.SeedSequence([seed, CASE_KINDS.index(kind)])
         rng = np.random.default_rng(root.spawn(61)[0])
@@ -67,7 +67,7 @@ def test_a_gaussian_process_improves_unseen_data_and_names_nothing(pressure, ans
 
 
 def test_plain_stepwise_names_false_physics_where_nothing_is_missing():
-    from tire_pipeline.concealed.names import PHYSICS
+    from tire_pipeline.concealed.effect_names import PHYSICS
 
     wrong = 0
     for seed in range(6):

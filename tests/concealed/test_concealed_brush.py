@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from tire_pipeline.concealed import brush
-from tire_pipeline.concealed.constants import TireConstants, draw_constants
+from tire_pipeline.concealed.brush_rig import brush
+from tire_pipeline.concealed.brush_rig.constants import TireConstants, draw_constants
 
 DT = 0.02
 

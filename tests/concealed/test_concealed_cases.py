@@ -9,16 +9,22 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.concealed import Answer, case_plan, make_case, make_cases, seal, unseal
-from tire_pipeline.concealed import strength as strength_module
-from tire_pipeline.concealed.artefacts import ArtefactDetails, apply_artefact
-from tire_pipeline.concealed.choice import KIND_SHARES, choose
-from tire_pipeline.concealed.clean_run import residual, rms
-from tire_pipeline.concealed.constants import draw_constants, without_cooling
-from tire_pipeline.concealed.location import regimes, windows
-from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, HEAT_OR_WEAR, PHYSICS, UNKNOWN_EFFECTS
-from tire_pipeline.concealed.rig import SensorNoise, World, add_noise
-from tire_pipeline.concealed.schedule import OPTIONAL_BLOCKS, draw_plan, make_schedule
-from tire_pipeline.concealed.unknown import play
+from tire_pipeline.concealed.brush_rig.artefacts import ArtefactDetails, apply_artefact
+from tire_pipeline.concealed.brush_rig.constants import draw_constants, without_cooling
+from tire_pipeline.concealed.brush_rig.schedule import OPTIONAL_BLOCKS, draw_plan, make_schedule
+from tire_pipeline.concealed.brush_rig.simulate import SensorNoise, World, add_noise
+from tire_pipeline.concealed.brush_rig.unknown_effects import play
+from tire_pipeline.concealed.cases import effect_size
+from tire_pipeline.concealed.cases.clean_run import residual, rms
+from tire_pipeline.concealed.cases.drawn_effects import KIND_SHARES, choose
+from tire_pipeline.concealed.cases.windows_and_regimes import regimes, windows
+from tire_pipeline.concealed.effect_names import (
+    AMBIGUOUS_SETS,
+    ARTEFACTS,
+    HEAT_OR_WEAR,
+    PHYSICS,
+    UNKNOWN_EFFECTS,
+)
 from tire_pipeline.errors import DomainError
 
 
@@ -83,17 +89,17 @@ def test_effects_are_between_half_and_six_times_the_misfit(made):
 
 def test_a_third_of_the_drawn_strengths_is_below_twice_the_misfit():
     rng = np.random.default_rng(0)
-    drawn = np.array([strength_module.draw_ratio(rng, 0.5, 6.0) for _ in range(4000)])
+    drawn = np.array([effect_size.draw_ratio(rng, 0.5, 6.0) for _ in range(4000)])
     assert drawn.min() >= 0.5
     assert drawn.max() <= 6.0
     assert np.mean(drawn < 2.0) > 0.40
 
 
 def test_find_strength_meets_what_was_wanted_and_respects_limits():
-    found, got = strength_module.find_strength(lambda x: 3.0 * x**1.5, 2.0, 0.1, (0.0, 10.0))
+    found, got = effect_size.find_strength(lambda x: 3.0 * x**1.5, 2.0, 0.1, (0.0, 10.0))
     assert got == pytest.approx(2.0, rel=0.15)
     assert 3.0 * found**1.5 == pytest.approx(got)
-    found, _ = strength_module.find_strength(lambda x: x, 5.0, 0.1, (0.01, 1.0))
+    found, _ = effect_size.find_strength(lambda x: x, 5.0, 0.1, (0.01, 1.0))
     assert found == 1.0
 
 

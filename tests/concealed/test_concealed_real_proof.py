@@ -6,8 +6,8 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.concealed import EffectTruth
-from tire_pipeline.concealed import real_proof as real_nodes
-from tire_pipeline.concealed.proof import ProveConcealedParameters
+from tire_pipeline.concealed.proof import recorded as real_nodes
+from tire_pipeline.concealed.proof.simulated import ProveConcealedParameters
 from tire_pipeline.concealed.real import RealAnswer
 from tire_pipeline.concealed.real.parameters import RealParameters
 from tire_pipeline.concealed.real.published import published_text

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from tire_pipeline.concealed import Answer, EffectTruth, score
-from tire_pipeline.concealed.measures import calibration_error, interval_iou
-from tire_pipeline.concealed.names import AMBIGUOUS_SETS
-from tire_pipeline.concealed.score import covers, exact_set, false_physics, recovered
-from tire_pipeline.concealed.score_words import in_words, outcome
+from tire_pipeline.concealed.effect_names import AMBIGUOUS_SETS
+from tire_pipeline.concealed.scoring.measures import calibration_error, interval_iou
+from tire_pipeline.concealed.scoring.score import covers, exact_set, false_physics, recovered
+from tire_pipeline.concealed.scoring.words import in_words, outcome
 from tire_pipeline.errors import DomainError
 
 

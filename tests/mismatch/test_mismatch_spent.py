@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.concealed import make_case
-from tire_pipeline.concealed.score import share_row
+from tire_pipeline.concealed.scoring.score import share_row
 from tire_pipeline.mismatch import explain_mismatch
 
 CASES = pd.read_csv(Path(__file__).with_name("spent_cases.csv"))

@@ -4,10 +4,10 @@ A brush tire that is no Magic Formula is run on a rig with an effect that its ``
 See ``docs/explanation/concealed.md``.
 """
 
-from tire_pipeline.concealed.answers import Answer, EffectTruth, seal, unseal
-from tire_pipeline.concealed.case import Case, CaseSettings, case_plan, make_case, make_cases
-from tire_pipeline.concealed.held_out import held_out_errors
-from tire_pipeline.concealed.score import score
+from tire_pipeline.concealed.cases.answers import Answer, EffectTruth, seal, unseal
+from tire_pipeline.concealed.cases.make import Case, CaseSettings, case_plan, make_case, make_cases
+from tire_pipeline.concealed.scoring.held_out import held_out_errors
+from tire_pipeline.concealed.scoring.score import score
 
 __all__ = [
     "Answer",

@@ -10,7 +10,7 @@ from scipy.optimize import minimize
 
 from tire_pipeline.channels import POINT_CHANNELS
 from tire_pipeline.concealed.baselines.report import BaselineReport, fit_entry
-from tire_pipeline.concealed.clean_run import residual
+from tire_pipeline.concealed.cases.clean_run import residual
 from tire_pipeline.magic_formula import TireModel
 
 _INPUTS = (*POINT_CHANNELS, "tread_temperature", "turn_slip")

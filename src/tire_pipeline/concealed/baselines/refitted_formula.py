@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.concealed.baselines.report import BaselineReport, fit_entry
-from tire_pipeline.concealed.clean_run import model_forces, residual
+from tire_pipeline.concealed.cases.clean_run import model_forces, residual
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 

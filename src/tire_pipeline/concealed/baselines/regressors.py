@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.concealed.clean_run import model_forces
+from tire_pipeline.concealed.cases.clean_run import model_forces
 from tire_pipeline.magic_formula import TireModel
 
 Groups = dict[str, np.ndarray]

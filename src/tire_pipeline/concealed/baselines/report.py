@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.concealed.clean_run import model_forces
-from tire_pipeline.concealed.location import regimes, windows
-from tire_pipeline.concealed.names import PHYSICS
+from tire_pipeline.concealed.cases.clean_run import model_forces
+from tire_pipeline.concealed.cases.windows_and_regimes import regimes, windows
+from tire_pipeline.concealed.effect_names import PHYSICS
 from tire_pipeline.magic_formula import TireModel
 
 

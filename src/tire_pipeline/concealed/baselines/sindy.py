@@ -18,7 +18,7 @@ from tire_pipeline.concealed.baselines.report import (
     fit_entry,
     noise_floor,
 )
-from tire_pipeline.concealed.clean_run import residual
+from tire_pipeline.concealed.cases.clean_run import residual
 from tire_pipeline.magic_formula import TireModel
 
 _NAME_OF = {

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.concealed import strength
-from tire_pipeline.concealed.answers import Answer, EffectTruth
-from tire_pipeline.concealed.case import Case
-from tire_pipeline.concealed.clean_run import model_forces
-from tire_pipeline.concealed.location import regimes, windows
+from tire_pipeline.concealed.cases import effect_size
+from tire_pipeline.concealed.cases.answers import Answer, EffectTruth
+from tire_pipeline.concealed.cases.clean_run import model_forces
+from tire_pipeline.concealed.cases.make import Case
+from tire_pipeline.concealed.cases.windows_and_regimes import regimes, windows
 from tire_pipeline.concealed.real.layout import Layout, at_rate, draw_layout, fitted, rows
 from tire_pipeline.concealed.real.plan import RealPlan, draw_effects
 from tire_pipeline.concealed.real.put_in import (
@@ -243,14 +243,14 @@ def _scale(rng: np.random.Generator, bench: _RealBench, name: str, details: Mapp
         if _rms(bench.effect({name: 1.0}, details)) < EFFECT[0] * bench.misfit:
             raise _UnfitSweeps
         return 1.0
-    wanted = strength.draw_ratio(rng, *EFFECT)
+    wanted = effect_size.draw_ratio(rng, *EFFECT)
     sign = details[name].sign if mechanism.signed else 1.0
     unit = {"force": bench.session.largest, "radius": bench.session.radius}.get(mechanism.share_of, 1.0)
 
     def measure(x: float) -> float:
         return _rms(bench.effect({name: sign * x}, details)) / bench.misfit
 
-    found, got = strength.find_strength(
+    found, got = effect_size.find_strength(
         measure, wanted, unit * mechanism.guess, (unit * mechanism.low, unit * mechanism.high)
     )
     if not EFFECT[0] <= got <= EFFECT[1]:

@@ -16,8 +16,8 @@ from typing import TypeAlias
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.concealed.artefacts import UNIT_ERRORS, low_pass
-from tire_pipeline.concealed.clean_run import model_forces
+from tire_pipeline.concealed.brush_rig.artefacts import UNIT_ERRORS, low_pass
+from tire_pipeline.concealed.cases.clean_run import model_forces
 from tire_pipeline.magic_formula import TireModel
 
 Frame: TypeAlias = pd.DataFrame

@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.concealed.answers import EffectTruth
-from tire_pipeline.concealed.names import ARTEFACTS, PHYSICS
+from tire_pipeline.concealed.cases.answers import EffectTruth
+from tire_pipeline.concealed.effect_names import ARTEFACTS, PHYSICS
 from tire_pipeline.concealed.real.cases import RealAnswer
-from tire_pipeline.concealed.score import Report, mean_row, recovered, share_row
+from tire_pipeline.concealed.scoring.score import Report, mean_row, recovered, share_row
 
 MOST_NAMES = 3
 """A larger set counts as no answer."""

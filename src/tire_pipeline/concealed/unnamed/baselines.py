@@ -10,7 +10,7 @@ from sklearn.ensemble import HistGradientBoostingRegressor
 
 from tire_pipeline.channels import POINT_CHANNELS
 from tire_pipeline.concealed.baselines import explain_gaussian_process, explain_sindy
-from tire_pipeline.concealed.clean_run import model_forces, residual
+from tire_pipeline.concealed.cases.clean_run import model_forces, residual
 from tire_pipeline.magic_formula import TireModel
 
 Predict = Callable[[pd.DataFrame], pd.DataFrame]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.concealed.clean_run import model_forces
+from tire_pipeline.concealed.cases.clean_run import model_forces
 from tire_pipeline.concealed.open_world.mechanism import Mechanism
 from tire_pipeline.concealed.unnamed.cases import OpenCase
 from tire_pipeline.mismatch.report.result import MismatchReport

@@ -5,19 +5,19 @@ Once on cases of the rig simulator, once on cases made from real recordings; one
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.concealed.proof import (
-    explain_by_baselines,
-    explain_cases,
-    make_cases,
-    part_cases,
-    score_proof,
-)
-from tire_pipeline.concealed.real_proof import (
+from tire_pipeline.concealed.proof.recorded import (
     explain_real_by_baselines,
     explain_real_cases,
     make_real_cases,
     part_real_cases,
     score_real_proof,
+)
+from tire_pipeline.concealed.proof.simulated import (
+    explain_by_baselines,
+    explain_cases,
+    make_cases,
+    part_cases,
+    score_proof,
 )
 from tire_pipeline.reporting.proof_page import proof_page
 

@@ -6,12 +6,12 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from tire_pipeline.concealed import brush
+from tire_pipeline.concealed.brush_rig import brush
 
 
 @dataclass(frozen=True)
 class TireConstants:
-    """What :mod:`tire_pipeline.concealed.brush` needs to know, in SI units.
+    """What :mod:`tire_pipeline.concealed.brush_rig.brush` needs to know, in SI units.
 
     The order of the fields is that of the positions in ``brush``; ``vector`` makes the array.
     """

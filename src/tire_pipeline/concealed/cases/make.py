@@ -8,15 +8,16 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.concealed import artefacts, strength
-from tire_pipeline.concealed.answers import Answer, EffectTruth
-from tire_pipeline.concealed.choice import KIND_SHARES, Choice, choose
-from tire_pipeline.concealed.clean_run import fit_clean, model_forces, residual, rms
-from tire_pipeline.concealed.constants import draw_constants, without_cooling
-from tire_pipeline.concealed.location import regimes, windows
-from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, CASE_KINDS, HEAT_OR_WEAR, PHYSICS
-from tire_pipeline.concealed.rig import RIG_FORCES, SensorNoise, World, add_noise, draw_noise
-from tire_pipeline.concealed.schedule import CasePlan, draw_plan, make_schedule
+from tire_pipeline.concealed.brush_rig import artefacts
+from tire_pipeline.concealed.brush_rig.constants import draw_constants, without_cooling
+from tire_pipeline.concealed.brush_rig.schedule import CasePlan, draw_plan, make_schedule
+from tire_pipeline.concealed.brush_rig.simulate import RIG_FORCES, SensorNoise, World, add_noise, draw_noise
+from tire_pipeline.concealed.cases import effect_size
+from tire_pipeline.concealed.cases.answers import Answer, EffectTruth
+from tire_pipeline.concealed.cases.clean_run import fit_clean, model_forces, residual, rms
+from tire_pipeline.concealed.cases.drawn_effects import KIND_SHARES, Choice, choose
+from tire_pipeline.concealed.cases.windows_and_regimes import regimes, windows
+from tire_pipeline.concealed.effect_names import AMBIGUOUS_SETS, ARTEFACTS, CASE_KINDS, HEAT_OR_WEAR, PHYSICS
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireModel
 
@@ -267,9 +268,9 @@ def _scale(rng: np.random.Generator, bench: _Bench, name: str, settings: CaseSet
         if rms(bench.effect({name: 1.0})) < settings.effect[0] * bench.misfit:
             raise _Unfit
         return 1.0
-    wanted = strength.draw_ratio(rng, *settings.effect)
-    sign = float(rng.choice([-1.0, 1.0])) if name in strength.SIGNED else 1.0
-    low, high = strength.STRENGTH_LIMITS[name]
+    wanted = effect_size.draw_ratio(rng, *settings.effect)
+    sign = float(rng.choice([-1.0, 1.0])) if name in effect_size.SIGNED else 1.0
+    low, high = effect_size.STRENGTH_LIMITS[name]
     if name == "combined_slip":
         base = bench.world.constants.coupling
         sign = 1.0 if base < 0.5 else sign
@@ -280,8 +281,8 @@ def _scale(rng: np.random.Generator, bench: _Bench, name: str, settings: CaseSet
     def measure(x: float) -> float:
         return rms(bench.effect({name: sign * x})) / bench.misfit
 
-    guess = min(max(strength.STRENGTH_GUESS[name], low), high)
-    found, got = strength.find_strength(measure, wanted, guess, (low, high))
+    guess = min(max(effect_size.STRENGTH_GUESS[name], low), high)
+    found, got = effect_size.find_strength(measure, wanted, guess, (low, high))
     if not settings.effect[0] <= got <= settings.effect[1]:
         raise _Unfit
     return sign * found

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from tire_pipeline.concealed import artefacts, unknown
+from tire_pipeline.concealed.brush_rig import artefacts, unknown_effects
 
 PHYSICS_GUESS: dict[str, float] = {
     "friction_scale": 0.04,
@@ -55,8 +55,8 @@ SIGNED = (
 )
 """Effects whose sign is drawn as well."""
 
-STRENGTH_GUESS = PHYSICS_GUESS | artefacts.ARTEFACT_GUESS | unknown.UNKNOWN_GUESS
-STRENGTH_LIMITS = PHYSICS_LIMITS | artefacts.ARTEFACT_LIMITS | unknown.UNKNOWN_LIMITS
+STRENGTH_GUESS = PHYSICS_GUESS | artefacts.ARTEFACT_GUESS | unknown_effects.UNKNOWN_GUESS
+STRENGTH_LIMITS = PHYSICS_LIMITS | artefacts.ARTEFACT_LIMITS | unknown_effects.UNKNOWN_LIMITS
 
 
 def draw_ratio(rng, low: float, high: float) -> float:  # type: ignore[no-untyped-def]

@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.concealed.case import Case
-from tire_pipeline.concealed.clean_run import model_forces
-from tire_pipeline.concealed.rig import RIG_FORCES
+from tire_pipeline.concealed.brush_rig.simulate import RIG_FORCES
+from tire_pipeline.concealed.cases.clean_run import model_forces
+from tire_pipeline.concealed.cases.make import Case
 
 
 def held_out_errors(

@@ -9,12 +9,12 @@ import numpy as np
 import pandas as pd
 import scipy
 
-from tire_pipeline.concealed import brush
-from tire_pipeline.concealed.artefacts import ArtefactDetails, apply_artefact
-from tire_pipeline.concealed.constants import TireConstants
-from tire_pipeline.concealed.names import ARTEFACTS
-from tire_pipeline.concealed.schedule import CHANNELS
-from tire_pipeline.concealed.unknown import act_on_forces, play
+from tire_pipeline.concealed.brush_rig import brush
+from tire_pipeline.concealed.brush_rig.artefacts import ArtefactDetails, apply_artefact
+from tire_pipeline.concealed.brush_rig.constants import TireConstants
+from tire_pipeline.concealed.brush_rig.schedule import CHANNELS
+from tire_pipeline.concealed.brush_rig.unknown_effects import act_on_forces, play
+from tire_pipeline.concealed.effect_names import ARTEFACTS
 
 RIG_FORCES = ("fx", "fy")
 """Outputs that are recorded."""

@@ -12,9 +12,9 @@ from typing import Any
 import pandas as pd
 
 from tire_pipeline.code_hash import code_hash
-from tire_pipeline.concealed import case_files as files
 from tire_pipeline.concealed import unseal
-from tire_pipeline.concealed.proof import (
+from tire_pipeline.concealed.proof import case_files as files
+from tire_pipeline.concealed.proof.simulated import (
     METHOD,
     Folder,
     ProveConcealedParameters,

@@ -13,7 +13,7 @@ from pydantic import Field
 
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.concealed import Answer, Case, case_plan, held_out_errors, score, seal, unseal
-from tire_pipeline.concealed import case_files as files
+from tire_pipeline.concealed.proof import case_files as files
 from tire_pipeline.concealed.real.parameters import RealParameters
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.progress import track

@@ -6,7 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tire_pipeline.concealed.names import AMBIGUOUS_SETS, ARTEFACTS, HEAT_OR_WEAR, PHYSICS, UNKNOWN_EFFECTS
+from tire_pipeline.concealed.effect_names import (
+    AMBIGUOUS_SETS,
+    ARTEFACTS,
+    HEAT_OR_WEAR,
+    PHYSICS,
+    UNKNOWN_EFFECTS,
+)
 
 KIND_SHARES: dict[str, float] = {
     "nothing": 0.20,

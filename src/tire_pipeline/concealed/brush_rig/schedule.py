@@ -15,7 +15,7 @@ import pandas as pd
 import scipy
 
 from tire_pipeline.channels import POINT_CHANNELS
-from tire_pipeline.concealed.names import HEAT_OR_WEAR
+from tire_pipeline.concealed.effect_names import HEAT_OR_WEAR
 
 CHANNELS = (*POINT_CHANNELS, "turn_slip")
 """Inputs of the tire, in the order of the columns that :mod:`brush` takes."""

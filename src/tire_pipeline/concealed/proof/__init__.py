@@ -1,0 +1,1 @@
+"""The proof: cases are made, explained and scored, simulated ones and real recordings."""

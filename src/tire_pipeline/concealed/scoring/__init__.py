@@ -1,0 +1,1 @@
+"""Explanations against sealed answers, and what the scores are called on a page."""
