@@ -14,7 +14,7 @@ from pydantic import Field, ValidationError
 
 from tire_pipeline.atomic import check_before_replacing
 from tire_pipeline.data_place import data_place
-from tire_pipeline.datasets.text_folder import TextFolderDataset
+from tire_pipeline.datasets.texts.text_folder import TextFolderDataset
 from tire_pipeline.errors import DomainError
 from tire_pipeline.newest_tables import tables_place
 from tire_pipeline.objects import Objects

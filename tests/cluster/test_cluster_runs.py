@@ -135,7 +135,7 @@ def test_a_killed_scheduler_costs_what_was_under_way_only(tmp_path, chosen, clus
 
 @pytest.mark.long
 def test_a_file_that_ends_its_reader_is_in_the_report_by_name(tmp_path, chosen):
-    from tire_pipeline.datasets.tir_folder import TirLoader
+    from tire_pipeline.datasets.users_files.tir_folder import TirLoader
 
     good = ROOT / "examples" / "tire.tir"
     files = {f"A/{n}.tir": TirLoader(str(good)) for n in range(3)}

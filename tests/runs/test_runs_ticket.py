@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from tire_pipeline.atomic import check_before_replacing, replaced_file, replaced_folder
-from tire_pipeline.datasets._one_at_a_time import locked
+from tire_pipeline.datasets.storage.one_at_a_time import locked
 from tire_pipeline.errors import DomainError
 from tire_pipeline.runs import LostTicketError, Note, Ticket, system_lock, take_turn
 from tire_pipeline.runs import ticket as tickets

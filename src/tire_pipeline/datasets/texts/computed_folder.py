@@ -10,9 +10,9 @@ from typing import Any
 from kedro.io.core import AbstractDataset
 
 from tire_pipeline.cluster import work_map
-from tire_pipeline.datasets.files_at import Files, files_at
-from tire_pipeline.datasets.text_folder import _inside
-from tire_pipeline.datasets.text_objects import NEVER_DELETED
+from tire_pipeline.datasets.storage.files_at import Files, files_at
+from tire_pipeline.datasets.texts.text_folder import _inside
+from tire_pipeline.datasets.texts.text_objects import NEVER_DELETED
 from tire_pipeline.errors import DomainError
 from tire_pipeline.objects import Objects
 from tire_pipeline.tasks import LostTaskError

@@ -7,8 +7,8 @@ from typing import Any, NoReturn
 
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.datasets.text_folder import made_here
-from tire_pipeline.datasets.text_objects import made_there
+from tire_pipeline.datasets.texts.text_folder import made_here
+from tire_pipeline.datasets.texts.text_objects import made_there
 from tire_pipeline.errors import DomainError
 from tire_pipeline.objects import Objects, is_remote
 

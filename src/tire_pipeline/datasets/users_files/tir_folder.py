@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 
 from kedro_datasets.partitions import PartitionedDataset
 
-from tire_pipeline.datasets.tir_file import TirDataset
+from tire_pipeline.datasets.users_files.tir_file import TirDataset
 from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.file_names import shown_name
 from tire_pipeline.folder_walk import walk

@@ -10,9 +10,9 @@ from typing import Any
 
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.datasets._one_at_a_time import held, refuse_other_revision, replace_unless_changed
-from tire_pipeline.datasets.files_at import Files, files_at
-from tire_pipeline.datasets.table_parts import read_part
+from tire_pipeline.datasets.storage.files_at import Files, files_at
+from tire_pipeline.datasets.storage.one_at_a_time import held, refuse_other_revision, replace_unless_changed
+from tire_pipeline.datasets.tables.table_parts import read_part
 from tire_pipeline.errors import DomainError
 from tire_pipeline.objects import Objects
 from tire_pipeline.packed import as_parquet

@@ -8,8 +8,8 @@ from typing import Any
 
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.datasets._one_at_a_time import held, refuse_other_revision, replace_unless_changed
-from tire_pipeline.datasets.files_at import files_at
+from tire_pipeline.datasets.storage.files_at import files_at
+from tire_pipeline.datasets.storage.one_at_a_time import held, refuse_other_revision, replace_unless_changed
 from tire_pipeline.errors import DomainError
 from tire_pipeline.retraining.model import CategoryModel
 from tire_pipeline.retraining.release import (

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from tire_pipeline.datasets.files_at import files_at
-from tire_pipeline.datasets.versioned import VersionedDataset
+from tire_pipeline.datasets.storage.files_at import files_at
+from tire_pipeline.datasets.storage.versioned import VersionedDataset
 from tire_pipeline.state_files import pack_state, unpack_state
 
 __all__ = ["StateDataset", "pack_state", "unpack_state"]

@@ -1,0 +1,1 @@
+"""Trained models, and which of them is released."""

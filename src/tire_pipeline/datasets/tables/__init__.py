@@ -1,0 +1,1 @@
+"""Tables: for a spreadsheet, in parts, and of all files read so far."""

@@ -1,0 +1,1 @@
+"""Pages, texts, and folders of them."""

@@ -1,0 +1,1 @@
+"""Folders that the user filled: tire property files and recordings."""
