@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tire_pipeline.translation.population.class_input import ClassSearchInput
-from tire_pipeline.translation.population.class_search import find_classes, refined_classes, with_classes
-from tire_pipeline.translation.population.class_starts import starts
-from tire_pipeline.translation.population.classes import TireClasses, fit_shares, log_density
+from tire_pipeline.translation.population.classes.search import find_classes, refined_classes, with_classes
+from tire_pipeline.translation.population.classes.search_input import ClassSearchInput
+from tire_pipeline.translation.population.classes.search_starts import starts
+from tire_pipeline.translation.population.classes.tire_classes import TireClasses, fit_shares, log_density
 from tire_pipeline.translation.population.mixed_effects import Design, MarginalLikelihood, posterior_weights
 
 pytestmark = pytest.mark.slow

@@ -6,9 +6,9 @@ import pytest
 
 from tire_pipeline.reporting.translation.translated_folder_page import translate_page
 from tire_pipeline.translation.parameters import TranslateParameters
-from tire_pipeline.translation.population import protocol_search
-from tire_pipeline.translation.population.protocol_search import Dated, find_changes
-from tire_pipeline.translation.population.protocols import Change, Protocols, days_of
+from tire_pipeline.translation.population.protocols import search as protocol_search
+from tire_pipeline.translation.population.protocols.of_files import Change, Protocols, days_of
+from tire_pipeline.translation.population.protocols.search import Dated, find_changes
 
 pytestmark = pytest.mark.slow
 

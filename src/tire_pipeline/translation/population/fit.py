@@ -15,15 +15,15 @@ from tire_pipeline.translation.population.category_spread import (
     own_spread,
     shared_cells,
 )
-from tire_pipeline.translation.population.class_input import ClassSearchInput
-from tire_pipeline.translation.population.class_search import find_classes, with_classes
-from tire_pipeline.translation.population.classes import TireClasses
+from tire_pipeline.translation.population.classes.search import find_classes, with_classes
+from tire_pipeline.translation.population.classes.search_input import ClassSearchInput
+from tire_pipeline.translation.population.classes.tire_classes import TireClasses
 from tire_pipeline.translation.population.fit_links import Deviations, FitLinks, find_links, linked_blocks
 from tire_pipeline.translation.population.kinds import TIRE_BLOCKS, TireKinds, tire_regressors, with_kinds
 from tire_pipeline.translation.population.mixed_effects import Design, Fitted, fit_mixed_effects
 from tire_pipeline.translation.population.model import CurveMixedModel, design_blocks
-from tire_pipeline.translation.population.protocol_search import Dated, find_changes
-from tire_pipeline.translation.population.protocols import NO_PROTOCOL_CHANGE, Protocols, days_of
+from tire_pipeline.translation.population.protocols.of_files import NO_PROTOCOL_CHANGE, Protocols, days_of
+from tire_pipeline.translation.population.protocols.search import Dated, find_changes
 
 VARIANCE_GUESS = {
     "level": 100.0,

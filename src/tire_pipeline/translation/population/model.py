@@ -19,13 +19,13 @@ import pandas as pd
 
 from tire_pipeline.translation.curves.space import CurveSpace
 from tire_pipeline.translation.metadata import Metadata
-from tire_pipeline.translation.population.class_input import per_tire
-from tire_pipeline.translation.population.class_search import with_classes
-from tire_pipeline.translation.population.classes import TireClasses
+from tire_pipeline.translation.population.classes.search import with_classes
+from tire_pipeline.translation.population.classes.search_input import per_tire
+from tire_pipeline.translation.population.classes.tire_classes import TireClasses
 from tire_pipeline.translation.population.fit_links import FitLinks, linked_blocks
 from tire_pipeline.translation.population.kinds import TireKinds, with_kinds
 from tire_pipeline.translation.population.mixed_effects import Fitted
-from tire_pipeline.translation.population.protocols import NO_PROTOCOL_CHANGE, Protocols
+from tire_pipeline.translation.population.protocols.of_files import NO_PROTOCOL_CHANGE, Protocols
 from tire_pipeline.translation.population.score_prediction import CategoryReading, predict_block
 
 
@@ -113,7 +113,7 @@ class CurveMixedModel:
     ) -> list[dict[str, np.ndarray]]:
         """Blocks of the design, without tire effects and kinds, if ``category`` had measured, for each class.
 
-        ``protocol`` is the protocols' code, (n, changes), see :class:`.protocols.Protocols`.
+        ``protocol`` is the protocols' code, (n, changes), see :class:`.protocols.of_files.Protocols`.
         """
         blocks = design_blocks(self.metadata, table, category, self.categories, protocol)
         if self.classes is None:
@@ -319,8 +319,8 @@ def design_blocks(
 ) -> dict[str, np.ndarray]:
     """Lay out the regressors of n tires as if ``category`` had measured them, by block, each (n, columns).
 
-    ``protocol`` (n, changes) is what :class:`.protocols.Protocols` gives; it is left out if it has no column.
-    :func:`.class_search.with_classes` and :func:`.kinds.with_kinds` add theirs.
+    ``protocol`` (n, changes) is what :class:`.protocols.of_files.Protocols` gives; left out without columns.
+    :func:`.classes.search.with_classes` and :func:`.kinds.with_kinds` add theirs.
     """
     x = metadata.regressors(table)
     organisation = (category[:, None] == np.array(categories)[None, :]).astype(float)

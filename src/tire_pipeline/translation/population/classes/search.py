@@ -9,9 +9,14 @@ import numpy as np
 from scipy.special import logsumexp
 
 from tire_pipeline.progress import track
-from tire_pipeline.translation.population.class_input import ClassSearchInput, per_tire
-from tire_pipeline.translation.population.class_starts import starts
-from tire_pipeline.translation.population.classes import TireClasses, fit_shares, log_density, log_shares
+from tire_pipeline.translation.population.classes.search_input import ClassSearchInput, per_tire
+from tire_pipeline.translation.population.classes.search_starts import starts
+from tire_pipeline.translation.population.classes.tire_classes import (
+    TireClasses,
+    fit_shares,
+    log_density,
+    log_shares,
+)
 from tire_pipeline.translation.population.mixed_effects import Design, Fitted, posterior_weights
 
 COUNTS = (1, 2, 3, 4)

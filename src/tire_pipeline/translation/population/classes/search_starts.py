@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.translation.population.class_input import ClassSearchInput, per_tire
-from tire_pipeline.translation.population.classes import fit_shares, log_shares
+from tire_pipeline.translation.population.classes.search_input import ClassSearchInput, per_tire
+from tire_pipeline.translation.population.classes.tire_classes import fit_shares, log_shares
 from tire_pipeline.translation.population.mixed_effects import posterior_weights
 
 _TRIES = 2  # of each clustering, of which the best counts

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
-from tire_pipeline.translation.population.protocols import Change
+from tire_pipeline.translation.population.protocols.of_files import Change
 
 PRIOR = 0.01
 """Probability that a category changed its protocol, before the files are looked at."""

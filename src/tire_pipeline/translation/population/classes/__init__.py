@@ -1,0 +1,1 @@
+"""Classes of tires that no metadata names, and the search for them."""

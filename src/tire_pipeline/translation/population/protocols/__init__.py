@@ -1,0 +1,1 @@
+"""Categories that changed how they measure, and the search for the day."""
