@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from tire_pipeline.objects import Objects, is_remote
+from tire_pipeline.files.objects import Objects, is_remote
 
 
 def data_place(context: Any) -> Path | Objects:

@@ -11,7 +11,7 @@ from kedro.framework.hooks import hook_impl
 
 from tire_pipeline.data_place import data_place
 from tire_pipeline.datasets import HtmlPageDataset
-from tire_pipeline.objects import Objects
+from tire_pipeline.files.objects import Objects
 from tire_pipeline.reporting.front import FRONT, front_page
 
 _REPORTS = "08_reporting"

@@ -10,9 +10,9 @@ import pytest
 from click.testing import CliRunner
 
 from tire_pipeline.command.cli import tire
+from tire_pipeline.files.state_files import pack_state
 from tire_pipeline.fleet import FleetSettings, make_fleet
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
-from tire_pipeline.state_files import pack_state
 from tire_pipeline.tir import read_tir, write_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
 from tire_pipeline.translation import make_translator

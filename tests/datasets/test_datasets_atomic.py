@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from tire_pipeline.atomic import replaced_file, replaced_folder, write_bytes
+from tire_pipeline.files.atomic import replaced_file, replaced_folder, write_bytes
 
 
 def content(folder):

@@ -8,7 +8,7 @@ import pytest
 
 from tire_pipeline.datasets import StateDataset
 from tire_pipeline.errors import DomainError
-from tire_pipeline.state_files import pack_state, unpack_state
+from tire_pipeline.files.state_files import pack_state, unpack_state
 
 STATE = {
     "name": "forest",

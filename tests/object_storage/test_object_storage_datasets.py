@@ -21,7 +21,7 @@ from tire_pipeline.datasets import (
     TirFolderDataset,
 )
 from tire_pipeline.errors import DomainError
-from tire_pipeline.objects import ConflictError, Objects
+from tire_pipeline.files.objects import ConflictError, Objects
 from tire_pipeline.retraining import Manifest, Store
 from tire_pipeline.retraining.partition import Partition
 from tire_pipeline.retraining.release import Release, Shelf

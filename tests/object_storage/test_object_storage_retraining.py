@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.datasets import FolderDataset, IngestStoreDataset, ReleaseDataset
-from tire_pipeline.objects import Objects, UnreachableError
+from tire_pipeline.files.objects import Objects, UnreachableError
 from tire_pipeline.retraining import Manifest, Store, difference, ingest
 from tire_pipeline.tir.sidecar import write_sidecar
 

@@ -16,7 +16,7 @@ from kedro.framework.session import KedroSession
 from kedro.framework.startup import bootstrap_project
 from moto_keys import KEY, SECRET
 
-from tire_pipeline.objects import Objects
+from tire_pipeline.files.objects import Objects
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "retraining"))

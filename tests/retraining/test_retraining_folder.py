@@ -16,7 +16,7 @@ from retraining_files import put, tir_text
 from tire_pipeline.datasets import RecordingFolderDataset, TextFolderDataset, TirFolderDataset
 from tire_pipeline.errors import DomainError, RecordingError
 from tire_pipeline.file_names import name_on_disk, path_of, shown_name
-from tire_pipeline.folder_walk import walk
+from tire_pipeline.files.folder_walk import walk
 from tire_pipeline.retraining import Manifest, Store, difference, ingest, look_at, settled_difference
 from tire_pipeline.retraining.places import UNREADABLE, fingerprint
 from tire_pipeline.tir import read_tir

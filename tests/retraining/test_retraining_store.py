@@ -17,7 +17,7 @@ from retraining_files import put, put_fleet, tir_text
 from tire_pipeline.classifiers.methods.random_forest import RandomForest
 from tire_pipeline.datasets import FolderDataset, IngestStoreDataset, ReleaseDataset
 from tire_pipeline.errors import DomainError
-from tire_pipeline.packed import as_parquet
+from tire_pipeline.files.packed import as_parquet
 from tire_pipeline.representations import make_representation
 from tire_pipeline.retraining import Judged, Manifest, Shelf, Store, difference, ingest, judge, roll_back
 from tire_pipeline.retraining import train_model as train

@@ -113,7 +113,7 @@ HOLDER = """
 import sys, time
 from pathlib import Path
 from tire_pipeline.runs import Ticket, take_turn, ticket
-from tire_pipeline.atomic import check_before_replacing, replaced_file
+from tire_pipeline.files.atomic import check_before_replacing, replaced_file
 if sys.argv[2] == "no locks":
     import tire_pipeline.runs.turn as turn
     ticket.system_lock = lambda *_, **__: None

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from tire_pipeline.atomic import check_before_replacing, replaced_file, replaced_folder
 from tire_pipeline.datasets.storage.one_at_a_time import locked
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.atomic import check_before_replacing, replaced_file, replaced_folder
 from tire_pipeline.runs import LostTicketError, Note, Ticket, system_lock, take_turn
 from tire_pipeline.runs import ticket as tickets
 from tire_pipeline.runs.system_lock import is_held

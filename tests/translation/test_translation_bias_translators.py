@@ -8,10 +8,10 @@ import pytest
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.evaluation import evaluate_translations
+from tire_pipeline.files.state_files import pack_state, unpack_state
 from tire_pipeline.fleet import FleetSettings, make_fleet
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
-from tire_pipeline.state_files import pack_state, unpack_state
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
 from tire_pipeline.translation.base import make_translator, translator_from_state

@@ -3,7 +3,7 @@ from importlib import import_module
 import pytest
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.state_files import prefixed, without_prefix
+from tire_pipeline.files.state_files import prefixed, without_prefix
 from tire_pipeline.translation import TRANSLATORS, make_translator
 
 RELEASED = (

@@ -12,8 +12,8 @@ from typing import Any
 import click
 import numpy as np
 
-from tire_pipeline.atomic import write_bytes
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.atomic import write_bytes
 
 
 @dataclass(frozen=True)

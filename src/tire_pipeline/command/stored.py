@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.state_files import unpack_state
+from tire_pipeline.files.state_files import unpack_state
 
 NAME = "translator.npz"
 """The translator's name where a folder holds other models, too."""

@@ -11,8 +11,8 @@ import json
 import re
 from pathlib import Path
 
-from tire_pipeline.atomic import write_bytes
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.atomic import write_bytes
 from tire_pipeline.lineage.descriptions import described
 from tire_pipeline.lineage.first_screen import prepared
 from tire_pipeline.lineage.page_policy import with_policy

@@ -15,10 +15,10 @@ from typing import Any
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError, TirePipelineError
+from tire_pipeline.files.packed import Passing, pack
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch import Explainer, MismatchReport, explain_recordings
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes, learnt
-from tire_pipeline.packed import Passing, pack
 
 COLUMNS = ("recording", "verdict", "summary", "effects", "alternatives", "held_out", "problem")
 PAGE = "page.html"

@@ -16,8 +16,8 @@ from pydantic import Field
 
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.files.packed import unpack
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
-from tire_pipeline.packed import unpack
 from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.progress import track
 from tire_pipeline.recordings.groups import by_folder, matching

@@ -14,7 +14,7 @@ from pydantic import Field
 
 from tire_pipeline.classifiers.methods.random_forest import RandomForest
 from tire_pipeline.classifiers.parameters import TrainClassifierParameters
-from tire_pipeline.objects import Objects
+from tire_pipeline.files.objects import Objects
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.representations.encoded_tires import RepresentParameters, unfitted
 from tire_pipeline.retraining import (

@@ -10,8 +10,8 @@ import pandas as pd
 
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.file_names import printable
+from tire_pipeline.files.objects import Objects, UnreachableError
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.objects import Objects, UnreachableError
 from tire_pipeline.retraining.manifest import Manifest, ManifestEntry
 from tire_pipeline.retraining.partition import Partition
 from tire_pipeline.retraining.places import UNREADABLE, Look, Place, place_at

@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import Protocol
 
 from tire_pipeline.file_names import name_on_disk, path_of, shown_name
-from tire_pipeline.folder_walk import Found, walk
+from tire_pipeline.files.folder_walk import Found, walk
+from tire_pipeline.files.objects import Objects
+from tire_pipeline.files.regular_file import open_regular
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.objects import Objects
-from tire_pipeline.regular_file import open_regular
 from tire_pipeline.tasks import Task
 from tire_pipeline.tir import MOST_FILE_BYTES, read_tir
 from tire_pipeline.tir.sidecar import SUFFIX

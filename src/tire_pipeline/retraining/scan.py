@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.objects import Objects
+from tire_pipeline.files.objects import Objects
 from tire_pipeline.retraining.manifest import Manifest
 from tire_pipeline.retraining.places import UNREADABLE, Look, place_at
 

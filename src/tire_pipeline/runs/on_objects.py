@@ -18,7 +18,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 
-from tire_pipeline.objects import ConflictError, Objects
+from tire_pipeline.files.objects import ConflictError, Objects
 from tire_pipeline.runs.ticket import BEAT_SECONDS, LostTicketError, Note
 from tire_pipeline.runs.turn import Beats
 

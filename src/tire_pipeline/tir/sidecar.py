@@ -20,9 +20,9 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
-from tire_pipeline.atomic import write_bytes
 from tire_pipeline.errors import TirError, TirSyntaxError
-from tire_pipeline.regular_file import open_regular
+from tire_pipeline.files.atomic import write_bytes
+from tire_pipeline.files.regular_file import open_regular
 
 SUFFIX = ".sidecar.json"
 SIDECAR_FORMAT = "tire-pipeline sidecar"

@@ -11,7 +11,7 @@ from typing import IO
 
 import pandas as pd
 
-from tire_pipeline.packed import as_parquet, from_parquet
+from tire_pipeline.files.packed import as_parquet, from_parquet
 from tire_pipeline.tire_table.from_models import ALWAYS, TEXTS, as_in_whole, from_models, join_tables
 
 PIECE_ROWS = 5_000

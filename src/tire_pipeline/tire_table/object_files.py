@@ -6,8 +6,8 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
+from tire_pipeline.files.objects import Objects
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.objects import Objects
 from tire_pipeline.tir import MOST_FILE_BYTES, read_sidecar, read_tir
 from tire_pipeline.tir.sidecar import MOST_SIDECAR_BYTES, SUFFIX
 

@@ -13,9 +13,9 @@ import pandas as pd
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import TirePipelineError, chain
 from tire_pipeline.file_names import printable
+from tire_pipeline.files.objects import UnreachableError
+from tire_pipeline.files.packed import as_parquet, from_parquet, pack, unpack
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.objects import UnreachableError
-from tire_pipeline.packed import as_parquet, from_parquet, pack, unpack
 from tire_pipeline.tire_table.from_models import from_models, join_tables
 
 Load = Callable[[], TireModel]

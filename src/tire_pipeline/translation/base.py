@@ -186,7 +186,7 @@ def translator_from_state(state: Mapping[str, Any]) -> Translator:
     Parameters
     ----------
     state : mapping
-        From ``to_state()``, or read from its file by :func:`.state_files.unpack_state`.
+        From ``to_state()``, or read from its file by :func:`.files.state_files.unpack_state`.
 
     Returns
     -------

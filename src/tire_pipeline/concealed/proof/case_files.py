@@ -16,8 +16,8 @@ from tire_pipeline.concealed import Answer, Case, make_case
 from tire_pipeline.concealed.baselines import BASELINES, with_all_inputs
 from tire_pipeline.concealed.real import RealPlan, make_real_case
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.files.packed import as_parquet, pack, unpack
 from tire_pipeline.mismatch import explain_mismatch
-from tire_pipeline.packed import as_parquet, pack, unpack
 from tire_pipeline.tir import read_tir, tir_bytes
 
 Read = Callable[[], bytes]

@@ -11,6 +11,7 @@ from kedro.io.core import AbstractDataset
 from tire_pipeline.datasets.storage.files_at import files_at
 from tire_pipeline.datasets.storage.one_at_a_time import held, refuse_other_revision, replace_unless_changed
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.state_files import pack_state, unpack_state
 from tire_pipeline.retraining.model import CategoryModel
 from tire_pipeline.retraining.release import (
     KEPT_MODELS,
@@ -19,7 +20,6 @@ from tire_pipeline.retraining.release import (
     Release,
     Shelf,
 )
-from tire_pipeline.state_files import pack_state, unpack_state
 
 _RECORD = "record.json"
 _NAME = re.compile(r"[0-9A-Za-z][0-9A-Za-z.\-]*").fullmatch

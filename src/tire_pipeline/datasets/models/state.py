@@ -6,7 +6,7 @@ from typing import Any
 
 from tire_pipeline.datasets.storage.files_at import files_at
 from tire_pipeline.datasets.storage.versioned import VersionedDataset
-from tire_pipeline.state_files import pack_state, unpack_state
+from tire_pipeline.files.state_files import pack_state, unpack_state
 
 __all__ = ["StateDataset", "pack_state", "unpack_state"]
 

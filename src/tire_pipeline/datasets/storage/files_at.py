@@ -6,13 +6,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from tire_pipeline.atomic import check_now, replaced_file
-from tire_pipeline.objects import Objects, is_remote
+from tire_pipeline.files.atomic import check_now, replaced_file
+from tire_pipeline.files.objects import Objects, is_remote
 
 
 @dataclass(frozen=True)
 class Files:
-    """The files below a local folder, as :class:`tire_pipeline.objects.Objects` below an address.
+    """The files below a local folder, as :class:`tire_pipeline.files.objects.Objects` below an address.
 
     Attributes
     ----------

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tire_pipeline.datasets.storage.files_at import Files
 from tire_pipeline.errors import DomainError
-from tire_pipeline.objects import ConflictError, Objects
+from tire_pipeline.files.objects import ConflictError, Objects
 from tire_pipeline.runs.system_lock import system_lock
 
 

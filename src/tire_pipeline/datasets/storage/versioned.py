@@ -8,7 +8,7 @@ from typing import Any, Generic, TypeVar
 from kedro.io.core import AbstractVersionedDataset, Version, get_protocol_and_path
 
 from tire_pipeline.datasets.storage.files_at import Files, files_at
-from tire_pipeline.objects import Objects
+from tire_pipeline.files.objects import Objects
 
 Kept = TypeVar("Kept")
 

@@ -11,7 +11,7 @@ import pandas as pd
 from tire_pipeline.datasets.storage.files_at import files_at
 from tire_pipeline.datasets.storage.versioned import VersionedDataset
 from tire_pipeline.errors import DomainError
-from tire_pipeline.packed import as_parquet, from_parquet
+from tire_pipeline.files.packed import as_parquet, from_parquet
 from tire_pipeline.tire_table.in_pieces import Piece, TableInPieces, numbers_of
 
 _TODO = "run again; what lies there is not used"

@@ -14,7 +14,7 @@ from tire_pipeline.datasets.storage.files_at import Files, files_at
 from tire_pipeline.datasets.texts.text_folder import _inside
 from tire_pipeline.datasets.texts.text_objects import NEVER_DELETED
 from tire_pipeline.errors import DomainError
-from tire_pipeline.objects import Objects
+from tire_pipeline.files.objects import Objects
 from tire_pipeline.tasks import LostTaskError
 
 Compute = Callable[[], bytes]

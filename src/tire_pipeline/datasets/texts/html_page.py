@@ -7,8 +7,8 @@ from typing import Any
 
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.atomic import replaced_file
-from tire_pipeline.objects import Objects, is_remote
+from tire_pipeline.files.atomic import replaced_file
+from tire_pipeline.files.objects import Objects, is_remote
 
 
 class HtmlPageDataset(AbstractDataset[str, str]):

@@ -10,7 +10,7 @@ from kedro.io.core import AbstractDataset
 from tire_pipeline.datasets.texts.text_folder import made_here
 from tire_pipeline.datasets.texts.text_objects import made_there
 from tire_pipeline.errors import DomainError
-from tire_pipeline.objects import Objects, is_remote
+from tire_pipeline.files.objects import Objects, is_remote
 
 
 class MadeFilesDataset(AbstractDataset[NoReturn, list[str]]):

@@ -10,7 +10,7 @@ import hashlib
 from collections.abc import Callable, Mapping
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.objects import Objects
+from tire_pipeline.files.objects import Objects
 from tire_pipeline.progress import track
 
 MARKER = ".made_by_tire_pipeline"

@@ -8,7 +8,7 @@ from typing import Any, NoReturn
 from kedro.io.core import AbstractDataset
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.objects import Objects, is_remote
+from tire_pipeline.files.objects import Objects, is_remote
 
 
 class FolderDataset(AbstractDataset[NoReturn, Path | Objects]):

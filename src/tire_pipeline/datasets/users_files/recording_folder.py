@@ -15,12 +15,12 @@ import pandas as pd
 from kedro.io.core import AbstractDataset
 
 from tire_pipeline.errors import DomainError, RecordingError, TirePipelineError
-from tire_pipeline.folder_walk import walk
+from tire_pipeline.files.folder_walk import walk
+from tire_pipeline.files.objects import Objects, is_remote
+from tire_pipeline.files.regular_file import open_regular
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.objects import Objects, is_remote
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.recordings.read import SUFFIXES
-from tire_pipeline.regular_file import open_regular
 from tire_pipeline.tir import read_tir
 
 Pair = tuple[TireModel | None, pd.DataFrame]

@@ -13,9 +13,9 @@ from kedro_datasets.partitions import PartitionedDataset
 from tire_pipeline.datasets.users_files.tir_file import TirDataset
 from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.file_names import shown_name
-from tire_pipeline.folder_walk import walk
+from tire_pipeline.files.folder_walk import walk
+from tire_pipeline.files.objects import Objects
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.objects import Objects
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tir.sidecar import SUFFIX
 from tire_pipeline.tire_table.object_files import read_object

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from tire_pipeline.errors import TirError, TirSyntaxError
-from tire_pipeline.regular_file import NotRegularError, open_regular
+from tire_pipeline.files.regular_file import NotRegularError, open_regular
 
 MOST_FILE_BYTES = 5_000_000
 """A larger file is refused: real ones have 2 to 60 kB."""

@@ -6,8 +6,8 @@ import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from tire_pipeline.atomic import write_bytes
 from tire_pipeline.errors import TirError
+from tire_pipeline.files.atomic import write_bytes
 from tire_pipeline.magic_formula.changes.convert import to_version
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.tir.sidecar import sidecar_path, write_sidecar

@@ -11,12 +11,12 @@ import pandas as pd
 from tire_pipeline.classifiers.methods.compiled_forest import CompiledForest
 from tire_pipeline.classifiers.methods.random_forest import RandomForest
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.state_files import prefixed, without_prefix
 from tire_pipeline.representations import (
     Representation,
     make_representation,
     representation_from_state,
 )
-from tire_pipeline.state_files import prefixed, without_prefix
 from tire_pipeline.tire_table.bins import Binning
 from tire_pipeline.translation.base import check_target
 from tire_pipeline.translation.result import TranslationResult, without_estimate

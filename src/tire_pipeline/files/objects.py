@@ -11,8 +11,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from tire_pipeline.atomic import check_now
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.atomic import check_now
 
 _REFUSED = ("PreconditionFailed", "pre-conditions", "ConditionalRequestConflict")
 

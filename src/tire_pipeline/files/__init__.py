@@ -1,0 +1,1 @@
+"""Files that this project reads and writes: in one step, in a folder or an object store, packed."""
