@@ -12,7 +12,7 @@ from kedro.framework.cli.project import run as kedro_run
 
 from tire_pipeline import pipelines
 from tire_pipeline.errors import DomainError
-from tire_pipeline.run_errors import one_line
+from tire_pipeline.kedro_runs.run_errors import one_line
 
 
 @click.group(name="tire_pipeline")

@@ -3,12 +3,12 @@
 from omegaconf.resolvers import oc
 
 from tire_pipeline.cluster import ClusterHooks
-from tire_pipeline.front_page import FrontPageHooks
-from tire_pipeline.hooks import FolderHooks, RunLedgerHooks, SignpostHooks
-from tire_pipeline.newest_tables import NewestTablesHooks
-from tire_pipeline.node_progress import NodeProgressHooks
+from tire_pipeline.kedro_runs.around_run import FolderHooks, RunLedgerHooks, SignpostHooks
+from tire_pipeline.kedro_runs.front_page import FrontPageHooks
+from tire_pipeline.kedro_runs.newest_tables import NewestTablesHooks
+from tire_pipeline.kedro_runs.node_progress import NodeProgressHooks
+from tire_pipeline.kedro_runs.unknown_parameters import UnknownParameterHooks
 from tire_pipeline.pipelines.reproduce_thesis.chosen_grid import ThesisGridHooks
-from tire_pipeline.unknown_parameters import UnknownParameterHooks
 
 HOOKS = (
     UnknownParameterHooks(),

@@ -171,7 +171,11 @@ def processes():
     """Each is forked from one that has the imports and nothing else."""
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(
-        ["kedro.framework.session", "tire_pipeline.hooks", "tire_pipeline.retraining.candidate"]
+        [
+            "kedro.framework.session",
+            "tire_pipeline.kedro_runs.around_run",
+            "tire_pipeline.retraining.candidate",
+        ]
     )
     return context
 

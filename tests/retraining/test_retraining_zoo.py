@@ -28,7 +28,7 @@ from hypothesis.stateful import (
 from zoo import ORGANISATIONS, Zoo
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.run_errors import one_line
+from tire_pipeline.kedro_runs.run_errors import one_line
 
 pytestmark = pytest.mark.slow
 

@@ -18,12 +18,12 @@ from retraining_files import put_fleet, tir_text
 
 from tire_pipeline.classifiers.parameters import ForestParameters, TrainClassifierParameters
 from tire_pipeline.datasets import IngestStoreDataset, ReleaseDataset
+from tire_pipeline.kedro_runs.run_errors import one_line
 from tire_pipeline.pipelines.rollback.pipeline import restore_previous
 from tire_pipeline.representations.encoded_tires import RepresentParameters
 from tire_pipeline.representations.usable_tires import DedupeFilterParameters, keep_usable
 from tire_pipeline.retraining import Shelf, Store
 from tire_pipeline.retraining import candidate as nodes
-from tire_pipeline.run_errors import one_line
 from tire_pipeline.runs import Ticket, take_back, take_turn
 from tire_pipeline.tire_table.binned_features import BinParameters
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters, to_one_nominal_load

@@ -10,7 +10,7 @@ from kedro.framework.session import KedroSession
 from kedro.framework.startup import bootstrap_project
 from pydantic import Field
 
-from tire_pipeline.run_errors import one_line
+from tire_pipeline.kedro_runs.run_errors import one_line
 from tire_pipeline.schedule.arrivals import new_files_of
 from tire_pipeline.thesis.parameters import GridParameters
 

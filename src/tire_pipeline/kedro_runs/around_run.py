@@ -12,12 +12,12 @@ from kedro.framework.hooks import hook_impl
 from kedro.io.core import AbstractVersionedDataset
 from pydantic import Field, ValidationError
 
-from tire_pipeline.data_place import data_place
 from tire_pipeline.datasets.texts.text_folder import TextFolderDataset
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import check_before_replacing
 from tire_pipeline.files.objects import Objects
-from tire_pipeline.newest_tables import tables_place
+from tire_pipeline.kedro_runs.data_place import data_place
+from tire_pipeline.kedro_runs.newest_tables import tables_place
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.runs import (
     ObjectLedger,

@@ -9,9 +9,9 @@ from typing import Any
 from kedro.framework.hooks import hook_impl
 from kedro.io.core import AbstractVersionedDataset
 
-from tire_pipeline.data_place import data_place
 from tire_pipeline.files.atomic import replaced_file
 from tire_pipeline.files.objects import Objects
+from tire_pipeline.kedro_runs.data_place import data_place
 
 FOLDER = "tables"
 

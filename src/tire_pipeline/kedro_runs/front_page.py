@@ -9,9 +9,9 @@ from typing import Any
 
 from kedro.framework.hooks import hook_impl
 
-from tire_pipeline.data_place import data_place
 from tire_pipeline.datasets import HtmlPageDataset
 from tire_pipeline.files.objects import Objects
+from tire_pipeline.kedro_runs.data_place import data_place
 from tire_pipeline.reporting.front import FRONT, front_page
 
 _REPORTS = "08_reporting"

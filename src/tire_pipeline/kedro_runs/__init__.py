@@ -1,0 +1,1 @@
+"""What happens around a run of Kedro: hooks, and errors in one line."""
