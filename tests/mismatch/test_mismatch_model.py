@@ -3,7 +3,7 @@ import pytest
 
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.discrepancy.form_error import shape_columns
-from tire_pipeline.mismatch.discrepancy.nuisance import make_nuisance
+from tire_pipeline.mismatch.discrepancy.nuisance.columns import make_nuisance
 from tire_pipeline.mismatch.discrepancy.repeating import strongest_length
 from tire_pipeline.mismatch.discrepancy.unnamed import forms, play
 from tire_pipeline.mismatch.effects import catalogue

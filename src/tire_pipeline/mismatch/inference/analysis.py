@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.gram import System
-from tire_pipeline.mismatch.discrepancy.misfit import PATH_SHARES, SHARES, nuisance_scale
 from tire_pipeline.mismatch.discrepancy.noise import Noise, estimate_noise, refined
-from tire_pipeline.mismatch.discrepancy.nuisance import Sizes, largest_force, make_nuisance
+from tire_pipeline.mismatch.discrepancy.nuisance.columns import Sizes, largest_force, make_nuisance
+from tire_pipeline.mismatch.discrepancy.nuisance.sizes import PATH_SHARES, SHARES, nuisance_scale
 from tire_pipeline.mismatch.inference.fit import Fit
 from tire_pipeline.mismatch.model.blocks import sweeps
 from tire_pipeline.mismatch.model.candidates import Variant, variants

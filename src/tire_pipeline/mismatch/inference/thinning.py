@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.gram import System
-from tire_pipeline.mismatch.discrepancy.misfit import nuisance_scale
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
-from tire_pipeline.mismatch.discrepancy.nuisance import make_nuisance
+from tire_pipeline.mismatch.discrepancy.nuisance.columns import make_nuisance
+from tire_pipeline.mismatch.discrepancy.nuisance.sizes import nuisance_scale
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.fit import LOCKED, Fit, inverse, linearised, moved
 from tire_pipeline.mismatch.model.candidates import derivatives

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.gram import System
-from tire_pipeline.mismatch.discrepancy.misfit import nuisance_scale
+from tire_pipeline.mismatch.discrepancy.nuisance.sizes import nuisance_scale
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.unnamed_physics.grammar import SymbolTable

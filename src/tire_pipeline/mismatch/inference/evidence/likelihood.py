@@ -17,8 +17,8 @@ from itertools import product
 
 import numpy as np
 
-from tire_pipeline.mismatch.discrepancy.misfit import nuisance_scale
-from tire_pipeline.mismatch.discrepancy.nuisance import Sizes
+from tire_pipeline.mismatch.discrepancy.nuisance.columns import Sizes
+from tire_pipeline.mismatch.discrepancy.nuisance.sizes import nuisance_scale
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 
 Array = np.ndarray

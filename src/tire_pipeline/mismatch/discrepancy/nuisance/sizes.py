@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.mismatch.discrepancy.nuisance import Sizes
+from tire_pipeline.mismatch.discrepancy.nuisance.columns import Sizes
 
 Array = np.ndarray
 

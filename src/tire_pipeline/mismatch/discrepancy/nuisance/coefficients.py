@@ -1,0 +1,89 @@
+"""The coefficients may be off a little: directions of the force's Jacobian, and shifts that a fit makes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.forces import plain_forces
+
+Array = np.ndarray
+At = dict[str, Array]
+_COEFFICIENTS = {
+    "fy": (
+        "PCY1 PDY1 PDY2 PDY3 PEY1 PEY2 PEY3 PEY4 PEY5 PKY1 PKY2 PKY3 PKY4 PKY5 PKY6 PKY7 PHY1 PHY2 PHY3 "
+        "PVY1 PVY2 PVY3 PVY4 RBY1 RBY2 RBY3 RBY4 RCY1 REY1 REY2 RHY1 RHY2 RVY1 RVY2 RVY3 RVY4 RVY5 RVY6"
+    ).split(),
+    "fx": (
+        "PCX1 PDX1 PDX2 PDX3 PEX1 PEX2 PEX3 PEX4 PKX1 PKX2 PKX3 PHX1 PHX2 PVX1 PVX2 RBX1 RBX2 RBX3 RCX1 "
+        "REX1 REX2 RHX1"
+    ).split(),
+}
+_OF_CAMBER = frozenset("PDX3 PDY3 PEY4 PEY5 PKY3 PKY6 PKY7 PHY3 PVY3 PVY4 RBX3 RBY4 RVY3".split())
+_LEAST_OF_ALL = 1e-4
+"""Columns smaller than so much of the largest one do nothing here, and are not made larger: the coefficients
+of camber in a recording without camber would become a constant force."""
+_SHIFT_OF_FX = 2.5
+"""Braking and driving are no mirror images: a fit makes up for their difference by a shift at zero slip."""
+ONE_LOAD = 6.0
+"""Factor on what coefficients may be off by in a recording at one load, for what keeps the mirror symmetry: a
+fit to many loads may be off at any one of them."""
+ASYMMETRY_SHARE = 0.12
+"""What part of the misfit may break the tire's mirror symmetry (slip angle and camber turned over): a clean
+tire breaks it by 0.1 to 0.2 of the misfit in the clean tuning cases."""
+
+
+def directions(data: Data, name: str, at: At) -> Array:
+    """Return directions in which the coefficients may move an output's force, of unit size, shape (n, k)."""
+    basis = _halves(data, name, at, jacobian(data, name, at))
+    if name != "fx":
+        return basis
+    return np.hstack([basis, _SHIFT_OF_FX * _orthonormal(shifts(data, name, at))])
+
+
+def jacobian(data: Data, name: str, at: At) -> Array:
+    """d force / d coefficient for the coefficients that the file has and that matter here."""
+    c = data.tire.coefficients
+    missing = getattr(data.tire, "defaulted", {})
+    columns = []
+    for key in _COEFFICIENTS[name]:
+        value = float(c.get(key, 0.0))
+        if value == 0.0 or key in missing or (key in _OF_CAMBER and not data.varies("camber")):
+            continue  # where camber stands still its coefficients would be a constant force of any size
+        h = 1e-4 * max(abs(value), 0.05)
+        up, down = (plain_forces(data.tire.replace(**{key: value + s * h}), **at)[name] for s in (1.0, -1.0))
+        columns.append((up - down) / (2.0 * h) * max(abs(value), 0.05))
+    return np.column_stack(columns) if columns else np.zeros((at["normal_load"].size, 0))
+
+
+def shifts(data: Data, name: str, at: At) -> Array:
+    """Constant, load and slope: a fit would have found a shift of the curve even if the file has none."""
+    slip, h = ("slip_angle", 2e-3) if name == "fy" else ("slip_ratio", 2e-3)
+    up, down = (plain_forces(data.tire, **{**at, slip: at[slip] + s * h})[name] for s in (1.0, -1.0))
+    load = at["normal_load"]
+    return np.column_stack([np.full(load.size, data.load_nominal), load, up - down])
+
+
+def _halves(data: Data, name: str, here: At, slopes: Array) -> Array:
+    """Directions of the coefficients that keep the mirror symmetry, and those that break it, made smaller."""
+    mirrored = {n: -a if n in ("slip_angle", "camber") else a for n, a in here.items()}
+    image = jacobian(data, name, mirrored) * (-1.0 if name == "fy" else 1.0)
+    kept, broken = 0.5 * (slopes + image), 0.5 * (slopes - image)
+    least = 1e-2 * np.sqrt(np.mean(slopes**2, axis=0))
+    broken = broken[:, np.sqrt(np.mean(broken**2, axis=0)) > least]
+    kept = kept[:, np.sqrt(np.mean(kept**2, axis=0)) > least]
+    size = 1.0 if data.varies("normal_load") else ONE_LOAD
+    return np.hstack([size * _orthonormal(kept), ASYMMETRY_SHARE * _orthonormal(broken)])
+
+
+def _orthonormal(columns: Array) -> Array:
+    """Return columns of RMS 1 that span what is well determined of the given ones."""
+    n = columns.shape[0]
+    size = np.sqrt(np.mean(columns**2, axis=0)) if columns.size else np.zeros(0)
+    keep = size > _LEAST_OF_ALL * max(float(size.max(initial=0.0)), 1e-30)
+    if not keep.any():
+        return np.zeros((n, 0))
+    gram = (columns[:, keep] / size[keep]).T @ (columns[:, keep] / size[keep]) / n
+    values, vectors = np.linalg.eigh(gram)
+    good = values > 1e-6 * values.max()
+    return (columns[:, keep] / size[keep]) @ (vectors[:, good] / np.sqrt(values[good]))

@@ -1,0 +1,157 @@
+"""What may be wrong without anything being left out: the coefficients a little, the formula's shape a little.
+
+A Magic Formula fitted to a real tire leaves a structured misfit of 0.4 to 1% of the largest force.
+It is a function of the model's own inputs, and what the fit left is at right angles to everything
+that the fit could change. Both are used here: the flexible form is a Gaussian process in the own
+inputs, made orthogonal to the coefficients' Jacobian and to the effects that act on own inputs;
+the coefficients themselves may move by a small share of the largest force.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import directions, jacobian, shifts
+from tire_pipeline.mismatch.discrepancy.nuisance.flexible import flexible_form
+from tire_pipeline.mismatch.discrepancy.nuisance.transients import fast_load, memory
+from tire_pipeline.mismatch.model.data import Data
+
+Array = np.ndarray
+_POINTS = ("slip_angle", "slip_ratio", "camber", "normal_load")
+_LEAST_ON_GRID = 1e-3
+"""Columns smaller on the grid than so much of what they are on the recording are not known there: a slip that
+does not vary but for noise has no range to spread a grid over."""
+
+
+class Sizes(NamedTuple):
+    """Numbers of columns of one output: coefficients, flexible form, and its dependence on the way."""
+
+    coefficients: int
+    flexible: int
+    path: int
+    memory: int
+    fast: int
+
+
+@dataclass(frozen=True)
+class Nuisance:
+    """Columns in N for each output: prior standard deviation 1 for each coefficient of a column.
+
+    Parameters
+    ----------
+    coefficients : dict of ndarray, shape (n, k)
+        Directions of the Jacobian, orthonormal in the root-mean-square sense, times the largest
+        force: a column times 0.001 has an RMS of 0.1% of the largest force (less if it breaks the mirror
+        symmetry, more at one load and for the shift of fx).
+    flexible : dict of ndarray, shape (n, m)
+        The flexible form, times the largest force: with coefficient standard deviation 0.005 its size is
+        about 0.5% of the largest force before what the Jacobian spans is taken off.
+    path : dict of ndarray, shape (n, h)
+        What depends on the way to a point: another flexible form for a rising slip than for a falling one.
+    memory : dict of ndarray, shape (n, l)
+        Friction and stiffness that follow the friction power of the last seconds.
+    fast : dict of ndarray, shape (n, f)
+        The answer to load that changes faster than ``SLOW``, and a quarter of a period late. With coefficient
+        standard deviation 0.3 it is known to 30%.
+    """
+
+    coefficients: dict[str, Array]
+    flexible: dict[str, Array]
+    path: dict[str, Array]
+    memory: dict[str, Array]
+    fast: dict[str, Array]
+
+    @property
+    def columns(self) -> dict[str, Array]:
+        """All side by side, shape (n, k + m + h + l + f)."""
+        return {o: np.hstack([part[o] for part in self._parts]) for o in self.coefficients}
+
+    @property
+    def _parts(self) -> tuple[dict[str, Array], ...]:
+        return self.coefficients, self.flexible, self.path, self.memory, self.fast
+
+    @property
+    def sizes(self) -> dict[str, Sizes]:
+        """Numbers of columns, k, m, h, l and f."""
+        return {o: Sizes(*(part[o].shape[1] for part in self._parts)) for o in self.coefficients}
+
+
+def make_nuisance(data: Data) -> Nuisance:
+    """Build the columns.
+
+    The flexible form is made orthogonal to the coefficients' Jacobian over an even grid of the
+    recorded ranges, such as a fitter would have used, and not over the recording itself: what a fit
+    left there may still look like a change of coefficients here.
+
+    Parameters
+    ----------
+    data : Data
+    """
+    grid = _grid(data)
+    parts: tuple[dict[str, Array], ...] = ({}, {}, {}, {}, {})
+    for name in data.outputs:
+        largest = largest_force(data, name)
+        here = {n: data.get(n) for n in _POINTS}
+        flexible, path = _misfit(data, name, here, grid)
+        own = (directions(data, name, here) * largest, flexible * largest, path * largest)
+        for part, columns in zip(parts, (*own, memory(data, name), fast_load(data, name)), strict=True):
+            part[name] = columns
+    return Nuisance(*parts)
+
+
+def _misfit(data: Data, name: str, here: dict[str, Array], grid: dict[str, Array]) -> tuple[Array, Array]:
+    """Return the flexible form without what the coefficients can do on the grid, and its part for the way."""
+    b, b_grid, ways = flexible_form(data, name, here, grid)
+    c = np.hstack([jacobian(data, name, here), shifts(data, name, here)])
+    c_grid = np.hstack([jacobian(data, name, grid), shifts(data, name, grid)])
+    known = _size(c_grid) > _LEAST_ON_GRID * _size(c)
+    return b - c[:, known] @ _solve(c_grid[:, known], b_grid), ways
+
+
+def largest_force(data: Data, name: str) -> float:
+    """Return the largest simulated force (99.5% quantile), N.
+
+    If this force is near zero, a fraction of the other one.
+    """
+    sizes = {n: float(np.quantile(np.abs(data.base[n]), 0.995)) for n in data.outputs}
+    top = max(*sizes.values(), 1e-09)
+    return sizes[name] if sizes[name] > 0.3 * top else 0.3 * top
+
+
+def _size(columns: Array) -> Array:
+    """Root mean square of each column."""
+    return np.sqrt(np.mean(columns**2, axis=0)) if columns.size else np.zeros(columns.shape[1])
+
+
+def _solve(a: Array, b: Array) -> Array:
+    """Least squares, columns of ``a`` scaled, small directions left out."""
+    size = np.sqrt((a**2).sum(axis=0))
+    size[size <= 0.0] = 1.0
+    return np.linalg.lstsq(a / size, b, rcond=1e-3)[0] / size[:, None]
+
+
+def _grid(data: Data) -> dict[str, Array]:
+    """Even points over the recorded ranges: pure slip, slip with camber, combined slip, at five loads."""
+    low, high = np.quantile(data.get("normal_load"), [0.005, 0.995])
+    loads = np.linspace(low, high, 5) if data.varies("normal_load") else np.array([0.5 * (low + high)])
+    a = _range(data, "slip_angle", 31)
+    k = _range(data, "slip_ratio", 21)
+    rows = [(x, 0.0, 0.0, f) for f in loads for x in a]
+    rows += [(0.0, x, 0.0, f) for f in loads for x in k]
+    if data.varies("camber") and data.knows_camber:
+        g = float(np.quantile(np.abs(data.get("camber")), 0.99))
+        rows += [(x, 0.0, c * g, f) for f in loads for c in (-1.0, -0.5, 0.5, 1.0) for x in a[::2]]
+    if data.has_combined:
+        rows += [(s, x, 0.0, f) for f in loads for s in (-0.08, -0.04, 0.04, 0.08) for x in k[::2]]
+    points = np.array(rows)
+    return dict(zip(_POINTS, points.T, strict=True))
+
+
+def _range(data: Data, name: str, count: int) -> Array:
+    if not data.varies(name):
+        return np.zeros(1)
+    top = float(np.quantile(np.abs(data.get(name)), 0.999))
+    return np.linspace(-top, top, count)

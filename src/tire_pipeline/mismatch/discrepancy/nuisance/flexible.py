@@ -1,0 +1,170 @@
+"""The formula's misfit: a Gaussian process in the model's own inputs that keeps the tire's symmetries."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import ASYMMETRY_SHARE
+from tire_pipeline.mismatch.discrepancy.nuisance.transients import rate
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.forces import plain_forces
+
+Array = np.ndarray
+At = dict[str, Array]
+_LENGTHS = {"slip": 0.25, "normal_load": 0.8, "camber": 0.9}
+_MOST_POINTS = 130
+_NEAR, _FAR = 0.85, 1.3
+
+
+def flexible_form(
+    data: Data, name: str, here: dict[str, Array], grid: dict[str, Array]
+) -> tuple[Array, Array, Array]:
+    """Nystrom features of a squared-exponential kernel at inducing points spread over data and grid.
+
+    The misfit is small where the force itself is zero: at zero slip (and zero camber), at small load.
+    A tire is its own mirror image but for ply steer and conicity, which the fit of a file takes up:
+    the misfit of Fy changes its sign in the mirror, that of Fx does not, and what breaks this is
+    ``ASYMMETRY_SHARE`` of it.
+
+    A steady formula says the same on the way up and on the way down of a sweep. A tire does not: tread and
+    carcass warm within a sweep, and the force follows late. The third array holds another flexible form,
+    times the direction of the sweep. Its mirror image has the opposite direction.
+    """
+    (x, mirror), (y, _) = _coordinates(data, here), _coordinates(data, grid)
+    pick = np.random.default_rng(0).permutation(data.size)[:3000]
+    points = np.vstack([x[pick], y])
+    sign = -1.0 if name == "fy" else 1.0
+    kernels = [_Mirrored(points, mirror, sign, _NEAR, 1.0)]
+    if mirror.min() < 0.0:
+        kernels.append(_Mirrored(points, mirror, -sign, _FAR, ASYMMETRY_SHARE))
+    top = np.quantile(data.get("normal_load"), 0.99)
+    slip, half = ("slip_angle" if name == "fy" else "slip_ratio"), _slip_at_half(data, name)
+    lean = max(float(np.quantile(np.abs(data.get("camber")), 0.99)), 0.01)
+
+    def amplitude(point: dict[str, Array]) -> Array:
+        size = 0.25 + 0.75 * np.clip(point["normal_load"] / top, 0.0, 1.2)
+        used = np.abs(point[slip]) / (np.abs(point[slip]) + 0.5 * half)
+        if name == "fy":
+            used = np.minimum(used + 0.3 * np.abs(point["camber"]) / lean * data.varies("camber"), 1.0)
+        return size * np.maximum(used, 0.1)
+
+    def features(at: Array, point: dict[str, Array]) -> Array:
+        waves = np.hstack([k.features(at) for k in kernels])
+        return waves * amplitude(point)[:, None]
+
+    ways = np.zeros((data.size, 0))
+    towards = _direction(data, slip)
+    if towards is not None:
+        turned = _Mirrored(points, mirror, -sign if name == "fy" else sign, _NEAR, 1.0)
+        ways = turned.features(x) * (amplitude(here) * towards)[:, None]
+    return features(x, here), features(y, grid), ways
+
+
+def _direction(data: Data, slip: str) -> Array | None:
+    """Direction of the sweep, -1 to 1: rate of the slip over its typical size; None without a time line."""
+    if data.time is None or not data.varies(slip):
+        return None
+    changes = rate(data, data.smooth(slip)) / np.maximum(data.step, 1e-12)
+    typical = max(float(np.quantile(np.abs(changes), 0.75)), 1e-12)
+    return np.tanh(2.0 * changes / typical)
+
+
+def _coordinates(data: Data, at: dict[str, Array]) -> tuple[Array, Array]:
+    """Own inputs, each over the length in which the misfit may change, and their signs in a mirror.
+
+    In a mirror that stands along the wheel plane, slip angle and camber change their sign.
+    """
+    parts, mirror = [], []
+    for slip, force in (("slip_angle", "fy"), ("slip_ratio", "fx")):
+        if data.varies(slip):
+            half = _slip_at_half(data, force)
+            parts.append(2.0 / np.pi * np.arctan(at[slip] / half) / _LENGTHS["slip"])
+            mirror.append(-1.0 if slip == "slip_angle" else 1.0)
+    if data.varies("normal_load"):
+        low, high = np.quantile(data.get("normal_load"), [0.005, 0.995])
+        load = (at["normal_load"] - 0.5 * (low + high)) / (0.5 * (high - low))
+        parts.append(load / _LENGTHS["normal_load"])
+        mirror.append(1.0)
+    if data.varies("camber") and data.knows_camber:
+        parts.append(at["camber"] / np.quantile(np.abs(data.get("camber")), 0.99) / _LENGTHS["camber"])
+        mirror.append(-1.0)
+    if not parts:
+        return np.zeros((at["normal_load"].size, 1)), np.ones(1)
+    return np.column_stack(parts), np.array(mirror)
+
+
+def _slip_at_half(data: Data, force: str) -> float:
+    """Slip at which the linear force would be the largest force: where the curve bends."""
+    slip = np.linspace(1e-3, 0.35, 200)
+    zero = np.zeros(200)
+    args = (
+        {"slip_angle": slip, "slip_ratio": zero}
+        if force == "fy"
+        else {"slip_angle": zero, "slip_ratio": slip}
+    )
+    f = np.abs(
+        plain_forces(data.tire, camber=zero, normal_load=np.full(200, data.load_nominal), **args)[force]
+    )
+    k = max(f[0] / slip[0], 1e-9)
+    return float(np.clip(f.max() / k, 0.005, 0.3))
+
+
+class _Mirrored:
+    """Features of a Gaussian process that is even (sign 1) or odd (sign -1) under a mirror.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, d)
+        Where inducing points may lie.
+    mirror : ndarray, shape (d,)
+        Signs of the coordinates in the mirror.
+    sign : float
+    apart : float
+        Distance of the inducing points.
+    size : float
+        Standard deviation.
+    """
+
+    def __init__(self, points: Array, mirror: Array, sign: float, apart: float, size: float) -> None:
+        self.mirror, self.sign, self.plain = mirror, sign, bool(mirror.min() > 0.0)
+        turned = np.flatnonzero(mirror < 0.0)
+        if turned.size:  # one half of the space stands for both
+            points = np.where((points[:, turned[0]] < 0.0)[:, None], points * mirror, points)
+        self.centres = _spread(points, apart, _MOST_POINTS)
+        kernel = self._kernel(self.centres) + 1e-6 * np.eye(len(self.centres))
+        values, vectors = np.linalg.eigh(kernel)
+        good = values > 1e-3 * values.max()
+        self.to_features = size * vectors[:, good] / np.sqrt(values[good])
+
+    def _kernel(self, x: Array) -> Array:
+        plain = _kernel(x, self.centres)
+        if self.plain:
+            return plain
+        both = plain + self.sign * _kernel(x, self.centres * self.mirror)
+        if self.sign < 0.0:
+            return both
+        return both / np.sqrt(np.outer(self._twice(x), self._twice(self.centres)))
+
+    def _twice(self, x: Array) -> Array:
+        """How much of a point its mirror image is, plus one."""
+        return 1.0 + np.exp(-0.5 * ((x - x * self.mirror) ** 2).sum(axis=1))
+
+    def features(self, x: Array) -> Array:
+        """Return the features at points, shape (n, m)."""
+        return self._kernel(x) @ self.to_features
+
+
+def _kernel(a: Array, b: Array) -> Array:
+    d = (a**2).sum(1)[:, None] + (b**2).sum(1)[None, :] - 2.0 * a @ b.T
+    return np.exp(-0.5 * np.maximum(d, 0.0))
+
+
+def _spread(x: Array, least: float, most: int) -> Array:
+    """Farthest-point sampling until the points are ``least`` apart or there are ``most``."""
+    chosen = [int(np.argmin(((x - np.median(x, axis=0)) ** 2).sum(1)))]
+    distance = ((x - x[chosen[0]]) ** 2).sum(1)
+    while len(chosen) < most and distance.max() > least**2:
+        k = int(np.argmax(distance))
+        chosen.append(k)
+        distance = np.minimum(distance, ((x - x[k]) ** 2).sum(1))
+    return x[chosen]
