@@ -1,7 +1,7 @@
 """Braking and cornering at once.
 
-Each curve has one slip angle; the slip ratio goes from free rolling to strong braking. What the side
-force loses is what braking takes.
+Each curve has one slip angle; the slip ratio goes from free rolling to strong braking. The more force the
+tire uses for braking, the less is left for cornering.
 """
 
 import numpy as np

@@ -1,8 +1,7 @@
 """Fit a tire model to a recording.
 
-The rig run is cut to one inflation pressure, because a 5.2 model cannot follow the pressure.
-`undetermined` lists what the data leave open, so that nobody trusts a coefficient that no sample has
-seen.
+The rig run is cut to one inflation pressure, because a 5.2 model has no coefficient of pressure.
+`undetermined` lists the coefficients that the data leave open. Do not rely on them.
 """
 
 from tire_pipeline.magic_formula import fit_magic_formula

@@ -1,7 +1,7 @@
 """Test an explanation on a second recording.
 
-`rig_check.csv` takes no part. The explained model predicts it, at pressures and loads the first run
-never has.
+`rig_check.csv` takes no part. The explained model predicts it, at pressures and loads that do not occur
+in the first run.
 """
 
 from tire_pipeline.drawing import colour_of, new_figure

@@ -1,7 +1,7 @@
 """One tire as six organisations measure it.
 
-The demonstration fleet holds the true curve (dashed). Rig, surface and fit make each organisation's file
-differ from it.
+The dashed curve is the true one, which only a generated fleet has. Rig, surface and fit make each
+organisation's file differ from it.
 """
 
 import numpy as np

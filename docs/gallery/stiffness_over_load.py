@@ -1,7 +1,7 @@
 """Cornering stiffness and peak friction over load.
 
-Both fall short of proportional growth: a heavily loaded tire has less stiffness and less friction for
-its load.
+Stiffness grows less than in proportion to the load, and the friction coefficient falls: a heavily loaded
+tire has less of both for its load.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """Translate one file, with its band.
 
-A translator learns from the fleet's files. It then says what D would have measured of a tire that A
-measured. The 90% band says how sure that is.
+A translator learns from the fleet's files. It then predicts what D would have measured of a tire that A
+measured. The 90% band shows how certain the prediction is.
 """
 
 import numpy as np

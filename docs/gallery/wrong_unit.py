@@ -1,7 +1,7 @@
 """A channel in another unit.
 
-The force of the rig run is put into pounds-force without saying so. The unit is found from its exact
-factor and repaired before any physics is looked for.
+The force of the rig run is converted to pounds-force, but still labelled as newtons. The unit is found from
+its exact factor and repaired before any physics is looked for.
 """
 
 import numpy as np

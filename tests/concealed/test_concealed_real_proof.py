@@ -121,7 +121,7 @@ def test_without_recordings_the_committed_table_is_shown_and_says_so(tmp_path, m
     scores, misses, details = real_nodes.score_real_proof(shown, {}, held_out, sealed, asked)
     assert details["published"] is True
     page = _page(scores, misses, details)
-    assert "are not there: this is the committed table" in page
+    assert "are not available: this is the committed table" in page
     assert "4711" in page
     assert "cases made from real recordings, further below" in page
     monkeypatch.setattr(real_nodes, "published", lambda: (table.head(0), {}))

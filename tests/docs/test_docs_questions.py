@@ -26,11 +26,13 @@ def test_every_page_but_the_history_has_questions():
 
 
 def test_what_an_answer_says_to_type_stands_on_the_page():
-    """Options, paths and names with an underscore in an answer occur in the page word for word."""
+    """Options, paths, parameters and names with an underscore stand in the page word for word."""
     for page, questions in QUESTIONS.items():
         text = (ROOT / page).read_text("utf-8")
         for _, answer in questions:
-            for word in re.findall(r"--[a-z-]+|\b\w+_\w+\b|\b[\w.]+/[\w./<>]+", answer):
+            for word in re.findall(
+                r"--[a-z-]+|\b\w+_\w+\b|\b[\w.]+/[\w./<>]+|\b[a-z_]+(?:\.[a-z_]+)+\b", answer
+            ):
                 assert word.strip(".") in text, (page, word)
 
 

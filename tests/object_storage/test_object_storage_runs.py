@@ -142,7 +142,7 @@ def test_what_a_killed_run_wrote_is_taken_back(kedro, data):
     half = {name for name in data.names("02_intermediate") if "tire_table_raw" in name}
     assert half
     said = _done(kedro("--pipeline", "ingest_tir", "--params", QUICK))
-    assert "its results are taken back" in " ".join(said.split())
+    assert "its results are removed" in " ".join(said.split())
     left = {name for name in data.names("02_intermediate") if "tire_table_raw" in name}
     assert len({name.split("/")[2] for name in left}) == 1  # one version: its part and its index
     assert not left & half

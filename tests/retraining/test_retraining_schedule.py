@@ -100,7 +100,7 @@ def test_a_folder_that_is_absent_is_said_in_one_line(instance, monkeypatch, tmp_
 
     absent = tmp_path / "not mounted"
     monkeypatch.setattr(schedule, "new_files_of", lambda *_: FolderDataset(path=str(absent)).load())
-    assert f"{absent}: this folder is not there" in _ask(instance).skip_message
+    assert f"{absent}: this folder does not exist" in _ask(instance).skip_message
     monkeypatch.setattr(schedule, "new_files_of", lambda *_: 1 / 0)  # what nobody expected stays loud
     with pytest.raises(ZeroDivisionError):
         _ask(instance)

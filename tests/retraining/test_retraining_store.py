@@ -104,7 +104,7 @@ def test_a_damaged_part_is_named_with_what_to_do(dataset, files, name):
         len(dataset.load().table)
     path.unlink()
     if name != "manifest.json":
-        with pytest.raises(DomainError, match=f"{path.name}.*gone.*the next run reads all files again"):
+        with pytest.raises(DomainError, match=f"{path.name}.*missing.*the next run reads all files again"):
             len(dataset.load().table)
 
 
@@ -161,7 +161,7 @@ def test_a_manifest_cannot_point_outside_of_its_folder(dataset, files, tmp_path)
 def test_files_of_the_user_are_never_written(tmp_path):
     with pytest.raises(Exception, match="never changed"):
         FolderDataset(path=str(tmp_path)).save(tmp_path)
-    with pytest.raises(Exception, match="not there"):
+    with pytest.raises(Exception, match="does not exist"):
         FolderDataset(path=str(tmp_path / "absent")).load()
 
 
@@ -232,7 +232,7 @@ def test_a_tampered_model_or_record_is_not_loaded(shelf, model, tmp_path):
         shelf.load()
 
 
-# the model in use is gone
+# the file of the model in use is missing
 
 
 def _going_back(shelf):
@@ -258,7 +258,7 @@ def three(shelf, model):
 
 def test_a_model_in_use_that_is_gone_is_rolled_back(three):
     _file(three, "m3").unlink()
-    with pytest.raises(DatasetError, match=r"the model in use is gone.*rollback"):
+    with pytest.raises(DatasetError, match=r"the file of the model in use is missing.*rollback"):
         three.load()
     back = _rolled_back(three)
     assert back.release.current == "m2"
@@ -288,7 +288,7 @@ def test_where_no_model_is_left_it_says_what_is_left_to_do(shelf, model, count):
     text = str(caught.value)
     assert "no model left to go back to" in text
     assert all(f"{name} is gone" in text for name in names)
-    with pytest.raises(DatasetError, match="the model in use is gone") as of_the_retraining:
+    with pytest.raises(DatasetError, match="the file of the model in use is missing") as of_the_retraining:
         shelf.load()
     for said in (text, str(of_the_retraining.value)):
         assert "from a copy" in said

@@ -58,7 +58,7 @@ def test_a_killed_run_is_taken_back_from_another_namespace(folder):
     assert len(killed) == 1
     with _kedro(folder, "next") as run:
         assert run.wait() == 0, run.said()
-        assert "was killed; its results are taken back" in run.said()
+        assert "was killed; its results are removed" in run.said()
     assert not killed & _results(folder)
     assert not list((folder / "data").rglob(f"*/{killed.pop()}"))
     assert _notes(folder) == []

@@ -337,7 +337,7 @@ def test_missing_units_are_reported():
         ("[DIMENSION]\nRIM_RADIUS = 0.4", "", "RIM_RADIUS is not smaller than UNLOADED_RADIUS"),
         ("[DIMENSION]\nWIDTH = wide", "", "WIDTH = 'wide' is not a number (line 20)"),
         ("[DIMENSION]\nWIDTH = 1e999", "", "WIDTH = '1e999' is out of range (line 20)"),
-        ("[X]\nthis is no line of a tir file", "", "1 lines are nothing known"),
+        ("[X]\nthis is no line of a tir file", "", "1 line is of no known form and ignored: "),
     ],
 )
 def test_oddities_are_told_and_nothing_is_changed(more: str, units: str, told: str):

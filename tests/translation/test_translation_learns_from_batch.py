@@ -257,4 +257,4 @@ def test_the_page_says_that_the_files_taught():
     for taught, said in ((40, True), (0, False)):  # a file alone learns from no other
         report = pd.DataFrame({"file": ["E/a.tir"], "verdict": ["refused"], "taught": taught})
         page, _ = translate_page(report, curves, pd.DataFrame(), pd.DataFrame(), tires, [], parameters, "D")
-        assert ("With other files beside it, it would come out a little differently" in page) is said
+        assert ("Among other files the result would differ a little" in page) is said

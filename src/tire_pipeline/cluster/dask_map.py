@@ -236,7 +236,7 @@ class _DaskMap:
 
     def _gone(self) -> DomainError:
         return DomainError(
-            "the Dask scheduler is gone",
+            "the Dask scheduler does not answer any more",
             where=self._address,
             todo="start it again, then run again: what was stored is not done again",
         )

@@ -23,7 +23,7 @@ _NOTHING = 1e-9
 @click.command(help="Compare A.tir with B.tir: key figures, forces at pure slip, coefficients that differ.")
 @click.argument("first", type=FILE, metavar="A.tir")
 @click.argument("second", type=FILE, metavar="B.tir")
-@click.option("--load", "loads", type=float, multiple=True, help="Normal load, N; may be given again.")
+@click.option("--load", "loads", type=float, multiple=True, help="Normal load, N; can be repeated.")
 @click.option("--camber", type=float, default=0.0, show_default=True, help="Camber, deg.")
 @output_options()
 def command(first: Path, second: Path, loads: tuple[float, ...], camber: float, **output: Any) -> None:

@@ -28,7 +28,7 @@ def output_options(*names: str) -> Callable[[F], F]:
                 *names,
                 "--page",
                 type=FILE,
-                help="The page to write; else one named after file and command in the present folder.",
+                help="The page to write; else one named after file and command in the current folder.",
             ),
         ):
             function = option(function)
@@ -48,14 +48,14 @@ def reading_options(function: F) -> F:
             "names",
             multiple=True,
             metavar="CHANNEL=COLUMN",
-            help="What a channel is, as --name Querkraft=fy; may be given again.",
+            help="What a channel is, as --name Querkraft=fy; can be repeated.",
         ),
         click.option(
             "--unit",
             "units",
             multiple=True,
             metavar="CHANNEL=UNIT",
-            help="The unit of a channel, as --unit SA=deg; may be given again.",
+            help="The unit of a channel, as --unit SA=deg; can be repeated.",
         ),
         click.option(
             "--axes",

@@ -28,7 +28,7 @@ _FEW = 12
 @click.command(help="Show what FILE.tir holds: version, ranges, key figures, what is missing, curves.")
 @click.argument("file", type=FILE, metavar="FILE.tir")
 @click.option(
-    "--load", "loads", type=float, multiple=True, help="Normal load of a curve, N; may be given again."
+    "--load", "loads", type=float, multiple=True, help="Normal load of a curve, N; can be repeated."
 )
 @click.option("--camber", type=float, default=0.0, show_default=True, help="Camber of the curves, deg.")
 @output_options()
@@ -126,7 +126,7 @@ def _page(
     )
     parts: list[Any] = [Text(lines, emphasis=True), Figure(*figure, heading="Curves")]
     if odd:
-        parts.append(Text(odd, heading="What is odd in the file"))
+        parts.append(Text(odd, heading="What is unusual in the file"))
     headings = ("Key figures", "Ranges")
     for grid, heading in zip(grids, headings, strict=False):
         parts.append(Table(pd.DataFrame(grid.rows, columns=list(grid.header)), grid.title, heading))

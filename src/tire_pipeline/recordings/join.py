@@ -70,7 +70,7 @@ def join_recordings(recordings: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
         without = ", ".join(name for name in recordings if name not in timed)
         raise RecordingError(
             f"{without} has no time, other recordings have",
-            todo="explain steady points and runs over time apart",
+            todo="explain steady points and runs over time separately",
         )
     notes: list[str] = []
     columns = _common(recordings, notes)
@@ -104,7 +104,7 @@ def _common(recordings: Mapping[str, pd.DataFrame], notes: list[str]) -> list[st
     if missing:
         raise RecordingError(
             f"{' and '.join(missing)} is not in all of {', '.join(recordings)}",
-            todo="name the channels, or explain the recordings apart",
+            todo="name the channels, or explain the recordings separately",
         )
     return common
 

@@ -59,13 +59,13 @@ def _simulated(
 def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -> list[Part]:
     heading, made = "On real recordings", details["made"]
     if not len(scores):
-        missing = "The real recordings are not there, and no proof on them has been published yet."
+        missing = "The real recordings are not available, and no proof on them has been published yet."
         return [Text([missing], heading=heading)]
     own = scores[scores["method"] == OWN]
     lines = []
     if details["published"]:
         lines.append(
-            "The real recordings are not there: this is the committed table, not a result of this run."
+            "The real recordings are not available: this is the committed table, not a result of this run."
         )
     by_source = ", ".join(f"{n} from {source}" for source, n in made["by_source"].items())
     lines += [

@@ -11,7 +11,7 @@ from tire_pipeline.retraining.model import CategoryModel
 
 KEPT_MODELS = 20
 KEPT_EVENTS = 1000
-TO_GO_BACK = "`kedro run --pipeline rollback` puts the last one back whose file is whole; or bring it back"
+TO_GO_BACK = "`kedro run --pipeline rollback` puts back the last one whose file is whole; or restore the file"
 WITHOUT_ANY_MODEL = (
     "bring a model back from a copy; or move the folder of released models away and run "
     "`kedro run --pipeline retrain`, which trains the first model again from the files"

@@ -218,5 +218,5 @@ def check_removed(found: FolderDifference, manifest: Manifest, most_share: float
         raise DomainError(
             f"{len(found.removed)} of {len(total)} files are gone",
             where=where,
-            todo="if that is meant, raise retrain.most_removed_share; else bring the folder back",
+            todo="if that is meant, raise retrain.most_removed_share; otherwise restore the folder",
         )

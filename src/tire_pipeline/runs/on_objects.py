@@ -154,7 +154,7 @@ class ObjectLedger:
             self.ticket.data.create(_name(note.number, "over"), b"taken")
         except ConflictError:  # it has ended meanwhile, or another was faster
             return
-        _LOG.warning("An earlier run (%s) was killed; its results are taken back.", note.run or note.number)
+        _LOG.warning("An earlier run (%s) was killed; its results are removed.", note.run or note.number)
         take_back_objects(self.ticket.data, note)
 
     def again(self) -> None:

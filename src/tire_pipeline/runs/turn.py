@@ -232,7 +232,7 @@ def _bury(folder: Path, note: Note) -> None:
     """
     if not retire(folder, note.number, "taken"):
         return
-    _LOG.warning("An earlier run (%s) was killed; its results are taken back.", note.run or note.number)
+    _LOG.warning("An earlier run (%s) was killed; its results are removed.", note.run or note.number)
     take_back(folder.parent, note)
 
 

@@ -182,7 +182,7 @@ def _read(files: Files, most: int, work: Map) -> tuple[dict[str, TireModel], lis
         problems.append({"file": file, "verdict": "refused", "reason": f"cannot be read: {cause}"})
     if not models:
         raise DomainError(
-            f"not one of {len(wanted)} files could be read; the first: {problems[0]['reason']}",
+            f"none of {len(wanted)} files could be read; the first: {problems[0]['reason']}",
             where="translate",
             todo="correct them, then run again",
         )

@@ -71,7 +71,7 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
             state = unpack_state(self._files.read(_model(name)), where=path)
         except FileNotFoundError as error:
             todo = self._what_is_left_to_do(release)
-            raise DomainError("the model in use is gone", where=path, todo=todo) from error
+            raise DomainError("the file of the model in use is missing", where=path, todo=todo) from error
         except DomainError as error:
             what = f"{error.what} (the one in use); it is not loaded"
             raise DomainError(what, where=path, todo=self._what_is_left_to_do(release)) from error
@@ -126,7 +126,7 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
             if not all(_NAME(name) for name in release.models):
                 raise ValueError("name")
         except (ValueError, KeyError, TypeError) as error:
-            todo = "bring it back from a copy, or move the folder away to start again"
+            todo = "restore it from a backup, or move the folder away to start again"
             raise DomainError("the record of released models is damaged", where=path, todo=todo) from error
         return release, stamp
 

@@ -78,7 +78,7 @@ def read_part(folder: str, name: str, sha256: str, todo: str) -> pd.DataFrame:
         content = files_at(folder).read(name)
     except FileNotFoundError as error:
         where = f"{folder}/{name}"
-        raise DomainError("this part of the table is gone", where=where, todo=todo) from error
+        raise DomainError("this part of the table is missing", where=where, todo=todo) from error
     if hashlib.sha256(content).hexdigest() != sha256:
         raise DomainError("this part of the table is damaged", where=f"{folder}/{name}", todo=todo)
     return from_parquet(content)

@@ -42,7 +42,7 @@ class FolderDataset(AbstractDataset[NoReturn, Path | Objects]):
         path = Path(self._path)
         if not path.is_dir():
             raise DomainError(
-                "this folder is not there", where=str(path), todo="set tir_folder, or bring the folder back"
+                "this folder does not exist", where=str(path), todo="set tir_folder, or restore the folder"
             )
         return path
 

@@ -117,7 +117,7 @@ def _assign(
     unknown = [n for n in names if n not in {c.name for c in raw.channels}]
     if unknown:
         raise RecordingError(
-            f"names= speaks of {', '.join(map(repr, unknown))}, which the file does not have",
+            f"names= mentions {', '.join(map(repr, unknown))}, which the file does not have",
             where=source,
             todo="its channels are " + ", ".join(c.name for c in raw.channels[:30]),
         )

@@ -147,7 +147,7 @@ class _Matrix:
         for _ in range(count):
             kind, length = _words(self.data, self.at, self.order)
             if kind != _MATRIX:
-                raise RecordingError(f"an element of type {kind} where an array is due")
+                raise RecordingError(f"an element of type {kind} where an array is expected")
             self.at += 8
             if length:
                 self.check(depth + 1)

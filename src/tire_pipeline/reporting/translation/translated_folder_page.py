@@ -111,14 +111,14 @@ def _explained(report: pd.DataFrame, parameters: TranslateParameters) -> list[st
     ]
     if parameters.classify:
         lines.append(
-            "Files of unknown suppliers were classified, as asked for: one is given to a category from a "
-            f"calibrated probability of {LEAST_PROBABILITY:g} on, if at least {LEAST_TYPICALITY:.0%} of the "
-            "category's own files are as far from its mean. A laboratory that copies the rig, the ranges and "
-            "the fits of a known one cannot be told from it."
+            "Files of unknown suppliers were classified, as asked for: a file is assigned to a category if "
+            f"its calibrated probability is at least {LEAST_PROBABILITY:g} and at least "
+            f"{LEAST_TYPICALITY:.0%} of the category's own files lie as far from its mean. A laboratory that "
+            "copies the rig, the ranges and the fits of a known one cannot be told from it."
         )
     if "taught" in report and report["taught"].max() > 0:
         lines.append(
-            "The files to translate taught, too: each was translated by what those of other tires say of "
-            "their categories. With other files beside it, it would come out a little differently."
+            "The model also learned from the files to translate: each was translated with what the files of "
+            "other tires say about their categories. Among other files the result would differ a little."
         )
     return lines

@@ -28,7 +28,7 @@ IN_WORDS = {
     "greedy_forest": "greedy maximum of the forest's probability",
     "cycle_consistent": "cycle-consistent networks, no pairs",
     "curious_agent": "agent with random network distillation, no pairs",
-    "likelihood_agent": "agent paid in likelihood given the metadata, no pairs",
+    "likelihood_agent": "agent rewarded by the likelihood given the metadata, no pairs",
     "mixed_model": "mixed model conditioned on the metadata, no pairs",
     "batch_mixed_model": "the same, learning from the files to translate, too",
     "paired_mixed_model": "mixed model with the tires that several organisations measured",

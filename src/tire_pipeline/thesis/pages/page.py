@@ -54,7 +54,7 @@ def _main(results: Results) -> list[str]:
             f"{number(float(part['value'].median()))}. In the thesis it is none of 48."
         )
     lines.append(
-        "Agents learn to please the classifier in either case. What pleases it is not what "
+        "Agents learn to convince the classifier in either case. What convinces it is not what "
         "makes a tire right."
     )
     return lines

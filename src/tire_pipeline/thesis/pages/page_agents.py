@@ -204,7 +204,7 @@ def _over_load(results: Results) -> list[Part]:
             }
             better = int((gap["translated"] < gap["source"]).sum())
             lines.append(f"Ours: {better} of {len(gap['source'])} curves come nearer to the target.")
-        lines.append("The thesis' tires are proprietary: its curves cannot be laid over ours.")
+        lines.append("The thesis' tires are proprietary: its curves cannot be drawn over ours.")
         parts += _figure(results, name, lines, "Ours. Solid: as measured; dashed: translated.")
     return parts
 

@@ -306,7 +306,8 @@ def _note_lines(scan: Scan, reading: Reading) -> None:
     if scan.unread_count:
         lines = ", ".join(map(str, scan.unread[:5]))
         more = ", ..." if scan.unread_count > 5 else ""
-        reading.warnings.append(f"{scan.unread_count} lines are nothing known (lines {lines}{more})")
+        what = "line is" if scan.unread_count == 1 else "lines are"
+        reading.warnings.append(f"{scan.unread_count} {what} of no known form and ignored: {lines}{more}")
     seen: dict[str, int] = {}
     for section in scan.sections:
         if section.name in seen:

@@ -37,9 +37,9 @@ class PlysteerConicity(Effect):
     )
     looks_like = {
         "force_offset": "an offset of the sensor does not change with load",
-        "slip_angle_offset": "an offset of slip angle is ply steer to the eye: turn the tire round",
-        "camber_offset": "an offset of camber is conicity to the eye: turn the tire on its rim",
-        "crosstalk": "a leak of the load is conicity to the eye: turn the tire on its rim",
+        "slip_angle_offset": "an offset of slip angle looks like ply steer: turn the tire round",
+        "camber_offset": "an offset of camber looks like conicity: turn the tire on its rim",
+        "crosstalk": "a leak of the load looks like conicity: turn the tire on its rim",
     }
     experiment = "straight rolling at three loads, then with the tire turned on its rim"
     order = 12
