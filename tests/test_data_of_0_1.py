@@ -15,7 +15,8 @@ from tire_pipeline.command.stored import translator_state
 from tire_pipeline.datasets import IngestStoreDataset, ReleaseDataset
 from tire_pipeline.pipelines.rollback.pipeline import restore_previous
 from tire_pipeline.retraining.compare import balanced_accuracy, compare_models
-from tire_pipeline.tir import TirSyntaxError, read_sidecar, read_tir, sidecar_path, write_tir
+from tire_pipeline.tir import TirSyntaxError, read_sidecar, read_tir, write_tir
+from tire_pipeline.tir.sidecar import sidecar_path
 from tire_pipeline.translation import translator_from_state
 from tire_pipeline.translation.parameters import TranslateParameters
 

@@ -18,6 +18,15 @@ PUBLIC = {
 }
 NAMES = [(package, name) for package, names in PUBLIC.items() for name in names.split()]
 
+BESIDE = {
+    "magic_formula": "COEFFICIENT_NAMES DegreesWarning MissingRadiusWarning PoorFitWarning TireRangeWarning",
+    "tir": "COMPUTED_DIGITS TirError TirFile TirSyntaxError TirValueError TirVersionError",
+    "recordings": "DART_CAR",
+    "mismatch": "EffectReport Explainer HeldOutFit OutputFit",
+    "translation": "TRANSLATORS",
+}
+"""What the thirty raise, warn of, take and give."""
+
 OF_ALL = {"See Also", "Notes", "Examples"}
 OF_FUNCTIONS = {"Parameters", "Returns"}
 
@@ -40,6 +49,12 @@ def test_there_are_thirty_and_their_packages_export_them():
     assert len(NAMES) == 30
     for package, name in NAMES:
         assert name in importlib.import_module(f"tire_pipeline.{package}").__all__
+
+
+@pytest.mark.parametrize("package", PUBLIC)
+def test_nothing_else_is_exported(package):
+    exported = importlib.import_module(f"tire_pipeline.{package}").__all__
+    assert set(exported) == {*PUBLIC[package].split(), *BESIDE[package].split()}
 
 
 @pytest.mark.parametrize(("package", "name"), NAMES, ids=[name for _, name in NAMES])

@@ -10,11 +10,11 @@ import pytest
 from magic_formula_tires import tire_52, tire_61
 
 from tire_pipeline.errors import TirValueError
-from tire_pipeline.magic_formula import OUTPUTS
 from tire_pipeline.magic_formula.compiled import engine
 from tire_pipeline.magic_formula.derivatives.gradients import gradients_of
 from tire_pipeline.magic_formula.equations import numpy_form
 from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA
+from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 
 TIRES = {"5.2": tire_52(), "6.1": tire_61()}
 RNG = np.random.default_rng(1)

@@ -12,7 +12,6 @@ from magic_formula_tires import tire_52, tire_61
 
 from tire_pipeline.errors import TirError, TirShapeError, TirValueError, TirVersionError
 from tire_pipeline.magic_formula import (
-    OUTPUTS,
     DegreesWarning,
     OperatingPoints,
     TireModel,
@@ -20,6 +19,7 @@ from tire_pipeline.magic_formula import (
     forces_batch,
     pack,
 )
+from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, PointFields
 
 TIRES = {"5.2": tire_52(), "6.1": tire_61()}

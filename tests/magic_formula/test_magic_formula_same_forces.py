@@ -7,8 +7,9 @@ from hypothesis import strategies as st
 from magic_formula_tires import tire_52, tire_61
 
 from tire_pipeline.errors import TirShapeError, TirValueError, TirVersionError
-from tire_pipeline.magic_formula import OUTPUTS, TireModel, forces_batch, model_of, pack, pack_matrix
+from tire_pipeline.magic_formula import TireModel, forces_batch, model_of, pack, pack_matrix
 from tire_pipeline.magic_formula.changes.convert import conversion_notes, to_version
+from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 
 TIRES = {"5.2": tire_52(), "6.1": tire_61()}
 RNG = np.random.default_rng(0)

@@ -8,15 +8,8 @@ import numpy as np
 import pytest
 from tir_samples import tir_text
 
-from tire_pipeline.tir import (
-    TirError,
-    TirSyntaxError,
-    read_sidecar,
-    read_tir,
-    sidecar_path,
-    write_sidecar,
-    write_tir,
-)
+from tire_pipeline.tir import TirError, TirSyntaxError, read_sidecar, read_tir, write_sidecar, write_tir
+from tire_pipeline.tir.sidecar import sidecar_path
 
 EFFECTS = {
     "temperature": {"reference": 60.0, "parameters": {"slope": [-0.004, 1e-4, "1/K"]}},

@@ -22,13 +22,13 @@ from tire_pipeline.command.outcome import CommandOutcome, finish
 @output_options()
 def command(file: Path, version: str, target: Path | None, overwrite: bool, **output: Any) -> None:
     """Convert a file."""
-    from tire_pipeline.magic_formula import conversion_notes, to_version
+    from tire_pipeline.magic_formula import conversion_notes
     from tire_pipeline.tir import read_tir, write_tir
 
     target = Path(f"{file.stem}_{version}.tir") if target is None else target
     check_target(target, overwrite, file)
     model = read_tir(file)
-    converted = to_version(model, version)
+    converted = model.to_version(version)
     notes = conversion_notes(model, version)
     said = f"converted from {model.version} to {version} by tire_pipeline; source file: {file.name}"
     write_tir(converted, target, comments=[said, *notes], overwrite=overwrite)

@@ -5,12 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from tire_pipeline.magic_formula.batch import forces_batch, pack, pack_matrix
-from tire_pipeline.magic_formula.changes.convert import conversion_notes, to_version
-from tire_pipeline.magic_formula.changes.nominal_load import changed_coefficients, nominal_load_changed
-from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
+from tire_pipeline.magic_formula.changes.convert import conversion_notes
 from tire_pipeline.magic_formula.forces import MissingRadiusWarning, TireForces
 from tire_pipeline.magic_formula.model import TireModel, model_of
-from tire_pipeline.magic_formula.parameters.axes import AXES
 from tire_pipeline.magic_formula.parameters.coefficients import COEFFICIENT_NAMES
 from tire_pipeline.magic_formula.parameters.inputs import DegreesWarning, TireRangeWarning
 from tire_pipeline.magic_formula.parameters.points import OperatingPoints
@@ -19,9 +16,7 @@ if TYPE_CHECKING:
     from tire_pipeline.magic_formula.fitting import FitResult, PoorFitWarning, fit_magic_formula
 
 __all__ = [
-    "AXES",
     "COEFFICIENT_NAMES",
-    "OUTPUTS",
     "DegreesWarning",
     "FitResult",
     "MissingRadiusWarning",
@@ -30,15 +25,12 @@ __all__ = [
     "TireForces",
     "TireModel",
     "TireRangeWarning",
-    "changed_coefficients",
     "conversion_notes",
     "fit_magic_formula",
     "forces_batch",
     "model_of",
-    "nominal_load_changed",
     "pack",
     "pack_matrix",
-    "to_version",
 ]
 
 

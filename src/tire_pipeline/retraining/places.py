@@ -17,8 +17,9 @@ from tire_pipeline.files.objects import Objects
 from tire_pipeline.files.regular_file import open_regular
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tasks import Task
-from tire_pipeline.tir import MOST_FILE_BYTES, read_tir
+from tire_pipeline.tir import read_tir
 from tire_pipeline.tir.sidecar import SUFFIX
+from tire_pipeline.tir.text.decode import MOST_FILE_BYTES
 from tire_pipeline.tire_table.object_files import MOST_BYTES, model_of
 
 UNREADABLE = "cannot be read: "

@@ -3,15 +3,12 @@
 from tire_pipeline.errors import TirError, TirSyntaxError, TirValueError, TirVersionError
 from tire_pipeline.tir.format.values import COMPUTED_DIGITS
 from tire_pipeline.tir.reading.read import read_tir
-from tire_pipeline.tir.sidecar import read_sidecar, sidecar_path, write_sidecar
-from tire_pipeline.tir.text.decode import MOST_FILE_BYTES
-from tire_pipeline.tir.text.document import Entry, TirFile, parse_tir
+from tire_pipeline.tir.sidecar import read_sidecar, write_sidecar
+from tire_pipeline.tir.text.document import TirFile, parse_tir
 from tire_pipeline.tir.writing.write import tir_bytes, write_tir
 
 __all__ = [
     "COMPUTED_DIGITS",
-    "MOST_FILE_BYTES",
-    "Entry",
     "TirError",
     "TirFile",
     "TirSyntaxError",
@@ -20,7 +17,6 @@ __all__ = [
     "parse_tir",
     "read_sidecar",
     "read_tir",
-    "sidecar_path",
     "tir_bytes",
     "write_sidecar",
     "write_tir",

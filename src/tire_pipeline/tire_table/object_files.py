@@ -8,8 +8,9 @@ from pathlib import Path
 
 from tire_pipeline.files.objects import Objects
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.tir import MOST_FILE_BYTES, read_sidecar, read_tir
+from tire_pipeline.tir import read_sidecar, read_tir
 from tire_pipeline.tir.sidecar import MOST_SIDECAR_BYTES, SUFFIX
+from tire_pipeline.tir.text.decode import MOST_FILE_BYTES
 
 MOST_BYTES = MOST_FILE_BYTES + 1
 """So much is read of an object: enough to tell that it is too large."""
