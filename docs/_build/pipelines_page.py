@@ -89,12 +89,14 @@ def _parameters(folder: Path) -> dict[str, list[tuple[str, str, str]]]:
     return found
 
 
-def _flat(key: str, value: Any, comments: dict[str, str]) -> Any:
+def _flat(key: str, value: Any, comments: dict[str, str], above: str = "") -> Any:
+    """Yield name, default and comment of each entry; one without a comment has that of the entry above it."""
+    comment = comments.get(key) or above
     if isinstance(value, dict) and value:
         for name, inner in value.items():
-            yield from _flat(f"{key}.{name}", inner, comments)
+            yield from _flat(f"{key}.{name}", inner, comments, comment)
     else:
-        yield key, str(value).replace("|", "\\|"), comments.get(key, "")
+        yield key, str(value).replace("|", "\\|") or '""', comment.replace("*", "\\*")
 
 
 def _comments(text: str) -> dict[str, str]:
