@@ -10,11 +10,12 @@ import threading
 import time
 from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 
 import cluster_tasks as tasks
 import pytest
 
-from tire_pipeline.cluster import work_map
+from tire_pipeline.cluster import ClusterHooks, work_map
 from tire_pipeline.datasets import ComputedFolderDataset, RecordingFolderDataset, TirFolderDataset
 from tire_pipeline.reporting.explained_recordings import (
     ExplainParameters,
@@ -26,16 +27,19 @@ from tire_pipeline.tire_table.read_files import IngestParameters, join_files, re
 ROOT = Path(__file__).resolve().parents[2]
 
 
+def _choose(**parameters) -> None:
+    """What Kedro calls before a run with these parameters of the cluster."""
+    context = SimpleNamespace(config_loader={"parameters": {"cluster": parameters}})
+    ClusterHooks().after_context_created(context)
+
+
 @pytest.fixture
 def chosen(cluster):
     """The run's parameters name the cluster, as a run's hook does it."""
-    from tire_pipeline.cluster import chosen
-    from tire_pipeline.cluster.dask_map import close
-
-    chosen._CHOSEN["parameters"] = chosen.ClusterParameters(scheduler=cluster.address, wait_seconds=120)
+    _choose(scheduler=cluster.address, wait_seconds=120)
     yield
-    close()
-    chosen._CHOSEN["parameters"] = chosen.ClusterParameters()
+    ClusterHooks().after_pipeline_run()
+    _choose()
 
 
 @pytest.fixture
@@ -103,10 +107,8 @@ def test_a_run_of_the_environment_cluster(raw, cluster):
 def test_a_killed_scheduler_costs_what_was_under_way_only(tmp_path, chosen, cluster):
     from dask_processes import Processes
 
-    from tire_pipeline.cluster import chosen as module
-
     own = Processes(tmp_path)
-    module._CHOSEN["parameters"] = module.ClusterParameters(scheduler=own.address, wait_seconds=120)
+    _choose(scheduler=own.address, wait_seconds=120)
     dataset = ComputedFolderDataset(path=str(tmp_path / "out"))
     work = {f"{n:02d}": partial(tasks.slow_bytes, tmp_path / f"calls{n:02d}", n) for n in range(40)}
 
@@ -127,7 +129,7 @@ def test_a_killed_scheduler_costs_what_was_under_way_only(tmp_path, chosen, clus
     done = {path.name for path in (tmp_path / "out").glob("??")}
     assert 0 < len(done) < 40
     assert not dataset.exists()
-    module._CHOSEN["parameters"] = module.ClusterParameters(scheduler=cluster.address, wait_seconds=120)
+    _choose(scheduler=cluster.address, wait_seconds=120)
     dataset.save(work)
     assert [read() for read in dataset.load().values()] == [str(n).encode() for n in range(40)]
     assert all((tmp_path / f"calls{name}").read_text() == "x" for name in done)

@@ -142,7 +142,7 @@ def test_the_committed_table_is_read_as_it_was_written(tmp_path, monkeypatch):
 
 def test_who_knows_the_answers_scores_one_and_who_says_nothing_zero():
     answers = [answer("a", "single", "wear"), answer("b", "nothing"), answer("c", "pair", "wear", "camber")]
-    for method, (reports, errors) in real_nodes._bounds(answers).items():
+    for method, (reports, errors) in real_nodes.oracle_and_floor(answers).items():
         result = score_real(reports, answers, held_out=errors)
         found = value(result, "right name first, twice the misfit")
         assert found == (1.0 if method == "oracle" else 0.0)

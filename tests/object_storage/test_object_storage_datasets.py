@@ -22,7 +22,7 @@ from tire_pipeline.datasets import (
 )
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import ConflictError, Objects
-from tire_pipeline.retraining import Manifest, Store
+from tire_pipeline.retraining import Judged, Manifest, Store, judge
 from tire_pipeline.retraining.partition import Partition
 from tire_pipeline.retraining.release import Release, Shelf
 from tire_pipeline.runs import LostTicketError, ObjectLedger, ObjectTicket, take_turn
@@ -174,12 +174,13 @@ def test_a_store_that_changes_during_the_write_is_left_as_it_is(folder, monkeypa
 def test_the_record_of_releases_is_replaced_by_one_run_only(folder):
     dataset = ReleaseDataset(path=f"{folder}/released")
     assert dataset.load() == Shelf()
-    event = {"event": "refused", "time": "now", "model": "m", "reason": "worse"}
-    first = Release()._with(event)
+    refused = partial(judge, Release(), better=False, time="now", figures={})
+    judged = Judged(digest="d", settings="s", sequence=1, split="x")
+    first = refused("m", judged)
     dataset.save(Shelf(first))
     assert dataset.load().release == Release.from_dict(first.to_dict())
     with pytest.raises(DatasetError, match="another run has stored"):
-        dataset.save(Shelf(Release()._with({**event, "model": "other"})))
+        dataset.save(Shelf(refused("other", judged)))
 
 
 def test_files_of_a_bucket_are_read_with_their_sidecars(folder, tmp_path):

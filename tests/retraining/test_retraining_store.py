@@ -6,7 +6,6 @@ import hashlib
 import json
 import os
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -178,8 +177,13 @@ def model(tmp_path_factory):
 
 
 @pytest.fixture
-def shelf(tmp_path):
-    return ReleaseDataset(path=str(tmp_path / "released"))
+def place(tmp_path):
+    return tmp_path / "released"
+
+
+@pytest.fixture
+def shelf(place):
+    return ReleaseDataset(path=str(place))
 
 
 def _next(shelf: Shelf, name: str, model) -> Shelf:
@@ -235,16 +239,16 @@ def test_a_tampered_model_or_record_is_not_loaded(shelf, model, tmp_path):
 # the file of the model in use is missing
 
 
-def _going_back(shelf):
-    return ReleaseDataset(path=shelf._path, for_going_back=True)
+def _going_back(place):
+    return ReleaseDataset(path=str(place), for_going_back=True)
 
 
-def _file(shelf, name):
-    return Path(shelf._path) / "models" / f"{name}.npz"
+def _file(place, name):
+    return place / "models" / f"{name}.npz"
 
 
-def _rolled_back(shelf):
-    loaded = _going_back(shelf).load()
+def _rolled_back(shelf, place):
+    loaded = _going_back(place).load()
     shelf.save(Shelf(roll_back(loaded.release, time="t", unusable=loaded.unusable)))
     return shelf.load()
 
@@ -256,33 +260,33 @@ def three(shelf, model):
     return shelf
 
 
-def test_a_model_in_use_that_is_gone_is_rolled_back(three):
-    _file(three, "m3").unlink()
+def test_a_model_in_use_that_is_gone_is_rolled_back(three, place):
+    _file(place, "m3").unlink()
     with pytest.raises(DatasetError, match=r"the file of the model in use is missing.*rollback"):
         three.load()
-    back = _rolled_back(three)
+    back = _rolled_back(three, place)
     assert back.release.current == "m2"
     assert back.model is not None
     assert "m3" in back.release.last_event["reason"]
 
 
-def test_a_damaged_model_is_rolled_back_and_models_that_are_gone_are_skipped(three):
-    path = _file(three, "m3")
+def test_a_damaged_model_is_rolled_back_and_models_that_are_gone_are_skipped(three, place):
+    path = _file(place, "m3")
     path.write_bytes(path.read_bytes()[:-40])
-    _file(three, "m2").unlink()
-    back = _rolled_back(three)
+    _file(place, "m2").unlink()
+    back = _rolled_back(three, place)
     assert back.release.models == ("m1",)
     assert "unusable: m2, m3" in back.release.last_event["reason"]
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])
-def test_where_no_model_is_left_it_says_what_is_left_to_do(shelf, model, count):
+def test_where_no_model_is_left_it_says_what_is_left_to_do(shelf, place, model, count):
     names = [f"m{number}" for number in range(count)]
     for name in names:
         shelf.save(_next(shelf.load(), name, model))
     for name in names:
-        _file(shelf, name).unlink()
-    loaded = _going_back(shelf).load()
+        _file(place, name).unlink()
+    loaded = _going_back(place).load()
     with pytest.raises(DomainError) as caught:
         roll_back(loaded.release, time="t", unusable=loaded.unusable)
     text = str(caught.value)
@@ -296,10 +300,10 @@ def test_where_no_model_is_left_it_says_what_is_left_to_do(shelf, model, count):
         assert "rollback" not in said
 
 
-def test_where_only_the_earlier_models_are_gone_the_one_in_use_is_kept(three):
+def test_where_only_the_earlier_models_are_gone_the_one_in_use_is_kept(three, place):
     for name in ("m1", "m2"):
-        _file(three, name).unlink()
-    loaded = _going_back(three).load()
+        _file(place, name).unlink()
+    loaded = _going_back(place).load()
     with pytest.raises(DomainError, match=r"m2 is gone.*m1 is gone.*keep m3, which is in use and whole"):
         roll_back(loaded.release, time="t", unusable=loaded.unusable)
     assert three.load().release.current == "m3"

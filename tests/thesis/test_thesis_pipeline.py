@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import yaml
 from kedro.pipeline import Pipeline
 
-from tire_pipeline.pipelines.reproduce_thesis import chosen_grid, create_pipeline
+from tire_pipeline.pipelines.reproduce_thesis import create_pipeline
+from tire_pipeline.pipelines.reproduce_thesis.chosen_grid import ThesisGridHooks, chosen_grid
 from tire_pipeline.thesis.parameters import GridParameters, ReproduceThesisParameters
 from tire_pipeline.translation.thesis.grid import CELLS
 
@@ -20,10 +22,23 @@ def _cells(pipeline: Pipeline) -> set[str]:
 
 
 @pytest.fixture
-def whole(monkeypatch) -> Pipeline:
+def choose():
+    """What Kedro calls before a run with this grid in its parameters."""
+
+    def made(**grid) -> Pipeline:
+        context = SimpleNamespace(config_loader={"parameters": {"reproduce_thesis": {"grid": grid}}})
+        ThesisGridHooks().after_context_created(context)
+        return create_pipeline()
+
+    before = chosen_grid()
+    yield made
+    made(**before.model_dump())
+
+
+@pytest.fixture
+def whole(choose) -> Pipeline:
     """The pipeline of the default grid, whichever grid a run of another test in this process chose."""
-    monkeypatch.setitem(chosen_grid._CHOSEN, "grid", GridParameters())
-    return create_pipeline()
+    return choose()
 
 
 def test_the_configured_grid_is_the_thesis_48_and_the_stable_power_series():
@@ -40,10 +55,9 @@ def test_every_cell_is_a_namespace(whole):
     assert len(_cells(whole)) == 60
 
 
-def test_the_namespaces_follow_the_parameters(monkeypatch):
+def test_the_namespaces_follow_the_parameters(choose):
     grid = GridParameters(algorithms=("A2C",), rewards=("maximize_reward",), bins=(10,))
-    monkeypatch.setitem(chosen_grid._CHOSEN, "grid", grid)
-    assert _cells(create_pipeline()) == {cell.name for cell in grid.cells}
+    assert _cells(choose(**grid.model_dump())) == {cell.name for cell in grid.cells}
 
 
 def test_nothing_that_follows_from_the_truth_trains_anything(whole):

@@ -82,7 +82,7 @@ def score_real_proof(
     if not answers:
         scores, made = published()
         return scores, pd.DataFrame(columns=["case"]), {"made": made, "published": True}
-    methods = {**dict(answers_of(explained, by_baselines, held_out)), **_bounds(answers)}
+    methods = {**dict(answers_of(explained, by_baselines, held_out)), **oracle_and_floor(answers)}
     tables, details, misses = [], {}, pd.DataFrame(columns=["case"])
     for method, (reports, errors) in methods.items():
         result = score_real(reports, answers, held_out=errors)
@@ -95,8 +95,18 @@ def score_real_proof(
     return scores, misses, {**details, "published": False, "made": _made_with(answers, sealed, parameters)}
 
 
-def _bounds(answers: list[RealAnswer]) -> dict[str, tuple[dict[str, Any], dict[str, Any]]]:
-    """What knows the answers (oracle) and what never says anything (floor), to be scored as the others."""
+def oracle_and_floor(answers: list[RealAnswer]) -> dict[str, tuple[dict[str, Any], dict[str, Any]]]:
+    """Give what knows the answers (oracle) and what never says anything (floor), to be scored as the others.
+
+    Parameters
+    ----------
+    answers : list of RealAnswer
+
+    Returns
+    -------
+    dict of str to (reports, errors)
+        By name; reports and held-out errors by case.
+    """
     silent = {a.case_id: {"verdict": "agrees", "effects": []} for a in answers}
     right = {
         a.case_id: {
