@@ -54,7 +54,7 @@ def compared(
         f"At {load:,.0f} N, no camber",
     )
     forces = Grid(
-        ("output", "RMS", "largest", "unit", "RMS, of the largest"),
+        ("output", "RMS", "largest", "unit", "RMS / largest"),
         [_row(d) for d in apart],
         f"B minus A, pure slip, {', '.join(f'{x:,.0f}' for x in at)} N",
     )
@@ -80,7 +80,7 @@ def _lines(models: dict[str, TireModel], apart: list[Difference], changed: int) 
     sizes = ", ".join(f"{d.output.capitalize()} {_percent(d.share)}" for d in known)
     lines = [
         f"A is {a} (version {first.version}), B is {b} (version {second.version}).",
-        f"RMS difference of the forces, of the largest: {sizes or 'no force is in the files'}.",
+        f"RMS difference of the forces, as a share of the largest: {sizes or 'no force is in the files'}.",
     ]
     opposite = [d.output.capitalize() for d in apart if d.opposite]
     if opposite:

@@ -18,8 +18,9 @@ NO_TIRE = "-"
 
 
 @click.command(
-    help="Say where FILE.tir and the recordings RUN differ, what the model left out, and prove it. "
-    "Several recordings of the tire are explained together, in the order given. "
+    help="Say where FILE.tir and the recordings RUN differ, what the model left out, and how much of the "
+    "error is gone on sweeps that took no part in the fit. Several recordings of the tire are explained "
+    "together, in the order given. "
     "FILE.tir may be -, if the recordings hold the simulated force (simulated_fy or simulated_fx)."
 )
 @click.argument("file", type=FILE, metavar="FILE.tir")
@@ -28,7 +29,8 @@ NO_TIRE = "-"
     "--hold-out",
     type=FILE,
     metavar="RUN",
-    help="A recording that takes no part: the explained model predicts it, and the page says how well.",
+    help="A recording that is not used for the explanation: the explained model predicts it, and the page "
+    "says how well.",
 )
 @click.option("--corrected", type=FILE, help="Write the corrected .tir file here.")
 @click.option("--overwrite", is_flag=True, help="Replace a corrected file of that name.")

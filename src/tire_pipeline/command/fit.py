@@ -22,10 +22,14 @@ if TYPE_CHECKING:
 @click.option("-o", "--output", "target", type=FILE, required=True, help="The .tir file to write.")
 @click.option("--version", default="5.2", show_default=True, help="Version of the Magic Formula.")
 @click.option(
-    "--start", type=FILE, help="A .tir file to start from; what the data leave open keeps its values."
+    "--start",
+    type=FILE,
+    help="A .tir file to start from; coefficients that the data leave open keep its values.",
 )
-@click.option("--nominal-load", type=float, help="FNOMIN, N; else that of --start, or the median load.")
-@click.option("--radius", type=float, help="UNLOADED_RADIUS, m; else that of --start or of the recording.")
+@click.option("--nominal-load", type=float, help="FNOMIN, N. Default: that of --start, or the median load.")
+@click.option(
+    "--radius", type=float, help="UNLOADED_RADIUS, m. Default: that of --start or of the recording."
+)
 @click.option("--overwrite", is_flag=True, help="Replace a file of that name.")
 @reading_options
 @output_options()
@@ -80,7 +84,7 @@ def _outcome(result: FitResult, runs: list[str], target: Path, notes: list[str])
     lines = [
         f"Magic Formula {model.version} fitted to {', '.join(runs)}: "
         f"{len(result.standard_errors)} coefficients, FNOMIN = {model.value('FNOMIN'):g} N.",
-        f"RMS of the residuals, of the largest magnitude: {sizes}.",
+        f"RMS of the residuals, as a share of the largest magnitude: {sizes}.",
     ]
     residuals = Grid(
         ("output", "load (N)", "camber (deg)", "points", "bias", "RMS", "largest", "RMS (%)"),

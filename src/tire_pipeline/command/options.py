@@ -28,7 +28,7 @@ def output_options(*names: str) -> Callable[[F], F]:
                 *names,
                 "--page",
                 type=FILE,
-                help="The page to write; else one named after file and command in the current folder.",
+                help="The page to write. Default: named after file and command, in the current folder.",
             ),
         ):
             function = option(function)
@@ -41,26 +41,28 @@ def reading_options(function: F) -> F:
     """``--axes``, ``--unit``, ``--name`` and ``--format``: how recordings are read."""
     for option in (
         click.option(
-            "--format", "format_", help="TYDEX, CSV, MDF4, MAT or Parquet; else told by the content."
+            "--format",
+            "format_",
+            help="TYDEX, CSV, MDF4, MAT or Parquet. Default: by content, then by suffix.",
         ),
         click.option(
             "--name",
             "names",
             multiple=True,
             metavar="CHANNEL=COLUMN",
-            help="What a channel is, as --name Querkraft=fy; can be repeated.",
+            help="What a channel is, such as --name Querkraft=fy; can be repeated.",
         ),
         click.option(
             "--unit",
             "units",
             multiple=True,
             metavar="CHANNEL=UNIT",
-            help="The unit of a channel, as --unit SA=deg; can be repeated.",
+            help="The unit of a channel, such as --unit SA=deg; can be repeated.",
         ),
         click.option(
             "--axes",
             type=click.Choice(["ISO", "SAE"], case_sensitive=False),
-            help="Axes of the file where its names do not tell; left out, ISO is assumed, which is said.",
+            help="Axes of the file, if the names of its channels do not tell. Default: ISO, with a note.",
         ),
     ):
         function = option(function)

@@ -35,20 +35,20 @@ _ASSUMED = (
     help="A fitted translator: its file, its versioned folder (the newest is taken) or a folder of releases.",
 )
 @click.option(
-    "--from", "category", help="Who measured the tire; else a folder of the file's path that is known."
+    "--from", "category", help="Who measured the tire. Default: the known category in the file's path."
 )
-@click.option("-o", "--output", "target", type=FILE, help="The file to write; else FILE_as_TARGET.tir.")
+@click.option("-o", "--output", "target", type=FILE, help="The file to write. Default: FILE_as_TARGET.tir.")
 @click.option(
     "--nominal-load",
     type=float,
-    help=f"Nominal load of the translator's training table, N; else what the model says, or {USUAL_LOAD:g}.",
+    help=f"Nominal load of the translator's training table, N. Default: the model's own, or {USUAL_LOAD:g}.",
 )
 @click.option(
     "--farthest",
     type=click.FloatRange(0.0, 3.0, min_open=True),
     default=1.0,
     show_default=True,
-    help="Distance from the training data up to which a tire is translated; 1 is their edge.",
+    help="Largest distance from the training data at which a tire is still translated; 1 is the edge.",
 )
 @click.option("--overwrite", is_flag=True, help="Replace a file of that name.")
 @output_options()
