@@ -13,7 +13,7 @@ KEPT_MODELS = 20
 KEPT_EVENTS = 1000
 TO_GO_BACK = "`kedro run --pipeline rollback` puts back the last one whose file is whole; or restore the file"
 WITHOUT_ANY_MODEL = (
-    "bring a model back from a copy; or move the folder of released models away and run "
+    "restore a model from a backup; or move the folder of released models away and run "
     "`kedro run --pipeline retrain`, which trains the first model again from the files"
 )
 RELEASED, REFUSED, ROLLED_BACK, UNCHANGED = "released", "refused", "rolled back", "unchanged"

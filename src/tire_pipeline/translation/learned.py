@@ -12,7 +12,7 @@ from tire_pipeline.translation.translator import CurveTranslator
 
 
 class LikelihoodAgent(CurveTranslator):
-    """Translates by a policy that is paid in likelihood (:class:`.predict.policy.PolicyPredictor`).
+    """Translates by a policy that is rewarded by likelihood (:class:`.predict.policy.PolicyPredictor`).
 
     Parameters
     ----------
