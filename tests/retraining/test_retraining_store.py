@@ -295,7 +295,7 @@ def test_where_no_model_is_left_it_says_what_is_left_to_do(shelf, place, model, 
     with pytest.raises(DatasetError, match="the file of the model in use is missing") as of_the_retraining:
         shelf.load()
     for said in (text, str(of_the_retraining.value)):
-        assert "from a copy" in said
+        assert "from a backup" in said
         assert "move the folder of released models away" in said
         assert "rollback" not in said
 

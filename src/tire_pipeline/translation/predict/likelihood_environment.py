@@ -1,4 +1,4 @@
-"""Where an agent learns to translate: it moves a tire's scores and is rewarded by likelihood, not by probability.
+"""An agent learns to translate: it moves a tire's scores and is rewarded by likelihood, not by probability.
 
 Reward of a step: how much the log density ratio of target to source category given the metadata grows, less
 the growth of half the squared distance moved, in the densities' own units. A classifier's probability says
