@@ -29,7 +29,6 @@ _LONGEST_FIRST = (
     "mismatch/test_mismatch_questions.py",
     "notebooks/test_notebooks_run.py",
     "pipelines/test_pipelines_small_run.py",
-    "mismatch/test_mismatch_search.py",
     "mismatch/test_mismatch_explain.py",
     "mismatch/test_mismatch_few_channels.py",
     "mismatch/test_mismatch_rates.py",

@@ -27,7 +27,7 @@ def say_outcome(
     ----------
     translated_table, evaluation_summary : DataFrame
     best : dict
-        From :func:`.best.choose_best`.
+        From :func:`.best_translator.choose_best`.
     target_category : str
 
     Returns
