@@ -19,7 +19,7 @@ from real_recordings import error
 
 from tire_pipeline.concealed.brush_rig.constants import draw_constants
 from tire_pipeline.concealed.brush_rig.schedule import CHANNELS
-from tire_pipeline.concealed.brush_rig.simulate import World
+from tire_pipeline.concealed.brush_rig.simulate import BrushRig
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.magic_formula.fitting import fit_magic_formula, joint, stage_fit
 from tire_pipeline.magic_formula.fitting.typical import SPREAD
@@ -58,28 +58,28 @@ def spreads() -> pd.DataFrame:
     return pd.DataFrame(rows).T
 
 
-def forces(world: World, slip_angle: np.ndarray, normal_load: np.ndarray) -> pd.DataFrame:
+def forces(rig: BrushRig, slip_angle: np.ndarray, normal_load: np.ndarray) -> pd.DataFrame:
     """Return steady points of pure lateral slip of a brush tire."""
     frame = pd.DataFrame(0.0, index=range(slip_angle.size), columns=["time", *CHANNELS])
     frame["time"] = np.arange(slip_angle.size) * 0.02
     frame["slip_angle"], frame["normal_load"] = slip_angle, normal_load
-    frame["speed"], frame["pressure"] = world.constants.nominal_speed, world.constants.nominal_pressure
-    return world.run(frame, {})[["slip_angle", "normal_load", "fy"]]
+    frame["speed"], frame["pressure"] = rig.constants.nominal_speed, rig.constants.nominal_pressure
+    return rig.run(frame, {})[["slip_angle", "normal_load", "fy"]]
 
 
 def errors(seed: int, points: int) -> dict[str, float]:
     """Fit one tire at some of the points, and return the error elsewhere by setting."""
     rng = np.random.default_rng([seed, points])
     constants = draw_constants(rng)
-    world = World(constants, np.zeros(0), 1.0, {}, {}, 24)
+    rig = BrushRig(constants, np.zeros(0), 1.0, {}, {}, 24)
     load, angle = (a.ravel() for a in np.meshgrid(LOADS * constants.nominal_load, ANGLES))
     few = rng.choice(load.size, size=min(points, load.size), replace=False)
     many = np.meshgrid(
         constants.nominal_load * np.linspace(0.5, 1.5, 7), np.linspace(ANGLES[0], ANGLES[-1], 49)
     )
-    truth = forces(world, many[1].ravel(), many[0].ravel())
+    truth = forces(rig, many[1].ravel(), many[0].ravel())
     largest = float(truth["fy"].abs().max())
-    seen = forces(world, angle[few], load[few])
+    seen = forces(rig, angle[few], load[few])
     seen["fy"] += NOISE * largest * rng.standard_normal(len(seen))
     out = {}
     for name, instead in SETTINGS.items():

@@ -38,7 +38,7 @@ from threadpoolctl import threadpool_limits
 from tire_pipeline import magic_formula
 from tire_pipeline.concealed.brush_rig.constants import draw_constants
 from tire_pipeline.concealed.brush_rig.schedule import CHANNELS
-from tire_pipeline.concealed.brush_rig.simulate import World
+from tire_pipeline.concealed.brush_rig.simulate import BrushRig
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula, given
 from tire_pipeline.magic_formula.fitting.solve import Problem, quick
@@ -156,7 +156,7 @@ def of_rig(seed: int) -> Subset:
     """A brush tire that brakes, drives and corners at some of five loads."""
     rng = np.random.default_rng([20_243, seed])
     constants = draw_constants(rng)
-    world = World(constants, np.zeros(0), 1.0, {}, {}, 24)
+    rig = BrushRig(constants, np.zeros(0), 1.0, {}, {}, 24)
     loads = constants.nominal_load * np.linspace(0.3, 1.65, 5)
     ratio, angle = np.linspace(-0.25, 0.25, 61), np.linspace(-0.2, 0.2, 61)
     sides, camber = (0.0, -0.1, -0.05, 0.03, 0.06), 0.06
@@ -165,7 +165,7 @@ def of_rig(seed: int) -> Subset:
     frame = pd.DataFrame(points, columns=["slip_angle", "slip_ratio", "camber", "normal_load"])
     frame["speed"], frame["pressure"] = constants.nominal_speed, constants.nominal_pressure
     frame["turn_slip"], frame["time"] = 0.0, np.arange(len(frame)) * 0.02
-    table = world.run(frame[["time", *CHANNELS]], {})
+    table = rig.run(frame[["time", *CHANNELS]], {})
     for force in ("fx", "fy"):
         table[force] += 0.005 * table[force].abs().max() * rng.standard_normal(len(table))
     number, step = int(rng.integers(2, 6)), int(rng.integers(1, 4))

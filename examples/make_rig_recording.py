@@ -17,7 +17,7 @@ import pandas as pd
 
 from tire_pipeline.concealed.brush_rig.constants import draw_constants
 from tire_pipeline.concealed.brush_rig.schedule import CHANNELS, CasePlan
-from tire_pipeline.concealed.brush_rig.simulate import World, add_noise, draw_noise
+from tire_pipeline.concealed.brush_rig.simulate import BrushRig, add_noise, draw_noise
 from tire_pipeline.concealed.cases.clean_run import fit_clean
 from tire_pipeline.tir import write_tir
 
@@ -82,13 +82,13 @@ def main(folder: Path = HERE) -> None:
         shape="sine",
         sweeps=1,
     )
-    world = World(constants, rng.random(4), ISO, {}, {"fx": 0.0, "fy": 0.0}, 24)
-    largest = float(world.run(sweeps(plan, (1.0,), RUN["loads"]), {})["fy"].abs().max())
-    tire, _ = fit_clean(world, plan, noise=0.002 * largest, rng=rng)
+    rig = BrushRig(constants, rng.random(4), ISO, {}, {"fx": 0.0, "fy": 0.0}, 24)
+    largest = float(rig.run(sweeps(plan, (1.0,), RUN["loads"]), {})["fy"].abs().max())
+    tire, _ = fit_clean(rig, plan, noise=0.002 * largest, rng=rng)
     write_tir(tire, folder / "tire.tir", overwrite=True)
     noise = draw_noise(rng, constants, largest)
     for name, levels in (("rig_run", RUN), ("rig_check", CHECK)):
-        frame = world.run(sweeps(plan, levels["pressures"], levels["loads"]), {"inflation_pressure": 1.0})
+        frame = rig.run(sweeps(plan, levels["pressures"], levels["loads"]), {"inflation_pressure": 1.0})
         write_rig_file(add_noise(frame.drop(columns="wear"), noise, rng), folder / f"{name}.csv")
 
 

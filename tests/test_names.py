@@ -61,6 +61,17 @@ def test_no_two_classes_of_one_name():
     assert _twice(classes) == set()
 
 
+def test_no_class_of_concealed_is_taken_for_one_of_a_sealed_simulator():
+    sealed, others = set(), set()
+    for path in (ROOT / "concealed").rglob("*.py"):
+        name = ".".join(path.relative_to(ROOT).with_suffix("").parts)
+        body = ast.parse(path.read_text("utf-8")).body
+        found = {each.name.lstrip("_") for each in body if isinstance(each, ast.ClassDef)}
+        (sealed if name.startswith(SEALED) else others).update(found)
+    assert sealed
+    assert sealed & others == set()
+
+
 def test_no_two_constants_of_one_name():
     assert _twice({name: _constants(module) for name, module in _modules().items()}) == set()
 

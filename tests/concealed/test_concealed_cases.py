@@ -12,7 +12,7 @@ from tire_pipeline.concealed import Answer, case_plan, make_case, make_cases, se
 from tire_pipeline.concealed.brush_rig.artefacts import ArtefactDetails, apply_artefact
 from tire_pipeline.concealed.brush_rig.constants import draw_constants, without_cooling
 from tire_pipeline.concealed.brush_rig.schedule import OPTIONAL_BLOCKS, draw_plan, make_schedule
-from tire_pipeline.concealed.brush_rig.simulate import SensorNoise, World, add_noise
+from tire_pipeline.concealed.brush_rig.simulate import BrushRig, SensorNoise, add_noise
 from tire_pipeline.concealed.brush_rig.unknown_effects import play
 from tire_pipeline.concealed.cases import effect_size
 from tire_pipeline.concealed.cases.clean_run import residual, rms
@@ -255,11 +255,11 @@ def test_a_tire_that_keeps_its_heat_warms_as_it_wears(seed):
         pressure=2.2e5,
     )
     schedule, _ = make_schedule(plan, rng, rate=50.0)
-    cooling = World(constants, rng.random(4), 1.0, {}, {"fx": 0.0, "fy": 0.0}, 24)
+    cooling = BrushRig(constants, rng.random(4), 1.0, {}, {"fx": 0.0, "fy": 0.0}, 24)
     keeping = replace(cooling, constants=without_cooling(constants, 1e5))
     alike = []
-    for world in (cooling, keeping):
-        frame = world.run(schedule, {})
+    for rig in (cooling, keeping):
+        frame = rig.run(schedule, {})
         alike.append(np.corrcoef(frame["tread_temperature"], frame["wear"])[0, 1])
     assert alike[1] > max(0.98, alike[0])
     assert frame["tread_temperature"].is_monotonic_increasing

@@ -10,7 +10,7 @@ import pytest
 from tire_pipeline.concealed import seal, unseal
 from tire_pipeline.concealed.real import RealAnswer, make_real_case, real_plan
 from tire_pipeline.concealed.real.plan import EFFECTS, HIDEABLE, SOURCE_KINDS, SOURCE_SHARES
-from tire_pipeline.concealed.real.put_in import MECHANISMS, Details, RecordedSession, put_in
+from tire_pipeline.concealed.real.put_in import INSERTED_EFFECTS, Details, RecordedSession, put_in
 from tire_pipeline.concealed.real.sources import SOURCES, development_list, pool, sweeps
 from tire_pipeline.magic_formula import TireModel
 
@@ -39,7 +39,7 @@ def test_the_plan_has_enough_with_nothing_and_little_from_tydex():
 
 def test_every_mechanism_is_drawn_from_some_source():
     drawn = {name for table in EFFECTS.values() for names in table.values() for name in names}
-    assert drawn | {"quantisation"} == set(MECHANISMS)
+    assert drawn | {"quantisation"} == set(INSERTED_EFFECTS)
     assert {name for sets in HIDEABLE.values() for names in sets for name in names} <= {
         "camber",
         "inflation_pressure",
@@ -121,13 +121,13 @@ def forces(tire: TireModel, frame: pd.DataFrame) -> np.ndarray:
     ).fy
 
 
-@pytest.mark.parametrize("name", list(MECHANISMS))
+@pytest.mark.parametrize("name", list(INSERTED_EFFECTS))
 def test_a_mechanism_of_strength_near_nothing_changes_nothing(run, name):
     frame, session = run
-    mechanism = MECHANISMS[name]
-    if not mechanism.scaled:
+    inserted = INSERTED_EFFECTS[name]
+    if not inserted.scaled:
         return
-    tiny = 1e-7 * (session.largest if mechanism.share_of == "force" else 1.0)
+    tiny = 1e-7 * (session.largest if inserted.share_of == "force" else 1.0)
     out = put_in(frame, {name: tiny}, session, {name: PLAIN})
     for channel in ("slip_angle", "fy", "camber"):
         scale = float(frame[channel].abs().max())

@@ -144,7 +144,7 @@ def draw_plan(
 
 
 @dataclass
-class _Rig:
+class _SetPoints:
     """Collects stretches of set points at the recording's rate."""
 
     plan: CasePlan
@@ -174,9 +174,9 @@ class _Rig:
         self.length += n
 
 
-def values_load(rig: _Rig) -> float:
+def values_load(points: _SetPoints) -> float:
     """Load at which a single-load plan runs, N."""
-    return rig.plan.loads[0]
+    return points.plan.loads[0]
 
 
 def _sweep(plan: CasePlan, dt: float, amplitude: float, rate: float, cycles: int = 1) -> np.ndarray:
@@ -192,19 +192,19 @@ def _sweep(plan: CasePlan, dt: float, amplitude: float, rate: float, cycles: int
     return amplitude * triangle
 
 
-def _base(rig: _Rig, rng: np.random.Generator, loads: tuple[float, ...]) -> None:
+def _base(points: _SetPoints, rng: np.random.Generator, loads: tuple[float, ...]) -> None:
     for load in loads:
-        a = _sweep(rig.plan, rig.dt, rig.plan.amplitude, rig.plan.rate, rig.plan.sweeps)
-        rig.run("base", len(a) * rig.dt, slip_angle=a, normal_load=load)
+        a = _sweep(points.plan, points.dt, points.plan.amplitude, points.plan.rate, points.plan.sweeps)
+        points.run("base", len(a) * points.dt, slip_angle=a, normal_load=load)
 
 
 def _levels(
     channel: str,
-) -> Callable[[_Rig, np.random.Generator, tuple[float, ...]], None]:
+) -> Callable[[_SetPoints, np.random.Generator, tuple[float, ...]], None]:
     """Sweeps at each level of a channel, at two loads."""
 
-    def block(rig: _Rig, rng: np.random.Generator, levels: tuple[float, ...]) -> None:
-        plan = rig.plan
+    def block(points: _SetPoints, rng: np.random.Generator, levels: tuple[float, ...]) -> None:
+        plan = points.plan
         loads = sorted(plan.loads)
         pair = (loads[0], loads[-1]) if len(loads) > 1 else (loads[0],)
         if rng.random() < 0.5 and len(loads) > 2:
@@ -212,59 +212,59 @@ def _levels(
         rate = plan.rate * 1.3
         for level in levels:
             for load in pair:
-                a = _sweep(plan, rig.dt, plan.amplitude, rate)
-                rig.run(channel, len(a) * rig.dt, slip_angle=a, normal_load=load, **{channel: level})
+                a = _sweep(plan, points.dt, plan.amplitude, rate)
+                points.run(channel, len(a) * points.dt, slip_angle=a, normal_load=load, **{channel: level})
 
     return block
 
 
-def _sine(rig: _Rig, rng: np.random.Generator, _: tuple[float, ...]) -> None:
-    plan = rig.plan
+def _sine(points: _SetPoints, rng: np.random.Generator, _: tuple[float, ...]) -> None:
+    plan = points.plan
     speeds = [plan.speed]
     if not plan.single_speed:
         speeds += [plan.speed * float(rng.uniform(0.35, 0.5)), plan.speed * 1.6]
     for speed in rng.permutation(speeds):
         for frequency in (0.5, 1.0, 2.0):
             seconds = 4.0 / frequency
-            t = np.arange(round(seconds / rig.dt)) * rig.dt
+            t = np.arange(round(seconds / points.dt)) * points.dt
             amplitude = float(rng.uniform(0.015, 0.05)) / frequency**0.3
             a = amplitude * np.sin(2.0 * np.pi * frequency * t)
-            rig.run("sine", seconds, slip_angle=a, speed=float(speed))
+            points.run("sine", seconds, slip_angle=a, speed=float(speed))
 
 
-def _brake(rig: _Rig, rng: np.random.Generator, angles: tuple[float, ...]) -> None:
-    plan = rig.plan
+def _brake(points: _SetPoints, rng: np.random.Generator, angles: tuple[float, ...]) -> None:
+    plan = points.plan
     loads = sorted(plan.loads)
     pair = (loads[0], loads[-1]) if len(loads) < 3 else (loads[-2], loads[0])
     depth = float(rng.uniform(0.12, 0.2))
     seconds = float(rng.uniform(4.0, 7.0))
-    t = np.arange(round(seconds / rig.dt)) * rig.dt / seconds
+    t = np.arange(round(seconds / points.dt)) * points.dt / seconds
     ramp = -depth * (4.0 * np.abs(((t - 0.25) % 1.0) - 0.5) - 1.0)
-    edge = np.linspace(0.0, 1.0, round(1.0 / rig.dt))
+    edge = np.linspace(0.0, 1.0, round(1.0 / points.dt))
     for angle in angles:
         for place, load in enumerate(pair):
             into = edge if place == 0 and angle else edge[:0]
             out = edge[::-1] if place == len(pair) - 1 and angle else edge[:0]
             steer = angle * np.concatenate([into, np.ones(len(ramp)), out])
             slip = np.concatenate([0.0 * into, ramp, 0.0 * out])
-            rig.run("brake", len(slip) * rig.dt, slip_ratio=slip, slip_angle=steer, normal_load=load)
+            points.run("brake", len(slip) * points.dt, slip_ratio=slip, slip_angle=steer, normal_load=load)
 
 
-def _turn(rig: _Rig, rng: np.random.Generator, curvatures: tuple[float, ...]) -> None:
-    plan = rig.plan
+def _turn(points: _SetPoints, rng: np.random.Generator, curvatures: tuple[float, ...]) -> None:
+    plan = points.plan
     for curvature in curvatures:
-        a = _sweep(plan, rig.dt, 0.5 * plan.amplitude, plan.rate * 1.3)
-        rig.run("turn", len(a) * rig.dt, slip_angle=a, turn_slip=curvature, speed=0.5 * plan.speed)
+        a = _sweep(plan, points.dt, 0.5 * plan.amplitude, plan.rate * 1.3)
+        points.run("turn", len(a) * points.dt, slip_angle=a, turn_slip=curvature, speed=0.5 * plan.speed)
 
 
-def _coast(rig: _Rig, rng: np.random.Generator, _: tuple[float, ...]) -> None:
-    rig.run("coast", float(rng.uniform(20.0, 45.0)), speed=rig.plan.speed)
+def _coast(points: _SetPoints, rng: np.random.Generator, _: tuple[float, ...]) -> None:
+    points.run("coast", float(rng.uniform(20.0, 45.0)), speed=points.plan.speed)
 
 
-def _repeat(rig: _Rig, rng: np.random.Generator, loads: tuple[float, ...]) -> None:
+def _repeat(points: _SetPoints, rng: np.random.Generator, loads: tuple[float, ...]) -> None:
     for load in loads:
-        a = _sweep(rig.plan, rig.dt, rig.plan.amplitude, rig.plan.rate)
-        rig.run("repeat", len(a) * rig.dt, slip_angle=a, normal_load=load)
+        a = _sweep(points.plan, points.dt, points.plan.amplitude, points.plan.rate)
+        points.run("repeat", len(a) * points.dt, slip_angle=a, normal_load=load)
 
 
 def make_schedule(
@@ -288,28 +288,28 @@ def make_schedule(
         ``time`` and :data:`CHANNELS`, SI, as the tire truly sees them.
     starts : list of (block, first row)
     """
-    rig = _Rig(plan, 1.0 / rate)
+    points = _SetPoints(plan, 1.0 / rate)
     if held_out:
         between = (plan.held_out_load, plan.loads[0])
-        _base(rig, rng, between if not plan.single_load else between[:1])
+        _base(points, rng, between if not plan.single_load else between[:1])
         levels = _held_out_levels(plan, rng)
         order = [b for b in OPTIONAL_BLOCKS if b in plan.blocks and b not in ("coast", "repeat")]
     else:
-        _base(rig, rng, plan.loads)
+        _base(points, rng, plan.loads)
         levels = _recorded_levels(plan, rng)
         middle = [b for b in plan.blocks if b not in ("coast", "repeat")]
         order = [str(b) for b in rng.permutation(middle)] if middle else []
         order += [b for b in ("coast", "repeat") if b in plan.blocks]
     for name in order:
-        _BLOCKS[name](rig, rng, levels.get(name, ()))
-    frame = pd.DataFrame({channel: np.concatenate([p[channel] for p in rig.parts]) for channel in CHANNELS})
+        _BLOCKS[name](points, rng, levels.get(name, ()))
+    frame = pd.DataFrame({name: np.concatenate([p[name] for p in points.parts]) for name in CHANNELS})
     lags = {"camber": 0.3, "normal_load": 0.25, "speed": 1.2, "pressure": 1.5, "turn_slip": 0.5}
     for channel, lag in lags.items():
         frame[channel] = _follow(frame[channel].to_numpy(), lag * rate)
     for channel in ("slip_angle", "slip_ratio"):
         frame[channel] = _follow(frame[channel].to_numpy(), 0.04 * rate)
     frame.insert(0, "time", np.arange(len(frame)) / rate)
-    return frame, rig.starts
+    return frame, points.starts
 
 
 def _recorded_levels(plan: CasePlan, rng: np.random.Generator) -> dict[str, tuple[float, ...]]:
@@ -342,7 +342,7 @@ def _follow(target: np.ndarray, samples: float) -> np.ndarray:
     return np.asarray(out)
 
 
-_BLOCKS: dict[str, Callable[[_Rig, np.random.Generator, tuple[float, ...]], None]] = {
+_BLOCKS: dict[str, Callable[[_SetPoints, np.random.Generator, tuple[float, ...]], None]] = {
     "camber": _levels("camber"),
     "pressure": _levels("pressure"),
     "speed": _levels("speed"),

@@ -97,8 +97,8 @@ def add_noise(frame: pd.DataFrame, noise: SensorNoise, rng: np.random.Generator)
 
 
 @dataclass(frozen=True)
-class World:
-    """Everything of a case that does not depend on the strengths of its effects."""
+class BrushRig:
+    """A rig with a brush tire: everything of a case that does not depend on the strengths of its effects."""
 
     constants: TireConstants
     character: np.ndarray

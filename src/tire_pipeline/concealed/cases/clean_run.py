@@ -9,12 +9,12 @@ import pandas as pd
 
 from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.concealed.brush_rig.schedule import CHANNELS, CasePlan
-from tire_pipeline.concealed.brush_rig.simulate import RIG_FORCES, World
+from tire_pipeline.concealed.brush_rig.simulate import RIG_FORCES, BrushRig
 from tire_pipeline.magic_formula import DegreesWarning, TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 
 
-def clean_schedule(world: World, plan: CasePlan) -> pd.DataFrame:
+def clean_schedule(rig: BrushRig, plan: CasePlan) -> pd.DataFrame:
     """Points of a clean run: pure slip, camber and combined slip at nominal speed and pressure.
 
     The loads and angles span those of the recording.
@@ -42,13 +42,13 @@ def clean_schedule(world: World, plan: CasePlan) -> pd.DataFrame:
 
 
 def fit_clean(
-    world: World, plan: CasePlan, *, noise: float, rng: np.random.Generator
+    rig: BrushRig, plan: CasePlan, *, noise: float, rng: np.random.Generator
 ) -> tuple[TireModel, float]:
     """Fit MF 5.2 to a clean run: no effect, steady, new tire at its reference temperature.
 
     Parameters
     ----------
-    world : World
+    rig : BrushRig
     plan : CasePlan
     noise : float
         Standard deviation of the noise on the clean run's forces, N.
@@ -60,7 +60,7 @@ def fit_clean(
     misfit : float
         RMS of what the fit leaves of the clean run, N.
     """
-    frame = world.run(clean_schedule(world, plan), {})
+    frame = rig.run(clean_schedule(rig, plan), {})
     frame = frame[[*SLIP_AND_LOAD, *RIG_FORCES]].copy()
     for force in RIG_FORCES:
         frame[force] += noise * rng.standard_normal(len(frame))
@@ -68,7 +68,7 @@ def fit_clean(
         frame,
         "5.2",
         nominal_load=plan.nominal_load,
-        unloaded_radius=round(world.constants.radius, 4),
+        unloaded_radius=round(rig.constants.radius, 4),
         starts=2,
         loss="linear",
         together=False,  # a seed keeps its case

@@ -11,7 +11,13 @@ import pandas as pd
 from tire_pipeline.concealed.brush_rig import artefacts
 from tire_pipeline.concealed.brush_rig.constants import draw_constants, without_cooling
 from tire_pipeline.concealed.brush_rig.schedule import CasePlan, draw_plan, make_schedule
-from tire_pipeline.concealed.brush_rig.simulate import RIG_FORCES, SensorNoise, World, add_noise, draw_noise
+from tire_pipeline.concealed.brush_rig.simulate import (
+    RIG_FORCES,
+    BrushRig,
+    SensorNoise,
+    add_noise,
+    draw_noise,
+)
 from tire_pipeline.concealed.cases import effect_size
 from tire_pipeline.concealed.cases.answers import Answer, EffectTruth
 from tire_pipeline.concealed.cases.clean_run import fit_clean, model_forces, residual, rms
@@ -87,7 +93,7 @@ class _Unfit(Exception):
 class _Bench:
     """A drawn tire on a drawn rig with its fitted model, before any effect."""
 
-    world: World
+    rig: BrushRig
     plan: CasePlan
     tire: TireModel
     schedule: pd.DataFrame
@@ -98,8 +104,8 @@ class _Bench:
     def effect(self, strengths: Mapping[str, float]) -> np.ndarray:
         """What effects add to recorded less modelled force, shape (n, 2), N."""
         physical = {k: v for k, v in strengths.items() if k not in ARTEFACTS}
-        frame = self.world.run(self.schedule, physical) if physical else self.clean
-        frame = self.world.with_artefacts(frame, strengths)
+        frame = self.rig.run(self.schedule, physical) if physical else self.clean
+        frame = self.rig.with_artefacts(frame, strengths)
         return residual(self.tire, frame) - self.clean_residual
 
 
@@ -169,7 +175,7 @@ def _attempt(
     strengths: dict[str, float] = {}
     for name in choice.effects:
         strengths[name] = _scale(rng, bench, name, settings)
-    noise = draw_noise(rng, bench.world.constants, max(bench.world.largest.values()))
+    noise = draw_noise(rng, bench.rig.constants, max(bench.rig.largest.values()))
     recording, frame = _record(rng, bench, bench.schedule, strengths, noise, 0.0)
     start = float(bench.schedule["time"].iloc[-1]) + PAUSE
     held_schedule, _ = make_schedule(bench.plan, rng, rate=settings.rate, held_out=True)
@@ -192,7 +198,7 @@ def _attempt(
         missing_channels=tuple(c for c in missing if c != "turn_slip"),
         blocks=bench.plan.blocks,
         focus=choice.focus,
-        largest_force=max(bench.world.largest.values()),
+        largest_force=max(bench.rig.largest.values()),
         misfit=bench.misfit,
         noise=rms(noise_part),
         oracle=_oracle(bench, held_schedule, held_out, held_frame, start),
@@ -218,7 +224,7 @@ def _set_up(rng: np.random.Generator, choice: Choice, settings: CaseSettings) ->
         raise _Unfit
     end = float(schedule["time"].iloc[-1])
     constants = replace(constants, surface_time=end * float(rng.uniform(0.3, 0.7)))
-    world = World(
+    rig = BrushRig(
         constants=constants,
         character=rng.random(4),
         slip_sign=float(rng.choice([-1.0, 1.0], p=[0.35, 0.65])),
@@ -233,33 +239,33 @@ def _set_up(rng: np.random.Generator, choice: Choice, settings: CaseSettings) ->
         n_bristles=settings.n_bristles,
     )
     if choice.ambiguous == HEAT_OR_WEAR:
-        world = _keeping_heat(rng, world, schedule)
-    constants = world.constants
-    clean = world.run(schedule, {})
+        rig = _keeping_heat(rng, rig, schedule)
+    constants = rig.constants
+    clean = rig.run(schedule, {})
     wear = float(clean["wear"].iloc[-1])
-    world = replace(
-        world,
+    rig = replace(
+        rig,
         constants=replace(constants, wear_energy=constants.wear_energy * wear),
         largest={f: float(clean[f].abs().max()) for f in RIG_FORCES},
     )
-    largest = max(world.largest.values())
-    tire, poor = fit_clean(world, plan, noise=0.002 * largest, rng=rng)
+    largest = max(rig.largest.values())
+    tire, poor = fit_clean(rig, plan, noise=0.002 * largest, rng=rng)
     if poor > 2.0 * settings.misfit[1] * largest:
         raise _Unfit
     left = residual(tire, clean)
     misfit = rms(left)
     if not settings.misfit[0] <= misfit / largest <= settings.misfit[1]:
         raise _Unfit
-    return _Bench(world, plan, tire, schedule, clean, left, misfit)
+    return _Bench(rig, plan, tire, schedule, clean, left, misfit)
 
 
-def _keeping_heat(rng: np.random.Generator, world: World, schedule: pd.DataFrame) -> World:
-    """Return the world with a tire that does not cool and warms by a drawn number of degrees."""
-    unit = replace(world, constants=without_cooling(world.constants, 1e4))
+def _keeping_heat(rng: np.random.Generator, rig: BrushRig, schedule: pd.DataFrame) -> BrushRig:
+    """Return the rig with a tire that does not cool and warms by a drawn number of degrees."""
+    unit = replace(rig, constants=without_cooling(rig.constants, 1e4))
     temperature = unit.run(schedule, {})["tread_temperature"].to_numpy()
     warmer = float(temperature[-1] - temperature[0])
     capacity = 1e4 * warmer / float(rng.uniform(*WARMING))
-    return replace(world, constants=without_cooling(world.constants, capacity))
+    return replace(rig, constants=without_cooling(rig.constants, capacity))
 
 
 def _scale(rng: np.random.Generator, bench: _Bench, name: str, settings: CaseSettings) -> float:
@@ -272,7 +278,7 @@ def _scale(rng: np.random.Generator, bench: _Bench, name: str, settings: CaseSet
     sign = float(rng.choice([-1.0, 1.0])) if name in effect_size.SIGNED else 1.0
     low, high = effect_size.STRENGTH_LIMITS[name]
     if name == "combined_slip":
-        base = bench.world.constants.coupling
+        base = bench.rig.constants.coupling
         sign = 1.0 if base < 0.5 else sign
         high = min(high, base if sign < 0 else 1.3 - base)
         if high <= low:
@@ -298,10 +304,10 @@ def _record(
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Run and record; returns the recording, and the same without noise."""
     physical = {k: v for k, v in strengths.items() if k not in ARTEFACTS}
-    frame = bench.world.run(schedule, physical, time0=time0).drop(columns="wear")
+    frame = bench.rig.run(schedule, physical, time0=time0).drop(columns="wear")
     return (
-        bench.world.with_artefacts(add_noise(frame, noise, rng), strengths),
-        bench.world.with_artefacts(frame, strengths),
+        bench.rig.with_artefacts(add_noise(frame, noise, rng), strengths),
+        bench.rig.with_artefacts(frame, strengths),
     )
 
 
@@ -317,13 +323,13 @@ def _truth(bench: _Bench, name: str, strengths: Mapping[str, float], noise_part:
     floor = float(np.sqrt(np.mean(noise_part[:, output] ** 2)))
     size = rms(effect)
     details: dict[str, object] = {}
-    if name in bench.world.details:
-        drawn = bench.world.details[name]
+    if name in bench.rig.details:
+        drawn = bench.rig.details[name]
         details = {"channel": drawn.channel, "factor": drawn.factor}
         if name == "stuck_channel":
             details["interval"] = list(drawn.interval)
     if name == "surface_change":
-        details["moment"] = bench.world.constants.surface_time
+        details["moment"] = bench.rig.constants.surface_time
     family = "physics" if name in PHYSICS else "artefact" if name in ARTEFACTS else "unknown"
     return EffectTruth(
         name=name,
@@ -350,7 +356,7 @@ def _oracle(
 
     The oracle's error is the recorded noise and the model's misfit without effects.
     """
-    clean = bench.world.run(schedule, {}, time0=time0)
+    clean = bench.rig.run(schedule, {}, time0=time0)
     before = residual(bench.tire, held_out)
     noise_part = before - residual(bench.tire, held_frame)
     best = noise_part + residual(bench.tire, clean)

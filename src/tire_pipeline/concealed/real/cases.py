@@ -17,7 +17,7 @@ from tire_pipeline.concealed.cases.windows_and_regimes import regimes, windows
 from tire_pipeline.concealed.real.layout import Layout, at_rate, draw_layout, fitted, rows
 from tire_pipeline.concealed.real.plan import RealPlan, draw_effects
 from tire_pipeline.concealed.real.put_in import (
-    MECHANISMS,
+    INSERTED_EFFECTS,
     Details,
     RecordedSession,
     draw_details,
@@ -189,7 +189,7 @@ def _set_up(
     raw, raw_held = rows(layout.shown, None), rows(layout.held_out, None)
     if "camber_offset" in effects and np.ptp(raw["camber"]) < 0.01:
         raise _UnfitSweeps
-    picked = any(MECHANISMS[name].whole for name in effects) or bool(rng.random() < 0.3)
+    picked = any(INSERTED_EFFECTS[name].whole for name in effects) or bool(rng.random() < 0.3)
     rate = _rate(rng, layout, raw, effects)
     tire, formula = fitted(layout.fit), fitted((*layout.shown, *layout.held_out))
     # Too few steady points overfit: there the formula is that of all points of the case.
@@ -238,20 +238,20 @@ def _session(formula: TireModel, layout: Layout, raw: pd.DataFrame) -> RecordedS
 
 def _scale(rng: np.random.Generator, bench: _RealBench, name: str, details: Mapping[str, Details]) -> float:
     """Draw how strong an effect shall be, in misfits, and find its strength."""
-    mechanism = MECHANISMS[name]
-    if not mechanism.scaled:
+    inserted = INSERTED_EFFECTS[name]
+    if not inserted.scaled:
         if _rms(bench.effect({name: 1.0}, details)) < EFFECT[0] * bench.misfit:
             raise _UnfitSweeps
         return 1.0
     wanted = effect_size.draw_ratio(rng, *EFFECT)
-    sign = details[name].sign if mechanism.signed else 1.0
-    unit = {"force": bench.session.largest, "radius": bench.session.radius}.get(mechanism.share_of, 1.0)
+    sign = details[name].sign if inserted.signed else 1.0
+    unit = {"force": bench.session.largest, "radius": bench.session.radius}.get(inserted.share_of, 1.0)
 
     def measure(x: float) -> float:
         return _rms(bench.effect({name: sign * x}, details)) / bench.misfit
 
     found, got = effect_size.find_strength(
-        measure, wanted, unit * mechanism.guess, (unit * mechanism.low, unit * mechanism.high)
+        measure, wanted, unit * inserted.guess, (unit * inserted.low, unit * inserted.high)
     )
     if not EFFECT[0] <= got <= EFFECT[1]:
         raise _UnfitSweeps
@@ -295,7 +295,7 @@ def _truth(
     total = _rms(effect)
     return EffectTruth(
         name=name,
-        kind=MECHANISMS[name].kind if name in MECHANISMS else "physics",
+        kind=INSERTED_EFFECTS[name].kind if name in INSERTED_EFFECTS else "physics",
         strength=size,
         rms=total,
         over_misfit=total / bench.misfit,

@@ -67,7 +67,7 @@ class Details:
 
 
 @dataclass(frozen=True)
-class Mechanism:
+class InsertedEffect:
     """How one effect gets into a recording.
 
     Attributes
@@ -115,9 +115,9 @@ def put_in(
         Effect -> Details.
     """
     order = {"physics": 0, "artefact": 1, "unknown": 2}
-    for name in sorted(strengths, key=lambda n: order[MECHANISMS[n].kind]):
+    for name in sorted(strengths, key=lambda n: order[INSERTED_EFFECTS[n].kind]):
         pieces = frame["piece"].to_numpy()
-        frame = MECHANISMS[name].act(frame, pieces, strengths[name], session, details[name])
+        frame = INSERTED_EFFECTS[name].act(frame, pieces, strengths[name], session, details[name])
     return frame
 
 
@@ -127,7 +127,7 @@ def draw_details(name: str, rng: np.random.Generator, time: np.ndarray) -> Detai
     Parameters
     ----------
     name : str
-        One of ``MECHANISMS``.
+        One of ``INSERTED_EFFECTS``.
     rng : numpy.random.Generator
     time : ndarray, shape (n,)
         Of the recording, s. Moments are drawn by samples: nothing begins in the pauses.
@@ -295,30 +295,30 @@ def _stuck(frame: Frame, _p: np.ndarray, _x: float, _s: RecordedSession, d: Deta
     return frame.assign(**{d.channel: np.where(inside, held, frame[d.channel])})
 
 
-MECHANISMS: dict[str, Mechanism] = {
-    "friction_scale": Mechanism("physics", _friction, 0.05, 0.002, 0.6, signed=True),
-    "stiffness_scale": Mechanism("physics", _stiffness, 0.1, 0.004, 0.9, signed=True),
-    "load_sensitivity": Mechanism("physics", _load, 0.1, 0.002, 0.8, signed=True),
-    "temperature": Mechanism("physics", _temperature, 0.05, 0.002, 0.1, signed=True),
-    "speed_dependence": Mechanism("physics", _speed, 0.1, 0.002, 0.6, signed=True),
-    "wear": Mechanism("physics", _wear, 0.1, 0.002, 0.7, signed=True),
-    "surface_change": Mechanism("physics", _surface, 0.1, 0.002, 0.6, signed=True),
-    "compliance": Mechanism("physics", _compliance, 0.01, 2e-4, 0.06),
-    "relaxation_length": Mechanism("physics", _relaxation, 1.0, 0.1, 4.0, share_of="radius"),
-    "nonuniformity": Mechanism("physics", _once_a_turn, 0.005, 2e-4, 0.05, whole=True),
-    "force_offset": Mechanism("artefact", _offset("fy"), 0.03, 1e-3, 0.6, share_of="force", signed=True),
-    "force_gain": Mechanism("artefact", _gain, 0.05, 0.001, 0.7, signed=True),
-    "slip_angle_offset": Mechanism("artefact", _offset("slip_angle"), 0.003, 5e-5, 0.06, signed=True),
-    "camber_offset": Mechanism("artefact", _offset("camber"), 0.02, 1e-3, 0.1, signed=True),
-    "crosstalk": Mechanism("artefact", _crosstalk, 0.03, 1e-3, 0.5, signed=True),
-    "sensor_drift": Mechanism("artefact", _drift, 0.06, 2e-3, 0.9, share_of="force", signed=True),
-    "time_delay": Mechanism("artefact", _delay, 0.05, 0.003, 0.8),
-    "low_pass": Mechanism("artefact", _low_pass, 0.05, 0.003, 0.8),
-    "clipping": Mechanism("artefact", _clipping, 0.15, 0.005, 0.7, whole=True),
-    "stuck_channel": Mechanism("artefact", _stuck, 1.0, 1.0, 1.0, scaled=False, whole=True),
-    "sign_convention": Mechanism("artefact", _mirrored, 1.0, 1.0, 1.0, scaled=False),
-    "unit_error": Mechanism("artefact", _unit, 1.0, 1.0, 1.0, scaled=False),
-    "quantisation": Mechanism("unknown", _resolution, 0.1, 2e-3, 0.8, share_of="force", whole=True),
+INSERTED_EFFECTS: dict[str, InsertedEffect] = {
+    "friction_scale": InsertedEffect("physics", _friction, 0.05, 0.002, 0.6, signed=True),
+    "stiffness_scale": InsertedEffect("physics", _stiffness, 0.1, 0.004, 0.9, signed=True),
+    "load_sensitivity": InsertedEffect("physics", _load, 0.1, 0.002, 0.8, signed=True),
+    "temperature": InsertedEffect("physics", _temperature, 0.05, 0.002, 0.1, signed=True),
+    "speed_dependence": InsertedEffect("physics", _speed, 0.1, 0.002, 0.6, signed=True),
+    "wear": InsertedEffect("physics", _wear, 0.1, 0.002, 0.7, signed=True),
+    "surface_change": InsertedEffect("physics", _surface, 0.1, 0.002, 0.6, signed=True),
+    "compliance": InsertedEffect("physics", _compliance, 0.01, 2e-4, 0.06),
+    "relaxation_length": InsertedEffect("physics", _relaxation, 1.0, 0.1, 4.0, share_of="radius"),
+    "nonuniformity": InsertedEffect("physics", _once_a_turn, 0.005, 2e-4, 0.05, whole=True),
+    "force_offset": InsertedEffect("artefact", _offset("fy"), 0.03, 1e-3, 0.6, share_of="force", signed=True),
+    "force_gain": InsertedEffect("artefact", _gain, 0.05, 0.001, 0.7, signed=True),
+    "slip_angle_offset": InsertedEffect("artefact", _offset("slip_angle"), 0.003, 5e-5, 0.06, signed=True),
+    "camber_offset": InsertedEffect("artefact", _offset("camber"), 0.02, 1e-3, 0.1, signed=True),
+    "crosstalk": InsertedEffect("artefact", _crosstalk, 0.03, 1e-3, 0.5, signed=True),
+    "sensor_drift": InsertedEffect("artefact", _drift, 0.06, 2e-3, 0.9, share_of="force", signed=True),
+    "time_delay": InsertedEffect("artefact", _delay, 0.05, 0.003, 0.8),
+    "low_pass": InsertedEffect("artefact", _low_pass, 0.05, 0.003, 0.8),
+    "clipping": InsertedEffect("artefact", _clipping, 0.15, 0.005, 0.7, whole=True),
+    "stuck_channel": InsertedEffect("artefact", _stuck, 1.0, 1.0, 1.0, scaled=False, whole=True),
+    "sign_convention": InsertedEffect("artefact", _mirrored, 1.0, 1.0, 1.0, scaled=False),
+    "unit_error": InsertedEffect("artefact", _unit, 1.0, 1.0, 1.0, scaled=False),
+    "quantisation": InsertedEffect("unknown", _resolution, 0.1, 2e-3, 0.8, share_of="force", whole=True),
 }
 """Effect -> how it is put in. Camber and pressure are hidden instead (``layout.py``); combined slip and
 turning are not in the recordings; conicity by itself is what ``crosstalk`` of the load puts in."""
