@@ -78,7 +78,7 @@ class Explainer:
             ) from error
         finally:
             steps.close()
-        return Explained(prepared, analysis, sets, answer, recording)
+        return Explained(prepared, analysis, sets, answer, recording, self.level)
 
     def _check(self) -> None:
         known = set(catalogue())

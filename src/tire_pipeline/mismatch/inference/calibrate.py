@@ -14,6 +14,7 @@ from tire_pipeline.mismatch.inference.evidence.hypotheses import (
     log_evidence,
     plain,
     position,
+    scales,
 )
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase
@@ -35,6 +36,7 @@ START = LearntSizes(
     effect=-3.5,
     further=-4.0,
     unnamed=-2.0,
+    left=(0.006, 0.022),
 )
 """Where learning begins: the misfit of a good formula, and odds of one to thirty or so."""
 _ROUNDS = 3
@@ -99,7 +101,7 @@ def learn(
 
     The sizes of the background come first, family by family, from how large it is in cases whose truth is
     known (expectation and maximisation). Then each number is tried larger and smaller, with the odds the
-    best for each of them.
+    best for each of them. What fitted models leave comes last: it serves no probability.
 
     Parameters
     ----------
@@ -121,7 +123,7 @@ def learn(
                 if trial > best:
                     best, sizes = trial, there
                     break
-    return sizes
+    return replace(sizes, left=learnt_left(cases, sizes))
 
 
 def learnt_background(cases: Sequence[Tuning], sizes: LearntSizes) -> dict[str, float]:
@@ -137,6 +139,27 @@ def learnt_background(cases: Sequence[Tuning], sizes: LearntSizes) -> dict[str, 
     return {
         f: s * float(np.exp(0.5 * np.mean(logs[f]))) if logs[f] else s for f, s in sizes.background.items()
     }
+
+
+def learnt_left(cases: Sequence[Tuning], sizes: LearntSizes) -> tuple[float, float]:
+    """Return between which sizes two of three recordings leave an error beside their true sets.
+
+    Over the largest force, with an error of any size as likely beforehand. Each source counts alike, and what
+    lies between them is part of the spread: a stranger's rig is one more source.
+    """
+    logs: dict[str, list[float]] = {}
+    for each in cases:
+        index = None if True in each.unnamed else position(each.case, each.truth)
+        if index is None:
+            continue
+        own, likelihood = each.case.sets[index], Likelihood(each.case.unknown, sizes)
+        found = likelihood.evidence(own.plain, scales(own, sizes), wide=True)
+        logs.setdefault(each.source, []).extend(np.log(list(found.errors.values())))
+    if not logs:
+        return sizes.left
+    means, within = np.array([(np.mean(x), np.var(x)) for x in logs.values()]).T
+    apart = float(np.sqrt(means.var() + within.mean()))
+    return float(np.exp(means.mean() - apart)), float(np.exp(means.mean() + apart))
 
 
 def background_power(case: OfCase, index: int, sizes: LearntSizes) -> Array:

@@ -9,21 +9,28 @@ from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate_moments
 from tire_pipeline.mismatch.model.residual import residual
-from tire_pipeline.mismatch.proof.left_out import each_left_out, step_without
+from tire_pipeline.mismatch.proof.left_out import step_without
 from tire_pipeline.mismatch.proof.measured import OutputFit
 
 Array = np.ndarray
 
 
-def prove(analysis: Analysis, *, resamples: int = 400, seed: int = 0) -> dict[str, OutputFit]:
-    """Return for each output the error with parameters fitted without the sweep in question.
+def prove(
+    analysis: Analysis, after: dict[str, Array], *, resamples: int = 400, seed: int = 0
+) -> dict[str, OutputFit]:
+    """Return for each output the error on sweeps that neither the choice of effects nor its fit has seen.
 
-    The parameters move by one Gauss-Newton step from the full fit when a sweep is left out (the
-    jackknife of a least-squares fit); the effects themselves are locked.
+    Parameters
+    ----------
+    analysis : Analysis
+    after : dict of ndarray, shape (n,)
+        What is left of each output, N: :func:`tire_pipeline.mismatch.proof.nested.unseen`. In the held-out
+        condition the effects are locked, and the parameters are fitted to the sweeps outside of it.
+    resamples, seed : int
+        Of the interval, by resampling sweeps.
     """
-    data, fit = analysis.data, analysis.fit
+    data = analysis.data
     before = {o: data.recorded[o] - data.base[o] for o in data.outputs}
-    after = each_left_out(analysis, fit)
     rng = np.random.default_rng(seed)
     name, rows = held_out_condition(data)
     condition = _condition(analysis, rows) if rows is not None else None

@@ -80,6 +80,11 @@ class Remainder:
         That something unnamed is there.
     gaussian : list of GaussianForm
         The output first in which most is left.
+    unusual : dict
+        Output -> size of the error over the largest force, where it is larger than fitted models usually
+        leave.
+    usual : (float, float)
+        What they usually leave.
     """
 
     size: dict[str, float]
@@ -88,3 +93,5 @@ class Remainder:
     significant: bool
     probability: float = 0.0
     gaussian: list[GaussianForm] = field(default_factory=list)
+    unusual: dict[str, float] = field(default_factory=dict)
+    usual: tuple[float, float] = (0.0, 0.0)

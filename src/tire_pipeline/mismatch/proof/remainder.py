@@ -18,10 +18,17 @@ Array = np.ndarray
 _MOST_TERMS = 5
 
 
-def remainder(analysis: Analysis, answer: SetAnswer) -> Remainder:
+def remainder(analysis: Analysis, answer: SetAnswer, usual: tuple[float, float]) -> Remainder:
     """Measure what neither the effects nor a misfit of the usual size explains.
 
     It counts if the posterior says that something unnamed is likelier than not.
+
+    Parameters
+    ----------
+    analysis : Analysis
+    answer : SetAnswer
+    usual : (float, float)
+        Sizes of the error that fitted models usually leave, over the largest force.
     """
     data, fit = analysis.data, analysis.fit
     rest = residual(data, fit.changes)
@@ -34,7 +41,8 @@ def remainder(analysis: Analysis, answer: SetAnswer) -> Remainder:
     located = locate(data, rest, analysis.noise, analysis.block) if significant else []
     form = sparse_form(analysis) if significant else ""
     gaussian = gaussian_forms(analysis, size) if significant else []
-    return Remainder(size, located, form, significant, answer.unnamed, gaussian)
+    unusual = {o: left for o, left in answer.left.items() if left > usual[1]}
+    return Remainder(size, located, form, significant, answer.unnamed, gaussian, unusual, usual)
 
 
 def gaussian_forms(analysis: Analysis, size: dict[str, float]) -> list[GaussianForm]:

@@ -15,7 +15,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.fit import Fit
-from tire_pipeline.mismatch.inference.sets.answer import SetAnswer
+from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.channels import one_sided
 from tire_pipeline.mismatch.model.forces import simulate
@@ -24,6 +24,7 @@ from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded
 from tire_pipeline.mismatch.proof.left_out import each_left_out, shares_left
 from tire_pipeline.mismatch.proof.locate import OPERATING_AXES, everywhere, locate, when, where
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
+from tire_pipeline.mismatch.proof.nested import unseen
 from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
@@ -54,6 +55,8 @@ class Explained:
     answer : SetAnswer
     recording : pandas.DataFrame
         As it came.
+    level : float
+        Probability from which a name is said.
     """
 
     prepared: Prepared
@@ -61,13 +64,14 @@ class Explained:
     sets: Enumerated
     answer: SetAnswer
     recording: pd.DataFrame
+    level: float = LEVEL
 
 
 def assembled(it: Explained) -> MismatchReport:
     """Return the report."""
     prepared, analysis, answer = it.prepared, it.analysis, it.answer
     data = analysis.data
-    left = remainder(analysis, answer)
+    left = remainder(analysis, answer, it.sets.likelihood.learnt.left)
     if prepared.stopped:
         left = replace(left, significant=False, located=[])
     effects = [_exact(finding, prepared) for finding in prepared.findings]
@@ -77,7 +81,9 @@ def assembled(it: Explained) -> MismatchReport:
     model, put_in = _corrected(it, plain)
     withheld = tuple(n for n in analysis.fit.names if n not in put_in.names)
     inside = replace(analysis, fit=put_in)
-    fit = as_recorded({**prove(inside), **prove_moments(inside)}, inside, model, it.recording)
+    fit = as_recorded(
+        {**prove(inside, _left(it, put_in)), **prove_moments(inside)}, inside, model, it.recording
+    )
     unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit)
     silent = prepared.stopped or verdict == "agrees"
     before = residual(data, [])
@@ -173,6 +179,14 @@ def _no_worse(it: Explained, model: CorrectedModel, plain: CorrectedModel) -> bo
         for forces in (model.predict(it.recording), plain.predict(it.recording))
     )
     return after <= before
+
+
+def _left(it: Explained, put_in: Fit) -> dict[str, Array]:
+    """Return what is left, N, on sweeps that neither the choice of effects nor its fit has seen."""
+    if not put_in.names:
+        return residual(it.analysis.data, [])
+    withheld = set(it.analysis.fit.names) - set(put_in.names)
+    return unseen(it.sets, it.analysis.block, it.level, withheld).left
 
 
 def _model(it: Explained, changes: Sequence[Any]) -> CorrectedModel:

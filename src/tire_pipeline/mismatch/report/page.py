@@ -119,7 +119,9 @@ def _certainty(effect: EffectReport) -> str:
     if effect.alternatives:
         text += " that it is this or one of its alternatives"
     if math.isfinite(effect.share):
-        text += f"; it removes {percent(effect.share)} of the squared error on held-out sweeps"
+        text += (
+            f"; it removes {percent(effect.share)} of the squared error on sweeps that its fit has not seen"
+        )
         text += f", mostly in {effect.output.capitalize()}"
     return f"{text}."
 

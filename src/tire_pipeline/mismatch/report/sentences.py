@@ -51,7 +51,7 @@ def summary(
     """
     fit = {o: f for o, f in fit.items() if o in ("fx", "fy")}
     if verdict == "agrees":
-        return f"{_agreement(fit)} {_NOTHING_TO_DO}"
+        return _agreement(fit, remainder)
     ranges = ranges or {}
     place_and_size = [_spot(effects, fit, located, remainder, ranges, even or {}), _size(effects, fit)]
     middle = "; ".join(part for part in place_and_size if part)
@@ -135,14 +135,23 @@ def on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
     )
 
 
-def _agreement(fit: dict[str, OutputFit]) -> str:
+def _agreement(fit: Mapping[str, OutputFit], left: Remainder) -> str:
     sizes = ", ".join(
         f"{o.capitalize()} {newtons(f.rms_before)} N (noise {newtons(f.noise_floor)} N)"
         for o, f in fit.items()
     )
+    if not left.unusual:
+        return (
+            "Simulation and recording agree: what differs is no larger than noise and the misfit that a "
+            f"fitted tire model always has. The RMS difference is {sizes}. {_NOTHING_TO_DO}"
+        )
+    errors = ", ".join(f"{o.capitalize()} {share:.1%}" for o, share in left.unusual.items())
+    low, high = left.usual
     return (
-        "Simulation and recording agree: what differs is no larger than noise and the misfit that a fitted "
-        f"tire model always has. The RMS difference is {sizes}."
+        f"No cause stands out. The RMS difference is {sizes}. What neither noise nor a smooth misfit of the "
+        f"formula accounts for ({errors} of the largest force) is more than fitted models usually leave "
+        f"({low:.1%} to {high:.1%}): I can't tell a coarse fit or rig from a cause that this recording does "
+        "not show. Next, explain a recording with more channels, or one that the model was fitted to."
     )
 
 

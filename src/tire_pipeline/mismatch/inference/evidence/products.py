@@ -100,13 +100,13 @@ class RecordingProducts:
         self.analysis, self.data = analysis, analysis.data
         own = {o: float(np.sqrt(np.mean(f**2))) for o, f in self.data.recorded.items()}
         self.largest = {o: max(size, own[o]) for o, size in analysis.largest.items()}
-        self._beside = {
+        self.beside = {
             o: np.hstack([analysis.columns[o], background.columns[o]]) / self.largest[o]
             for o in self.data.outputs
         }
         self._unnamed, self._forms = background.unnamed, background.forms
         self.families = background.families
-        self.gram = {o: z.T @ z / self.data.size for o, z in self._beside.items()}
+        self.gram = {o: z.T @ z / self.data.size for o, z in self.beside.items()}
 
     def unknown(self, independent: Mapping[str, float]) -> Unknown:
         """Return what is never known, with the number of samples of each output that are independent."""
@@ -135,17 +135,24 @@ class RecordingProducts:
         out = {}
         for o, x in columns.items():
             left = x @ np.r_[-found.mode, 1.0] / self.largest[o]
-            left = left - self._beside[o] @ found.weights[o].known(self._beside[o].T @ left / left.size)
+            left = left - self.beside[o] @ found.weights[o].known(self.beside[o].T @ left / left.size)
             out[o] = left.size / _most_alike(left / max(float(np.sqrt(np.mean(left**2))), 1e-300))
         return out
 
-    def of(self, columns: Mapping[str, Array]) -> ColumnProducts:
-        """Return products of some columns in N, the residual last; shape (n, m + 1) for each output."""
+    def of(self, columns: Mapping[str, Array], rows: Array | slice = slice(None)) -> ColumnProducts:
+        """Return products of some columns in N, the residual last; shape (n, m + 1) for each output.
+
+        Parameters
+        ----------
+        columns : mapping of ndarray
+        rows : ndarray of bool, shape (n,), optional
+            Samples over which the mean is taken.
+        """
         own, nuisance = {}, {}
         for o, x in columns.items():
-            scaled = x / self.largest[o]
-            own[o] = scaled.T @ scaled / self.data.size
-            nuisance[o] = self._beside[o].T @ scaled / self.data.size
+            scaled = x[rows] / self.largest[o]
+            own[o] = scaled.T @ scaled / len(scaled)
+            nuisance[o] = self.beside[o][rows].T @ scaled / len(scaled)
         return ColumnProducts(own, nuisance)
 
     def of_set(self, changes: Sequence[Change], free: Free) -> OfSet:

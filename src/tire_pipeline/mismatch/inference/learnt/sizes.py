@@ -41,6 +41,9 @@ class LearntSizes:
         Size of what has no name, over the largest force.
     effect, further, unnamed : float
         Log odds of one effect, of each further one beside it, and of something unnamed.
+    left : (float, float)
+        Between which sizes two of three recordings leave an error, over the largest force, where nothing is
+        assumed of it. Reports compare with it; no probability does.
     """
 
     background: Mapping[str, float]
@@ -53,6 +56,7 @@ class LearntSizes:
     effect: float
     further: float
     unnamed: float
+    left: tuple[float, float]
 
     def of(self, families: tuple[str, ...]) -> Array:
         """Return the standard deviation of each column of a background, shape (b,)."""
@@ -89,7 +93,7 @@ class LearntSizes:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the numbers for a file."""
-        return {**asdict(self), "background": dict(self.background)}
+        return {**asdict(self), "background": dict(self.background), "left": list(self.left)}
 
 
 def learnt(path: str | Path | None = None) -> LearntSizes:
@@ -105,7 +109,8 @@ def learnt(path: str | Path | None = None) -> LearntSizes:
     shipped = resources.files("tire_pipeline.mismatch.inference.learnt").joinpath("learnt.json")
     try:
         text = (Path(path) if path else shipped).read_text(encoding="utf-8")
-        return LearntSizes(**json.loads(text)["sizes"])
+        sizes = json.loads(text)["sizes"]
+        return LearntSizes(**{**sizes, "left": tuple(sizes["left"])})
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise RecordingError(
             f"there are no learnt sizes ({error})",

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
-from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_evidence, log_prior
+from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_evidence, log_prior, scales
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
@@ -44,6 +44,8 @@ class SetAnswer:
         Set of names -> probability, with something unnamed or without.
     gains : mapping
         Effect -> how much log evidence the best set with it has above the best one without.
+    left : mapping
+        Output -> likeliest size of the error beside the named set, over the largest force.
     case : OfCase
     """
 
@@ -53,6 +55,7 @@ class SetAnswer:
     unnamed: float
     probabilities: Mapping[Names, float]
     gains: Mapping[str, float]
+    left: Mapping[str, float]
     case: OfCase
 
     def single(self, name: str) -> tuple[Change, ...]:
@@ -79,6 +82,7 @@ def answered(
     likelihood : Likelihood, optional
         Of this case and these sizes, where it is at hand.
     """
+    likelihood = likelihood or Likelihood(case.unknown, sizes)
     every, evidence = hypotheses(case), log_evidence(case, sizes, likelihood)
     value = evidence + log_prior(case, sizes)
     mass = np.exp(value - logsumexp(value))
@@ -90,12 +94,13 @@ def answered(
     without = {each.names: float(p) for each, p in zip(every, mass, strict=True) if not each.unnamed}
     sets = _named(probabilities, without, level)
     named = _set_of(case, probabilities, tuple(names[0] for names, _ in sets))
-    return SetAnswer(sets, named, agreement, unnamed, dict(probabilities), _gains(case, evidence), case)
+    left = likelihood.evidence(named.plain, scales(named, sizes), wide=True).errors
+    return SetAnswer(sets, named, agreement, unnamed, dict(probabilities), _gains(case, evidence), left, case)
 
 
 def nothing(case: OfCase) -> SetAnswer:
     """Return the answer that says nothing, where nothing may be explained."""
-    return SetAnswer((), case.sets[0], 1.0, 0.0, {(): 1.0}, {}, case)
+    return SetAnswer((), case.sets[0], 1.0, 0.0, {(): 1.0}, {}, {}, case)
 
 
 def _named(

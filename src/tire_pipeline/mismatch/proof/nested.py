@@ -1,0 +1,122 @@
+"""The choice repeated without each fifth of the sweeps: what it leaves on sweeps that it has not seen.
+
+Sets are weighed again without a fold, and the set that is named then predicts the fold by parameters that it
+has not fitted. Only which effects are fitted at all, and where each fit is linearised, has seen every sweep.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tire_pipeline.mismatch.inference.evidence.hypotheses import plain
+from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Likelihood
+from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
+from tire_pipeline.mismatch.inference.fit import LOCKED, columns_of
+from tire_pipeline.mismatch.inference.priors import prior
+from tire_pipeline.mismatch.inference.sets.answer import answered
+from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
+from tire_pipeline.mismatch.model.residual import residual
+
+Array = np.ndarray
+Names = tuple[str, ...]
+FOLDS = 5
+
+
+@dataclass(frozen=True)
+class Unseen:
+    """What repeated choices leave.
+
+    Parameters
+    ----------
+    left : dict of ndarray, shape (n,)
+        Output -> residual, N, of each sweep by a choice and a fit that have not seen it.
+    chosen : tuple of tuple of str
+        Names that each fold was predicted with.
+    """
+
+    left: dict[str, Array]
+    chosen: tuple[Names, ...]
+
+
+def unseen(sets: Enumerated, block: Array, level: float, withheld: Collection[str] = ()) -> Unseen:
+    """Repeat the choice without each fold, and predict the fold with what is named.
+
+    Parameters
+    ----------
+    sets : Enumerated
+        All sets that were fitted.
+    block : ndarray of int, shape (n,)
+        Sweep of each sample. Folds interleave sweeps; a recording of one sweep proves nothing.
+    level : float
+        Probability from which a name, with its alternatives, is said.
+    withheld : collection of str
+        Effects whose correction is not put in: sets that hold one predict nothing of it.
+    """
+    data, (folds, fold) = sets.products.data, np.unique(block % FOLDS, return_inverse=True)
+    if folds.size < 2:
+        return Unseen(residual(data, []), ())
+    every = [_ByFold(sets, each, fold) for each in sets.sets]
+    left = residual(data, [])
+    chosen: list[Names] = []
+    for number in range(folds.size):
+        kept = fold != number
+        likelihood = _without(sets, kept)
+        case = OfCase(likelihood.unknown, tuple(each.without(number) for each in every))
+        answer = answered(case, likelihood.learnt, level, likelihood)
+        names = tuple(name for name in answer.names if name not in withheld)
+        chosen.append(names)
+        index = next((i for i, each in enumerate(case.sets) if each.names == tuple(sorted(names))), None)
+        if not names or index is None:
+            continue
+        found = every[index].predicted(likelihood, case.sets[index])
+        for o in left:
+            left[o][~kept] = found[o][~kept]
+    return Unseen(left, tuple(chosen))
+
+
+def _without(sets: Enumerated, kept: Array) -> Likelihood:
+    """Return the likelihood of some rows."""
+    unknown, share = sets.likelihood.unknown, float(kept.mean())
+    gram = {o: z[kept].T @ z[kept] / kept.sum() for o, z in sets.products.beside.items()}
+    independent = {o: share * n for o, n in unknown.independent.items()}
+    fewer = replace(unknown, gram=gram, samples=int(kept.sum()), independent=independent)
+    return Likelihood(fewer, sets.likelihood.learnt)
+
+
+class _ByFold:
+    """One set of effects with the sums of its columns in each fold."""
+
+    def __init__(self, sets: Enumerated, each: OfSet, fold: Array) -> None:
+        self.products, self.each = sets.products, replace(each, forms=())
+        self.count = np.bincount(fold)
+        columns = self.products.columns_of_set(each.changes, each.free)
+        self.sums = [self.products.of(columns, fold == k) for k in range(self.count.size)]
+
+    def without(self, fold: int) -> OfSet:
+        """Return the set as the other folds show it."""
+        kept = [k for k in range(self.count.size) if k != fold]
+        weights = self.count[kept] / self.count[kept].sum()
+
+        def mean(parts: list[Mapping[str, Array]]) -> dict[str, Array]:
+            return {o: sum(w * part[o] for w, part in zip(weights, parts, strict=True)) for o in parts[0]}
+
+        sums = [self.sums[k] for k in kept]
+        products = ColumnProducts(mean([s.own for s in sums]), mean([s.nuisance for s in sums]))
+        return replace(self.each, products=products)
+
+    def predicted(self, likelihood: Likelihood, seen: OfSet) -> dict[str, Array]:
+        """Return what is left of all rows, N, with parameters by the rows that were seen.
+
+        Parameters that one sweep determines stay where they are.
+        """
+        data, each = self.products.data, self.each
+        labels, _ = columns_of(data, list(each.changes), list(each.free))
+        off, wide = prior(data, each.changes, labels)
+        at = plain(likelihood, seen).mode[: each.parameters]
+        locked = np.array([name in LOCKED for _, name in labels], bool)
+        at = np.where(locked, off / wide, at)
+        columns = self.products.columns_of_set(each.changes, each.free)
+        return {o: x[:, -1] - x[:, : each.parameters] @ at for o, x in columns.items()}
