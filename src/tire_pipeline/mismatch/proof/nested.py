@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tire_pipeline.mismatch.inference.evidence.hypotheses import plain
 from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
 from tire_pipeline.mismatch.inference.fit import LOCKED, columns_of
@@ -110,12 +109,14 @@ class _ByFold:
     def predicted(self, likelihood: Likelihood, seen: OfSet) -> dict[str, Array]:
         """Return what is left of all rows, N, with parameters by the rows that were seen.
 
-        Parameters that one sweep determines stay where they are.
+        They are weighed as in the fit of a set: without errors of form, the error of any size. Those that one
+        sweep determines stay where they are.
         """
         data, each = self.products.data, self.each
         labels, _ = columns_of(data, list(each.changes), list(each.free))
         off, wide = prior(data, each.changes, labels)
-        at = plain(likelihood, seen).mode[: each.parameters]
+        own = seen.products.take(np.arange(each.parameters))
+        at = likelihood.evidence(own, np.ones(each.parameters), wide=True).mode
         locked = np.array([name in LOCKED for _, name in labels], bool)
         at = np.where(locked, off / wide, at)
         columns = self.products.columns_of_set(each.changes, each.free)

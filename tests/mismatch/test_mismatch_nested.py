@@ -1,0 +1,64 @@
+"""Errors after are of sweeps that neither the choice of effects nor their fit has seen."""
+
+import numpy as np
+import pytest
+
+from tire_pipeline.mismatch import Explainer, explain_mismatch
+from tire_pipeline.mismatch.inference.learnt.sizes import learnt
+from tire_pipeline.mismatch.inference.sets.answer import LEVEL
+from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.proof.left_out import each_left_out
+from tire_pipeline.mismatch.proof.nested import FOLDS, unseen
+
+
+def rms(x):
+    return float(np.sqrt(np.mean(x["fy"] ** 2)))
+
+
+@pytest.fixture(scope="module")
+def softer(tire, record):
+    return Explainer().weigh(tire, record(3, friction=0.9))
+
+
+def test_a_clear_cause_is_chosen_without_any_fold_and_leaves_as_little(softer):
+    found = unseen(softer.sets, softer.analysis.block, LEVEL)
+    assert found.chosen == (("friction_scale",),) * FOLDS
+    assert rms(found.left) == pytest.approx(
+        rms(each_left_out(softer.analysis, softer.analysis.fit)), rel=0.05
+    )
+
+
+def test_a_choice_that_rests_on_one_fold_removes_nothing_there(tire, record):
+    """An offset of the force in every fifth sweep alone: the others never show it."""
+    recording = record(3)
+    plain = Explainer().weigh(tire, recording)
+    there = plain.analysis.block % FOLDS == 2
+    data = plain.analysis.data
+    data.recorded["fy"][there] += 400.0
+    found = unseen(plain.sets, plain.analysis.block, LEVEL)
+    before = residual(data, [])["fy"]
+    assert np.mean(found.left["fy"][there] ** 2) >= 0.99 * np.mean(before[there] ** 2)
+
+
+def test_what_is_withheld_predicts_nothing(softer):
+    found = unseen(softer.sets, softer.analysis.block, LEVEL, {"friction_scale"})
+    assert rms(found.left) == rms(residual(softer.analysis.data, []))
+
+
+def test_one_sweep_proves_nothing(softer):
+    found = unseen(softer.sets, np.zeros(softer.analysis.data.size, int), LEVEL)
+    assert found.chosen == ()
+    assert rms(found.left) == rms(residual(softer.analysis.data, []))
+
+
+def test_more_than_formulas_usually_leave_is_not_called_agreement(tire, record):
+    """Friction that wanders with something that was not recorded: the summary does not say *agree*."""
+    recording = record(4).drop(columns=["pressure"])
+    gust = 1.0 + 0.12 * np.sin(0.31 * recording["time"]) * np.cos(0.83 * recording["time"])
+    report = explain_mismatch(tire, recording.assign(fy=recording["fy"] * gust))
+    assert not report.effects
+    low, high = learnt().left
+    assert report.remainder.usual == (low, high)
+    assert report.remainder.unusual["fy"] > high
+    assert "I can't tell" in report.summary
+    assert "agree" not in report.summary
