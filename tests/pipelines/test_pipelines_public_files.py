@@ -158,9 +158,9 @@ def says_nothing_of(found: Outputs, file: str) -> None:
 def test_a_public_file_is_of_an_unknown_supplier_and_nothing_else_is_said(together, file):
     says_nothing_of(together, file)
     assert together.report.loc[file, "reason"] == (
-        f"its folder '{file.split('/')[0]}' is no known category ({', '.join(KNOWN)}): put training files of "
-        "this supplier into a folder of its own and train again, or ask for classification by --params "
-        "translate.classify=true"
+        f"its folder '{file.split('/')[0]}' is no known category ({', '.join(KNOWN)}): train again with "
+        "enough files of this supplier in a folder of its own (filter_report.csv says which were not used, "
+        "and why), or ask for classification by --params translate.classify=true"
     )
 
 

@@ -15,8 +15,8 @@ from tire_pipeline.classifiers.supplier_features import supplier_features
 UNKNOWN_SUPPLIER = "unknown"
 BY_FOLDER = "by its folder"
 WHAT_TO_DO = (
-    "put training files of this supplier into a folder of its own and train again, or ask for classification "
-    "by --params translate.classify=true"
+    "train again with enough files of this supplier in a folder of its own (filter_report.csv says which "
+    "were not used, and why), or ask for classification by --params translate.classify=true"
 )
 
 

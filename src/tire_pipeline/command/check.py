@@ -125,7 +125,11 @@ def _axes(recording: pd.DataFrame, axes: str | None) -> str:
     together = float(np.corrcoef(pair.T)[0, 1])
     if abs(together) < 0.5:
         return f"{read}; the side force does not follow the slip angle."
-    sign = "negative, as in ISO W" if together < 0.0 else "positive, unlike in ISO W"
+    sign = (
+        "negative, as in ISO W"
+        if together < 0.0
+        else "positive, unlike in ISO W; compare with the rig's manual"
+    )
     return f"{read}: at a positive slip angle the side force is {sign}."
 
 

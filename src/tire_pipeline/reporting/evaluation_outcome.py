@@ -96,8 +96,15 @@ def _article(name: str) -> str:
 
 
 def _unjudged(table: pd.DataFrame, best: dict[str, Any], target: str) -> str:
-    part = table[(table["translator"] == best["name"]) & (table["verdict"] == TRANSLATED)]
-    count = int((table["translator"] == best["name"]).sum())
+    chosen = table[table["translator"] == best["name"]]
+    part, count = chosen[chosen["verdict"] == TRANSLATED], len(chosen)
+    rest = (
+        f"No evaluation tires measured by {target} were given, so these files show neither the true error "
+        "nor the floor. `kedro run --pipeline translate` translates all of your files."
+    )
+    if part.empty:
+        verdicts = ", ".join(f"{n} {what}" for what, n in chosen["verdict"].value_counts().items())
+        return f"None of the {count} of your files in the test split was translated ({verdicts}). {rest}"
     middle = part["expected_rms_ratio"].median()
     estimate = (
         f"their RMS error is expected to shrink to {middle:.0%} (median, the translator's own estimate)"
@@ -105,9 +112,8 @@ def _unjudged(table: pd.DataFrame, best: dict[str, Any], target: str) -> str:
         else "the translator gives no estimate of its error"
     )
     return (
-        f"{len(part)} of {count} of your files were translated to {target} by {_object(best)}: "
-        f"{estimate}. No evaluation tires measured by {target} were given, so these files show neither the "
-        "true error nor the floor."
+        f"Of the {count} of your files in the test split, {len(part)} were translated to {target} by "
+        f"{_object(best)}: {estimate}. {rest}"
     )
 
 

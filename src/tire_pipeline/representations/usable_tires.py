@@ -8,7 +8,10 @@ from pydantic import Field
 from tire_pipeline.errors import DomainError
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.representations.encoded_tires import RepresentParameters, needed_coefficients
-from tire_pipeline.tire_table import TableInPieces, usable_files
+from tire_pipeline.tire_table import TOO_SMALL, TableInPieces, usable_files
+
+_STATED = ("UNLOADED_RADIUS",)
+"""What a file must state beside its features: without it moments have no value to learn from."""
 
 
 class DedupeFilterParameters(Parameters):
@@ -40,7 +43,7 @@ def keep_usable(
         Tire table of all files that could be read.
     parameters : DedupeFilterParameters
     represent : RepresentParameters
-        Says which coefficients must have a value.
+        Says which coefficients must have a value; the unloaded radius must have one, too.
     target_category : str
         Must be among the categories that remain.
 
@@ -58,26 +61,34 @@ def keep_usable(
     kept, report = usable_files(
         tire_table_raw,
         minimum_per_category=parameters.minimum_per_category,
-        features=needed_coefficients(represent),
+        features=[*needed_coefficients(represent), *_STATED],
         most_files=parameters.most_files,
     )
-    _check_categories(kept, target_category)
+    _check_categories(kept, report, target_category)
     return kept, report
 
 
-def _check_categories(kept: pd.DataFrame, target_category: str) -> None:
+def _check_categories(kept: pd.DataFrame, report: pd.DataFrame, target_category: str) -> None:
     """Raise if fewer than two categories remain, or the target is not among them."""
-    counts = kept.groupby("category").size().to_dict()
-    have = ", ".join(f"{name} ({count})" for name, count in counts.items()) or "none"
-    if len(counts) < 2:
+    have = kept.groupby("category").size().to_dict()
+    small = report[report["reason"] == TOO_SMALL].groupby("category")["detail"].first().to_dict()
+    remains = f"what remains: {_listed(have)}"
+    if small:
+        remains += f"; too small: {_listed(small)}"
+    more = "add files to these, or lower dedupe_filter.minimum_per_category"
+    if len(have) < 2:
         raise DomainError(
-            f"two categories are needed to tell organisations apart; what remains: {have}",
+            f"two categories are needed to tell organisations apart; {remains}",
             where="dedupe_filter",
-            todo="add files of a second organisation, or lower dedupe_filter.minimum_per_category",
+            todo=more if small else "add files of a second organisation",
         )
-    if target_category not in counts:
+    if target_category not in have:
         raise DomainError(
-            f"the target category {target_category!r} has no usable files; what remains: {have}",
+            f"the target category {target_category!r} has no usable files; {remains}",
             where="dedupe_filter",
-            todo="set target_category to one of these",
+            todo=more if target_category in small else "set target_category to one of those that remain",
         )
+
+
+def _listed(found: dict[str, object]) -> str:
+    return ", ".join(f"{name} ({what})" for name, what in found.items()) or "none"

@@ -42,4 +42,4 @@ class Question:
         lead = "Open: " if not self.verdict else ""
         text = f"{self.why[:1].upper()}{self.why[1:]}" if not lead else self.why
         todo = f"{self.todo[:1].upper()}{self.todo[1:]}"
-        return f"{lead}{text}. {todo}. Nothing corrected is written before."
+        return f"{lead}{text}. {todo}. No corrected file is written until then."

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from tire_pipeline.errors import TirePipelineError
-from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.magic_formula import MissingRadiusWarning, TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.translation.curves.bands import BAND_SLIP_RATIOS
 from tire_pipeline.translation.curves.features import LOADS
@@ -73,7 +74,9 @@ def _own_curves(model: TireModel) -> dict[str, np.ndarray]:
     for name, points in asked.items():
         output = "cornering_stiffness" if name == "stiffness" else name
         try:
-            values = getattr(model.forces(**points, limits="ignore", outputs=(output,)), output)
+            with warnings.catch_warnings():  # the reading reports a missing radius; its moments are not drawn
+                warnings.simplefilter("ignore", MissingRadiusWarning)
+                values = getattr(model.forces(**points, limits="ignore", outputs=(output,)), output)
         except TirePipelineError:
             continue
         found[name] = np.abs(values) if name == "stiffness" else values

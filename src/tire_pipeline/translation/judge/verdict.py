@@ -196,7 +196,8 @@ class VerdictRules:
 
 
 def _too_far(target: str, distance: float) -> str:
-    said = f"this tire is outside of what {target} has measured: distance {distance:.2f}"
+    beyond = np.ceil(100.0 * distance) / 100.0  # rounded up: what is beyond the edge never reads as 1.00
+    said = f"this tire is outside of what {target} has measured: distance {beyond:.2f}"
     if distance > FARTHEST_DISTANCE:
         return f"{said}, do not trust a translation"
     most = f"farthest={FARTHEST_DISTANCE:g}"
