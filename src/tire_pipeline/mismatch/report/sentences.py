@@ -136,15 +136,16 @@ def on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
 
 
 def _agreement(fit: Mapping[str, OutputFit], left: Remainder) -> str:
-    sizes = ", ".join(
-        f"{o.capitalize()} {newtons(f.rms_before)} N (noise {newtons(f.noise_floor)} N)"
-        for o, f in fit.items()
-    )
     if not left.unusual:
+        sizes = ", ".join(
+            f"{o.capitalize()} {newtons(f.rms_before)} N (noise {newtons(f.noise_floor)} N)"
+            for o, f in fit.items()
+        )
         return (
             "Simulation and recording agree: what differs is no larger than noise and the misfit that a "
             f"fitted tire model always has. The RMS difference is {sizes}. {_NOTHING_TO_DO}"
         )
+    sizes = ", ".join(f"{o.capitalize()} {newtons(f.rms_before)} N" for o, f in fit.items())
     errors = ", ".join(f"{o.capitalize()} {share:.1%}" for o, share in left.unusual.items())
     low, high = left.usual
     return (
