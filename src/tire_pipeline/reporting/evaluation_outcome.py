@@ -104,7 +104,7 @@ def _unjudged(table: pd.DataFrame, best: dict[str, Any], target: str) -> str:
     )
     if part.empty:
         verdicts = ", ".join(f"{n} {what}" for what, n in chosen["verdict"].value_counts().items())
-        return f"None of the {count} of your files in the test split was translated ({verdicts}). {rest}"
+        return f"Of your files in the test split ({count}), none was translated ({verdicts}). {rest}"
     middle = part["expected_rms_ratio"].median()
     estimate = (
         f"their RMS error is expected to shrink to {middle:.0%} (median, the translator's own estimate)"
@@ -112,8 +112,8 @@ def _unjudged(table: pd.DataFrame, best: dict[str, Any], target: str) -> str:
         else "the translator gives no estimate of its error"
     )
     return (
-        f"Of the {count} of your files in the test split, {len(part)} were translated to {target} by "
-        f"{_object(best)}: {estimate}. {rest}"
+        f"Of your files in the test split ({count}), {len(part)} {'was' if len(part) == 1 else 'were'} "
+        f"translated to {target} by {_object(best)}: {estimate}. {rest}"
     )
 
 

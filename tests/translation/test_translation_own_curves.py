@@ -1,0 +1,21 @@
+"""Curves of a file as it is."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.translation.curves.of_files import _own_curves
+
+
+def test_a_file_without_radius_has_its_forces_and_no_second_warning():
+    tire = TireModel.from_coefficients(
+        {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2, "QDZ1": 0.1}
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        curves = _own_curves(tire)
+    assert np.isfinite(curves["fy"]).all()
+    assert np.isnan(curves["mz"]).any()
