@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.translation.curves.of_files import _own_curves
+from tire_pipeline.translation.curves.of_files import file_curves
+
+LEFT_ALONE = SimpleNamespace(bands={}, stiffness=None)
 
 
 def test_a_file_without_radius_has_its_forces_and_no_second_warning():
@@ -16,6 +19,6 @@ def test_a_file_without_radius_has_its_forces_and_no_second_warning():
     )
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        curves = _own_curves(tire)
-    assert np.isfinite(curves["fy"]).all()
-    assert np.isnan(curves["mz"]).any()
+        curves = file_curves(["a.tir"], {"a.tir": tire}, LEFT_ALONE)
+    assert np.isfinite(curves["fy_source"]).all()
+    assert np.isnan(curves["mz_source"]).any()
