@@ -113,8 +113,8 @@ def on_withheld(names: Sequence[str]) -> str:
         return ""
     titles = " and ".join(catalogue()[n].title for n in names)
     return (
-        f"The corrected model is without {titles}: sweeps that its fit has not seen do not surely become "
-        "better with it."
+        f"The corrected model leaves out {titles}: on sweeps that its fit has not seen, a gain is not "
+        "certain."
     )
 
 
