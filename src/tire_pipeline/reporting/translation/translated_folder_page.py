@@ -102,8 +102,8 @@ def _explained(report: pd.DataFrame, parameters: TranslateParameters) -> list[st
         reach = f"distance {parameters.farthest:g}, as asked for (1 is the edge of the training data)"
     lines = [
         "Translated: the error is expected to shrink. Already unbiased: the target's own, or the 90% bands "
-        "of the supplier's bias hold zero; with few training files these bands are wide, and this says "
-        "little. Left alone: too little would be gained, or the bias cannot be told from chance. Unknown "
+        "of the supplier's bias hold zero and nothing beyond 5%. Left alone: too little would be gained, "
+        "or the bias cannot be told from chance, as with few training files. Unknown "
         "supplier: its folder is no known category, so nothing can be said of its "
         "bias. Refused: it cannot be read or translated, or lies beyond what was learned from.",
         f"Only translated files are written, none beyond {reach}. Errors are RMS.",

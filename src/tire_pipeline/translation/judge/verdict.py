@@ -11,7 +11,7 @@ import pandas as pd
 
 from tire_pipeline.translation.curves.features import encode
 from tire_pipeline.translation.decode.physics import violations
-from tire_pipeline.translation.judge.bias_band import CERTAINTY, bias_band
+from tire_pipeline.translation.judge.bias_band import CERTAINTY, NEGLIGIBLE, BiasBand, bias_band
 from tire_pipeline.translation.judge.gain import MOST_HARM, expected_gain, pooled_harm
 from tire_pipeline.translation.judge.reach import TrainingReach
 from tire_pipeline.translation.judge.words import describe_changes
@@ -152,9 +152,8 @@ class VerdictRules:
                 verdict[i] = REFUSED
                 reason[i] = f"no physical tire found: {', '.join(broken.columns[broken.iloc[i]])}"
             elif self.gate and (uncertain[i] or ratio[i] > 1.0 - LEAST_RELATIVE_GAIN):
-                zero = bool(band.holds_zero[i])
-                verdict[i] = UNBIASED if zero else LEFT_ALONE
-                reason[i] = _why_alone(organisations[i], self.target, bool(uncertain[i]), zero, ratio[i])
+                verdict[i] = UNBIASED if band.negligible[i] else LEFT_ALONE
+                reason[i] = _why_alone(organisations[i], self.target, bool(uncertain[i]), band, i, ratio[i])
         said = np.array(
             describe_changes(encode(rows), encode(moved), organisations, self.target), dtype=object
         )
@@ -204,12 +203,20 @@ def _too_far(target: str, distance: float) -> str:
     return f"{said}, the edge is 1; give training files of such tires, or ask with {most}"
 
 
-def _why_alone(organisation: str, target: str, uncertain: bool, holds_zero: bool, ratio: float) -> str:
+def _why_alone(
+    organisation: str, target: str, uncertain: bool, band: BiasBand, row: int, ratio: float
+) -> str:
     """Say why a file is not translated that could be."""
-    if holds_zero:
+    bias = f"the band of {organisation}'s bias against {target}"
+    if band.negligible[row]:
         return (
-            f"the band of {organisation}'s bias against {target} holds zero for such a tire in stiffness "
-            f"and friction ({CERTAINTY:.0%} each)"
+            f"{bias} holds zero for such a tire in stiffness and friction, and no more than {NEGLIGIBLE:.0%} "
+            f"({CERTAINTY:.0%} each)"
+        )
+    if band.holds_zero[row]:
+        return (
+            f"{bias} holds zero, but also more than {NEGLIGIBLE:.0%} ({band.in_words(row)}): I can't tell "
+            f"whether there is one; give more training files of {organisation}"
         )
     if uncertain:
         return f"{organisation}'s bias against {target} cannot be told from chance"
