@@ -8,6 +8,8 @@ import pytest
 from tire_pipeline.mismatch import CorrectedModel, Explainer, explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.fit import linearised
+from tire_pipeline.mismatch.inference.sets.answer import LEVEL
+from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.recording.checks import prepare
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
@@ -19,7 +21,9 @@ def softer(tire, record):
 
 
 def test_what_makes_unseen_sweeps_better_is_put_in(softer):
-    assert harmless(softer.analysis).names == softer.analysis.fit.names == ["friction_scale"]
+    fit, left = harmless(softer.analysis, softer.sets, LEVEL)
+    assert fit.names == softer.analysis.fit.names == ["friction_scale"]
+    assert np.std(left["fy"]) < 0.5 * np.std(residual(softer.analysis.data, [])["fy"])
 
 
 def test_what_makes_them_worse_is_withheld_and_keeps_its_name(softer):
@@ -27,7 +31,7 @@ def test_what_makes_them_worse_is_withheld_and_keeps_its_name(softer):
     analysis, fit = softer.analysis, softer.analysis.fit
     changes = [*fit.changes, ("force_offset", {"fy": 300.0, "fx": 0.0})]
     worse = linearised(analysis.system, changes, [*fit.free, ()], fit.covariance, fit.weight)
-    assert harmless(replace(analysis, fit=worse)).names == ["friction_scale"]
+    assert harmless(replace(analysis, fit=worse), softer.sets, LEVEL)[0].names == ["friction_scale"]
 
 
 def test_a_pressure_that_varied_is_expected_where_the_file_has_no_coefficient_of_it(tire, record):

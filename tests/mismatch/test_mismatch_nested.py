@@ -8,7 +8,7 @@ from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
-from tire_pipeline.mismatch.proof.nested import FOLDS, unseen
+from tire_pipeline.mismatch.proof.nested import REPEATS, unseen
 
 
 def rms(x):
@@ -22,7 +22,7 @@ def softer(tire, record):
 
 def test_a_clear_cause_is_chosen_without_any_fold_and_leaves_as_little(softer):
     found = unseen(softer.sets, softer.analysis.block, LEVEL)
-    assert found.chosen == (("friction_scale",),) * FOLDS
+    assert found.chosen == (("friction_scale",),) * REPEATS
     assert rms(found.left) == pytest.approx(
         rms(each_left_out(softer.analysis, softer.analysis.fit)), rel=0.05
     )
@@ -32,7 +32,7 @@ def test_a_choice_that_rests_on_one_fold_removes_nothing_there(tire, record):
     """An offset of the force in every fifth sweep alone: the others never show it."""
     recording = record(3)
     plain = Explainer().weigh(tire, recording)
-    there = plain.analysis.block % FOLDS == 2
+    there = plain.analysis.block % REPEATS == 2
     data = plain.analysis.data
     data.recorded["fy"][there] += 400.0
     found = unseen(plain.sets, plain.analysis.block, LEVEL)

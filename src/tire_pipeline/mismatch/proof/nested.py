@@ -21,7 +21,7 @@ from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
 Names = tuple[str, ...]
-FOLDS = 5
+REPEATS = 5
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def unseen(sets: Enumerated, block: Array, level: float, withheld: Collection[st
     withheld : collection of str
         Effects whose correction is not put in: sets that hold one predict nothing of it.
     """
-    data, (folds, fold) = sets.products.data, np.unique(block % FOLDS, return_inverse=True)
+    data, (folds, fold) = sets.products.data, np.unique(block % REPEATS, return_inverse=True)
     if folds.size < 2:
         return Unseen(residual(data, []), ())
     every = [_ByFold(sets, each, fold) for each in sets.sets]

@@ -10,39 +10,56 @@ import scipy
 
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.fit import Fit
+from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
+from tire_pipeline.mismatch.proof.nested import unseen
 
 Array = np.ndarray
 SURE = 0.95
 """How sure it has to be that a correction helps."""
 
 
-def harmless(analysis: Analysis) -> Fit:
+def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, dict[str, Array]]:
     """Return the named set without those effects whose correction does not surely help on unseen sweeps.
 
-    The effect goes first without which the others leave least.
+    Both have to help there: the whole choice, made again without them, and the very effects that are put in,
+    fitted without them. The effect goes first without which the others leave least.
 
     Parameters
     ----------
     analysis : Analysis
         With the set that is named.
+    sets : Enumerated
+    level : float
+        Probability from which a name is said.
+
+    Returns
+    -------
+    Fit
+        What is put in.
+    dict of ndarray, shape (n,)
+        Output -> what is left, N, of sweeps that neither the choice of what is put in nor its fit has seen.
     """
     fit = analysis.fit
-    while fit.names and not _holds(analysis, fit):
+    while fit.names:
+        withheld = set(analysis.fit.names) - set(fit.names)
+        left = unseen(sets, analysis.block, level, withheld).left
+        if _surely_less(analysis, left) and _surely_less(analysis, each_left_out(analysis, fit)):
+            return fit, left
         numbers = range(len(fit.names))
         others = [fit.part([j for j in numbers if j != i], analysis.system) for i in numbers]
         fit = min(others, key=lambda other: _size(analysis, residual(analysis.data, other.changes)))
-    return fit
+    return fit, residual(analysis.data, [])
 
 
-def _holds(analysis: Analysis, fit: Fit) -> bool:
+def _surely_less(analysis: Analysis, left: dict[str, Array]) -> bool:
     """Whether all forces together surely have a smaller error on sweeps that are predicted without them.
 
     Surely: the mean gain of a sweep is above zero by a one-sided t test over the sweeps, or over the points
     of a recording without a time line. A gain that a few sweeps make and others lose is no gain elsewhere.
     """
-    gain = _gains(analysis, each_left_out(analysis, fit))
+    gain = _gains(analysis, left)
     if gain.size < 2:
         return bool(gain.sum() > 0.0)
     error = float(gain.std(ddof=1)) / np.sqrt(gain.size)

@@ -24,7 +24,6 @@ from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded
 from tire_pipeline.mismatch.proof.left_out import each_left_out, shares_left
 from tire_pipeline.mismatch.proof.locate import OPERATING_AXES, everywhere, locate, when, where
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
-from tire_pipeline.mismatch.proof.nested import unseen
 from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
@@ -78,12 +77,10 @@ def assembled(it: Explained) -> MismatchReport:
     effects += [_found(analysis, answer, name) for name in answer.names]
     verdict = prepared.stopped or _verdict(effects, left)
     plain = _model(it, [])
-    model, put_in = _corrected(it, plain)
+    model, put_in, unseen = _corrected(it, plain)
     withheld = tuple(n for n in analysis.fit.names if n not in put_in.names)
     inside = replace(analysis, fit=put_in)
-    fit = as_recorded(
-        {**prove(inside, _left(it, put_in)), **prove_moments(inside)}, inside, model, it.recording
-    )
+    fit = as_recorded({**prove(inside, unseen), **prove_moments(inside)}, inside, model, it.recording)
     unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit)
     silent = prepared.stopped or verdict == "agrees"
     before = residual(data, [])
@@ -163,13 +160,16 @@ def _to_one_side(it: Explained, put_in: Fit) -> str:
     )
 
 
-def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Fit]:
-    """Put the named effects into the model, without those that make sweeps worse; what was put in, too."""
-    fit = harmless(it.analysis)
+def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Fit, dict[str, Array]]:
+    """Put the named effects into the model, without those that make sweeps worse.
+
+    What was put in, and what is left of unseen sweeps, come second and third.
+    """
+    fit, left = harmless(it.analysis, it.sets, it.level)
     model = _model(it, fit.changes)
     if fit.names and not _no_worse(it, model, plain):
-        return plain, it.analysis.fit.part([], it.analysis.system)
-    return model, fit
+        return plain, it.analysis.fit.part([], it.analysis.system), residual(it.analysis.data, [])
+    return model, fit, left
 
 
 def _no_worse(it: Explained, model: CorrectedModel, plain: CorrectedModel) -> bool:
@@ -179,14 +179,6 @@ def _no_worse(it: Explained, model: CorrectedModel, plain: CorrectedModel) -> bo
         for forces in (model.predict(it.recording), plain.predict(it.recording))
     )
     return after <= before
-
-
-def _left(it: Explained, put_in: Fit) -> dict[str, Array]:
-    """Return what is left, N, on sweeps that neither the choice of effects nor its fit has seen."""
-    if not put_in.names:
-        return residual(it.analysis.data, [])
-    withheld = set(it.analysis.fit.names) - set(put_in.names)
-    return unseen(it.sets, it.analysis.block, it.level, withheld).left
 
 
 def _model(it: Explained, changes: Sequence[Any]) -> CorrectedModel:
