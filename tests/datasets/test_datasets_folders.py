@@ -19,6 +19,15 @@ def test_text_folder_round_trip_and_replacement(tmp_path):
     assert [p.name for p in tmp_path.iterdir()] == ["out"]
 
 
+def test_a_folder_that_nothing_was_written_into_is_empty(tmp_path):
+    dataset = TextFolderDataset(path=str(tmp_path / "out"), suffix=".tir")
+    assert dataset.empty
+    dataset.save({"A/one.tir": "1"})
+    assert not dataset.empty
+    dataset.save({})
+    assert dataset.empty
+
+
 def test_files_of_the_user_are_never_replaced(tmp_path):
     mine = tmp_path / "out" / "A" / "mine.tir"
     mine.parent.mkdir(parents=True)

@@ -247,6 +247,9 @@ class SignpostHooks:
         for name, what in self.SIGNS:
             if name in made:
                 dataset = catalog.get(name)
+                if isinstance(dataset, TextFolderDataset) and dataset.empty:
+                    print(f"{what}: none")
+                    continue
                 place = str(getattr(dataset, "_filepath", None) or getattr(dataset, "_path", None))
                 protocol = getattr(dataset, "_protocol", "file")
                 if place.endswith(".csv"):

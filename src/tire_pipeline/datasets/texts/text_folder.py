@@ -54,6 +54,13 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content], dict[str, bytes]]
         files = sorted(p for p in folder.rglob(f"*{self._suffix}") if p.is_file())
         return {str(p.relative_to(folder).as_posix()): p.read_bytes() for p in files if p.name != MARKER}
 
+    @property
+    def empty(self) -> bool:
+        """Whether this project has put nothing there."""
+        if is_remote(self._path):
+            return not text_objects.made_there(Objects(self._path))
+        return not made_here(Path(self._path))
+
     def check(self) -> None:
         """Refuse, before any work is done, a folder that belongs to the user."""
         if is_remote(self._path):
