@@ -15,8 +15,8 @@ from tire_pipeline.errors import RecordingError
 
 Array = np.ndarray
 EXPECTED = 4.0
-"""Log odds of an effect of which physics leaves no doubt: 50 to 1. By hand: of 57 tuning cases that could have
-such an effect one lacks it."""
+"""Log odds of an effect of which physics leaves no doubt: 50 to 1. By hand: of 57 tuning cases that could
+have such an effect one lacks it."""
 _OF_NOISE = 0.5
 """Second differences take what changes from one sample to the next for noise, too."""
 
