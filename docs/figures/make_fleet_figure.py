@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from tire_pipeline.drawing import colour_of, new_figure
 from tire_pipeline.fleet import MANUFACTURERS, FleetSettings, make_fleet, write_fleet
+from tire_pipeline.pages.drawing import colour_of, new_figure
 from tire_pipeline.tir import read_tir
 
 HERE = Path(__file__).parent

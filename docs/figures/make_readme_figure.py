@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.drawing import colour_of, new_figure
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch import explain_recordings
+from tire_pipeline.pages.drawing import colour_of, new_figure
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
 

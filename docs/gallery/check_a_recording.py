@@ -5,7 +5,7 @@ Two faults are put into a copy of the rig run: a gap of two seconds, and a block
 
 import numpy as np
 
-from tire_pipeline.drawing import colour_of, new_figure
+from tire_pipeline.pages.drawing import colour_of, new_figure
 from tire_pipeline.recordings import check_recording, read_recording
 
 run = read_recording("examples/rig_run.csv", axes="ISO")

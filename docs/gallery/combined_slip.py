@@ -6,7 +6,7 @@ tire uses for braking, the less is left for cornering.
 
 import numpy as np
 
-from tire_pipeline.drawing import colour_of, new_figure
+from tire_pipeline.pages.drawing import colour_of, new_figure
 from tire_pipeline.tir import read_tir
 
 tire = read_tir("examples/tire.tir")

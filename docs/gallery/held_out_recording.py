@@ -4,8 +4,8 @@
 in the first run.
 """
 
-from tire_pipeline.drawing import colour_of, new_figure
 from tire_pipeline.mismatch import explain_recordings
+from tire_pipeline.pages.drawing import colour_of, new_figure
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
 

@@ -6,7 +6,7 @@ that the forces stay the same; only then can the coefficients of two files be co
 
 import numpy as np
 
-from tire_pipeline.drawing import new_figure
+from tire_pipeline.pages.drawing import new_figure
 from tire_pipeline.tir import read_tir
 
 tire = read_tir("examples/tire.tir")

@@ -5,8 +5,8 @@
 
 import numpy as np
 
-from tire_pipeline.drawing import colour_of, new_figure
 from tire_pipeline.magic_formula import conversion_notes
+from tire_pipeline.pages.drawing import colour_of, new_figure
 from tire_pipeline.tir import read_tir
 
 tire = read_tir("examples/tire.tir")

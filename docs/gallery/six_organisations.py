@@ -6,8 +6,8 @@ organisation's file differ from it.
 
 import numpy as np
 
-from tire_pipeline.drawing import colour_of, new_figure
 from tire_pipeline.fleet import FleetSettings, make_fleet
+from tire_pipeline.pages.drawing import colour_of, new_figure
 from tire_pipeline.tir import read_tir
 
 fleet = make_fleet(FleetSettings(seed=1, files=400, hidden_tires=2, tuning_tires=2))

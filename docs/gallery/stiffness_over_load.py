@@ -6,7 +6,7 @@ tire has less of both for its load.
 
 import numpy as np
 
-from tire_pipeline.drawing import new_figure
+from tire_pipeline.pages.drawing import new_figure
 from tire_pipeline.tir import read_tir
 
 tire = read_tir("examples/tire.tir")

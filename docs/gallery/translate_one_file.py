@@ -7,8 +7,8 @@ measured. The 90% band shows how certain the prediction is.
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.drawing import colour_of, new_figure
 from tire_pipeline.fleet import FleetSettings, make_fleet
+from tire_pipeline.pages.drawing import colour_of, new_figure
 from tire_pipeline.representations import make_representation
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table

@@ -6,8 +6,8 @@ its exact factor and repaired before any physics is looked for.
 
 import numpy as np
 
-from tire_pipeline.drawing import colour_of, new_figure
 from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.pages.drawing import colour_of, new_figure
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
 

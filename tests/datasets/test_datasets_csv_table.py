@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tire_pipeline.datasets import CsvTableDataset
-from tire_pipeline.safe_csv import original_text, safe_text
+from tire_pipeline.pages.safe_csv import original_text, safe_text
 
 HOSTILE = ["=1+1", "+x", "-x", "@SUM(A1)", "\t=1", "\r=1", "a;=1+1", "a|-x", "x\n=1", "'=1", "''-x", "＝1"]
 HARMLESS = ["plain", "it's; -3 is", 'say "no", now', "München", "a-b", "⟨U+0041⟩", "⟨", "A/b.tir"]

@@ -5,8 +5,8 @@ import re
 
 import pandas as pd
 
+from tire_pipeline.pages.safe_page import source_hash
 from tire_pipeline.reporting import Figure, Table, Text, inline_svg, new_figure, render_page
-from tire_pipeline.safe_page import source_hash
 
 HOSTILE = "<script>alert('x')</script>\"&\u202e$\\frac$"
 

@@ -170,7 +170,7 @@ def _page(
 
 
 def _figure(recording: pd.DataFrame) -> tuple[Any, str]:
-    from tire_pipeline.drawing import colour_of, new_figure
+    from tire_pipeline.pages.drawing import colour_of, new_figure
     from tire_pipeline.recordings.conventions.channels import CANONICAL
 
     units = {c.name: c.unit for c in CANONICAL if c.name != "time" and c.name in recording}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from tire_pipeline.safe_page import source_hash
+from tire_pipeline.pages.safe_page import source_hash
 
 _SCRIPT = re.compile(r"<script(?P<attributes>[^>]*)>(?P<text>.*?)</script>", re.S | re.I)
 

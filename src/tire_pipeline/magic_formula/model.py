@@ -86,7 +86,7 @@ class TireModel(TireParameters):
         return cls(version=version, coefficients=dict(coefficients), metadata=metadata or {})
 
     def _repr_html_(self) -> str:
-        from tire_pipeline.notebook import card
+        from tire_pipeline.pages.notebook import card
 
         rows = [(figure.name, f"{figure.value:.4g}", figure.unit) for figure in key_figures(self)]
         return card(repr(self), "At the nominal load, without camber:", ("", "value", "unit"), rows)
@@ -176,8 +176,8 @@ class TireModel(TireParameters):
         -------
         matplotlib.figure.Figure
         """
-        from tire_pipeline.drawing import captioned
         from tire_pipeline.magic_formula.plots import draw_models
+        from tire_pipeline.pages.drawing import captioned
 
         return captioned(*draw_models({self.path or "tire": self}, loads=loads, camber=camber))
 

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tire_pipeline.drawing import colour_of, new_figure
 from tire_pipeline.magic_formula.forces import tire_forces
 from tire_pipeline.magic_formula.key_figures import forces_over, usual_loads
 from tire_pipeline.magic_formula.parameters.points import OperatingPoints
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
+from tire_pipeline.pages.drawing import colour_of, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -1,6 +1,6 @@
 """Pages and figures: self-contained HTML that opens without a network, and one look for all figures."""
 
-from tire_pipeline.drawing import COLOURS, MARKERS, colour_of, inline_svg, new_figure
+from tire_pipeline.pages.drawing import COLOURS, MARKERS, colour_of, inline_svg, new_figure
 from tire_pipeline.reporting.front import front_page
 from tire_pipeline.reporting.page import HOME, Figure, Links, Table, Text, render_page
 

@@ -12,8 +12,8 @@ import pandas as pd
 from markupsafe import Markup
 from pandas.api.types import is_bool_dtype, is_numeric_dtype
 
-from tire_pipeline.drawing import inline_svg, page_style
-from tire_pipeline.safe_page import page_environment, policy
+from tire_pipeline.pages.drawing import inline_svg, page_style
+from tire_pipeline.pages.safe_page import page_environment, policy
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as MplFigure

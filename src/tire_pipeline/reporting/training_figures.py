@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.classifiers.scores import SPLITS
-from tire_pipeline.drawing import colour_of, new_figure
+from tire_pipeline.pages.drawing import colour_of, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

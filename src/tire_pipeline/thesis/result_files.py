@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from tire_pipeline.pages.safe_csv import safe_table
 from tire_pipeline.reporting import inline_svg
-from tire_pipeline.safe_csv import safe_table
 from tire_pipeline.thesis.pages.figures import all_figures
 from tire_pipeline.thesis.results import Results
 

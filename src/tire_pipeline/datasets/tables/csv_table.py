@@ -5,13 +5,13 @@ from __future__ import annotations
 import pandas as pd
 from kedro_datasets.pandas import CSVDataset
 
-from tire_pipeline.safe_csv import original_table, safe_table
+from tire_pipeline.pages.safe_csv import original_table, safe_table
 
 
 class CsvTableDataset(CSVDataset):
     """``pandas.CSVDataset`` whose texts begin no formula in a spreadsheet; a load gives them as they were.
 
-    See :mod:`tire_pipeline.safe_csv`.
+    See :mod:`tire_pipeline.pages.safe_csv`.
     """
 
     def load(self) -> pd.DataFrame:

@@ -90,8 +90,8 @@ class FitResult:
         DomainError
             No point is at pure slip.
         """
-        from tire_pipeline.drawing import captioned
         from tire_pipeline.magic_formula.fitting.plots import draw_fit
+        from tire_pipeline.pages.drawing import captioned
 
         return captioned(*draw_fit(self.model, self.measured))
 
@@ -104,7 +104,7 @@ class FitResult:
         return f"FitResult({self.model!r}; RMS of residuals over the largest magnitude: {errors}{poor})"
 
     def _repr_html_(self) -> str:
-        from tire_pipeline.notebook import card
+        from tire_pipeline.pages.notebook import card
 
         rows = [
             (name, f"{self.model.value(name):.6g}", f"{error:.2g}")

@@ -11,8 +11,8 @@ import numpy as np
 from markupsafe import Markup
 from matplotlib.figure import Figure, FigureBase
 
-from tire_pipeline.drawing import captioned, svg_element
 from tire_pipeline.mismatch.report.result import MismatchReport
+from tire_pipeline.pages.drawing import captioned, svg_element
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
 _FEW = 600

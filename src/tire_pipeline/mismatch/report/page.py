@@ -10,7 +10,6 @@ from typing import Any
 
 from markupsafe import Markup
 
-from tire_pipeline.drawing import page_style
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount
 from tire_pipeline.mismatch.proof.measured import Visible
@@ -18,7 +17,8 @@ from tire_pipeline.mismatch.report.figures import drawings, unnamed_curve
 from tire_pipeline.mismatch.report.result import EffectReport, MismatchReport
 from tire_pipeline.mismatch.report.words import condition, gaussian, in_words, interval
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
-from tire_pipeline.safe_page import page_environment, policy
+from tire_pipeline.pages.drawing import page_style
+from tire_pipeline.pages.safe_page import page_environment, policy
 
 _TOO_LITTLE = {"does not pay for itself": "too little evidence for its parameters"}
 

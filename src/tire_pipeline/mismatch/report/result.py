@@ -192,7 +192,7 @@ class MismatchReport:
         return f"MismatchReport({self.verdict!r}: {names}. {self.summary})"
 
     def _repr_html_(self) -> str:
-        from tire_pipeline.notebook import card
+        from tire_pipeline.pages.notebook import card
 
         rows = [
             (

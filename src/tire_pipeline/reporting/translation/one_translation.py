@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tire_pipeline.drawing import colour_of, new_figure
 from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.pages.drawing import colour_of, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -10,7 +10,8 @@ import numpy as np
 import pandas as pd
 from markupsafe import Markup
 
-from tire_pipeline.drawing import page_style
+from tire_pipeline.pages.drawing import page_style
+from tire_pipeline.pages.safe_page import page_environment, policy, visible
 from tire_pipeline.reporting.embedded import (
     LEVELS,
     data_element,
@@ -20,7 +21,6 @@ from tire_pipeline.reporting.embedded import (
 )
 from tire_pipeline.reporting.page import HOME, Table
 from tire_pipeline.reporting.translation.translated_rows import ROW_COLUMNS, by_supplier, rows_of
-from tire_pipeline.safe_page import page_environment, policy, visible
 from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
 
 CURVES_TOGETHER = 40

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.drawing import MARKERS, colour_of, new_figure
+from tire_pipeline.pages.drawing import MARKERS, colour_of, new_figure
 from tire_pipeline.reporting.page import HOME, Figure, Table, Text, render_page
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from markupsafe import Markup
 
-from tire_pipeline.safe_page import visible
+from tire_pipeline.pages.safe_page import visible
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as MplFigure
@@ -69,7 +69,7 @@ def new_figure(
     """
     from matplotlib import rc_context
 
-    from tire_pipeline.drawing_figure import PlainTextFigure
+    from tire_pipeline.pages.drawing_figure import PlainTextFigure
 
     with rc_context(STYLE):
         figure = PlainTextFigure(figsize=(width, height))
@@ -99,7 +99,7 @@ def svg_element(file: str) -> Markup:
     Parameters
     ----------
     file : str
-        Names in it (labels, legends) come out visible, see :func:`tire_pipeline.safe_page.visible`.
+        Names in it (labels, legends) come out visible, see :func:`tire_pipeline.pages.safe_page.visible`.
 
     Returns
     -------
@@ -114,7 +114,7 @@ def svg_element(file: str) -> Markup:
 
 def page_style() -> str:
     """The style that all pages share: light and dark, and for print."""
-    return package_files("tire_pipeline").joinpath("templates", "page.css").read_text("utf-8")
+    return package_files("tire_pipeline.pages").joinpath("templates", "page.css").read_text("utf-8")
 
 
 def captioned(figure: AnyFigure, caption: str) -> AnyFigure:

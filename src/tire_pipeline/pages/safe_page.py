@@ -35,7 +35,8 @@ def page_environment(package: str) -> jinja2.Environment:
     Parameters
     ----------
     package : str
-        Its folder ``templates`` holds them; they may extend ``base.html`` of ``tire_pipeline/templates``.
+        Its folder ``templates`` holds them; they may extend ``base.html`` of
+        ``tire_pipeline/pages/templates``.
         What is not text from outside must be ``Markup``.
 
     Returns
@@ -43,7 +44,9 @@ def page_environment(package: str) -> jinja2.Environment:
     jinja2.Environment
     """
     return jinja2.Environment(
-        loader=jinja2.ChoiceLoader([jinja2.PackageLoader(package), jinja2.PackageLoader("tire_pipeline")]),
+        loader=jinja2.ChoiceLoader(
+            [jinja2.PackageLoader(package), jinja2.PackageLoader("tire_pipeline.pages")]
+        ),
         autoescape=True,
         finalize=_finalised,
         trim_blocks=True,

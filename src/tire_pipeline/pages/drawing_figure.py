@@ -1,4 +1,4 @@
-"""The Matplotlib figure behind :func:`tire_pipeline.drawing.new_figure`; imported only where one is drawn."""
+"""The Matplotlib figure behind :func:`~tire_pipeline.pages.drawing.new_figure`; loaded where one is drawn."""
 
 from __future__ import annotations
 

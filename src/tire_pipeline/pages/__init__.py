@@ -1,0 +1,1 @@
+"""What pictures, pages and tables for people are made with: figures, safe pages and CSVs, notebook cards."""
