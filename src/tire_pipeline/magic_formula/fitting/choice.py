@@ -73,7 +73,7 @@ def most_typical(
         drawn = problem.drawn(typical.FORMULA_ERROR * largest)
         return minimum(drawn, bounds, best, loss=loss, width=max(width, 1e-6 * largest))
     clean, spread = _without_outliers(problem, bounds, best, loss)
-    unit = spread / np.sqrt(min(_POINTS, clean.measured.size))
+    unit = spread / np.sqrt(_POINTS)
     peaked = _peaked(clean, bounds)
     few, more = (clean.thinned(max(rows, 8 * len(clean.names))) for rows in (_POINTS, _MORE_POINTS))
     begun = [(peaked, x) for x in _minima(few, peaked, best, unit, rng)] + [(bounds, best)]
