@@ -82,16 +82,14 @@ def most_typical(
     lower = min([best, *(x for _, x in ends)], key=more.left)
     found = quick(clean.drawn(_FLOOR * largest), bounds, lower, tolerance=1e-6)
     lowest = min(best, found, key=clean.left)
-    least = min(problem.misfit(best), problem.misfit(lowest))
-    most = min(most, (1.0 + SLACK) * max(least, _EXACT * largest))
+    most = min(most, (1.0 + SLACK) * max(problem.misfit(lowest), _EXACT * largest))
     allowed = (1.0 + _DRAWN) * max(clean.misfit(lowest), _EXACT * largest)
     rough = allowed / max(clean.misfit(lowest), 1e-300) * min(more.misfit(lower), more.misfit(lowest))
     for limits, values, share in _towards_typical(more, ends, unit, rough):
         values = quick(_drawn(clean, unit, share), limits, values, tolerance=1e-6)
         if clean.left(values) <= allowed and problem.misfit(values) <= most:
             return _robust(_drawn(problem, unit, share), limits, values, loss, most)
-    values = lowest if problem.misfit(lowest) <= most else best
-    return _robust(problem.drawn(_FLOOR * largest), bounds, values, loss, most)
+    return _robust(problem.drawn(_FLOOR * largest), bounds, lowest, loss, most)
 
 
 def _without_outliers(problem: Problem, bounds: Bounds, best: np.ndarray, loss: str) -> tuple[Problem, float]:
