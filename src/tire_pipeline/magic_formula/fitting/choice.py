@@ -101,10 +101,7 @@ def _without_outliers(problem: Problem, bounds: Bounds, best: np.ndarray, loss: 
 
 
 def _minima(few: Problem, bounds: Bounds, best: np.ndarray, unit: float, rng: Generator) -> list[np.ndarray]:
-    """Return minima of searches that are drawn to typical values: the most typical and the lowest.
-
-    The pull is still on and the points are few: half as much again as a pull may add is let through.
-    """
+    """Return minima of searches that are drawn to typical values: the most typical and the lowest."""
     strong, weak = (_drawn(few, unit, share) for share in _SEARCH)
     starts = [best, *curved_starts(few.names, few.pull.centre, bounds, few.pull.spread, _STARTS, rng)]
     found: list[tuple[float, float, np.ndarray]] = []

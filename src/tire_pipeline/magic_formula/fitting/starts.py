@@ -104,7 +104,7 @@ def curved_starts(
     """Return typical values, and others around them as far as tires differ, curved in all ways.
 
     A curvature and its change with load are drawn from wide ranges: their signs decide on which side of the
-    kink at 1 each load lies, which least squares do not cross.
+    kink at 1 each load lies, and three times as many of such starts end near the least misfit.
     """
     low, high = bounds
     curved = [
