@@ -7,9 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from tire_pipeline.magic_formula.fitting.choice import most_typical
 from tire_pipeline.magic_formula.fitting.coverage import open_coefficients
-from tire_pipeline.magic_formula.fitting.search import SLACK, are_few, judged, least, part_of
+from tire_pipeline.magic_formula.fitting.search import SLACK, are_few, judged, least, most_typical, part_of
 from tire_pipeline.magic_formula.fitting.solve import Bounds, Problem
 from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome
 from tire_pipeline.magic_formula.fitting.starts import bounds_of, starting_points
@@ -66,7 +65,8 @@ def fit_together(
     if left <= min((1.0 + 0.5 * SLACK) * lowest, bar):
         return before
     most = max(min((1.0 + SLACK) * lowest, bar), lowest)
-    values = most_typical(problem, bounds, best, options.loss, most, options.rng)
+    held = np.isin(problem.names, [n for o in outcomes for group in o.released.values() for n in group])
+    values = most_typical(problem, bounds, best, options.loss, most, held)
     whole = judged(problem, bounds, values, options.loss)
     found = dict(zip(problem.names, values.tolist(), strict=True))
     return [

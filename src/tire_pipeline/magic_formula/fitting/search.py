@@ -1,4 +1,4 @@
-"""A stage's fit: the least misfit from several starts, and what the data tell of the values."""
+"""A stage's fit: the least misfit from several starts, and of the fits about as good the most typical one."""
 
 from __future__ import annotations
 
@@ -8,11 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from tire_pipeline.magic_formula.fitting import typical
-from tire_pipeline.magic_formula.fitting.solve import Bounds, Problem, quick
+from tire_pipeline.magic_formula.fitting.solve import Bounds, Problem, minimum, quick
 
-SLACK = 0.04
+SLACK = 0.045
 """A fit may leave this much more than the least, where a minimum of its own is more like a tire."""
-ROBUST_WIDTH = 2.0
+_DRAWN = 0.02
+"""A pull may add this much to a minimum."""
+_ROBUST_WIDTH = 2.0
 """Residuals beyond this many robust standard deviations count less and less."""
 _ROUNDS = ((240, 60, 1e-5), (1500, 60, 1e-6), (10**9, 30, 1e-7))
 """Of a search: points at most, steps, tolerance."""
@@ -22,6 +24,11 @@ _SAME = 0.003
 """Share of the misfit within which two searches have found the same."""
 _OFTEN = 4
 """Times that the least has to come out for no more starts to be tried."""
+_PULLS = (
+    *((hold, 1.0) for hold in (1000.0, 100.0, 10.0, 3.0)),
+    *((share, share) for share in (1.0, 0.3, 0.1, 0.03, 0.01)),
+)
+"""Strengths of the pull, of what the ranges cannot tell and of the rest, from the strongest."""
 _FLOOR = 1e-6
 """Strength of the pull that keeps a search well posed, over the largest force."""
 
@@ -82,6 +89,64 @@ def _often(left: Sequence[float]) -> bool:
     return bool(np.sum(np.asarray(left) <= (1.0 + _SAME) * min(left)) >= _OFTEN and np.isfinite(min(left)))
 
 
+def most_typical(
+    problem: Problem,
+    bounds: Bounds,
+    best: np.ndarray,
+    loss: str,
+    most: float,
+    held: np.ndarray,
+) -> np.ndarray:
+    """Return, of the fits that leave no more than ``most``, the one that is most like a tire.
+
+    Parameters
+    ----------
+    problem : Problem
+    bounds : pair of ndarray
+    best : ndarray
+        The values that leave the least.
+    loss : str
+    most : float
+        RMS.
+    held : ndarray of bool
+        Coefficients that the recording's ranges cannot tell; they leave their typical values last.
+
+    Returns
+    -------
+    ndarray
+    """
+    largest = float(np.abs(problem.measured).max())
+    if are_few(problem):
+        width = _ROBUST_WIDTH * typical.FORMULA_ERROR * largest
+        drawn = problem.drawn(typical.FORMULA_ERROR * largest)
+        return minimum(drawn, bounds, best, loss=loss, width=max(width, 1e-6 * largest))
+    spread = noise(problem, best, loss)
+    width = max(_ROBUST_WIDTH * spread, 1e-6 * largest)
+    pulls = [np.where(held, hold, share) for hold, share in (_PULLS if held.any() else _PULLS[-5:])]
+
+    def solved(part: Problem, pull: np.ndarray, begin: np.ndarray, tolerance: float) -> np.ndarray:
+        one = spread * np.sqrt(rows_of_one(part.residuals(best)))
+        return minimum(part.drawn(one * pull), bounds, begin, loss=loss, width=width, tolerance=tolerance)
+
+    thin = problem.thinned(_ROUNDS[1][0])
+    eased = [problem.pull.centre]
+    for pull in pulls:
+        eased.append(solved(thin, pull, eased[-1], 1e-5))
+    found = [best]
+    for own in (best, solved(problem, pulls[-1], eased[-1], 1e-7)):
+        limit = min(most, (1.0 + _DRAWN) * problem.misfit(own))
+        rough = limit * thin.misfit(own) / max(problem.misfit(own), 1e-300)
+        for pull in pulls:
+            values = solved(thin, pull, own, 1e-5)
+            if thin.misfit(values) <= rough:
+                values = solved(problem, pull, values, 1e-7)
+                if problem.left(values) <= limit:
+                    found.append(values)
+                    break
+    weight = np.where(held, _PULLS[0][0], 1.0) / problem.pull.spread
+    return min(found, key=lambda x: float(np.sum((weight * (x - problem.pull.centre)) ** 2)))
+
+
 def are_few(problem: Problem) -> bool:
     """Return whether the points are too few for the least misfit to say anything."""
     return problem.measured.size < typical.FEW_POINTS * len(problem.names)
@@ -126,7 +191,7 @@ def judged(problem: Problem, bounds: Bounds, values: np.ndarray, loss: str) -> S
     spread = noise(problem, values, loss)
     weights = np.ones(residuals.size)
     if loss != "linear" and spread > 0.0:
-        weights = 1.0 / np.sqrt(1.0 + (residuals / (ROBUST_WIDTH * spread)) ** 2)
+        weights = 1.0 / np.sqrt(1.0 + (residuals / (_ROBUST_WIDTH * spread)) ** 2)
     freedom = max(float(np.sum(weights > 0.5)) - np.sum(~bound), 1.0)
     variance = float(np.sum(weights * residuals**2)) / freedom * rows_of_one(residuals)
     columns = problem.jacobian(values) * np.sqrt(weights)[:, None] * problem.pull.spread

@@ -81,12 +81,8 @@ class Problem:
         step = -(-self.measured.size // most)
         if step <= 1:
             return self
-        return self.at(slice(None, None, step))
-
-    def at(self, rows: slice | np.ndarray) -> Problem:
-        """Return the problem at some of its points."""
-        points = [np.ascontiguousarray(x[rows]) for x in self.points]
-        return replace(self, points=points, measured=self.measured[rows])
+        points = [np.ascontiguousarray(x[::step]) for x in self.points]
+        return replace(self, points=points, measured=self.measured[::step])
 
 
 def minimum(

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tire_pipeline.magic_formula.fitting.choice import most_typical
 from tire_pipeline.magic_formula.fitting.coverage import noise_alone, open_coefficients
-from tire_pipeline.magic_formula.fitting.search import SLACK, StageFit, are_few, judged, least
+from tire_pipeline.magic_formula.fitting.search import SLACK, StageFit, are_few, judged, least, most_typical
 from tire_pipeline.magic_formula.fitting.solve import Bounds, Problem
 from tire_pipeline.magic_formula.fitting.stages import Stage
 from tire_pipeline.magic_formula.fitting.starts import (
@@ -164,7 +163,8 @@ def fit_stage(
             released = {reason: [n for n in group if n in every] for reason, group in closed.items()}
             problem, bounds, best, free, reached = wider, wide, widest, every, lowest
     most = max(min((1.0 + SLACK) * lowest, bar), reached, exact)
-    values = most_typical(problem, bounds, best, options.loss, most, options.rng)
+    held = np.isin(free, sorted(known))
+    values = most_typical(problem, bounds, best, options.loss, most, held)
     kept = {
         reason: {n: typical[n] for n in group if n not in free}
         for reason, group in closed.items()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.random import Generator
@@ -91,33 +91,3 @@ def starting_points(
         shift = rng.standard_normal(first.size) * (wide if i % 2 else 2.0 * spread)
         points.append(np.clip(first + shift, low, high))
     return points
-
-
-def curved_starts(
-    names: Sequence[str],
-    centre: np.ndarray,
-    bounds: tuple[np.ndarray, np.ndarray],
-    spread: np.ndarray,
-    number: int,
-    rng: Generator,
-) -> list[np.ndarray]:
-    """Return typical values, and others around them as far as tires differ, curved in all ways.
-
-    A curvature and its change with load are drawn from wide ranges: their signs decide on which side of the
-    kink at 1 each load lies, and three times as many of such starts end near the least misfit.
-    """
-    low, high = bounds
-    curved = [
-        (i, _CURVED[name[-1]]) for i, name in enumerate(names) if name[1] == "E" and name[-1] in _CURVED
-    ]
-    points = [centre]
-    for _ in range(number - 1):
-        values = centre + spread * rng.standard_normal(centre.size)
-        for i, between in curved:
-            values[i] = rng.uniform(*between)
-        points.append(np.clip(values, low, high))
-    return points
-
-
-_CURVED = {"1": (-3.0, 1.0), "2": (-4.0, 4.0)}
-"""Last character of a curvature coefficient -> where it starts."""
