@@ -27,10 +27,12 @@ OWN = "explain_mismatch"
 
 
 def take(data: Path) -> None:
-    """Copy scores and misses of the last ``prove_concealed`` below a data folder."""
+    """Copy scores and misses of the last ``prove_concealed`` below a data folder, or of the half that ran."""
     for name in ("proof_scores.csv", "proof_misses.csv"):
         if (data / "07_model_output" / name).is_dir():
             shutil.copyfile(_last(data, name), RESULTS / name)
+    if not (data / "07_model_output" / "real_proof_details.json").is_dir():
+        return
     made = json.loads(_last(data, "real_proof_details.json").read_text())
     if not made["published"]:
         shutil.copyfile(_last(data, "real_proof_misses.csv"), RESULTS / "real_proof_misses.csv")
