@@ -8,7 +8,7 @@ from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
-from tire_pipeline.mismatch.proof.nested import REPEATS, unseen
+from tire_pipeline.mismatch.proof.nested import REPEATS, RepeatedChoice
 
 
 def rms(x):
@@ -21,7 +21,7 @@ def softer(tire, record):
 
 
 def test_a_clear_cause_is_chosen_without_any_fold_and_leaves_as_little(softer):
-    found = unseen(softer.sets, softer.analysis.block, LEVEL)
+    found = RepeatedChoice(softer.sets, softer.analysis.block, LEVEL).unseen()
     assert found.chosen == (("friction_scale",),) * REPEATS
     assert rms(found.left) == pytest.approx(
         rms(each_left_out(softer.analysis, softer.analysis.fit)), rel=0.05
@@ -35,18 +35,18 @@ def test_a_choice_that_rests_on_one_fold_removes_nothing_there(tire, record):
     there = plain.analysis.block % REPEATS == 2
     data = plain.analysis.data
     data.recorded["fy"][there] += 400.0
-    found = unseen(plain.sets, plain.analysis.block, LEVEL)
+    found = RepeatedChoice(plain.sets, plain.analysis.block, LEVEL).unseen()
     before = residual(data, [])["fy"]
     assert np.mean(found.left["fy"][there] ** 2) >= 0.99 * np.mean(before[there] ** 2)
 
 
 def test_what_is_withheld_predicts_nothing(softer):
-    found = unseen(softer.sets, softer.analysis.block, LEVEL, {"friction_scale"})
+    found = RepeatedChoice(softer.sets, softer.analysis.block, LEVEL).unseen({"friction_scale"})
     assert rms(found.left) == rms(residual(softer.analysis.data, []))
 
 
 def test_one_sweep_proves_nothing(softer):
-    found = unseen(softer.sets, np.zeros(softer.analysis.data.size, int), LEVEL)
+    found = RepeatedChoice(softer.sets, np.zeros(softer.analysis.data.size, int), LEVEL).unseen()
     assert found.chosen == ()
     assert rms(found.left) == rms(residual(softer.analysis.data, []))
 

@@ -7,10 +7,9 @@ from typing import Any, NoReturn
 
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.datasets.texts.text_folder import made_here
-from tire_pipeline.datasets.texts.text_objects import made_there
+from tire_pipeline.datasets.texts.text_folder import made_at
 from tire_pipeline.errors import DomainError
-from tire_pipeline.files.objects import Objects, is_remote
+from tire_pipeline.files.objects import is_remote
 
 
 class MadeFilesDataset(AbstractDataset[NoReturn, list[str]]):
@@ -30,9 +29,7 @@ class MadeFilesDataset(AbstractDataset[NoReturn, list[str]]):
 
     def load(self) -> list[str]:
         """Paths relative to the folder."""
-        if is_remote(self._path):
-            return sorted(made_there(Objects(self._path)))
-        return sorted(made_here(Path(self._path)))
+        return sorted(made_at(self._path))
 
     def save(self, data: NoReturn) -> None:
         """Refuse: the folder's own dataset writes it."""

@@ -57,9 +57,7 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content], dict[str, bytes]]
     @property
     def empty(self) -> bool:
         """Whether this project has put nothing there."""
-        if is_remote(self._path):
-            return not text_objects.made_there(Objects(self._path))
-        return not made_here(Path(self._path))
+        return not made_at(self._path)
 
     def check(self) -> None:
         """Refuse, before any work is done, a folder that belongs to the user."""
@@ -119,6 +117,11 @@ def made_here(folder: Path) -> set[str]:
     if not marker.is_file():
         return set()
     return set(marker.read_text(encoding="utf-8", errors="replace").splitlines()[1:])
+
+
+def made_at(path: str) -> set[str]:
+    """Return the same of a folder or an object store, by its address."""
+    return text_objects.made_there(Objects(path)) if is_remote(path) else made_here(Path(path))
 
 
 def _inside(name: str) -> PurePosixPath:

@@ -24,7 +24,7 @@ def prove(
     ----------
     analysis : Analysis
     after : dict of ndarray, shape (n,)
-        What is left of each output, N: :func:`tire_pipeline.mismatch.proof.nested.unseen`. In the held-out
+        What is left of each output, N: :class:`~tire_pipeline.mismatch.proof.nested.RepeatedChoice`. In the held-out
         condition the effects are locked, and the parameters are fitted to the sweeps outside of it.
     resamples, seed : int
         Of the interval, by resampling sweeps.

@@ -40,8 +40,8 @@ class Unseen:
     chosen: tuple[Names, ...]
 
 
-def unseen(sets: Enumerated, block: Array, level: float, withheld: Collection[str] = ()) -> Unseen:
-    """Repeat the choice without each fold, and predict the fold with what is named.
+class RepeatedChoice:
+    """The choice made again without each fold; asked as often as what is put in changes.
 
     Parameters
     ----------
@@ -51,29 +51,43 @@ def unseen(sets: Enumerated, block: Array, level: float, withheld: Collection[st
         Sweep of each sample. Folds interleave sweeps; a recording of one sweep proves nothing.
     level : float
         Probability from which a name, with its alternatives, is said.
-    withheld : collection of str
-        Effects whose correction is not put in: sets that hold one predict nothing of it.
     """
-    data, (folds, fold) = sets.products.data, np.unique(block % REPEATS, return_inverse=True)
-    if folds.size < 2:
-        return Unseen(residual(data, []), ())
-    every = [_ByFold(sets, each, fold) for each in sets.sets]
-    left = residual(data, [])
-    chosen: list[Names] = []
-    for number in range(folds.size):
-        kept = fold != number
-        likelihood = _without(sets, kept)
-        case = OfCase(likelihood.unknown, tuple(each.without(number) for each in every))
-        answer = answered(case, likelihood.learnt, level, likelihood)
-        names = tuple(name for name in answer.names if name not in withheld)
-        chosen.append(names)
-        index = next((i for i, each in enumerate(case.sets) if each.names == tuple(sorted(names))), None)
-        if not names or index is None:
-            continue
-        found = every[index].predicted(likelihood, case.sets[index])
-        for o in left:
-            left[o][~kept] = found[o][~kept]
-    return Unseen(left, tuple(chosen))
+
+    def __init__(self, sets: Enumerated, block: Array, level: float) -> None:
+        self._data = sets.products.data
+        folds, self._fold = np.unique(block % REPEATS, return_inverse=True)
+        self._every: list[_ByFold] = []
+        self._answers: list[tuple[Likelihood, OfCase, Names]] = []
+        if folds.size < 2:
+            return
+        self._every = [_ByFold(sets, each, self._fold) for each in sets.sets]
+        for number in range(folds.size):
+            likelihood = _without(sets, self._fold != number)
+            case = OfCase(likelihood.unknown, tuple(each.without(number) for each in self._every))
+            names = answered(case, likelihood.learnt, level, likelihood).names
+            self._answers.append((likelihood, case, names))
+
+    def unseen(self, withheld: Collection[str] = ()) -> Unseen:
+        """Predict each fold with what is named without it.
+
+        Parameters
+        ----------
+        withheld : collection of str
+            Effects whose correction is not put in: nothing is predicted of them.
+        """
+        left = residual(self._data, [])
+        chosen: list[Names] = []
+        for number, (likelihood, case, said) in enumerate(self._answers):
+            names = tuple(name for name in said if name not in withheld)
+            chosen.append(names)
+            index = next((i for i, e in enumerate(case.sets) if e.names == tuple(sorted(names))), None)
+            if not names or index is None:
+                continue
+            found = self._every[index].predicted(likelihood, case.sets[index])
+            rows = self._fold == number
+            for o in left:
+                left[o][rows] = found[o][rows]
+        return Unseen(left, tuple(chosen))
 
 
 def _without(sets: Enumerated, kept: Array) -> Likelihood:

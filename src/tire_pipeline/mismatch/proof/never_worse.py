@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.inference.fit import Fit
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
-from tire_pipeline.mismatch.proof.nested import unseen
+from tire_pipeline.mismatch.proof.nested import RepeatedChoice
 
 Array = np.ndarray
 SURE = 0.95
@@ -42,9 +42,11 @@ def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, d
         Output -> what is left, N, of sweeps that neither the choice of what is put in nor its fit has seen.
     """
     fit = analysis.fit
+    if not fit.names:
+        return fit, residual(analysis.data, [])
+    repeated = RepeatedChoice(sets, analysis.block, level)
     while fit.names:
-        withheld = set(analysis.fit.names) - set(fit.names)
-        left = unseen(sets, analysis.block, level, withheld).left
+        left = repeated.unseen(set(analysis.fit.names) - set(fit.names)).left
         if _surely_less(analysis, left) and _surely_less(analysis, each_left_out(analysis, fit)):
             return fit, left
         numbers = range(len(fit.names))
