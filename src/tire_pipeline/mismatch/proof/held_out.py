@@ -24,8 +24,8 @@ def prove(
     ----------
     analysis : Analysis
     after : dict of ndarray, shape (n,)
-        What is left of each output, N: :class:`~tire_pipeline.mismatch.proof.nested.RepeatedChoice`. In the held-out
-        condition the effects are locked, and the parameters are fitted to the sweeps outside of it.
+        What is left of each output, N: :class:`~tire_pipeline.mismatch.proof.nested.RepeatedChoice`. In the
+        held-out condition the effects are locked, and the parameters are fitted to the sweeps outside of it.
     resamples, seed : int
         Of the interval, by resampling sweeps.
     """
