@@ -2,9 +2,9 @@
 
 Run: python benchmarks/few_points.py [--tires 60] [--points 18 39]
 
-The spreads are those of the public files in ../shared/tir beside `fitting/typical.py`. The fits are to brush
-tires of the rig simulator at some points of pure lateral slip, with and without being drawn; the error is
-that of the whole range beside the points, over the largest force.
+The spreads are those of `fitting/setup/typical.py` and of the public files in ../shared/tir. The fits are to
+brush tires of the rig simulator at some points of pure lateral slip, with and without being drawn; the error
+is that of the whole range beside the points, over the largest force.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from tire_pipeline.concealed.brush_rig.schedule import CHANNELS
 from tire_pipeline.concealed.brush_rig.simulate import BrushRig
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.magic_formula.fitting import fit_magic_formula, joint, stage_fit
-from tire_pipeline.magic_formula.fitting.typical import SPREAD
+from tire_pipeline.magic_formula.fitting.setup.typical import SPREAD
 from tire_pipeline.tir import read_tir
 
 FILES = Path(__file__).resolve().parents[2] / "shared" / "tir"

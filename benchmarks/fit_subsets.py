@@ -40,11 +40,12 @@ from tire_pipeline.concealed.brush_rig.constants import draw_constants
 from tire_pipeline.concealed.brush_rig.schedule import CHANNELS
 from tire_pipeline.concealed.brush_rig.simulate import BrushRig
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula, given
-from tire_pipeline.magic_formula.fitting.solve import Problem, quick
-from tire_pipeline.magic_formula.fitting.stages import BOUNDS, PRESSURE_BOUNDS, STAGES
-from tire_pipeline.magic_formula.fitting.starts import typical_values
-from tire_pipeline.magic_formula.fitting.typical import FEW_POINTS, pull
+from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula
+from tire_pipeline.magic_formula.fitting.least_squares.solve import Problem, quick
+from tire_pipeline.magic_formula.fitting.setup import given
+from tire_pipeline.magic_formula.fitting.setup.stages import BOUNDS, PRESSURE_BOUNDS, STAGES
+from tire_pipeline.magic_formula.fitting.setup.starts import typical_values
+from tire_pipeline.magic_formula.fitting.setup.typical import FEW_POINTS, pull
 from tire_pipeline.magic_formula.parameters.coefficients import family_of
 from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
 from tire_pipeline.recordings import read_recording

@@ -10,7 +10,8 @@ from magic_formula_tires import tire_52, tire_61
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula, typical
+from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula
+from tire_pipeline.magic_formula.fitting.setup import typical
 
 pytestmark = pytest.mark.slow
 

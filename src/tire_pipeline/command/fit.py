@@ -120,7 +120,7 @@ def _page(result: FitResult, lines: list[str], residuals: Grid, notes: list[str]
     import pandas as pd
 
     from tire_pipeline.errors import DomainError
-    from tire_pipeline.magic_formula.fitting.plots import draw_fit
+    from tire_pipeline.magic_formula.fitting.report.plots import draw_fit
     from tire_pipeline.magic_formula.plots import draw_models
     from tire_pipeline.reporting import Figure, Table, Text, render_page
 

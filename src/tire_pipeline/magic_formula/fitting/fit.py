@@ -11,14 +11,14 @@ import numpy as np
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
-from tire_pipeline.magic_formula.fitting import given
 from tire_pipeline.magic_formula.fitting.joint import fit_together
-from tire_pipeline.magic_formula.fitting.result import FitResult
+from tire_pipeline.magic_formula.fitting.report.result import FitResult
+from tire_pipeline.magic_formula.fitting.report.statistics import relative_rms, residual_table
+from tire_pipeline.magic_formula.fitting.report.verdict import PoorFitWarning, doubts_about
+from tire_pipeline.magic_formula.fitting.setup import given
+from tire_pipeline.magic_formula.fitting.setup.stages import STAGES, Stage
+from tire_pipeline.magic_formula.fitting.setup.typical import FEW_POINTS
 from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome, fit_stage
-from tire_pipeline.magic_formula.fitting.stages import STAGES, Stage
-from tire_pipeline.magic_formula.fitting.statistics import relative_rms, residual_table
-from tire_pipeline.magic_formula.fitting.typical import FEW_POINTS
-from tire_pipeline.magic_formula.fitting.verdict import PoorFitWarning, doubts_about
 from tire_pipeline.magic_formula.model import TireModel
 
 _MOST_POINTS = 20_000

@@ -7,12 +7,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from tire_pipeline.magic_formula.fitting.coverage import open_coefficients
-from tire_pipeline.magic_formula.fitting.search import SLACK, are_few, judged, least, most_typical, part_of
-from tire_pipeline.magic_formula.fitting.solve import Bounds, Problem
+from tire_pipeline.magic_formula.fitting.least_squares.search import (
+    SLACK,
+    are_few,
+    judged,
+    least,
+    most_typical,
+    part_of,
+)
+from tire_pipeline.magic_formula.fitting.least_squares.solve import Bounds, Problem
+from tire_pipeline.magic_formula.fitting.setup.coverage import open_coefficients
+from tire_pipeline.magic_formula.fitting.setup.starts import bounds_of, starting_points
+from tire_pipeline.magic_formula.fitting.setup.typical import Pull, pull
 from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome
-from tire_pipeline.magic_formula.fitting.starts import bounds_of, starting_points
-from tire_pipeline.magic_formula.fitting.typical import Pull, pull
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
 

@@ -7,17 +7,24 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tire_pipeline.magic_formula.fitting.coverage import noise_alone, open_coefficients
-from tire_pipeline.magic_formula.fitting.search import SLACK, StageFit, are_few, judged, least, most_typical
-from tire_pipeline.magic_formula.fitting.solve import Bounds, Problem
-from tire_pipeline.magic_formula.fitting.stages import Stage
-from tire_pipeline.magic_formula.fitting.starts import (
+from tire_pipeline.magic_formula.fitting.least_squares.search import (
+    SLACK,
+    StageFit,
+    are_few,
+    judged,
+    least,
+    most_typical,
+)
+from tire_pipeline.magic_formula.fitting.least_squares.solve import Bounds, Problem
+from tire_pipeline.magic_formula.fitting.setup.coverage import noise_alone, open_coefficients
+from tire_pipeline.magic_formula.fitting.setup.stages import Stage
+from tire_pipeline.magic_formula.fitting.setup.starts import (
     bounds_of,
     first_values,
     starting_points,
     typical_values,
 )
-from tire_pipeline.magic_formula.fitting.typical import pull
+from tire_pipeline.magic_formula.fitting.setup.typical import pull
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.coefficients import INDEX
 from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS

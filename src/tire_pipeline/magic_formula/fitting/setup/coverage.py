@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from tire_pipeline.magic_formula.fitting import stages
+from tire_pipeline.magic_formula.fitting.setup import stages
 
 MIN_LOAD_SPREAD = 0.15
 """Spread of loads, over the nominal one, from which they count as different: a flat belt that holds one load

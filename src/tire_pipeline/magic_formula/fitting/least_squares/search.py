@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tire_pipeline.magic_formula.fitting import typical
-from tire_pipeline.magic_formula.fitting.solve import Bounds, Problem, minimum, quick
+from tire_pipeline.magic_formula.fitting.least_squares.solve import Bounds, Problem, minimum, quick
+from tire_pipeline.magic_formula.fitting.setup import typical
 
 SLACK = 0.045
 """A fit may leave this much more than the least, where a minimum of its own is more like a tire."""

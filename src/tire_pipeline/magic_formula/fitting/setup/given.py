@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.magic_formula.fitting import stages
-from tire_pipeline.magic_formula.fitting.stages import Stage
+from tire_pipeline.magic_formula.fitting.setup import stages
+from tire_pipeline.magic_formula.fitting.setup.stages import Stage
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.coefficients import family_of
 from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS

@@ -12,7 +12,7 @@ import scipy
 from tire_pipeline.magic_formula.compiled import engine
 from tire_pipeline.magic_formula.derivatives.jacobian import packed_jacobian
 from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
-from tire_pipeline.magic_formula.fitting.typical import Pull
+from tire_pipeline.magic_formula.fitting.setup.typical import Pull
 from tire_pipeline.magic_formula.parameters.coefficients import INDEX
 
 _NO_SIGNS = np.ones(2 + len(OUTPUTS))

@@ -90,7 +90,7 @@ class FitResult:
         DomainError
             No point is at pure slip.
         """
-        from tire_pipeline.magic_formula.fitting.plots import draw_fit
+        from tire_pipeline.magic_formula.fitting.report.plots import draw_fit
         from tire_pipeline.pages.drawing import captioned
 
         return captioned(*draw_fit(self.model, self.measured))

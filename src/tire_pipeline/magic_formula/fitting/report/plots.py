@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.magic_formula.fitting.stages import PURE_SLIP_ANGLE, PURE_SLIP_RATIO
+from tire_pipeline.magic_formula.fitting.setup.stages import PURE_SLIP_ANGLE, PURE_SLIP_RATIO
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, OperatingPoints
 from tire_pipeline.pages.drawing import colour_of, new_figure

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.random import Generator
 
-from tire_pipeline.magic_formula.fitting.stages import BOUNDS, PRESSURE_BOUNDS, Stage
+from tire_pipeline.magic_formula.fitting.setup.stages import BOUNDS, PRESSURE_BOUNDS, Stage
 from tire_pipeline.magic_formula.model import TireModel
 
 _NO_SLIP = 1e-6
