@@ -60,9 +60,8 @@ def points(count):
 
 def calls_of(family):
     """Count the sines, cosines and arctangents that Fx, Fy and Mz take, from the traced equations."""
-    derive._known.clear()
     outputs = derive.traced(family)
-    needed = derive._needed([outputs[0], outputs[1], outputs[4]])
+    needed = derive.needed([outputs[0], outputs[1], outputs[4]])
     return {name: sum(y.operation == name for y in needed) for name in ("sin", "cos", "arctan")}
 
 

@@ -25,7 +25,7 @@ def page(root: Path) -> str:
     bootstrap_project(root)
     logging.getLogger("kedro").setLevel(logging.ERROR)
     known = _descriptions(root / "conf" / "base" / "catalog")
-    parameters = _parameters(root / "conf" / "base")
+    known_parameters = parameters(root / "conf" / "base")
     names = [name for name in FIRST if name in pipelines]
     names += sorted(set(pipelines) - set(names) - {"__default__", "story"})
     lines = [
@@ -37,7 +37,7 @@ def page(root: Path) -> str:
         "",
     ]
     for name in names:
-        lines += _one(name, pipelines[name], known, parameters)
+        lines += _one(name, pipelines[name], known, known_parameters)
     return "\n".join(lines) + "\n"
 
 
@@ -78,8 +78,8 @@ def _descriptions(folder: Path) -> dict[str, str]:
     return found
 
 
-def _parameters(folder: Path) -> dict[str, list[tuple[str, str, str]]]:
-    """Top-level parameter -> (name, default, comment) of each of its entries."""
+def parameters(folder: Path) -> dict[str, list[tuple[str, str, str]]]:
+    """Return top-level parameter -> (name, default, comment) of each of its entries."""
     found: dict[str, list[tuple[str, str, str]]] = {}
     for path in [folder / "parameters.yml", *sorted((folder / "parameters").rglob("*.yml"))]:
         text = path.read_text("utf-8")

@@ -11,7 +11,7 @@ from kedro.io.core import AbstractDataset
 
 from tire_pipeline.cluster import work_map
 from tire_pipeline.datasets.storage.files_at import Files, files_at
-from tire_pipeline.datasets.texts.text_folder import _inside
+from tire_pipeline.datasets.texts.text_folder import inside
 from tire_pipeline.datasets.texts.text_objects import NEVER_DELETED
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import Objects
@@ -65,7 +65,7 @@ class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Com
     def save(self, data: Mapping[str, Compute]) -> None:
         """Compute and write what is not there yet."""
         folder = files_at(self._path)
-        places = {name: str(_inside(name)) for name in data}
+        places = {name: str(inside(name)) for name in data}
         self._forget(folder)
         there = set(folder.names())
         missing = {name: data[name] for name, place in places.items() if place not in there}
@@ -103,7 +103,7 @@ class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Com
         folder.delete([self._INDEX])
         if folder.exists(self._AGAIN):
             names = folder.read(self._AGAIN).decode("utf-8").splitlines()
-            folder.delete([*(str(_inside(name)) for name in names), self._AGAIN])
+            folder.delete([*(str(inside(name)) for name in names), self._AGAIN])
 
     def _note(self, folder: Files | Objects, name: str) -> None:
         """Before the file is there: a kill in between leaves a name too many, not one too few."""
@@ -114,7 +114,7 @@ class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Com
         """Name to the function that reads the file, for the files of the last save."""
         folder = files_at(self._path)
         names = folder.read(self._INDEX).decode("utf-8").splitlines()
-        return {name: partial(folder.read, str(_inside(name))) for name in names}
+        return {name: partial(folder.read, str(inside(name))) for name in names}
 
     def _exists(self) -> bool:
         return files_at(self._path).exists(self._INDEX)

@@ -78,7 +78,7 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content], dict[str, bytes]]
         """Write all files, or none."""
         self.check()
         if is_remote(self._path):
-            content = {str(_inside(name)): text for name, text in data.items()}
+            content = {str(inside(name)): text for name, text in data.items()}
             text_objects.save(Objects(self._path), content, keep=self._keep)
             return
         folder = Path(self._path)
@@ -86,14 +86,14 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content], dict[str, bytes]]
             if self._keep and folder.exists():
                 shutil.copytree(folder, temporary, dirs_exist_ok=True)
             for name, text in track(data.items(), f"writing {folder.name}", total=len(data)):
-                target = temporary / _inside(name)
+                target = temporary / inside(name)
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_bytes(as_bytes(text))
             for name in NEVER_DELETED:
                 if (folder / name).exists():
                     shutil.copy2(folder / name, temporary / name)
             earlier = made_here(folder) if self._keep else set()
-            made = sorted({str(_inside(name)) for name in data} | earlier)
+            made = sorted({str(inside(name)) for name in data} | earlier)
             (temporary / MARKER).write_text("\n".join([HEAD, *made, ""]), encoding="utf-8")
 
     def _exists(self) -> bool:
@@ -124,7 +124,14 @@ def made_at(path: str) -> set[str]:
     return text_objects.made_there(Objects(path)) if is_remote(path) else made_here(Path(path))
 
 
-def _inside(name: str) -> PurePosixPath:
+def inside(name: str) -> PurePosixPath:
+    """The place below a folder for a file of this name, as the file system takes it.
+
+    Raises
+    ------
+    DomainError
+        It lies outside of the folder.
+    """
     path = PurePosixPath(name)
     if path.is_absolute() or ".." in path.parts:
         raise DomainError(f"{name!r} would be written outside of its folder")

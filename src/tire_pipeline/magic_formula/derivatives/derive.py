@@ -202,7 +202,7 @@ def _pulled_back(y: Symbol, bar: Any) -> Iterable[tuple[Any, Any]]:
 
 def gradient(output: Symbol) -> dict[str, Any]:
     """Return the derivative of an output with respect to each coefficient that it depends on."""
-    order = _needed([output])
+    order = needed([output])
     depends: set[int] = set()
     for y in order:
         is_coefficient = y.operation == "coefficient"
@@ -223,7 +223,7 @@ def gradient(output: Symbol) -> dict[str, Any]:
     return {name: found[name] for name in COEFFICIENT_NAMES if name in found and not _is(found[name], 0)}
 
 
-def _needed(outputs: Iterable[Any]) -> list[Symbol]:
+def needed(outputs: Iterable[Any]) -> list[Symbol]:
     """Return the symbols that the outputs need, each after what it needs."""
     seen: dict[int, Symbol] = {}
     stack = [y for y in outputs if isinstance(y, Symbol)]
@@ -236,7 +236,8 @@ def _needed(outputs: Iterable[Any]) -> list[Symbol]:
 
 
 def traced(family: int) -> tuple[Any, ...]:
-    """Return the symbols of the five forces and moments."""
+    """Return the symbols of the five forces and moments; they do not go with those of another call."""
+    _known.clear()
     used = {*NAMES_BY_FAMILY[family], *(EXTENSIONS_6 if family == 6 else ())}
     p = Coefficients(*(Symbol("coefficient", n) if n in used else 0.0 for n in COEFFICIENT_NAMES))
     names = ("alpha", "kappa", "gamma", "fz", "speed", "dpi")
@@ -257,7 +258,7 @@ def function_source(name: str, output: Symbol) -> tuple[str, list[str]]:
     by_name = gradient(output)
     names: dict[int, str] = {}
     lines: list[str] = []
-    for y in _needed(by_name.values()):
+    for y in needed(by_name.values()):
         if y.operation == "input":
             names[y.number] = y.arguments[0]
             continue
@@ -308,7 +309,6 @@ def loop_{name}(c, alpha, kappa, gamma, fz, speed, dpi, rows, out):
 
 def module_source(family: int) -> str:
     """Return the source of a gradients module."""
-    _known.clear()
     outputs = traced(family)
     parts, lists = [], []
     for name, output in zip(DERIVED, outputs, strict=True):

@@ -23,11 +23,12 @@ CLEAR = 0.95
 """Probability from which a change is taken for one."""
 
 _SHUFFLES = 399
-_RARE = 0.005
-"""How often the tires' days are shuffled, and the share of shuffles with as much evidence (that of the true
-order counted) from which on a change may be chance: 3% for six categories. Of a dozen tires spreads and
-covariances are not known well enough for the odds alone: of fleets of 11 to 20 tires a category, nothing but
-noise, a fifth had a change."""
+"""How often the tires' days are shuffled."""
+
+RARE = 0.005
+"""Share of shuffles with as much evidence (that of the true order counted) from which on a change may be
+chance: 3% for six categories. Of a dozen tires spreads and covariances are not known well enough for the odds
+alone: of fleets of 11 to 20 tires a category, nothing but noise, a fifth had a change."""
 
 _SIZES = np.array([0.01, 0.03, 0.1, 0.3, 1.0])  # variance of a step in units of the tires' own
 _TRENDS = np.array([0.0, *_SIZES])  # the same of what all categories' tires have changed by
@@ -58,7 +59,9 @@ class Dated:
     cell: np.ndarray
 
 
-def find_changes(found: Dated, parts: Mapping[str, slice]) -> tuple[Change, ...]:
+def find_changes(
+    found: Dated, parts: Mapping[str, slice], *, most_by_chance: float = RARE
+) -> tuple[Change, ...]:
     """Find each category's change of protocol, the clearest first; at most one a category.
 
     Parameters
@@ -66,6 +69,8 @@ def find_changes(found: Dated, parts: Mapping[str, slice]) -> tuple[Change, ...]
     found : Dated
     parts : mapping
         The scores of ``gap`` that change together, by name. A change need not show in all parts.
+    most_by_chance : float
+        Share of shuffles of the days that may give as much evidence as their true order.
 
     Returns
     -------
@@ -83,7 +88,7 @@ def find_changes(found: Dated, parts: Mapping[str, slice]) -> tuple[Change, ...]
         if best is None or looked[best].probability < CLEAR:
             break
         left.remove(best)
-        if not _rare(found, day, parts, best, looked[best].evidence):
+        if not _rare(found, day, parts, best, looked[best].evidence, most_by_chance):
             continue
         changes.append(looked[best].change(best))
         _remove_step(found.category, day, values, best, looked[best])
@@ -189,9 +194,11 @@ def _look(
     return _Look(days, odds, day[own])
 
 
-def _rare(found: Dated, day: np.ndarray, parts: Mapping[str, slice], category: str, evidence: float) -> bool:
-    """Whether shuffles of the days among each category's tires hardly ever give as much evidence."""
-    rng, most = np.random.default_rng(0), _RARE * (_SHUFFLES + 1) - 1
+def _rare(
+    found: Dated, day: np.ndarray, parts: Mapping[str, slice], category: str, evidence: float, share: float
+) -> bool:
+    """Whether at most this share of shuffles of each category's days gives as much evidence."""
+    rng, most = np.random.default_rng(0), share * (_SHUFFLES + 1) - 1
     dated = np.flatnonzero(~np.isnat(day))
     groups = [dated[found.category[dated] == name] for name in np.unique(found.category)]
     for _ in range(_SHUFFLES):
