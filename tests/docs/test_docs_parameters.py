@@ -19,12 +19,12 @@ def pipelines_page(monkeypatch):
 
 
 def test_each_parameter_has_a_meaning(pipelines_page):
-    rows = [row for rows in pipelines_page._parameters(ROOT / "conf/base").values() for row in rows]
+    rows = [row for rows in pipelines_page.parameters(ROOT / "conf/base").values() for row in rows]
     assert len(rows) > 50
     assert [key for key, _, meaning in rows if not meaning] == []
 
 
 def test_a_pattern_in_a_comment_is_shown_as_it_is_typed(pipelines_page, tmp_path):
     (tmp_path / "parameters.yml").write_text('a: {b: ""}   # such as *_2019*.tir\n')
-    (row,) = pipelines_page._parameters(tmp_path)["a"]
+    (row,) = pipelines_page.parameters(tmp_path)["a"]
     assert row == ("a.b", '""', r"such as \*_2019\*.tir")

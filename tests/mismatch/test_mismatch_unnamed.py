@@ -1,11 +1,14 @@
 """Physics without a name: the grammar, its reader, hostile sidecars, and what is found and proved."""
 
-import importlib.util
+import csv
 import json
+import subprocess
+import sys
 from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from tire_pipeline.errors import RecordingError
@@ -63,17 +66,16 @@ def physics(text, ranges=None):
 
 
 @pytest.mark.parametrize("text", EQUATIONS)
-def test_a_reader_without_our_code_gives_the_same_force(text):
+def test_a_reader_without_our_code_gives_the_same_force(text, tmp_path):
     columns, channels, time = table()
     found = physics(text)
-    spec = importlib.util.spec_from_file_location("read_unnamed", READER)
-    reader = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(reader)
-    entry = json.loads(json.dumps(found.to_sidecar()))
-    names = {n: columns.columns[n].tolist() for n in columns.columns if n not in asdict(NOMINAL)}
-    given = {**names, "time": time.tolist(), "speed": channels["speed"].tolist()}
-    given.pop("way")
-    read = np.array(reader._added(entry, given)["fy"])
+    sidecar, symbols = tmp_path / "tire.tir.sidecar.json", tmp_path / "symbols.csv"
+    sidecar.write_text(json.dumps({"effects": {"unnamed": found.to_sidecar()}}))
+    names = {n: columns.columns[n] for n in columns.columns if n not in {*asdict(NOMINAL), "way"}}
+    pd.DataFrame({**names, "time": time, "speed": channels["speed"]}).to_csv(symbols, index=False)
+    command = [sys.executable, "-I", str(READER), str(sidecar), str(symbols)]
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    read = np.array([float(row["fy"]) for row in csv.DictReader(said.splitlines())])
     own = found.change(columns)["fy"]
     assert np.max(np.abs(own)) > 1.0
     np.testing.assert_allclose(read, own, rtol=1e-9, atol=1e-9 * np.max(np.abs(own)))

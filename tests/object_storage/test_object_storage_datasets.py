@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import os
 import pickle
+import signal
+import subprocess
+import sys
 from functools import partial
 
 import pytest
@@ -214,32 +217,83 @@ def test_a_recording_of_a_bucket_finds_its_tire(folder):
         loaders["alone/run.csv"]()
 
 
+class OtherRun:
+    """A run in a process of its own, with a ticket; it writes an object when it is told to."""
+
+    SCRIPT = """
+import sys
+from tire_pipeline.files.objects import Objects
+from tire_pipeline.runs import ObjectTicket
+
+data = Objects(sys.argv[1])
+ticket = ObjectTicket.draw(data, run="v1", places=sys.argv[2:], beat_seconds=0.05)
+print(ticket.note.number, flush=True)
+for line in sys.stdin:
+    data.write(line.strip(), b"the write that was under way")
+    print("written", flush=True)
+"""
+
+    def __init__(self, data: Objects, *places: str) -> None:
+        command = [sys.executable, "-c", self.SCRIPT, str(data), *places]
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        assert self.process.stdout.readline() == "1\n"
+
+    def send(self, number: signal.Signals) -> None:
+        self.process.send_signal(number)
+
+    def told_to_write(self, name: str) -> None:
+        self.process.stdin.write(f"{name}\n")
+        self.process.stdin.flush()
+
+    def has_written(self) -> None:
+        assert self.process.stdout.readline() == "written\n"
+
+    def __enter__(self) -> OtherRun:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.process.kill()
+        self.process.communicate()
+
+
 def test_a_killed_runs_results_go_and_a_living_run_is_named(folder):
     place = "07/x.csv/v1"
-    dead = ObjectTicket.draw(folder, run="v1", places=[place, "../other"], beat_seconds=0.05)
     folder.write(f"{place}/x.csv", b"half")
     folder.write("07/x.csv/v0/x.csv", b"whole")
-    living = ObjectTicket.draw(folder, run="v2", beat_seconds=0.05)
-    with pytest.raises(DomainError, match="is alive"):
-        take_turn(living, ledger=ObjectLedger(living, 5.0))
-    dead._stop.set()  # as if its process had been killed
-    take_turn(living, ledger=ObjectLedger(living, 0.5), wait_seconds=60)
+    with OtherRun(folder, place, "../other") as other:
+        living = ObjectTicket.draw(folder, run="v2", beat_seconds=0.05)
+        with pytest.raises(DomainError, match="is alive"):
+            take_turn(living, ledger=ObjectLedger(living, 5.0))
+        other.send(signal.SIGKILL)
+        take_turn(living, ledger=ObjectLedger(living, 0.5), wait_seconds=60)
     assert folder.names("07") == ["07/x.csv/v0/x.csv"]
-    with pytest.raises(LostTicketError):
-        dead.check()
     living.check()
     living.end()
 
 
 def test_a_run_that_was_declared_dead_and_wakes_is_cleared_again(folder):
     place = "07/x.csv/v1"
-    slept = ObjectTicket.draw(folder, run="v1", places=[place], beat_seconds=0.05)
-    slept._stop.set()
-    second = ObjectTicket.draw(folder, run="v2", beat_seconds=0.05)
-    take_turn(second, ledger=ObjectLedger(second, 0.5))
-    folder.write(f"{place}/x.csv", b"the write that was under way")
-    second.end()
-    third = ObjectTicket.draw(folder, run="v3", beat_seconds=0.05)
-    take_turn(third, ledger=ObjectLedger(third, 0.5))
+    with OtherRun(folder, place) as slept:
+        slept.send(signal.SIGSTOP)
+        second = ObjectTicket.draw(folder, run="v2", beat_seconds=0.05)
+        take_turn(second, ledger=ObjectLedger(second, 0.5))
+        slept.told_to_write(f"{place}/x.csv")
+        slept.send(signal.SIGCONT)
+        slept.has_written()
+        second.end()
+        third = ObjectTicket.draw(folder, run="v3", beat_seconds=0.05)
+        take_turn(third, ledger=ObjectLedger(third, 0.5))
     assert folder.names("07") == []
     third.end()
+
+
+def test_a_run_that_was_declared_dead_is_told_so(folder):
+    first = ObjectTicket.draw(folder, run="v1")
+    first.check()
+    second = ObjectTicket.draw(folder, run="v2")
+    ObjectLedger(second, 0.5).bury(first.note)
+    with pytest.raises(LostTicketError):
+        first.check()
+    second.check()
+    first.end()
+    second.end()

@@ -104,12 +104,14 @@ def test_a_store_that_does_not_answer_ends_the_reading_and_blames_no_file(folder
     folder.write("A/1.tir", tir_text(1).encode())
     found = difference(folder, Manifest())
 
-    def dead(*_, **__):
-        raise ConnectionError("no route")
+    import s3fs
 
-    monkeypatch.setattr(folder._fs, "cat_ranges", dead)
-    with pytest.raises(UnreachableError, match="ConnectionError"):
-        ingest(Store(), folder, found)
+    monkeypatch.setenv("AWS_ENDPOINT_URL", "http://127.0.0.1:9")  # nothing listens there
+    monkeypatch.setenv("AWS_MAX_ATTEMPTS", "1")
+    s3fs.S3FileSystem.clear_instance_cache()
+    with pytest.raises(UnreachableError, match="environment right"):
+        ingest(Store(), Objects(str(folder)), found)
+    s3fs.S3FileSystem.clear_instance_cache()
 
 
 def test_an_empty_address_is_told(folder, bucket):
