@@ -1,5 +1,8 @@
 """Errors after are of sweeps that neither the choice of effects nor their fit has seen."""
 
+import math
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,6 +11,7 @@ from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
+from tire_pipeline.mismatch.proof.measured import OutputFit
 from tire_pipeline.mismatch.proof.nested import REPEATS, RepeatedChoice
 
 
@@ -62,3 +66,14 @@ def test_more_than_formulas_usually_leave_is_not_called_agreement(tire, record):
     assert report.remainder.unusual["fy"] > high
     assert "I can't tell" in report.summary
     assert "agree" not in report.summary
+
+
+@pytest.mark.parametrize(
+    ("floor", "after", "share"),
+    [(6.0, 6.0, 1.0), (6.0, 10.0, 0.0), (6.0, 68.0**0.5, 0.5), (6.0, 100.0, -1.0), (9.9, 9.9, math.nan)],
+)
+def test_what_is_recovered_counts_squares_above_the_noise_floor(floor, after, share):
+    fit = OutputFit(floor, rms_before=10.0, rms_after=after, rms_after_low=after, rms_after_high=after)
+    assert fit.recovered == pytest.approx(share, nan_ok=True)
+    halved = replace(fit, noise_floor=0.0, rms_after=5.0)
+    assert halved.recovered == pytest.approx(0.75)

@@ -12,6 +12,7 @@ import pandas as pd
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.explain import Explainer
+from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.recording.checks import INPUTS
 from tire_pipeline.mismatch.report.result import HeldOutFit, MismatchReport, PredictionError
 from tire_pipeline.mismatch.report.sentences import with_held_out
@@ -173,5 +174,5 @@ def _error(before: Array, after: Array) -> PredictionError:
     picks = np.random.default_rng(0).integers(_STRETCHES, size=(1000, _STRETCHES))
     ratio = np.sqrt(sums[1][picks].sum(axis=1) / np.maximum(sums[0][picks].sum(axis=1), 1e-300))
     low, high = np.quantile(ratio, [0.025, 0.975])
-    rms_before, rms_after = (float(np.sqrt(np.mean(x**2))) for x in (before, after))
+    rms_before, rms_after = (rms(x) for x in (before, after))
     return PredictionError(rms_before, rms_after, float(low), float(high))

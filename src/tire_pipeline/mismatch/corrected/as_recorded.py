@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.mismatch.corrected.model import CorrectedModel, rms
+from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.forces import simulate_moments
-from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.measured import OutputFit
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
@@ -74,18 +74,13 @@ def _moved(
         return float(np.sqrt(max(value**2 + further, 0.0)))
 
     floor = max(at_rows(f.noise_floor), f.noise_floor if further < 0.0 else 0.0)
-    rms_after = first if same else at_rows(f.rms_after)
-    above = first**2 - floor**2
     rows = _inside(f.held_out_condition, recording)
     changed: dict[str, Any] = {
         "noise_floor": floor,
         "rms_before": first,
-        "rms_after": rms_after,
+        "rms_after": first if same else at_rows(f.rms_after),
         "rms_after_low": at_rows(f.rms_after_low),
         "rms_after_high": at_rows(f.rms_after_high),
-        "recovered": float(np.clip((first**2 - rms_after**2) / above, -1.0, 1.0))
-        if above > 0.05 * floor**2
-        else float("nan"),
     }
     if rows is not None and np.isfinite(f.rms_condition_before):
         there = rms(before[rows])
@@ -112,16 +107,11 @@ def with_unnamed(fit: dict[str, OutputFit], found: UnnamedReport) -> dict[str, O
         before, after, _ = found.unseen[o]
         ratio = after / max(before, 1e-300)
         f = fit[o]
-        rms_after = f.rms_after * ratio
-        above = f.rms_before**2 - f.noise_floor**2
         out[o] = replace(
             f,
-            rms_after=rms_after,
+            rms_after=f.rms_after * ratio,
             rms_after_low=f.rms_after_low * ratio,
             rms_after_high=f.rms_after_high * ratio,
-            recovered=float(np.clip((f.rms_before**2 - rms_after**2) / above, -1.0, 1.0))
-            if above > 0.05 * f.noise_floor**2
-            else float("nan"),
         )
     return out
 

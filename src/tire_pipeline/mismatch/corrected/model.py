@@ -15,6 +15,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate, simulate_moments
+from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.recording.checks import INPUTS, own_relaxation
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.smoothing import denoise
@@ -305,13 +306,6 @@ def _without_noise(x: Array, start: Array, noise: float) -> Array:
     """
     smooth = denoise(x, start)
     return smooth if rms(x - smooth) < _SAME_NOISE * noise else x
-
-
-def rms(x: Array | pd.Series) -> float:
-    """Root mean square of what is finite; NaN where nothing is."""
-    values = np.asarray(x, float)
-    values = values[np.isfinite(values)]
-    return float(np.sqrt(np.mean(values**2))) if values.size else float("nan")
 
 
 def _pieces(time: Array | None, n: int) -> Array:

@@ -8,7 +8,7 @@ from tire_pipeline.mismatch.discrepancy.noise import white_noise
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate_moments
-from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.left_out import step_without
 from tire_pipeline.mismatch.proof.measured import OutputFit
 
@@ -36,35 +36,30 @@ def prove(
     condition = _condition(analysis, rows) if rows is not None else None
     out = {}
     for o in data.outputs:
-        b = _by_sweep(before[o], analysis.block, analysis.system.count)
-        a = _by_sweep(after[o], analysis.block, analysis.system.count)
-        n = np.bincount(analysis.block, minlength=analysis.system.count)
-        draws = []
-        for _ in range(resamples):
-            pick = rng.integers(n.size, size=n.size)
-            draws.append(np.sqrt(a[pick].sum() / max(n[pick].sum(), 1)))
-        floor = analysis.noise[o].floor
-        rms_b, rms_a = float(np.sqrt(b.sum() / n.sum())), float(np.sqrt(a.sum() / n.sum()))
-        above = rms_b**2 - floor**2
-        low, high = np.quantile(draws, [0.025, 0.975])
+        low, high = _interval(analysis, after[o], resamples, rng)
         out[o] = OutputFit(
-            noise_floor=floor,
-            rms_before=rms_b,
-            rms_after=rms_a,
-            rms_after_low=float(low),
-            rms_after_high=float(high),
-            recovered=float(np.clip((rms_b**2 - rms_a**2) / above, -1.0, 1.0))
-            if above > 0.05 * floor**2
-            else float("nan"),
+            noise_floor=analysis.noise[o].floor,
+            rms_before=rms(before[o]),
+            rms_after=rms(after[o]),
+            rms_after_low=low,
+            rms_after_high=high,
             held_out_condition=name,
-            rms_condition_before=float("nan")
-            if rows is None
-            else float(np.sqrt(np.mean(before[o][rows] ** 2))),
-            rms_condition_after=float("nan")
-            if condition is None
-            else float(np.sqrt(np.mean(condition[o] ** 2))),
+            rms_condition_before=float("nan") if rows is None else rms(before[o][rows]),
+            rms_condition_after=float("nan") if condition is None else rms(condition[o]),
         )
     return out
+
+
+def _interval(
+    analysis: Analysis, after: Array, resamples: int, rng: np.random.Generator
+) -> tuple[float, float]:
+    """Return the 95% interval of the RMS by resampling sweeps."""
+    sums = np.bincount(analysis.block, after**2, analysis.system.count)
+    size = np.bincount(analysis.block, minlength=analysis.system.count)
+    picks = rng.integers(size.size, size=(resamples, size.size))
+    draws = np.sqrt(sums[picks].sum(axis=1) / np.maximum(size[picks].sum(axis=1), 1))
+    low, high = np.quantile(draws, [0.025, 0.975])
+    return float(low), float(high)
 
 
 def prove_moments(analysis: Analysis, *, resamples: int = 400, seed: int = 0) -> dict[str, OutputFit]:
@@ -79,28 +74,18 @@ def prove_moments(analysis: Analysis, *, resamples: int = 400, seed: int = 0) ->
         return {}
     plain = simulate_moments(data, [], names)
     corrected = simulate_moments(data, analysis.fit.changes, names)
-    count = np.bincount(analysis.block, minlength=analysis.system.count)
     rng = np.random.default_rng(seed)
     out = {}
     for name in names:
         recorded = data.channels[name]
         before, after = recorded - plain[name], recorded - corrected[name]
-        sums = _by_sweep(after, analysis.block, analysis.system.count)
-        picks = rng.integers(count.size, size=(resamples, count.size))
-        draws = np.sqrt(sums[picks].sum(axis=1) / np.maximum(count[picks].sum(axis=1), 1))
-        low, high = np.quantile(draws, [0.025, 0.975])
-        size_before, size_after = float(np.mean(before**2)), float(np.mean(after**2))
-        floor = white_noise(after) if data.time is not None else float("nan")
-        above = size_before - floor**2
+        low, high = _interval(analysis, after, resamples, rng)
         out[name] = OutputFit(
-            noise_floor=floor,
-            rms_before=float(np.sqrt(size_before)),
-            rms_after=float(np.sqrt(size_after)),
-            rms_after_low=float(low),
-            rms_after_high=float(high),
-            recovered=float(np.clip((size_before - size_after) / above, -1.0, 1.0))
-            if above > 0.05 * floor**2
-            else float("nan"),
+            noise_floor=white_noise(after) if data.time is not None else float("nan"),
+            rms_before=rms(before),
+            rms_after=rms(after),
+            rms_after_low=low,
+            rms_after_high=high,
         )
     return out
 
@@ -114,10 +99,6 @@ def recorded_moments(data: Data) -> tuple[str, ...]:
         return ()
     plain = simulate_moments(data, [], names)
     return tuple(n for n in names if np.ptp(plain[n]) > 1e-6 * max(float(np.ptp(data.channels[n])), 1e-9))
-
-
-def _by_sweep(x: Array, block: Array, count: int) -> Array:
-    return np.bincount(block, x**2, count)
 
 
 def held_out_condition(data: Data) -> tuple[str, Array | None]:

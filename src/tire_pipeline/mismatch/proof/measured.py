@@ -7,6 +7,9 @@ from dataclasses import dataclass, field
 from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm
 from tire_pipeline.mismatch.proof.locate import Located
 
+_TO_TELL = 0.05
+"""Least squared error above the noise floor, over the floor's square, of which a share is told."""
+
 
 @dataclass(frozen=True)
 class OutputFit:
@@ -19,7 +22,8 @@ class OutputFit:
     rms_after_low, rms_after_high : float
         95% interval by resampling sweeps.
     recovered : float
-        Share of the squared error above the noise floor that is gone.
+        Share of the squared error above the noise floor that is gone, within -1 and 1; NaN where next to
+        nothing is above it.
     held_out_condition : str
         The held-out condition, and ``rms_condition_before``, ``rms_condition_after``.
     """
@@ -29,10 +33,16 @@ class OutputFit:
     rms_after: float
     rms_after_low: float
     rms_after_high: float
-    recovered: float
+    recovered: float = field(init=False)
     held_out_condition: str = ""
     rms_condition_before: float = float("nan")
     rms_condition_after: float = float("nan")
+
+    def __post_init__(self) -> None:
+        above = self.rms_before**2 - self.noise_floor**2
+        gone = self.rms_before**2 - self.rms_after**2
+        share = min(max(gone / above, -1.0), 1.0) if above > _TO_TELL * self.noise_floor**2 else float("nan")
+        object.__setattr__(self, "recovered", share)
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.mismatch.corrected.as_recorded import as_recorded, never_worse, with_unnamed
-from tire_pipeline.mismatch.corrected.model import CorrectedModel, force_limits, rms
+from tire_pipeline.mismatch.corrected.model import CorrectedModel, force_limits
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.inference.analysis import Analysis
@@ -19,7 +19,7 @@ from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.channels import one_sided
 from tire_pipeline.mismatch.model.forces import simulate
-from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.left_out import each_left_out, shares_left
 from tire_pipeline.mismatch.proof.locate import OPERATING_AXES, everywhere, locate, when, where

@@ -7,7 +7,7 @@ import numpy as np
 from tire_pipeline.mismatch.discrepancy.noise import white_noise
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.channels import one_sided
-from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
     MOST_TERMS,
@@ -195,10 +195,6 @@ def _unseen(
 ) -> dict[str, tuple[float, float, float]]:
     problem = columns.problem
     most = ceiling(columns, drivers, terms)
-
-    def rms(x: Array) -> float:
-        return float(np.sqrt(np.mean(x**2)))
-
     return {
         o: (rms(problem.rest[o]), rms(problem.rest[o] - proof.predicted[o]), rms(problem.rest[o] - most[o]))
         for o in problem.outputs
