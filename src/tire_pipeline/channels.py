@@ -8,5 +8,11 @@ SLIP_AND_LOAD = ("slip_angle", "slip_ratio", "camber", "normal_load")
 POINT_CHANNELS = (*SLIP_AND_LOAD, "speed", "pressure")
 """An operating point, in the order in which the equations take it: m/s and Pa. Turn slip comes last."""
 
+OPERATING_CHANNELS = (*POINT_CHANNELS, "tread_temperature")
+"""What a recording may be looked at over: an operating point, and degC."""
+
 FORCE_CHANNELS = ("fx", "fy", "mx", "my", "mz")
 """Forces (N) and moments (N m) in ISO W axes."""
+
+TANGENTIAL_FORCES = ("fx", "fy")
+"""Forces in the plane of the road, N."""

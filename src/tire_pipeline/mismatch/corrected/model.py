@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate, simulate_moments
 from tire_pipeline.mismatch.model.residual import rms
-from tire_pipeline.mismatch.recording.checks import INPUTS, own_relaxation
+from tire_pipeline.mismatch.recording.checks import ASSUMED_ZERO, INPUTS, own_relaxation
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.smoothing import denoise
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
@@ -25,8 +26,6 @@ from tire_pipeline.mismatch.unnamed_physics.symbols import table_of
 Array = np.ndarray
 _SAME_NOISE = 3.0
 """Noise of one sensor differs by less than this factor between recordings: drives of one car by up to 2.4."""
-
-_POINTS = ("slip_angle", "slip_ratio", "camber", "normal_load")
 
 
 @dataclass(frozen=True)
@@ -195,7 +194,7 @@ class CorrectedModel:
         }
         time = recording["time"].to_numpy(dtype=float) if "time" in recording else None
         start = _pieces(time, n)
-        for name in ("slip_angle", "slip_ratio", "camber"):
+        for name in ASSUMED_ZERO:
             channels.setdefault(name, np.zeros(n))
         if time is not None and self._changed:
             for name, noise in self.cleaned.items():
@@ -209,7 +208,7 @@ class CorrectedModel:
                     f"{', '.join(missing)} is needed: the model is another simulator's output",
                     todo="add the column",
                 )
-            own = plain_forces(self.tire, **{n: channels[n] for n in _POINTS})
+            own = plain_forces(self.tire, **{n: channels[n] for n in SLIP_AND_LOAD})
             beside = {o: recording[f"simulated_{o}"].to_numpy(dtype=float) - own[o] for o in self.outputs}
         return Data(
             tire=self.tire,

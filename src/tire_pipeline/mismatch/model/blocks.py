@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
+from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
@@ -74,7 +75,7 @@ def _split_long(block: Array, elapsed: Array, most: float) -> Array:
 
 def _cells(data: Data) -> Array:
     """Cells of the operating space, about six points or more each."""
-    names = [n for n in ("slip_angle", "slip_ratio", "camber", "normal_load") if np.ptp(data.get(n)) > 0.0]
+    names = [n for n in SLIP_AND_LOAD if np.ptp(data.get(n)) > 0.0]
     if not names:
         return np.arange(data.size) * 8 // data.size
     x = np.column_stack([data.get(n) / np.std(data.get(n)) for n in names])

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects import State, catalogue
 
 Array = np.ndarray
@@ -45,7 +46,7 @@ def plain_forces(
             camber=camber,
             normal_load=normal_load,
             limits="ignore",
-            outputs=("fx", "fy"),
+            outputs=TANGENTIAL_FORCES,
             **more,
         )
     return {"fx": np.asarray(out.fx, float), "fy": np.asarray(out.fy, float)}

@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.model.forces import plain_forces, simulate
 from tire_pipeline.mismatch.model.nominal import Nominal
 
@@ -70,7 +71,7 @@ class Simulated(Nominal):
         """Return d force / d channel of the model by central differences."""
         key = f"slope {name}"
         if key not in self.fixed:
-            at = {n: self.get(n) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
+            at = {n: self.get(n) for n in SLIP_AND_LOAD}
             self.fixed[key] = self._slope_at(at, name, step)
         return self.fixed[key]
 

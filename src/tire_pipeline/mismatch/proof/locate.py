@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
+from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.discrepancy.noise import Noise
 from tire_pipeline.mismatch.model.data import Data
 
@@ -17,15 +18,6 @@ _LEAST_FORCE = 0.1
 _EVEN = 0.7
 """One share of the force that is this part of the squared difference is off throughout, in no stretch."""
 _BINS = 16
-OPERATING_AXES = (
-    "slip_angle",
-    "slip_ratio",
-    "camber",
-    "normal_load",
-    "speed",
-    "pressure",
-    "tread_temperature",
-)
 
 
 @dataclass(frozen=True)
@@ -108,7 +100,7 @@ def _axes(
 ) -> list[Located]:
     """Test all stretches of all axes; the largest statistic of each flip gives the p-values."""
     tests: list[tuple[str, float, float, Array]] = []
-    for axis in ("time", *OPERATING_AXES):
+    for axis in ("time", *OPERATING_CHANNELS):
         if axis == "time":
             if data.time is None:
                 continue
@@ -226,7 +218,7 @@ def where(part: Array, data: Data) -> dict[str, tuple[float, float]]:
     out: dict[str, tuple[float, float]] = {}
     if total <= 0.0:
         return out
-    for axis in OPERATING_AXES:
+    for axis in OPERATING_CHANNELS:
         if not data.has(axis):
             continue
         values = data.get(axis)

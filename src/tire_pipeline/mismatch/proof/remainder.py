@@ -6,6 +6,7 @@ import warnings
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm, gaussian_form
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.inference.analysis import Analysis
@@ -62,7 +63,7 @@ def sparse_form(analysis: Analysis) -> str:
 
     data, fit = analysis.data, analysis.fit
     rest = residual(data, fit.changes)
-    names = [n for n in ("slip_angle", "slip_ratio", "camber", "normal_load", "speed") if data.varies(n)]
+    names = [n for n in (*SLIP_AND_LOAD, "speed") if data.varies(n)]
     columns, labels = [], []
     for n in names:
         x = data.smooth(n)

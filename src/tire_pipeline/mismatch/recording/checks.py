@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import OPERATING_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.model.data import Data
@@ -20,17 +21,9 @@ from tire_pipeline.mismatch.recording.surrogate import stand_in
 from tire_pipeline.mismatch.recording.usable import judge, leave_out_still_slip
 
 Array = np.ndarray
-INPUTS = (
-    "slip_angle",
-    "slip_ratio",
-    "camber",
-    "normal_load",
-    "speed",
-    "pressure",
-    "tread_temperature",
-    "turn_slip",
-)
-FORCES = ("fx", "fy")
+INPUTS = (*OPERATING_CHANNELS, "turn_slip")
+ASSUMED_ZERO = ("camber", "slip_ratio", "slip_angle")
+"""What is taken as zero where it is not recorded."""
 AS_GIVEN = "columns in ISO W axes and SI units, as they were given"
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
@@ -138,7 +131,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     assumed += [t.replace(" from ", " converted from ", 1) for t in recording.attrs.get("conversions", [])]
     assumed += [f"{n} is taken as {f:.6g} times what was recorded" for n, f in factors.items() if f != 1.0]
     present = {n for n in INPUTS if n in recording.columns and n in arrays}
-    for name in ("camber", "slip_ratio", "slip_angle"):
+    for name in ASSUMED_ZERO:
         if name not in arrays:
             arrays[name] = np.zeros(rows.size)
             assumed.append(f"{name} is not recorded and taken as zero")
@@ -146,7 +139,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     arrays, time, start, rows = _binned(arrays, time, start, rows)
     cleaned: list[Cleaning] = []
     if time is not None:
-        forces = {n: arrays[n] - arrays.get(f"_beside_{n}", 0.0) for n in FORCES if n in arrays}
+        forces = {n: arrays[n] - arrays.get(f"_beside_{n}", 0.0) for n in TANGENTIAL_FORCES if n in arrays}
         arrays, cleaned = clean(tire, arrays, forces, start)
         notes += [c.text() for c in cleaned]
     own = own_relaxation(tire)
@@ -155,8 +148,8 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     beside = None if beside is None else {n: arrays.pop(f"_beside_{n}") for n in beside}
     data = Data(
         tire=tire,
-        channels={n: a for n, a in arrays.items() if n not in FORCES},
-        recorded={n: arrays[n] for n in FORCES if n in arrays and (beside is None or n in beside)},
+        channels={n: a for n, a in arrays.items() if n not in TANGENTIAL_FORCES},
+        recorded={n: arrays[n] for n in TANGENTIAL_FORCES if n in arrays and (beside is None or n in beside)},
         time=time,
         start=start,
         present=present,
@@ -175,7 +168,7 @@ def _arrays(recording: pd.DataFrame) -> dict[str, Array]:
         try:
             arrays[str(name)] = series.to_numpy(dtype=float, na_value=np.nan)
         except (TypeError, ValueError):
-            if name in (*INPUTS, *FORCES, "time"):
+            if name in (*INPUTS, *TANGENTIAL_FORCES, "time"):
                 raise RecordingError(
                     f"column {name} is not numeric", where=str(name), todo="convert it"
                 ) from None
@@ -183,7 +176,7 @@ def _arrays(recording: pd.DataFrame) -> dict[str, Array]:
         raise RecordingError("the recording has no rows", todo="record again, or check how it was read")
     for name in [n for n, a in arrays.items() if n != "time" and not np.isfinite(a).any()]:
         del arrays[name]
-    if not any(n in arrays for n in FORCES):
+    if not any(n in arrays for n in TANGENTIAL_FORCES):
         raise RecordingError(
             "no force channel: the recording has neither fx nor fy",
             todo=f"name the force columns fx, fy (columns are: {', '.join(map(str, recording.columns))})",
@@ -205,13 +198,13 @@ def _arrays(recording: pd.DataFrame) -> dict[str, Array]:
 
 def _dead_forces(arrays: dict[str, Array], notes: list[str]) -> None:
     """Take out forces that never change; raise if none is left."""
-    dead = [n for n in FORCES if n in arrays and np.ptp(arrays[n]) == 0.0]
+    dead = [n for n in TANGENTIAL_FORCES if n in arrays and np.ptp(arrays[n]) == 0.0]
     if not dead:
         return
     values = ", ".join(f"{n} is {arrays[n][0]:.4g} N throughout" for n in dead)
     for name in dead:
         del arrays[name]
-    if not any(n in arrays for n in FORCES):
+    if not any(n in arrays for n in TANGENTIAL_FORCES):
         raise RecordingError(
             f"no force was measured: {values}", where=", ".join(dead), todo="check that the sensor was on"
         )
@@ -221,7 +214,7 @@ def _dead_forces(arrays: dict[str, Array], notes: list[str]) -> None:
 def _bridge(arrays: dict[str, Array], notes: list[str]) -> None:
     """Put straight lines over holes of up to three samples, so that the time base stays even."""
     filled = np.zeros(arrays["normal_load"].size, bool)
-    for name in (*INPUTS, *FORCES):
+    for name in (*INPUTS, *TANGENTIAL_FORCES):
         if name not in arrays:
             continue
         x = arrays[name]
@@ -272,13 +265,14 @@ def _usable(arrays: Mapping[str, Array], time: Array | None, notes: list[str]) -
     ok = np.ones(n, bool)
     if time is not None:
         ok &= np.isfinite(time)
-    for name in (*INPUTS, *FORCES):
+    for name in (*INPUTS, *TANGENTIAL_FORCES):
         if name in arrays:
             ok &= np.isfinite(arrays[name])
     lost = int(n - ok.sum())
     if lost:
         worst = max(
-            (*INPUTS, *FORCES), key=lambda c: int((~np.isfinite(arrays[c])).sum()) if c in arrays else -1
+            (*INPUTS, *TANGENTIAL_FORCES),
+            key=lambda c: int((~np.isfinite(arrays[c])).sum()) if c in arrays else -1,
         )
         notes.append(
             f"{lost} of {n} samples have no number in some channel (most often {worst}) and are left out"

@@ -13,12 +13,11 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.channels import POINT_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.recording.smoothing import denoise
 
 Array = np.ndarray
-CLEANED = ("slip_angle", "slip_ratio", "camber", "normal_load")
-_MORE = ("speed", "pressure")
 _SURE = float(np.log(20.0))
 """Log evidence from which the smooth channel is taken: 20 to 1. Without it a channel stays as recorded."""
 
@@ -89,7 +88,7 @@ def clean(
     now = dict(channels)
     forces = _forces(tire, now)
     done = []
-    for name in CLEANED:
+    for name in SLIP_AND_LOAD:
         smooth = denoise(now[name], start)
         taken = now[name] - smooth
         if not np.any(taken):
@@ -128,4 +127,4 @@ def _judge(
 
 
 def _forces(tire: Any, channels: Mapping[str, Array]) -> dict[str, Array]:
-    return plain_forces(tire, **{n: channels[n] for n in (*CLEANED, *_MORE) if n in channels})
+    return plain_forces(tire, **{n: channels[n] for n in POINT_CHANNELS if n in channels})

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import scipy
 
+from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.sign_convention import excludes_sae, turned
@@ -123,7 +124,7 @@ def _found_in(where: str) -> list[Effect]:
 def _run(tire: Any, channels: Mapping[str, Array]) -> dict[str, Array]:
     """Return the model's forces; what is not recorded is zero."""
     zero = np.zeros(channels["normal_load"].size)
-    points = {n: channels.get(n, zero) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
+    points = {n: channels.get(n, zero) for n in SLIP_AND_LOAD}
     return plain_forces(tire, **points)
 
 

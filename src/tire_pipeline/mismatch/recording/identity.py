@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.model.channels import moves
 from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
@@ -118,11 +119,7 @@ def figures(tire: Any, arrays: Mapping[str, Array], output: str) -> Figures:
     Standard errors are by the scatter over stretches of rows.
     """
     step = max(1, arrays["normal_load"].size // _ROWS)
-    a = {
-        n: arrays[n][::step]
-        for n in ("slip_angle", "slip_ratio", "camber", "normal_load", output)
-        if n in arrays
-    }
+    a = {n: arrays[n][::step] for n in (*SLIP_AND_LOAD, output) if n in arrays}
     model = _Similar(tire, a, output)
     free = np.flatnonzero([True, model.loaded, True, model.loaded, True])
     recorded = a[output]
@@ -143,7 +140,7 @@ class _Similar:
     def __init__(self, tire: Any, a: Mapping[str, Array], output: str) -> None:
         self.tire, self.output, self.slip = tire, output, SLIPS[output]
         zero = np.zeros(a["normal_load"].size)
-        self.points = {n: a.get(n, zero) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
+        self.points = {n: a.get(n, zero) for n in SLIP_AND_LOAD}
         load = self.points["normal_load"]
         middle = float(np.median(load))
         self.excess = (load - middle) / middle

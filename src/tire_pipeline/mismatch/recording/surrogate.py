@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.model.forces import plain_forces
@@ -37,13 +38,13 @@ def stand_in(arrays: Mapping[str, Array]) -> tuple[Any, dict[str, Array]]:
     """
     from tire_pipeline.magic_formula import fit_magic_formula  # slow to import, and few recordings need it
 
-    forces = [f for f in ("fx", "fy") if f"simulated_{f}" in arrays]
+    forces = [f for f in TANGENTIAL_FORCES if f"simulated_{f}" in arrays]
     if not forces:
         raise RecordingError(
             "there is neither a tire model nor a column simulated_fy or simulated_fx",
             todo="give the tire model, or the other simulator's output",
         )
-    inputs = {n: arrays[n] for n in ("slip_angle", "slip_ratio", "camber", "normal_load") if n in arrays}
+    inputs = {n: arrays[n] for n in SLIP_AND_LOAD if n in arrays}
     step = max(1, arrays["normal_load"].size // _MOST_POINTS)
     frame = pd.DataFrame({n: a[::step] for n, a in inputs.items()})
     for f in forces:
@@ -51,7 +52,7 @@ def stand_in(arrays: Mapping[str, Array]) -> tuple[Any, dict[str, Array]]:
     load = float(np.median(inputs["normal_load"]))
     tire = fit_magic_formula(frame.dropna(), start=_start(frame, load)).model
     zero = np.zeros(arrays["normal_load"].size)
-    here = {n: inputs.get(n, zero) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
+    here = {n: inputs.get(n, zero) for n in SLIP_AND_LOAD}
     own = plain_forces(tire, **here)
     return tire, {f: arrays[f"simulated_{f}"] - own[f] for f in forces}
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, moves
 from tire_pipeline.mismatch.model.forces import plain_forces
@@ -116,7 +117,7 @@ def judged(found: list[Drive]) -> list[Drive]:
 
 def _model(tire: Any, arrays: Mapping[str, Array]) -> dict[str, Array]:
     zero = np.zeros(arrays["normal_load"].size)
-    points = {n: arrays.get(n, zero) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
+    points = {n: arrays.get(n, zero) for n in SLIP_AND_LOAD}
     forces = plain_forces(tire, **points, speed=arrays.get("speed"), pressure=arrays.get("pressure"))
     return {n: f + arrays.get(f"_beside_{n}", 0.0) for n, f in forces.items()}
 

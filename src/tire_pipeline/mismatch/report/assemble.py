@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.corrected.as_recorded import as_recorded, never_worse, with_unnamed
 from tire_pipeline.mismatch.corrected.model import CorrectedModel, force_limits
 from tire_pipeline.mismatch.effects import catalogue
@@ -22,7 +23,7 @@ from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.left_out import each_left_out, shares_left
-from tire_pipeline.mismatch.proof.locate import OPERATING_AXES, everywhere, locate, when, where
+from tire_pipeline.mismatch.proof.locate import everywhere, locate, when, where
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.proof.remainder import remainder
@@ -299,7 +300,7 @@ def _share(analysis: Analysis, index: int, output: str) -> float:
 def _ranges(analysis: Analysis) -> dict[str, tuple[float, float]]:
     """Lowest and highest value of each axis (0.5 and 99.5% quantile)."""
     data, out = analysis.data, {}
-    for axis in ("time", *OPERATING_AXES):
+    for axis in ("time", *OPERATING_CHANNELS):
         values = data.time if axis == "time" else data.channels.get(axis)
         if values is not None:
             low, high = np.quantile(values, [0.005, 0.995])

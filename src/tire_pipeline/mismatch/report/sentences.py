@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
@@ -49,7 +50,7 @@ def summary(
     even : mapping, optional
         Output -> share of the force by which it is off throughout.
     """
-    fit = {o: f for o, f in fit.items() if o in ("fx", "fy")}
+    fit = {o: f for o, f in fit.items() if o in TANGENTIAL_FORCES}
     if verdict == "agrees":
         return _agreement(fit, remainder)
     ranges = ranges or {}

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, SymbolTable, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, MEANING, NominalValues
 
@@ -112,7 +113,7 @@ def from_sidecar(content: object) -> UnnamedPhysics:
         if content.get("format") != FORMAT:
             raise ValueError(f"its format is not {FORMAT!r}")
         equations = {str(o): str(text) for o, text in content["equation"].items()}
-        if not equations or set(equations) - {"fx", "fy"}:
+        if not equations or set(equations) - set(TANGENTIAL_FORCES):
             raise ValueError("its equations are not of fx and fy")
         for text in equations.values():
             unknown = parse(text).symbols - set(MEANING)

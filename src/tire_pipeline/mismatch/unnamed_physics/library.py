@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.unnamed_physics.grammar import number, parse
 
 LAGS = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0)
@@ -195,7 +196,7 @@ def memory_factors(moves: frozenset[str]) -> Iterator[Factor]:
         ("fx/F0", ("fx",), False),
         ("v*(abs(s*fy) + abs(k*fx))/F0", ("slip_angle", "slip_ratio", "speed"), False),
     ]
-    always = {"fx", "fy"}
+    always = set(TANGENTIAL_FORCES)
     for text, channels, odd in of:
         live = [c for c in channels if c in moves | always]
         if not live or (len(channels) == 1 and live != list(channels)):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.discrepancy.noise import white_noise
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.channels import one_sided
@@ -168,8 +169,8 @@ def _where(terms: list[Term]) -> str:
         return "rig or wheel: it turns with the way rolled"
     if "time" in drivers:
         return "rig or surface: it goes with the clock"
-    of_tire = {"slip_angle", "slip_ratio", "normal_load", "camber"}
-    if all(d.removeprefix("memory of ") in of_tire | {"fx", "fy"} for d in drivers):
+    of_tire = set(SLIP_AND_LOAD)
+    if all(d.removeprefix("memory of ") in of_tire | set(TANGENTIAL_FORCES) for d in drivers):
         return "tire or its mounting: it turns with slip and load"
     return f"it follows {', '.join(sorted(d for d in drivers if d not in of_tire))}"
 
@@ -184,7 +185,7 @@ def _alternatives(choice: ChosenModels, best: Model) -> list[Alternative]:
             continue
         own.add(m.terms)
         drivers = tuple(sorted(drivers_of(m, choice.terms)))
-        out.append(Alternative(equations(choice, m, ("fx", "fy")), drivers, m.evidence))
+        out.append(Alternative(equations(choice, m, TANGENTIAL_FORCES), drivers, m.evidence))
         if len(out) == _SHOWN:
             break
     return out

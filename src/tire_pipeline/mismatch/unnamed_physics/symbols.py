@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
 from tire_pipeline.mismatch.unnamed_physics.grammar import SymbolTable
 
@@ -127,7 +128,7 @@ def _nominal(data: Any) -> NominalValues:
 
 def _slopes(data: Any) -> dict[str, Array]:
     """The tire model's own slopes along the recording."""
-    names = ("slip_angle", "slip_ratio", "camber", "normal_load")
+    names = SLIP_AND_LOAD
     more = {"speed": data.model_speed, "pressure": data.model_pressure}
 
     def at(**moved: Array) -> dict[str, Array]:
@@ -139,6 +140,6 @@ def _slopes(data: Any) -> dict[str, Array]:
         out[f"{force}_slip"] = (up - down) / (2.0 * _STEP)
     load = data.get("normal_load")
     up_load, down_load = (at(normal_load=load * (1.0 + sign * _LOAD_STEP)) for sign in (1.0, -1.0))
-    for force in ("fx", "fy"):
+    for force in TANGENTIAL_FORCES:
         out[f"{force}_load"] = (up_load[force] - down_load[force]) / (2.0 * _LOAD_STEP)
     return out

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.shared import GAINS
 
@@ -37,6 +38,6 @@ class ForceGain(Effect):
 
     def outputs(self, state: State, data: object, p: Parameters) -> None:
         """Scale the forces."""
-        for name in ("fx", "fy"):
+        for name in TANGENTIAL_FORCES:
             if name in state.forces:
                 state.forces[name] = state.forces[name] * (1.0 + p[name])

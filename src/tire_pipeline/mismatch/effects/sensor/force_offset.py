@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 
 
@@ -33,6 +34,6 @@ class ForceOffset(Effect):
 
     def outputs(self, state: State, data: object, p: Parameters) -> None:
         """Add the offsets."""
-        for name in ("fx", "fy"):
+        for name in TANGENTIAL_FORCES:
             if name in state.forces:
                 state.forces[name] = state.forces[name] + p[name]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.shared import first_order
 
@@ -42,6 +43,6 @@ class LowPass(Effect):
         if p["lag"] <= 0.0:
             return
         gain = 1.0 - np.exp(-data.step / p["lag"])  # type: ignore[attr-defined]
-        for name in ("fx", "fy"):
+        for name in TANGENTIAL_FORCES:
             if name in state.forces:
                 state.forces[name] = first_order(state.forces[name], gain, data.start)  # type: ignore[attr-defined]

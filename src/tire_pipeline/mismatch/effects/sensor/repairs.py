@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
+
 Array = np.ndarray
 Simulate = Callable[[Mapping[str, Array]], dict[str, Array]]
 
@@ -61,7 +63,7 @@ def unexplained(
     repaired = {**channels, **{n: channels[n] * f for n, f in factors.items()}}
     predicted = simulate(repaired)
     largest = max(float(np.nanmax(np.abs(p))) for p in predicted.values())
-    asked = {o for n in factors for o in _ASKED.get(n, ("fx", "fy"))}
+    asked = {o for n in factors for o in _ASKED.get(n, TANGENTIAL_FORCES)}
     before, after = [], []
     for name in sorted(asked & set(channels)):
         far = np.abs(predicted[name]) > FAR * largest

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 
 _LEAST_LAG, _MOST_LAG = 1.0, 300.0
@@ -65,6 +66,6 @@ class SensorDrift(Effect):
         if p["lag"] > 0.0:
             lags = data.scales["time_span"] / p["lag"]  # type: ignore[attr-defined]
             so_far = np.expm1(-lags * so_far) / np.expm1(-lags)
-        for name in ("fx", "fy"):
+        for name in TANGENTIAL_FORCES:
             if name in state.forces:
                 state.forces[name] = state.forces[name] + p[name] * so_far

@@ -6,21 +6,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.shared import CLIPPED
 
-_CHANNELS = (
-    "fy",
-    "fx",
-    "mz",
-    "slip_angle",
-    "slip_ratio",
-    "camber",
-    "normal_load",
-    "speed",
-    "pressure",
-    "tread_temperature",
-)
+_CHANNELS = ("fy", "fx", "mz", *OPERATING_CHANNELS)
 
 
 class StuckChannel(Effect):

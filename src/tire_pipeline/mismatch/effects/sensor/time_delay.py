@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.shared import delayed
 
@@ -37,6 +38,6 @@ class TimeDelay(Effect):
 
     def outputs(self, state: State, data: object, p: Parameters) -> None:
         """Shift the forces."""
-        for name in ("fx", "fy"):
+        for name in TANGENTIAL_FORCES:
             if name in state.forces:
                 state.forces[name] = delayed(data.time, state.forces[name], p["delay"], data.start)  # type: ignore[attr-defined]
