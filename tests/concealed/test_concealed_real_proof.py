@@ -102,7 +102,7 @@ def parameters(folder) -> ProveConcealedParameters:
 
 def test_without_recordings_the_committed_table_is_shown_and_says_so(tmp_path, monkeypatch):
     asked = parameters(tmp_path / "nowhere")
-    made = real_nodes.make_real_cases(asked)
+    made = real_nodes.real_cases_to_make(asked)
     assert made == {}
     shown, held_out, sealed = real_nodes.part_real_cases(made)
     committed = score_real({"a": report()}, [answer("a", "nothing")], held_out=held("a"))

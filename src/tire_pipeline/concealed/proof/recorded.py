@@ -31,7 +31,7 @@ from tire_pipeline.concealed.real.sources import available, development_list, fi
 Work = dict[str, Callable[[], bytes]]
 
 
-def make_real_cases(parameters: ProveConcealedParameters) -> Work:
+def real_cases_to_make(parameters: ProveConcealedParameters) -> Work:
     """Say how each case is made from the sealed sweeps; none where the recordings are not there."""
     real = parameters.real
     folder = Path(real.recordings)

@@ -47,7 +47,7 @@ class ProveConcealedParameters(Parameters):
     real: RealParameters = RealParameters()
 
 
-def make_cases(parameters: ProveConcealedParameters) -> dict[str, Callable[[], bytes]]:
+def cases_to_make(parameters: ProveConcealedParameters) -> dict[str, Callable[[], bytes]]:
     """Say how each case is made; the dataset makes those that are not there."""
     code = code_hash("concealed", "magic_formula")
     return {

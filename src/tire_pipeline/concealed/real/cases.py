@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -128,14 +128,6 @@ def make_real_case(plan: RealPlan, folder: Path, which: Pool = "sealed") -> tupl
         f"no case of kind {plan.kind!r} from {plan.source} with seed {plan.seed} in {ATTEMPTS} draws",
         todo="take another seed, or look at which sweeps are there",
     )
-
-
-def make_real_cases(
-    plans: Sequence[RealPlan], folder: Path, which: Pool
-) -> Iterator[tuple[Case, RealAnswer]]:
-    """Make the cases of a plan one by one."""
-    for plan in plans:
-        yield make_real_case(plan, folder, which)
 
 
 def _attempt(rng: np.random.Generator, plan: RealPlan, chosen: Sequence[Sweep]) -> tuple[Case, RealAnswer]:

@@ -8,14 +8,14 @@ from kedro.pipeline import Node, Pipeline
 from tire_pipeline.concealed.proof.recorded import (
     explain_real_by_baselines,
     explain_real_cases,
-    make_real_cases,
     part_real_cases,
+    real_cases_to_make,
     score_real_proof,
 )
 from tire_pipeline.concealed.proof.simulated import (
+    cases_to_make,
     explain_by_baselines,
     explain_cases,
-    make_cases,
     part_cases,
     score_proof,
 )
@@ -26,7 +26,7 @@ def create_pipeline(**_: object) -> Pipeline:
     """Prove the explanations on concealed effects."""
     return Pipeline(
         [
-            Node(make_cases, inputs="params:prove_concealed", outputs="concealed_made", name="make_cases"),
+            Node(cases_to_make, inputs="params:prove_concealed", outputs="concealed_made", name="make_cases"),
             Node(
                 part_cases,
                 inputs="concealed_made",
@@ -57,7 +57,7 @@ def create_pipeline(**_: object) -> Pipeline:
                 name="score_proof",
             ),
             Node(
-                make_real_cases,
+                real_cases_to_make,
                 inputs="params:prove_concealed",
                 outputs="real_concealed_made",
                 name="make_real_cases",
