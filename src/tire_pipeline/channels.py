@@ -8,6 +8,9 @@ SLIP_AND_LOAD = ("slip_angle", "slip_ratio", "camber", "normal_load")
 POINT_CHANNELS = (*SLIP_AND_LOAD, "speed", "pressure")
 """An operating point, in the order in which the equations take it: m/s and Pa. Turn slip comes last."""
 
+ANGLE_CHANNELS = ("slip_angle", "camber")
+"""Angles of an operating point, rad."""
+
 OPERATING_CHANNELS = (*POINT_CHANNELS, "tread_temperature")
 """What a recording may be looked at over: an operating point, and degC."""
 

@@ -7,10 +7,9 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from tire_pipeline.channels import POINT_CHANNELS
+from tire_pipeline.channels import ANGLE_CHANNELS, POINT_CHANNELS
 from tire_pipeline.errors import TirShapeError, TirValueError
 from tire_pipeline.magic_formula.compiled import engine
-from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.forces import checked_outputs
 from tire_pipeline.magic_formula.parameters.coefficients import (
     COEFFICIENT_NAMES,
@@ -29,7 +28,6 @@ from tire_pipeline.magic_formula.parameters.points import (
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
 _NEUTRAL = {version: pack_mapping({}, missing_defaults({}, version)) for version in ("5.2", "6.1")}
-_NO_SIGNS = np.ones(2 + len(OUTPUTS))
 
 
 def pack(model: TireParameters) -> np.ndarray:
@@ -204,6 +202,6 @@ def forces_batch(
         )
     full = (tires, shape[-1] if shape else 1)
     rows = [np.broadcast_to(x, full) for x in arrays.values()]
-    largest = max(float(np.abs(arrays[name]).max(initial=0.0)) for name in ("slip_angle", "camber"))
-    out = engine.run(matrix, family_of(version), rows, _NO_SIGNS, wanted, largest)
+    largest = max(float(np.abs(arrays[name]).max(initial=0.0)) for name in ANGLE_CHANNELS)
+    out = engine.run(matrix, family_of(version), rows, engine.NO_SIGNS, wanted, largest)
     return {name: out[:, k] for k, name in enumerate(wanted)}

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.lib.stride_tricks import as_strided
 
-from tire_pipeline.channels import POINT_CHANNELS
+from tire_pipeline.channels import ANGLE_CHANNELS, POINT_CHANNELS
 from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula.compiled import engine
 from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA
@@ -124,7 +124,7 @@ def tire_forces(
     signs = signs_of(axes, is_mirrored(side, model.metadata.get("MODEL.TYRESIDE")))
     given = dict(zip(POINT_CHANNELS, point, strict=True))
     arrays, shape = inputs.as_float_arrays({**given, "turn_slip": turn_slip})
-    flipped = {name: getattr(signs, name) < 0 for name in ("slip_angle", "camber")}
+    flipped = {name: getattr(signs, name) < 0 for name in ANGLE_CHANNELS}
     arrays, largest = inputs.apply_limits(arrays, model.ranges, limits, flipped)
     turn = arrays.pop("turn_slip")
     turning = model.family == 6 and bool(turn.any() if turn.ndim else turn)

@@ -8,10 +8,9 @@ from typing import Literal
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import FORCE_CHANNELS
+from tire_pipeline.channels import ANGLE_CHANNELS, FORCE_CHANNELS
 
 FEW_SAMPLES = 30
-_ANGLES = ("slip_angle", "camber")
 _LARGEST_ANGLE = 1.6  # rad: what no tire is turned to; the same limit as the Magic Formula's
 _GAP_FACTOR = 5.0
 _NAN_BLOCK = 10
@@ -206,7 +205,7 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
                     blocks[:20],
                 )
             )
-        if column in _ANGLES and np.nanmax(np.abs(np.where(bad, np.nan, values))) > _LARGEST_ANGLE:
+        if column in ANGLE_CHANNELS and np.nanmax(np.abs(np.where(bad, np.nan, values))) > _LARGEST_ANGLE:
             issues.append(
                 Issue(
                     "angle_in_degrees",

@@ -25,6 +25,9 @@ _THREAD_FROM = 30_000
 _LARGEST_ANGLE = 1e4
 """Angles beyond this (rad) go to NumPy, whose sine is right for any argument."""
 
+NO_SIGNS = np.ones(2 + len(OUTPUTS))
+"""Signs of slip angle, camber and the outputs where points are in ISO W axes."""
+
 
 def run(
     matrix: np.ndarray,

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.channels import ANGLE_CHANNELS
 from tire_pipeline.errors import TirShapeError, TirValueError
 
 LOOKS_LIKE_DEGREES = 1.6
 """Angles beyond this (rad) draw a warning."""
 
-_ANGLES = ("slip_angle", "camber")
 _CHUNK = 1 << 20
 _STACK_LEVEL = 5
 
@@ -92,7 +92,7 @@ def apply_limits(
             f"limits {limits!r} is not known", key="limits", todo='use "warn", "clip" or "raise"'
         )
     extremes = {name: _extremes(array) for name, array in arrays.items()}
-    largest_angle = max(max(-low, high) for low, high in (extremes[name] for name in _ANGLES))
+    largest_angle = max(max(-low, high) for low, high in (extremes[name] for name in ANGLE_CHANNELS))
     if largest_angle > LOOKS_LIKE_DEGREES:
         _warn_of_degrees(arrays, extremes)
     if limits == "ignore":
@@ -154,7 +154,7 @@ def _tell(found: str, limits: str) -> None:
 
 
 def _warn_of_degrees(arrays: Mapping[str, np.ndarray], extremes: Mapping[str, tuple[float, float]]) -> None:
-    for name in _ANGLES:
+    for name in ANGLE_CHANNELS:
         low, high = extremes[name]
         if max(-low, high) > LOOKS_LIKE_DEGREES:
             count = _count_outside(arrays[name], -LOOKS_LIKE_DEGREES, LOOKS_LIKE_DEGREES, False)

@@ -11,11 +11,9 @@ import scipy
 
 from tire_pipeline.magic_formula.compiled import engine
 from tire_pipeline.magic_formula.derivatives.jacobian import packed_jacobian
-from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.fitting.setup.typical import Pull
 from tire_pipeline.magic_formula.parameters.coefficients import INDEX
 
-_NO_SIGNS = np.ones(2 + len(OUTPUTS))
 Bounds = tuple[np.ndarray, np.ndarray]
 _STIFFNESS = {"fy": ("PKY1", "cornering_stiffness"), "fx": ("PKX1", "slip_stiffness")}
 """Output -> the level of its slip stiffness, and the output that is this stiffness."""
@@ -47,7 +45,9 @@ class Problem:
         """Return model minus measurement."""
         vector = self.filled(values)[None, :]
         rows = [x[None, :] for x in self.points]
-        return engine.run(vector, self.family, rows, _NO_SIGNS, (self.output,), 0.0)[0, 0] - self.measured
+        return (
+            engine.run(vector, self.family, rows, engine.NO_SIGNS, (self.output,), 0.0)[0, 0] - self.measured
+        )
 
     def jacobian(self, values: np.ndarray) -> np.ndarray:
         """Return the residuals' derivatives, one column a coefficient."""
@@ -69,7 +69,9 @@ class Problem:
             return False
         step = -(-self.measured.size // _FEW)
         rows = [x[None, ::step] for x in self.points]
-        found = engine.run(self.filled(values)[None, :], self.family, rows, _NO_SIGNS, (stiffness,), 0.0)
+        found = engine.run(
+            self.filled(values)[None, :], self.family, rows, engine.NO_SIGNS, (stiffness,), 0.0
+        )
         return bool((found * values[list(self.names).index(level)] <= 0.0).any())
 
     def drawn(self, strength: float | np.ndarray) -> Problem:

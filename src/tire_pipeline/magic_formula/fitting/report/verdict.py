@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.channels import ANGLE_CHANNELS
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.inputs import LOOKS_LIKE_DEGREES
 
@@ -88,7 +89,7 @@ def _sign_of(output: str, tire: TireModel) -> float:
 
 def _units(output: str, points: Mapping[str, np.ndarray], measured: np.ndarray) -> str:
     """Return which channel's unit is wrong, or nothing."""
-    for angle in ("slip_angle", "camber"):
+    for angle in ANGLE_CHANNELS:
         if np.abs(points[angle]).max() > LOOKS_LIKE_DEGREES:
             return f"Likely reason: units; {angle} looks like degrees, it has to be in radians."
     if np.abs(points["slip_ratio"]).max() > _PERCENT:
