@@ -1,28 +1,25 @@
-"""Translators on a small fleet with a known truth."""
+"""The mixed model on a small fleet with a known truth."""
 
 from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
+from small_fleet import table_of
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.evaluation import evaluate_translations
 from tire_pipeline.files.state_files import pack_state, unpack_state
-from tire_pipeline.fleet import FleetSettings, make_fleet
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir
-from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
-from tire_pipeline.translation.base import make_translator, translator_from_state
+from tire_pipeline.tire_table import dedupe_and_filter, normalize_table
+from tire_pipeline.translation.base import translator_from_state
 from tire_pipeline.translation.bias_report import at_each_load, bias_report
-from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.decode.physics import SYMMETRY, violations
 from tire_pipeline.translation.judge.bias_band import bias_band
 from tire_pipeline.translation.judge.gain import MOST_HARM, expected_gain, pooled_harm
 from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
-from tire_pipeline.translation.learned import CuriousAgent, CycleConsistent, LikelihoodAgent
-from tire_pipeline.translation.population.fit import fit_curve_space, prepare
 from tire_pipeline.translation.result import (
     LEFT_ALONE,
     REFUSED,
@@ -32,62 +29,9 @@ from tire_pipeline.translation.result import (
     comment_lines,
     write_translated,
 )
-from tire_pipeline.translation.simple.greedy_forest import GreedyForest
 from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel
 
 pytestmark = pytest.mark.slow
-
-
-def _table(files):
-    models = ((path, path.split("/")[-2], read_tir(text.encode("latin-1"))) for path, text in files.items())
-    return from_models(models)
-
-
-@pytest.fixture(scope="module")
-def fleet():
-    return make_fleet(FleetSettings(seed=77, files=450, tuning_tires=1, hidden_tires=6))
-
-
-@pytest.fixture(scope="module")
-def training(fleet):
-    kept, _ = dedupe_and_filter(_table(fleet.files), features=LATERAL_WITHOUT_CAMBER)
-    return normalize_table(kept, 6000.0)
-
-
-@pytest.fixture(scope="module")
-def hidden(fleet):
-    own = {k: v for k, v in fleet.evaluation.items() if k.startswith("hidden")}
-    return normalize_table(_table(own), 6000.0)
-
-
-@pytest.fixture(scope="module")
-def truth(fleet, hidden):
-    own = {k: v for k, v in fleet.truth.first.items() if k.startswith("hidden/D")}
-    table = normalize_table(_table(own), 6000.0)
-    names = hidden["file"].str.split("/").str[-1]
-    return table.set_index(table["file"].str.split("/").str[-1]).loc[names].reset_index(drop=True)
-
-
-@pytest.fixture(scope="module")
-def space(training):
-    return fit_curve_space(training)
-
-
-@pytest.fixture(scope="module")
-def made(training, space):
-    """What all translators without pairs begin with."""
-    return prepare(training, pairs=False, space_and_cells=space)
-
-
-@pytest.fixture(scope="module")
-def mixed(training, made):
-    return MixedModel(pairs=False).fit(training, target="D", seed=0, made=made)
-
-
-@pytest.fixture(scope="module")
-def paired(training, space):
-    made = prepare(training, pairs=True, space_and_cells=space)
-    return MixedModel(pairs=True).fit(training, target="D", seed=0, made=made)
 
 
 @pytest.mark.parametrize("name", ["mixed", "paired"])
@@ -132,8 +76,8 @@ def test_shuffling_the_truth_changes_no_translated_file(fleet, mixed, hidden):
     try:
         fleet.truth.first.update(zip(keys, shuffled, strict=True))
         own = {k: v for k, v in fleet.evaluation.items() if k.startswith("hidden")}
-        again_hidden = normalize_table(_table(own), 6000.0)
-        kept, _ = dedupe_and_filter(_table(fleet.files), features=LATERAL_WITHOUT_CAMBER)
+        again_hidden = normalize_table(table_of(own), 6000.0)
+        kept, _ = dedupe_and_filter(table_of(fleet.files), features=LATERAL_WITHOUT_CAMBER)
         again = (
             MixedModel(pairs=False)
             .fit(normalize_table(kept, 6000.0), target="D", seed=0)
@@ -151,10 +95,10 @@ def test_shuffling_the_truth_changes_nothing_that_a_translator_is_given(fleet, t
     try:
         fleet.truth.first.update(zip(true, (values[i] for i in order), strict=True))
         assert fleet.truth.first != true
-        kept, _ = dedupe_and_filter(_table(fleet.files), features=LATERAL_WITHOUT_CAMBER)
+        kept, _ = dedupe_and_filter(table_of(fleet.files), features=LATERAL_WITHOUT_CAMBER)
         pd.testing.assert_frame_equal(normalize_table(kept, 6000.0), training, check_exact=True)
         own = {k: v for k, v in fleet.evaluation.items() if k.startswith("hidden")}
-        pd.testing.assert_frame_equal(normalize_table(_table(own), 6000.0), hidden, check_exact=True)
+        pd.testing.assert_frame_equal(normalize_table(table_of(own), 6000.0), hidden, check_exact=True)
     finally:
         fleet.truth.first.update(true)
 
@@ -342,66 +286,6 @@ def test_categories_spread_stiffness_alike_and_shapes_each_in_its_own_way(paired
     assert min(apart["lateral shape"], apart["longitudinal shape"]) > 0.05
 
 
-@pytest.fixture(scope="module")
-def changed(training):
-    """Training files of which E's of the second half show 8% more friction."""
-    late = (training["category"] == "E") & (training["date"] >= "2016-07-01")
-    scale = np.where(late, 1.08, 1.0)
-    return training.assign(**{name: training[name] * scale for name in ("PDY1", "PDX1")})
-
-
-@pytest.fixture(scope="module")
-def changing(changed):
-    return MixedModel(pairs=False).fit(changed, target="D", seed=0)
-
-
-def test_no_change_of_protocol_where_there_is_none(mixed, paired, hidden):
-    assert mixed.model.protocols.changes == paired.model.protocols.changes == ()
-    assert mixed.translation(hidden.head(2), bands=False).protocols.empty
-
-
-def test_a_change_of_protocol_is_found_told_and_put_right(changing, hidden):
-    (change,) = changing.model.protocols.changes
-    assert change.category == "E"
-    assert "2015-07" < change.day < "2017-07"
-    own = hidden[hidden["category"] == "E"].head(1)
-    both = pd.concat([own.assign(date=day) for day in ("2012-01-01", "2020-01-01", "")], ignore_index=True)
-    both.loc[1, ["PDY1", "PDX1"]] *= 1.08
-    result = changing.translation(both, bands=False)
-    friction = result.table["PDY1"].to_numpy()
-    assert friction[1] == pytest.approx(friction[0], rel=0.015)  # one tire, by both protocols
-    assert result.report["protocol"].str.len().gt(0).all()
-    assert any("protocol" in line for line in comment_lines(result, 1, COEFFICIENTS))
-    found = changing.model.predict(both, "D")
-    place = changing.model.space.slices["lateral friction"]
-    assert found.variance[2, place].sum() > found.variance[0, place].sum()  # no date: either protocol
-    told = result.protocols.iloc[0]
-    assert told["category"] == "E"
-    assert 5.0 < float(told["lateral friction"].split("%")[0]) < 11.0
-    again = translator_from_state(changing.to_state())
-    pd.testing.assert_frame_equal(again.translate(both), result.table)
-
-
-def test_the_target_is_given_by_its_newest_protocol(changing, mixed, hidden):
-    source = hidden[hidden["category"] == "A"].head(4)
-    levels = []
-    for translator in (changing, mixed):
-        found = translator.model.predict(source, "E")
-        features = translator.model.space.features(found.target, translator.model.space.encode(source)[1])
-        levels.append(features["lateral"][:, LOADS.size : 2 * LOADS.size].mean())
-    assert 0.04 < levels[0] - levels[1] < 0.11
-
-
-def test_tables_without_dates_are_translated_as_before_there_were_any(training, space, mixed, hidden):
-    undated = training.drop(columns="date")
-    made = prepare(undated, pairs=False, space_and_cells=space)
-    again = MixedModel(pairs=False).fit(undated, target="D", seed=0, made=made)
-    told = mixed.translate(hidden.head(3))
-    pd.testing.assert_frame_equal(
-        again.translate(hidden.head(3).drop(columns="date")), told.drop(columns="date")
-    )
-
-
 def test_bias_report_has_intervals_for_every_pair(paired, training):
     report = bias_report(paired, training, coefficients=False)
     assert set(zip(report.by_region["organisation"], report.by_region["reference"], strict=True)) >= {
@@ -426,52 +310,3 @@ def test_leaving_one_tire_out(training, paired):
     left = leave_one_tire_out(training, "D", pairs=True, model=paired.model)
     assert left["tire_id"].nunique() >= 4
     assert left["error"].sum() < left["error_unchanged"].sum()
-
-
-def test_agents_learn_and_come_back(training, made, hidden):
-    agent, again = (LikelihoodAgent(updates=4).fit(training, target="D", seed=3, made=made) for _ in range(2))
-    translated = agent.translate(hidden)
-    pd.testing.assert_frame_equal(translated, again.translate(hidden), check_exact=True)
-    back = translator_from_state(agent.to_state())
-    pd.testing.assert_frame_equal(translated, back.translate(hidden), check_exact=True)
-    curious = CuriousAgent(updates=4).fit(training, target="D", seed=3, made=made)
-    assert not curious.translate(hidden).equals(translated)
-
-
-def test_cycle_consistent_networks_move_tires_and_come_back(training, made, hidden):
-    found = CycleConsistent(rounds=10).fit(training, target="D", seed=1, made=made)
-    translated = found.translate(hidden)
-    assert not translated.equals(hidden)
-    pd.testing.assert_frame_equal(translated, translator_from_state(found.to_state()).translate(hidden))
-
-
-def test_greedy_forest_raises_the_probability(training, hidden):
-    found = GreedyForest().fit(training, target="D", seed=1)
-    translated = found.translate(hidden)
-    names = list(LATERAL_WITHOUT_CAMBER)
-    before, after = (found.probability(t[names].to_numpy(float)) for t in (hidden, translated))
-    assert (after >= before).all()
-    assert after.mean() > before.mean() + 0.1
-    pd.testing.assert_frame_equal(translated, translator_from_state(found.to_state()).translate(hidden))
-
-
-@pytest.mark.parametrize("name", ["no_change", "mixed_model", "greedy_forest"])
-def test_impossible_targets_are_named(name, training):
-    with pytest.raises(DomainError, match="target category 'Z'"):
-        make_translator(name).fit(training, target="Z", seed=0)
-
-
-@pytest.mark.parametrize(("name", "verdict"), [("no_change", LEFT_ALONE), ("greedy_forest", TRANSLATED)])
-def test_every_translator_gives_a_verdict(name, verdict, training, hidden, paired):
-    found = make_translator(name).fit(training, target="D", seed=0)
-    result = found.translation(hidden)
-    pd.testing.assert_frame_equal(result.table, found.translate(hidden))
-    assert (result.report["verdict"] == verdict).all()
-    assert result.report["expected_rms_ratio"].isna().all()
-    assert list(result.report) == list(paired.translation(hidden, bands=False).report)
-
-
-def test_doing_nothing_gives_a_copy(training, hidden):
-    found = make_translator("no_change").fit(training, target="D", seed=0)
-    assert found.translate(hidden) is not hidden
-    pd.testing.assert_frame_equal(found.translate(hidden), hidden)
