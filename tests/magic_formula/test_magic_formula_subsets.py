@@ -1,6 +1,6 @@
 """Fits to a dozen subsets of real sweeps beside the least that 30 random starts reach.
 
-`benchmarks/fit_subsets.py` draws the subsets, and has found the least of a hundred of them.
+`benchmarks/drawn_subsets.py` draws the subsets; `fit_subsets.py` has found the least of a hundred of them.
 """
 
 import os
@@ -20,9 +20,10 @@ BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
 def subsets():
     with pytest.MonkeyPatch.context() as patch:
         patch.syspath_prepend(str(BENCHMARKS))
+        import drawn_subsets
         import fit_subsets as module
-    if not (module.SHARED / "recordings" / "calspan").is_dir() and not os.environ.get("CI"):
-        pytest.skip(f"no recordings in {module.SHARED}")
+    if not (drawn_subsets.SHARED / "recordings" / "calspan").is_dir() and not os.environ.get("CI"):
+        pytest.skip(f"no recordings in {drawn_subsets.SHARED}")
     return module
 
 
