@@ -13,9 +13,10 @@ from pydantic import ValidationError
 
 from tire_pipeline.command.stored import translator_state
 from tire_pipeline.datasets import IngestStoreDataset, ReleaseDataset
+from tire_pipeline.errors import TirSyntaxError
 from tire_pipeline.pipelines.rollback.pipeline import restore_previous
 from tire_pipeline.retraining.compare import balanced_accuracy, compare_models
-from tire_pipeline.tir import TirSyntaxError, read_sidecar, read_tir, write_tir
+from tire_pipeline.tir import read_sidecar, read_tir, write_tir
 from tire_pipeline.tir.sidecar import sidecar_path
 from tire_pipeline.translation import translator_from_state
 from tire_pipeline.translation.parameters import TranslateParameters

@@ -1,46 +1,28 @@
-"""Pages of the API: what each package exports, from docstrings."""
+"""The page of the API: what the public packages export, from docstrings."""
 
 from __future__ import annotations
 
 import ast
 from pathlib import Path
 
-PACKAGES = (
-    "tir",
-    "magic_formula",
-    "recordings",
-    "mismatch",
-    "translation",
-    "classifiers",
-    "representations",
-    "tire_table",
-    "fleet",
-    "concealed",
-    "evaluation",
-)
+PACKAGES = ("tir", "magic_formula", "recordings", "mismatch", "translation")
+
+HEAD = """# API
+
+Public is what these packages export. All else may change without notice. Units are SI and radians. The page is
+made from the docstrings.
+"""
 
 
-def pages(package: Path) -> dict[str, str]:
-    """Return one page a package, and the page that lists them."""
-    made = {f"reference/api/{name}.md": _page(package / name) for name in PACKAGES}
-    rows = "\n".join(
-        f"| [`tire_pipeline.{name}`]({name}.md) | {_sentence(package / name)} |" for name in PACKAGES
-    )
-    made["reference/api/index.md"] = (
-        "# API\n\nEach page is made from the docstrings of what the package exports. Units are SI and radians.\n\n"
-        f"| package | what it is for |\n|---|---|\n{rows}\n"
-    )
-    return made
-
-
-def navigation(package: Path) -> list[dict[str, str]]:
-    """Return the entries of the navigation."""
-    return [{name: f"reference/api/{name}.md"} for name in PACKAGES]
-
-
-def _page(folder: Path) -> str:
-    parts = [f"# `tire_pipeline.{folder.name}`", _sentence(folder)]
-    parts += [f"::: tire_pipeline.{folder.name}.{name}" for name in exported(folder / "__init__.py")]
+def page(package: Path) -> str:
+    """Return the page."""
+    parts = [HEAD]
+    for name in PACKAGES:
+        parts += [f"## tire_pipeline.{name}", _sentence(package / name)]
+        parts += [
+            f"::: tire_pipeline.{name}.{each}\n    options:\n      heading_level: 3"
+            for each in exported(package / name / "__init__.py")
+        ]
     return "\n\n".join(parts) + "\n"
 
 

@@ -34,7 +34,7 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     made: dict[str, str | bytes] = {
         "reference/effects.md": effects_page.page(),
         "reference/pipelines.md": pipelines_page.page(ROOT),
-        **api.pages(ROOT / "src" / "tire_pipeline"),
+        "reference/api.md": api.page(ROOT / "src" / "tire_pipeline"),
         **gallery.pages(ROOT),
     }
     for path, content in made.items():
@@ -46,17 +46,13 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 
 def on_config(config: MkDocsConfig, **_: Any) -> MkDocsConfig:
-    """Put the gallery's examples and the API's packages into the navigation."""
+    """Put the gallery's examples into the navigation."""
     _reach()
-    import api
     import gallery
 
     for part in config.nav or []:
         if "Gallery" in part:
             part["Gallery"] = ["gallery/README.md", *gallery.navigation(ROOT)]
-        for entry in part.get("Reference", []):
-            if isinstance(entry, dict) and "API" in entry:
-                entry["API"] = ["reference/api/index.md", *api.navigation(ROOT / "src" / "tire_pipeline")]
     return config
 
 

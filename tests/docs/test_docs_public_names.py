@@ -20,10 +20,10 @@ NAMES = [(package, name) for package, names in PUBLIC.items() for name in names.
 
 BESIDE = {
     "magic_formula": "COEFFICIENT_NAMES DegreesWarning MissingRadiusWarning PoorFitWarning TireRangeWarning",
-    "tir": "COMPUTED_DIGITS TirError TirFile TirSyntaxError TirValueError TirVersionError",
+    "tir": "TirError TirFile",
     "recordings": "DART_CAR",
     "mismatch": "EffectReport Explainer HeldOutFit OutputFit",
-    "translation": "TRANSLATORS",
+    "translation": "",
 }
 """What the thirty raise, warn of, take and give."""
 

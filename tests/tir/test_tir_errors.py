@@ -9,7 +9,8 @@ import stat
 import pytest
 from tir_samples import LATERAL, tir_text
 
-from tire_pipeline.tir import TirError, TirSyntaxError, TirValueError, TirVersionError, parse_tir, read_tir
+from tire_pipeline.errors import TirError, TirSyntaxError, TirValueError, TirVersionError
+from tire_pipeline.tir import parse_tir, read_tir
 from tire_pipeline.tir.text.decode import MOST_FILE_BYTES
 
 

@@ -7,7 +7,8 @@ import math
 import pytest
 from tir_samples import LATERAL, tir_text
 
-from tire_pipeline.tir import TirVersionError, parse_tir, read_tir, tir_bytes
+from tire_pipeline.errors import TirVersionError
+from tire_pipeline.tir import parse_tir, read_tir, tir_bytes
 
 
 def read(text: str, encoding: str = "utf-8"):

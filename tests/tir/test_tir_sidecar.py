@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from tir_samples import tir_text
 
-from tire_pipeline.tir import TirError, TirSyntaxError, read_sidecar, read_tir, write_sidecar, write_tir
+from tire_pipeline.errors import TirError, TirSyntaxError
+from tire_pipeline.tir import read_sidecar, read_tir, write_sidecar, write_tir
 from tire_pipeline.tir.sidecar import sidecar_path
 
 EFFECTS = {

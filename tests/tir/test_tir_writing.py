@@ -10,8 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tir_samples import LATERAL, PUBLIC, tir_text
 
+from tire_pipeline.errors import TirError, TirVersionError
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.tir import TirError, TirVersionError, parse_tir, read_tir, tir_bytes, write_tir
+from tire_pipeline.tir import parse_tir, read_tir, tir_bytes, write_tir
 from tire_pipeline.tir.format.values import format_number, format_scaled
 
 ODD_TEXT = (

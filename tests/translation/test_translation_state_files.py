@@ -4,7 +4,7 @@ import pytest
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.state_files import prefixed, without_prefix
-from tire_pipeline.translation import TRANSLATORS, make_translator
+from tire_pipeline.translation.base import TRANSLATORS, make_translator
 
 RELEASED = (
     "agent",

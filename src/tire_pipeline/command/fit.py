@@ -50,7 +50,8 @@ def command(
     """Fit a model."""
     from tire_pipeline.magic_formula import fit_magic_formula
     from tire_pipeline.recordings import join_recordings
-    from tire_pipeline.tir import COMPUTED_DIGITS, read_tir, write_tir
+    from tire_pipeline.tir import read_tir, write_tir
+    from tire_pipeline.tir.format.values import COMPUTED_DIGITS
 
     check_target(target, overwrite, *runs, *([start] if start else []))
     recordings = read_runs(runs, axes=axes, units=units, names=names, format_=format_)

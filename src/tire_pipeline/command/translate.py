@@ -64,7 +64,8 @@ def command(
 ) -> None:
     """Translate a file."""
     from tire_pipeline.command.stored import translator_state
-    from tire_pipeline.tir import COMPUTED_DIGITS, read_tir, write_tir
+    from tire_pipeline.tir import read_tir, write_tir
+    from tire_pipeline.tir.format.values import COMPUTED_DIGITS
     from tire_pipeline.translation import translator_from_state
     from tire_pipeline.translation.of_models import translate_models
 

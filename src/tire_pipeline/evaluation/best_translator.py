@@ -16,7 +16,8 @@ from tire_pipeline.evaluation.parameters import EvaluateParameters
 from tire_pipeline.evaluation.translated import Files, read_chosen, translated_by, translators
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
-from tire_pipeline.tir import COMPUTED_DIGITS, read_tir, tir_bytes
+from tire_pipeline.tir import read_tir, tir_bytes
+from tire_pipeline.tir.format.values import COMPUTED_DIGITS
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.translation.result import TRANSLATED

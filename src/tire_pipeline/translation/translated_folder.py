@@ -20,7 +20,8 @@ from tire_pipeline.classifiers.suppliers import (
 from tire_pipeline.errors import DomainError, TirePipelineError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tasks import Map, in_blocks, in_turn
-from tire_pipeline.tir import COMPUTED_DIGITS, tir_bytes
+from tire_pipeline.tir import tir_bytes
+from tire_pipeline.tir.format.values import COMPUTED_DIGITS
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.translation import translator_from_state

@@ -283,7 +283,8 @@ class CorrectedModel:
         RecordingError
             If a question is open on which all of it rests: ``question`` says which.
         """
-        from tire_pipeline.tir import COMPUTED_DIGITS, write_sidecar, write_tir
+        from tire_pipeline.tir import write_sidecar, write_tir
+        from tire_pipeline.tir.format.values import COMPUTED_DIGITS
 
         if self.question is not None:
             raise RecordingError(
