@@ -8,6 +8,8 @@ import re
 
 import pytest
 
+from tire_pipeline.translation.base import TRANSLATORS
+
 PUBLIC = {
     "magic_formula": "TireModel TireForces OperatingPoints FitResult fit_magic_formula forces_batch pack "
     "pack_matrix model_of conversion_notes",
@@ -45,6 +47,13 @@ def _entries(section: str) -> set[str]:
     return {name.strip().lstrip("*") for head in heads for name in head.split(",")}
 
 
+def _without_a_sentence(section: str) -> list[str]:
+    """Entries that no indented line follows."""
+    lines = [line for line in section.splitlines() if line]
+    follows = [*(line.startswith(" ") for line in lines[1:]), False]
+    return [line for line, said in zip(lines, follows, strict=True) if not line.startswith(" ") and not said]
+
+
 def test_there_are_thirty_and_their_packages_export_them():
     assert len(NAMES) == 30
     for package, name in NAMES:
@@ -68,6 +77,13 @@ def test_the_docstring_has_its_sections(package, name):
     assert wanted <= found
 
 
+@pytest.mark.parametrize(("package", "name"), NAMES, ids=[name for _, name in NAMES])
+def test_a_sentence_says_what_each_entry_is(package, name):
+    sections = _sections(_object(package, name))
+    entries = {title: sections.get(title, "") for title in ("Parameters", "Attributes", "Returns", "Raises")}
+    assert {title: bare for title, text in entries.items() if (bare := _without_a_sentence(text))} == {}
+
+
 @pytest.mark.parametrize(
     ("package", "name"),
     [each for each in NAMES if not inspect.isclass(_object(*each))],
@@ -77,3 +93,8 @@ def test_each_parameter_is_described_and_no_other(package, name):
     what = _object(package, name)
     described = _entries(_sections(what).get("Parameters", ""))
     assert described == set(inspect.signature(what).parameters)
+
+
+def test_the_names_of_all_translators_are_given():
+    said = inspect.getdoc(_object("translation", "make_translator"))
+    assert [name for name in TRANSLATORS if f"``{name}``" not in said] == []

@@ -79,6 +79,7 @@ def pack_matrix(values: Any, names: Sequence[str], version: str = "5.2") -> np.n
     Returns
     -------
     ndarray of shape (tires, len(COEFFICIENT_NAMES))
+        Coefficients in the order of ``COEFFICIENT_NAMES``, SI units.
 
     Raises
     ------

@@ -217,6 +217,7 @@ def model_of(vector: np.ndarray, version: str, metadata: Mapping[str, object] | 
     Returns
     -------
     TireModel
+        Without a source: what is written of it is a new file.
 
     Raises
     ------

@@ -56,6 +56,7 @@ def read_recording(
     Parameters
     ----------
     path : str or Path
+        Of the file.
     format : {"TYDEX", "CSV", "MDF4", "MAT", "Parquet"}, optional
         Left out: by content, else by suffix.
     axes : {"ISO", "SAE"}, optional

@@ -149,13 +149,15 @@ def make_translator(name: str, **options: Any) -> Translator:
     Parameters
     ----------
     name : str
-        One of ``TRANSLATORS``.
+        The method: ``mixed_model``, ``no_change``, ``greedy_forest``, ``agent``, ``likelihood_agent``,
+        ``curious_agent`` or ``cycle_consistent``.
     **options
         Passed to its constructor.
 
     Returns
     -------
     Translator
+        To be fitted to a table of tires.
 
     Raises
     ------

@@ -59,7 +59,8 @@ def conversion_notes(model: TireParameters, version: str) -> list[str]:
 
     Parameters
     ----------
-    model : TireParameters
+    model : TireModel
+        What would be changed; it stays as it is.
     version : str
         The version to change to.
 

@@ -214,13 +214,15 @@ def parse_tir(source: str | os.PathLike[str] | bytes, *, path: str | None = None
 
     Parameters
     ----------
-    source : path or bytes
+    source : str, path or bytes
+        The file, or its content.
     path : str, optional
         What to call it in messages when ``source`` is bytes.
 
     Returns
     -------
     TirFile
+        Every line as it is, with the sections, keys and values found in it.
 
     Raises
     ------

@@ -36,7 +36,9 @@ def write_tir(
     Parameters
     ----------
     model : TireModel
-    path : path
+        Read from a file, fitted or built.
+    path : str or path
+        Of the file to write.
     comments : str or sequence of str, optional
         Comment lines to add at the top. Control characters, brackets and ``$`` in them are replaced.
     version : str, optional
@@ -47,7 +49,7 @@ def write_tir(
         Whether to write what stands in for coefficients that the model lacks (``defaulted``), each with a
         comment that says so. By default only where there is no source file: other tools expect all keys.
     digits : int, optional
-        Significant digits of coefficients that were changed, such as ``COMPUTED_DIGITS`` for computed ones.
+        Significant digits of coefficients that were changed, such as 9 for computed ones.
         By default as many as give exactly the model's value again.
 
     Returns
@@ -109,6 +111,7 @@ def tir_bytes(
     Parameters
     ----------
     model : TireModel
+        Read from a file, fitted or built.
     comments, complete, digits
         As for :func:`write_tir`.
 

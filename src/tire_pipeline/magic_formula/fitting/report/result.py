@@ -22,6 +22,7 @@ class FitResult:
     Attributes
     ----------
     model : TireModel
+        With what was fitted, and what it started from for the rest.
     standard_errors : mapping of str to float
         One standard error of each fitted coefficient; NaN for one that ends at its bound.
     residuals : DataFrame
