@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import inspect
 import re
+from itertools import pairwise
 
 import pytest
 
@@ -50,8 +51,8 @@ def _entries(section: str) -> set[str]:
 def _without_a_sentence(section: str) -> list[str]:
     """Entries that no indented line follows."""
     lines = [line for line in section.splitlines() if line]
-    follows = [*(line.startswith(" ") for line in lines[1:]), False]
-    return [line for line, said in zip(lines, follows, strict=True) if not line.startswith(" ") and not said]
+    pairs = pairwise([*lines, "the end"])
+    return [line for line, after in pairs if not line.startswith(" ") and not after.startswith(" ")]
 
 
 def test_there_are_thirty_and_their_packages_export_them():
