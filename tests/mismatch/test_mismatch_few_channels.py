@@ -12,7 +12,7 @@ from tire_pipeline.magic_formula.fitting import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Effect
-from tire_pipeline.mismatch.report.result import VERDICTS
+from tire_pipeline.mismatch.report.contents import VERDICTS
 from tire_pipeline.recordings import DART_CAR, axle_recording, read_dart, read_recording
 
 KNOWN = (

@@ -9,14 +9,15 @@ if TYPE_CHECKING:
     from tire_pipeline.mismatch.corrected.model import CorrectedModel
     from tire_pipeline.mismatch.explain import Explainer, explain_mismatch
     from tire_pipeline.mismatch.proof.measured import OutputFit
-    from tire_pipeline.mismatch.report.result import EffectReport, HeldOutFit, MismatchReport
+    from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit
+    from tire_pipeline.mismatch.report.result import MismatchReport
     from tire_pipeline.mismatch.several import explain_recordings
 
 _MODULES = {
     "CorrectedModel": "corrected.model",
-    "EffectReport": "report.result",
+    "EffectReport": "report.contents",
     "Explainer": "explain",
-    "HeldOutFit": "report.result",
+    "HeldOutFit": "report.contents",
     "MismatchReport": "report.result",
     "OutputFit": "proof.measured",
     "explain_mismatch": "explain",

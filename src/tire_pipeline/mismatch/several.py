@@ -14,7 +14,8 @@ from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.explain import Explainer
 from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.recording.checks import INPUTS
-from tire_pipeline.mismatch.report.result import HeldOutFit, MismatchReport, PredictionError
+from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError
+from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import with_held_out
 from tire_pipeline.recordings.join import join_recordings
 

@@ -29,8 +29,9 @@ from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.checks import Prepared
+from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
-from tire_pipeline.mismatch.report.result import EffectReport, MismatchReport
+from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import on_unnamed, on_withheld, summary
 from tire_pipeline.mismatch.report.words import not_looked_for
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport

@@ -11,7 +11,7 @@ import numpy as np
 from markupsafe import Markup
 from matplotlib.figure import Figure, FigureBase
 
-from tire_pipeline.mismatch.report.result import MismatchReport
+from tire_pipeline.mismatch.report.contents import ReportContents
 from tire_pipeline.pages.drawing import captioned, svg_element
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
@@ -40,7 +40,7 @@ def svg(figure: Any) -> Markup:
     return svg_element(text)
 
 
-def time_line(report: MismatchReport, output: str, figure: FigureBase | None = None) -> FigureBase:
+def time_line(report: ReportContents, output: str, figure: FigureBase | None = None) -> FigureBase:
     """Draw recorded minus simulated force over time, before and after, effects' windows shaded."""
     s = report.series
     with matplotlib.rc_context(_STYLE):
@@ -80,7 +80,7 @@ def _broken(x: Any, y: Any) -> tuple[Any, Any]:
     return np.insert(x.astype(float), gaps, np.nan), np.insert(y.astype(float), gaps, np.nan)
 
 
-def operating_map(report: MismatchReport, output: str, figure: FigureBase | None = None) -> FigureBase:
+def operating_map(report: ReportContents, output: str, figure: FigureBase | None = None) -> FigureBase:
     """Draw the mean difference over slip and load, before and after, on one colour scale."""
     s = report.series
     slip = _slip(report, output)
@@ -117,7 +117,7 @@ def operating_map(report: MismatchReport, output: str, figure: FigureBase | None
     return figure
 
 
-def _slip(report: MismatchReport, output: str) -> Any:
+def _slip(report: ReportContents, output: str) -> Any:
     return report.series["slip_angle" if output == "fy" else "slip_ratio"]
 
 
@@ -128,7 +128,7 @@ def _means(x: Any, y: Any, values: Any, edges: tuple[Any, Any]) -> Any:
     return np.where(count >= 3, total / np.maximum(count, 1), np.nan)
 
 
-def overview(report: MismatchReport) -> Figure:
+def overview(report: ReportContents) -> Figure:
     """Draw the output that differs most: over slip and load, and over time."""
     output = _order(report)[0]
     mapped = np.ptp(_slip(report, output)) > _LEAST_SLIP
@@ -145,7 +145,7 @@ def overview(report: MismatchReport) -> Figure:
     return figure
 
 
-def _map_caption(report: MismatchReport, output: str) -> str:
+def _map_caption(report: ReportContents, output: str) -> str:
     which = "each point" if _slip(report, output).size < _FEW else "mean of each cell"
     faded = "; it should fade from before to after" if report.corrected.changes else ""
     return (
@@ -154,7 +154,7 @@ def _map_caption(report: MismatchReport, output: str) -> str:
     )
 
 
-def _order(report: MismatchReport) -> list[str]:
+def _order(report: ReportContents) -> list[str]:
     """Outputs with series, those that differ most first."""
     return sorted(
         (o for o in report.fit if f"before_{o}" in report.series),
@@ -162,7 +162,7 @@ def _order(report: MismatchReport) -> list[str]:
     )
 
 
-def drawings(report: MismatchReport) -> list[dict[str, Any]]:
+def drawings(report: ReportContents) -> list[dict[str, Any]]:
     """Return the figures of a report as inline SVG with captions, the outputs that differ most first."""
     order = _order(report)
     out = []
@@ -178,7 +178,7 @@ def drawings(report: MismatchReport) -> list[dict[str, Any]]:
     return out
 
 
-def unnamed_curve(report: MismatchReport) -> Markup | None:
+def unnamed_curve(report: ReportContents) -> Markup | None:
     """Draw what is left over the first factor of the equation without a name, beside the equation."""
     curve = None if report.unnamed is None else report.unnamed.curve
     if not curve:
@@ -194,12 +194,12 @@ def unnamed_curve(report: MismatchReport) -> Markup | None:
     return svg(figure)
 
 
-def _has_gaps(report: MismatchReport) -> bool:
+def _has_gaps(report: ReportContents) -> bool:
     time = report.series["time"]
     return bool(_broken(time, time)[0].size > time.size)
 
 
-def _time_caption(report: MismatchReport, output: str) -> str:
+def _time_caption(report: ReportContents, output: str) -> str:
     name = output.capitalize()
     if report.series["time"] is None:
         return f"{name} over the points in their order."

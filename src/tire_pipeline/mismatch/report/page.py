@@ -13,8 +13,8 @@ from markupsafe import Markup
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount
 from tire_pipeline.mismatch.proof.measured import Visible
+from tire_pipeline.mismatch.report.contents import EffectReport, ReportContents
 from tire_pipeline.mismatch.report.figures import drawings, unnamed_curve
-from tire_pipeline.mismatch.report.result import EffectReport, MismatchReport
 from tire_pipeline.mismatch.report.words import condition, gaussian, in_words, interval
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.pages.drawing import page_style
@@ -23,12 +23,12 @@ from tire_pipeline.pages.safe_page import page_environment, policy
 _TOO_LITTLE = {"does not pay for itself": "too little evidence for its parameters"}
 
 
-def render(report: MismatchReport, *, pages: Sequence[tuple[str, str]] = ()) -> str:
+def render(report: ReportContents, *, pages: Sequence[tuple[str, str]] = ()) -> str:
     """Return the page.
 
     Parameters
     ----------
-    report : MismatchReport
+    report : ReportContents
     pages : sequence of (str, str)
         Address and name of other pages, for links at the top.
     """
@@ -84,7 +84,7 @@ def percent(share: float) -> str:
     return f"{100.0 * share:.2g}%" if 0.0 < abs(share) < 0.995 else "–"
 
 
-def _located(report: MismatchReport) -> list[tuple[str, str, float, float, float]]:
+def _located(report: ReportContents) -> list[tuple[str, str, float, float, float]]:
     """One row for each output and axis: the stretch along the force before the one of plain differences."""
     rows: dict[tuple[str, str], Any] = {}
     for f in sorted(report.located, key=lambda f: not f.along_force):

@@ -4,109 +4,26 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tire_pipeline.mismatch.corrected.model import CorrectedModel
-from tire_pipeline.mismatch.proof.locate import Located
-from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder, Visible
-from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
+from tire_pipeline.mismatch.report.contents import ReportContents
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-VERDICTS = ("agrees", "explained", "ambiguous", "partly explained", "unexplained", "unusable", "another tire")
-
-
-@dataclass(frozen=True)
-class EffectReport:
-    """One effect that was found.
-
-    Parameters
-    ----------
-    name, kind : str
-        ``kind`` is ``"physics"`` or ``"artefact"``.
-    alternatives : tuple of str
-        Names that the data cannot exclude.
-    confidence : float
-        Posterior probability that the cause is the name or one of its alternatives.
-    output : str
-        Force in which it is largest.
-    where : dict
-        Channel -> (low, high), SI: holds the central 90% of its energy.
-    when : list of (start, end)
-        s; its RMS over 1 s is above the noise floor.
-    share : float
-        Share of the held-out mismatch that it removes.
-    equation, source : str
-    parameters : dict
-        Name -> (value, standard error, unit).
-    evidence : dict
-        ``log_evidence``: how much the best set with it has above the best one without.
-    """
-
-    name: str
-    kind: str
-    title: str
-    alternatives: tuple[str, ...]
-    confidence: float
-    output: str
-    where: dict[str, tuple[float, float]]
-    when: list[tuple[float, float]]
-    share: float
-    equation: str
-    source: str
-    parameters: dict[str, tuple[float, float, str]]
-    evidence: dict[str, float | str] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class PredictionError:
-    """Errors of one output in a recording that no fit has seen, N or N m.
-
-    Parameters
-    ----------
-    rms_before, rms_after : float
-        Of the model as it was, and with what was found.
-    ratio_low, ratio_high : float
-        95% interval of ``rms_after / rms_before`` by resampling stretches of the recording.
-    """
-
-    rms_before: float
-    rms_after: float
-    ratio_low: float
-    ratio_high: float
-
-
-@dataclass(frozen=True)
-class HeldOutFit:
-    """How the explained model predicts a recording that was held out.
-
-    Parameters
-    ----------
-    recording : str
-    samples : int
-        How many had numbers in all channels.
-    errors : dict of str to PredictionError
-        By output.
-    """
-
-    recording: str
-    samples: int
-    errors: dict[str, PredictionError]
-
 
 @dataclass(repr=False)
-class MismatchReport:
+class MismatchReport(ReportContents):
     """What :func:`tire_pipeline.mismatch.explain_mismatch` returns.
 
     Parameters
     ----------
     verdict : str
-        One of ``VERDICTS``.
+        "agrees", "explained", "ambiguous", "partly explained", "unexplained", "unusable" or "another tire".
     effects : list of EffectReport
         What was found, the surest first.
     fit : dict of str to OutputFit
@@ -137,6 +54,10 @@ class MismatchReport:
         How large each effect would have had to be to be seen.
     unnamed : UnnamedReport, optional
         What the part that is left follows, if anything is left.
+    withheld : tuple of str
+        Named effects that are not in ``corrected``, because it is not sure that sweeps gain by them.
+    probabilities : list of (tuple of str, float)
+        The sets of effects that hold 95% of the posterior, the likeliest first.
 
     See Also
     --------
@@ -162,25 +83,6 @@ class MismatchReport:
     >>> report.verdict, report.effects, sorted(report.fit)
     ('agrees', [], ['fy'])
     """
-
-    verdict: str
-    effects: list[EffectReport]
-    fit: dict[str, OutputFit]
-    next_experiment: str
-    corrected: CorrectedModel
-    summary: str
-    located: list[Located]
-    remainder: Remainder
-    notes: list[str]
-    candidates: list[dict[str, Any]]
-    series: dict[str, Any] = field(default_factory=dict, repr=False)
-    recordings: tuple[str, ...] = ()
-    held_out: HeldOutFit | None = None
-    assumed: list[str] = field(default_factory=list)
-    visible: list[Visible] = field(default_factory=list)
-    unnamed: UnnamedReport | None = None
-    withheld: tuple[str, ...] = ()
-    probabilities: list[tuple[tuple[str, ...], float]] = field(default_factory=list)
 
     @property
     def sets(self) -> list[tuple[tuple[str, ...], float]]:

@@ -10,7 +10,7 @@ from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
-from tire_pipeline.mismatch.report.result import EffectReport, HeldOutFit
+from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit
 from tire_pipeline.mismatch.report.words import figure, in_words, newtons, place
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
