@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import inspect
 import re
+from dataclasses import fields, is_dataclass
 from itertools import pairwise
 
 import pytest
@@ -94,6 +95,18 @@ def test_each_parameter_is_described_and_no_other(package, name):
     what = _object(package, name)
     described = _entries(_sections(what).get("Parameters", ""))
     assert described == set(inspect.signature(what).parameters)
+
+
+@pytest.mark.parametrize(
+    ("package", "name"),
+    [each for each in NAMES if is_dataclass(_object(*each))],
+    ids=[name for package, name in NAMES if is_dataclass(_object(package, name))],
+)
+def test_each_field_is_described_and_no_other(package, name):
+    what = _object(package, name)
+    sections = _sections(what)
+    described = _entries(sections.get("Parameters", "") + sections.get("Attributes", ""))
+    assert described == {field.name for field in fields(what) if not field.name.startswith("_")}
 
 
 def test_the_names_of_all_translators_are_given():
