@@ -131,11 +131,20 @@ def test_the_users_own_files_come_first_and_every_file_can_be_reached(driver):
     assert files[1] == "new/mine.tir"
     assert files[0].startswith("E/<script>")
     assert "⟨U+202E⟩" in files[0]
-    assert count(driver) == "302 files, the first 200 are shown"
-    driver.find_element("id", "more").click()
-    assert len(shown(driver)) == 302
-    assert len(set(shown(driver))) == 302
+    assert count(driver) == "302 files: 1 to 100"
+    turn = {name: driver.find_element("id", name) for name in ("previous", "next")}
+    assert not turn["previous"].is_enabled()
+    parts = [files]
+    while turn["next"].is_enabled():
+        turn["next"].click()
+        parts.append(shown(driver))
+    assert count(driver) == "302 files: 301 to 302"
+    assert [len(part) for part in parts] == [100, 100, 100, 2]
+    assert len({file for part in parts for file in part}) == 302
+    turn["previous"].click()
+    assert shown(driver) == parts[2]
     reset(driver)
+    assert shown(driver) == files
 
 
 def test_suppliers_are_summed_up_and_lead_to_their_files(driver):

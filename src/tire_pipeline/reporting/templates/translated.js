@@ -1,6 +1,6 @@
 "use strict";
 (function () {
-  const STEP = 200;
+  const AT_ONCE = 100; // A click lays the whole table out again, so its time grows with the rows that are shown.
   const SVG = "http://www.w3.org/2000/svg";
   const PANELS = [
     {name: "fy", title: "Lateral force", x: "slip angle / deg", y: "Fy / kN", across: 180 / Math.PI, scale: 1e-3},
@@ -11,7 +11,7 @@
   const at = Object.fromEntries(data.columns.map((name, i) => [name, i]));
   const body = document.querySelector("#files tbody");
   const field = name => document.getElementById(name);
-  let rows = [], shown = [], most = STEP, sort = null, falling = false;
+  let rows = [], shown = [], first = 0, sort = null, falling = false;
   const opened = new Map();
 
   async function unpack(text) {
@@ -64,19 +64,26 @@
         return sign * (typeof x === "number" ? x - y : x.localeCompare(y, "en", {numeric: true}));
       });
     }
-    most = STEP;
+    turn(0);
+  }
+  function turn(to) {
+    first = to;
     fill();
   }
   function fill() {
     const list = document.createDocumentFragment();
-    for (const row of shown.slice(0, most)) {
+    const end = Math.min(first + AT_ONCE, shown.length);
+    for (const row of shown.slice(first, end)) {
       list.append(line(row));
       if (row.detail) list.append(row.detail);
     }
     body.replaceChildren(list);
     const all = shown.length === rows.length ? counted(rows.length) + " files" : counted(shown.length) + " of " + counted(rows.length) + " files";
-    field("count").textContent = shown.length > most ? all + ", the first " + most + " are shown" : all;
-    field("more").hidden = shown.length <= most;
+    const turns = shown.length > AT_ONCE;
+    field("count").textContent = turns ? all + ": " + counted(first + 1) + " to " + counted(end) : all;
+    field("turns").hidden = !turns;
+    field("previous").disabled = first === 0;
+    field("next").disabled = end === shown.length;
   }
   function line(row) {
     if (row.line) return row.line;
@@ -311,7 +318,12 @@
       document.querySelectorAll("#files th").forEach(each => each.removeAttribute("aria-sort"));
       choose();
     }));
-    field("more").addEventListener("click", () => { most += STEP; fill(); });
+    for (const [name, way] of [["previous", -1], ["next", 1]]) {
+      field(name).addEventListener("click", () => {
+        turn(first + way * AT_ONCE);
+        field("count").scrollIntoView();
+      });
+    }
     for (const button of document.querySelectorAll("[data-supplier]")) {
       button.addEventListener("click", () => {
         field("supplier").value = button.dataset.supplier;
