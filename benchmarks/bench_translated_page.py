@@ -1,7 +1,7 @@
 """Size of the page of translated files, seconds until it can be used, and from a click to the drawing.
 
-In a headless Chromium, from a file. Wall time; a click ends with the second frame after the curves are there. Half of the
-clicks are on the first part of the list, half on its last full part.
+In a headless Chromium, from a file. Wall time; a click ends with the second frame after the curves are there.
+Half of the clicks are on the first part of the list, half on its last full part.
 
 Run: python benchmarks/bench_translated_page.py                          # 4,000 made-up files
      python benchmarks/bench_translated_page.py data/08_reporting/translated_files.html
@@ -36,7 +36,7 @@ while (!next.disabled) next.click();
 previous.click();
 {ROWS}""",
 )
-"""Scripts that turn the list to its first part, and to the last one that is full; they return the number of rows."""
+"""Scripts that turn the list to its first part, and to its last full one. They return the number of rows."""
 
 CLICKED = """const [number, done] = arguments;
 const button = document.querySelectorAll("#files button.file")[number];

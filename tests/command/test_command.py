@@ -230,6 +230,7 @@ def test_check_lists_channels_and_fails_on_what_cannot_be_explained(folder):
         (("show", "none.tir"), "none.tir: cannot be read"),
         (("show", "bad.tir"), "bad.tir"),
         (("show", "a.tir", "--page", "a.tir"), "the page is HTML"),
+        (("show", "a.tir", "-o", "a.tir"), "the page is HTML"),
         (("compare", "a.tir", "a.tir"), "this file is given twice"),
         (("convert", "a.tir", "--to", "7.0"), "Magic Formula version '7.0' is not known"),
         (("convert", "a.tir", "--to", "6.1", "-o", "a.tir", "--overwrite"), "never changed"),

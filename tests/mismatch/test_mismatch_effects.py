@@ -5,6 +5,7 @@ import pytest
 
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects.amounts import amount_with_error
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.recording.checks import prepare
 
@@ -236,3 +237,9 @@ def test_friction_by_sliding_speed_shows_at_large_slip_only(tire, record):
     small, large = (np.abs(data.get("slip_angle")) < a for a in (0.03, 0.15))
     assert np.abs(ratio[small & (np.abs(data.get("slip_angle")) > 0.005)] - 1.0).max() < 0.01
     assert np.abs(ratio[~large] - 1.0).max() > 0.03
+
+
+def test_a_parameter_has_two_digits_of_its_standard_error():
+    assert amount_with_error(-0.844, 0.191, "1") == ("-84%", "19%")
+    assert amount_with_error(0.0123, 0.0004, "s") == ("12.30 ms", "0.40 ms")
+    assert amount_with_error(1234.5, np.inf, "N") == ("1.23e+03 N", "inf N")

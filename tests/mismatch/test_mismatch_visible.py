@@ -43,14 +43,14 @@ def test_sizes_stand_in_the_json_and_on_the_page(clean, tmp_path):
     assert 0.0 < row["ruled_out"] < row["seen"] < 0.2
     page = clean.to_html(tmp_path / "r.html").read_text()
     assert "What could have been seen" in page
-    assert f"{100.0 * row['seen']:.2g} %" in page
+    assert f"{100.0 * row['seen']:.2g}%" in page
 
 
 def test_what_is_named_has_a_row_with_its_interval(tire, record):
     report = explain_mismatch(tire, record(22, friction=0.9))
     (row,) = (r for r in report.visible if r.name == "friction_scale")
     value, error, _ = report.effects[0].parameters["friction"]
-    assert row.text.endswith(f"named, friction {100.0 * value:.2g} % ± {196.0 * error:.2g} %")
+    assert row.text.endswith(f"named, friction {100.0 * value:.2g}% ± {196.0 * error:.2g}%")
     assert math.isnan(row.seen)
 
 

@@ -85,3 +85,10 @@ def test_a_logarithmic_axis_keeps_its_powers_beside_names_with_dollars():
     svg = inline_svg(figure)
     assert ">$\\frac$</text>" in svg
     assert ">$\\mathdefault" not in svg
+
+
+def test_percentages_stand_on_the_right_with_their_dashes():
+    frame = pd.DataFrame({"change": ["+1.2%", "–"], "share": ["5% of it", "–"], "none": ["–", "–"]})
+    table = Table(frame)
+    assert table.heads == [("change", True), ("share", False), ("none", False)]
+    assert [[number for _, number in row] for row, _ in table.rows] == [[True, False, False]] * 2

@@ -5,6 +5,7 @@ from itertools import product
 import pandas as pd
 import pytest
 
+from tire_pipeline.reporting.translation.translated_rows import ROW_COLUMNS, rows_of
 from tire_pipeline.reporting.translation.translation_page import MORE, RATIOS, check_goals, translation_page
 
 pytestmark = pytest.mark.slow
@@ -86,6 +87,13 @@ def test_bias_and_truth_are_shown_with_intervals():
     truth = bias.head(2).assign(true_bias=[-0.055, 0.4], inside=[True, False])
     page = translation_page(measured(), bias=bias, beside_truth=truth, note="measured on one day")
     assert "50% of 2 lie inside" in page
-    assert page.index("+20.0 %") < page.index("-5.0 %")  # largest first
-    assert "+90.0 %" not in page  # other regions are not listed
+    assert page.index("+20.0%") < page.index("-5.0%")  # largest first
+    assert "+90.0%" not in page  # other regions are not listed
     assert "measured on one day" in page
+
+
+def test_a_file_just_beyond_the_edge_is_not_shown_on_it():
+    report = pd.DataFrame(
+        {"file": ["a", "b"], "distance": [1.0004, 0.9], "verdict": ["refused", "translated"]}
+    )
+    assert [row[ROW_COLUMNS.index("distance")] for row in rows_of(report, set(), {})] == [1.01, 0.9]

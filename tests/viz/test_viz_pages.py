@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import io
 import json
 
+import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.image import imread
 from viz_browser import ROOT, browser, needs_browser
 
 from tire_pipeline.concealed.scoring.words import outcome
@@ -118,3 +121,13 @@ def test_every_page_is_dark_where_that_is_asked_for_and_white_on_paper(reports, 
     assert paper("print", "dark") == "rgb(255, 255, 255)"
     wide = driver.execute_script("return document.documentElement.scrollWidth <= window.innerWidth")
     assert wide
+
+
+@pytest.mark.parametrize(("media", "scheme", "white"), [("screen", "dark", False), ("print", "dark", True)])
+def test_figures_are_as_dark_as_their_page(reports, driver, media, scheme, white):
+    driver.get((reports / "mismatch/rig/run.html").as_uri())
+    features = [{"name": "prefers-color-scheme", "value": scheme}]
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media, "features": features})
+    picture = driver.find_element("css selector", "svg.figure").screenshot_as_png
+    usual = np.median(imread(io.BytesIO(picture))[..., :3])
+    assert usual == pytest.approx(1.0 if white else 24 / 255, abs=0.02)

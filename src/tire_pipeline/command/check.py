@@ -27,7 +27,7 @@ _MOST_DRAWN = 4000
 )
 @click.argument("run", type=FILE)
 @reading_options
-@output_options()
+@output_options("-o")
 def command(
     run: Path,
     axes: str | None,

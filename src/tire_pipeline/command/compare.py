@@ -25,7 +25,7 @@ _NOTHING = 1e-9
 @click.argument("second", type=FILE, metavar="B.tir")
 @click.option("--load", "loads", type=float, multiple=True, help="Normal load, N; can be repeated.")
 @click.option("--camber", type=float, default=0.0, show_default=True, help="Camber, deg.")
-@output_options()
+@output_options("-o")
 def command(first: Path, second: Path, loads: tuple[float, ...], camber: float, **output: Any) -> None:
     """Compare two files."""
     from tire_pipeline.tir import read_tir
@@ -103,13 +103,13 @@ def _row(difference: Difference) -> tuple[Any, ...]:
 def _percent(share: float) -> str:
     if not math.isfinite(share):
         return "–"
-    return f"{100 * share:.2g} %" if share > _NOTHING else "0 %"
+    return f"{100 * share:.2g}%" if share > _NOTHING else "0%"
 
 
 def _change(before: float, after: float) -> str:
     if not (math.isfinite(before) and math.isfinite(after)) or before == 0.0:
         return "–"
-    return f"{100 * (after / before - 1):+.1f} %"
+    return f"{100 * (after / before - 1):+.1f}%"
 
 
 def _page(

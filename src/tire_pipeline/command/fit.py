@@ -63,7 +63,7 @@ def command(
         nominal_load=nominal_load,
         unloaded_radius=radius,
     )
-    said = ", ".join(f"{name} {100 * value:.2g} %" for name, value in result.relative_rms.items())
+    said = ", ".join(f"{name} {100 * value:.2g}%" for name, value in result.relative_rms.items())
     write_tir(
         result.model,
         target,
@@ -81,7 +81,7 @@ def command(
 
 def _outcome(result: FitResult, runs: list[str], target: Path, notes: list[str]) -> CommandOutcome:
     model = result.model
-    sizes = ", ".join(f"{n.capitalize()} {100 * v:.2g} %" for n, v in result.relative_rms.items())
+    sizes = ", ".join(f"{n.capitalize()} {100 * v:.2g}%" for n, v in result.relative_rms.items())
     lines = [
         f"Magic Formula {model.version} fitted to {', '.join(runs)}: "
         f"{len(result.standard_errors)} coefficients, FNOMIN = {model.value('FNOMIN'):g} N.",

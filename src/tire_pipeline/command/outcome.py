@@ -14,6 +14,7 @@ import numpy as np
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import write_bytes
+from tire_pipeline.pages.percentage import is_percentage
 
 
 @dataclass(frozen=True)
@@ -108,13 +109,15 @@ def _print(outcome: CommandOutcome, written: Sequence[str]) -> None:
     for line in outcome.lines:
         console.print(Text(line))
     for grid in outcome.grids:
-        table = Table(title=grid.title or None, title_justify="left", box=None, pad_edge=False)
-        numbers = [any(_is_number(row[k]) for row in grid.rows) for k in range(len(grid.header))]
+        table = Table(box=None, pad_edge=False)
+        numbers = [any(_right_aligned(row[k]) for row in grid.rows) for k in range(len(grid.header))]
         for heading, number in zip(grid.header, numbers, strict=True):
             table.add_column(heading, justify="right" if number else "left", overflow="fold")
         for row in grid.rows:
             table.add_row(*(Text(digits(cell)) for cell in row))
         console.print()
+        if grid.title:
+            console.print(Text(grid.title, style="italic"))
         console.print(table)
     if outcome.notes:
         console.print()
@@ -125,8 +128,9 @@ def _print(outcome: CommandOutcome, written: Sequence[str]) -> None:
         console.print(Text(f"written: {', '.join(written)}"))
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float | np.number) and not isinstance(value, bool)
+def _right_aligned(value: Any) -> bool:
+    number = isinstance(value, int | float | np.number) and not isinstance(value, bool)
+    return number or is_percentage(value)
 
 
 def digits(value: Any) -> str:

@@ -31,7 +31,7 @@ _FEW = 12
     "--load", "loads", type=float, multiple=True, help="Normal load of a curve, N; can be repeated."
 )
 @click.option("--camber", type=float, default=0.0, show_default=True, help="Camber of the curves, deg.")
-@output_options()
+@output_options("-o")
 def command(file: Path, loads: tuple[float, ...], camber: float, **output: Any) -> None:
     """Show a file."""
     from tire_pipeline.magic_formula.forces import MissingRadiusWarning

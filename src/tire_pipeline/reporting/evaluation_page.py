@@ -147,7 +147,10 @@ def _files(ingest: dict[str, Any], dropped: pd.DataFrame, table: pd.DataFrame) -
     counts = table.groupby("category").agg(files=("file", "size"), tires=("tire_id", "nunique")).reset_index()
     parts: list[Text | Table] = [
         Text(
-            [f"{ingest['read']} of {ingest['files']} files were read; {len(table)} remain after filtering."],
+            [
+                f"{ingest['read']:,} of {ingest['files']:,} files were read; "
+                f"{len(table):,} remain after filtering."
+            ],
             heading="The files",
         ),
         Table(counts, "Files and physical tires that remain, by category."),
@@ -156,7 +159,7 @@ def _files(ingest: dict[str, Any], dropped: pd.DataFrame, table: pd.DataFrame) -
         reasons = dropped.groupby("reason").size().rename("files").reset_index()
         parts.append(Table(reasons, "Why files were removed; filter_report.csv names each."))
     if ingest["set_aside"]:
-        text = f"{ingest['set_aside']} files could not be read; ingest_report.csv gives line and reason."
+        text = f"{ingest['set_aside']:,} files could not be read; ingest_report.csv gives line and reason."
         parts.append(Text([text]))
     return parts
 

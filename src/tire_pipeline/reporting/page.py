@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import repeat
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
@@ -13,6 +14,7 @@ from markupsafe import Markup
 from pandas.api.types import is_bool_dtype, is_numeric_dtype
 
 from tire_pipeline.pages.drawing import inline_svg, page_style
+from tire_pipeline.pages.percentage import is_percentage
 from tire_pipeline.pages.safe_page import page_environment, policy
 
 if TYPE_CHECKING:
@@ -80,8 +82,14 @@ class Table:
             _decimals(shown[name].tolist(), self.digits) if self.decimals is None else self.decimals
             for name in self.columns
         ]
+        heads = self.heads
         cells = [
-            [_cell(value, self.digits, places) for value, places in zip(row, decimals, strict=True)]
+            [
+                (text, number or column)
+                for (text, number), (_, column) in zip(
+                    map(_cell, row, repeat(self.digits), decimals), heads, strict=True
+                )
+            ]
             for row in shown[self.columns].itertuples(index=False)
         ]
         below = (
@@ -93,13 +101,7 @@ class Table:
     def heads(self) -> list[tuple[str, bool]]:
         """Names of the columns, and whether numbers stand below."""
         return [
-            (
-                str(name),
-                bool(len(self.frame))
-                and is_numeric_dtype(self.frame[name])
-                and not is_bool_dtype(self.frame[name]),
-            )
-            for name in self.columns
+            (str(name), bool(len(self.frame)) and _holds_numbers(self.frame[name])) for name in self.columns
         ]
 
     @property
@@ -232,6 +234,12 @@ def without_empty_columns(table: pd.DataFrame, always: Sequence[str] = ()) -> pd
         Columns that stay, empty or not.
     """
     return table.loc[:, [name in always or bool((table[name] != "").any()) for name in table.columns]]
+
+
+def _holds_numbers(column: pd.Series) -> bool:
+    if is_numeric_dtype(column):
+        return not is_bool_dtype(column)
+    return any(map(is_percentage, column)) and all(is_percentage(each) or each == "–" for each in column)
 
 
 _LOSS = 0.05

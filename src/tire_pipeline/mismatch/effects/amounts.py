@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 _AMOUNTS = {
     "1": (100.0, "%"),
     "rad": (57.29578, "deg"),
@@ -14,4 +16,25 @@ _AMOUNTS = {
 def amount(value: float, unit: str, digits: int = 2) -> str:
     """Return the size of a parameter in the unit that engineers use."""
     factor, name = _AMOUNTS.get(unit, (1.0, unit))
-    return f"{value * factor:.{digits}g} {name}"
+    return _joined(f"{value * factor:.{digits}g}", name)
+
+
+def amount_with_error(value: float, error: float, unit: str) -> tuple[str, str]:
+    """Return a parameter and its standard error with the same decimals: two digits of the error.
+
+    Examples
+    --------
+    >>> amount_with_error(-0.844, 0.191, "1"), amount_with_error(0.0123, 0.0004, "s")
+    (('-84%', '19%'), ('12.30 ms', '0.40 ms'))
+    """
+    if not (math.isfinite(error) and error > 0.0):
+        return amount(value, unit, 3), amount(error, unit)
+    factor, name = _AMOUNTS.get(unit, (1.0, unit))
+    decimals = max(0, 1 - math.floor(math.log10(error * factor)))
+    texts = (f"{each * factor:,.{decimals}f}" for each in (value, error))
+    own, other = (_joined(text, name) for text in texts)
+    return own, other
+
+
+def _joined(text: str, unit: str) -> str:
+    return f"{text}%" if unit == "%" else f"{text} {unit}"

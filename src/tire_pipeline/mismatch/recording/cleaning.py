@@ -54,7 +54,7 @@ class Cleaning:
         share = (
             "the force does not tell" if np.isnan(self.felt) else f"the force follows {self.felt:.0%} of it"
         )
-        done = "sensor noise was taken off" if self.smoothed else "used as recorded"
+        done = "sensor noise was removed" if self.smoothed else "used as recorded"
         unit = _UNITS.get(self.channel, "")
         size = f"{self.removed:.2g} {unit}".strip()
         return f"{self.channel}: {done} (fluctuation {size} RMS, {share})"

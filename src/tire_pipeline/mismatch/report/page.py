@@ -11,7 +11,7 @@ from typing import Any
 from markupsafe import Markup
 
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.effects.amounts import amount
+from tire_pipeline.mismatch.effects.amounts import amount, amount_with_error
 from tire_pipeline.mismatch.proof.measured import Visible
 from tire_pipeline.mismatch.report.contents import EffectReport, ReportContents
 from tire_pipeline.mismatch.report.figures import drawings, unnamed_curve
@@ -35,7 +35,8 @@ def render(report: ReportContents, *, pages: Sequence[tuple[str, str]] = ()) -> 
     environment = page_environment("tire_pipeline.mismatch.report")
     own = files("tire_pipeline.mismatch.report").joinpath("templates", "report.css").read_text("utf-8")
     style = page_style() + own
-    environment.filters |= {"number": number, "percent": percent, "condition": condition}
+    environment.filters |= {"number": number, "percent": percent, "log_evidence": log_evidence}
+    environment.filters["condition"] = condition
     errors = [(o, f) for o, f in report.fit.items() if math.isfinite(f.rms_before)]
     seen, silent = _visible(report.visible)
     name = ", ".join(PurePath(each).name for each in report.recordings) or "Simulation and recording"
@@ -79,9 +80,14 @@ def number(value: Any, digits: int = 3) -> str:
     return str(value)
 
 
+def log_evidence(value: float | str | None) -> str:
+    """Return a log evidence, a dash for none."""
+    return f"{value:.1f}" if isinstance(value, float) and math.isfinite(value) else "–"
+
+
 def percent(share: float) -> str:
     """Return a share of something, a dash where it is none or more than all of it."""
-    return f"{100.0 * share:.2g}%" if 0.0 < abs(share) < 0.995 else "–"
+    return f"{100.0 * share:#.2g}".rstrip(".") + "%" if 0.0 < abs(share) < 0.995 else "–"
 
 
 def _located(report: ReportContents) -> list[tuple[str, str, float, float, float]]:
@@ -99,7 +105,7 @@ def _effect(effect: EffectReport) -> dict[str, Any]:
         "it": effect,
         "certainty": _certainty(effect),
         "parameters": [
-            (name.replace("_", " "), amount(value, unit, 3), amount(error, unit))
+            (name.replace("_", " "), *amount_with_error(value, error, unit))
             for name, (value, error, unit) in effect.parameters.items()
         ],
         "where": [interval(a, low, high) for a, (low, high) in effect.where.items()],
@@ -130,7 +136,7 @@ def _evidence(evidence: dict[str, float | str]) -> str:
     """What a reader needs to judge the evidence; the JSON has all of it."""
     if "log_evidence" not in evidence:
         return in_words(str(evidence.get("found", "")))
-    return f"Log evidence {number(evidence['log_evidence'])} above the best explanation without it"
+    return f"Log evidence {log_evidence(evidence['log_evidence'])} above the best explanation without it"
 
 
 def _candidate(row: dict[str, Any]) -> dict[str, Any]:
@@ -149,5 +155,6 @@ def _visible(rows: list[Visible]) -> tuple[list[dict[str, Any]], list[tuple[str,
         if row.parameter and sizes[0] != sizes[1]:
             sized.append({"it": row, "title": title, "ruled_out": sizes[0], "seen": sizes[1]})
         elif not row.text.startswith(f"{title}: named"):
-            silent.setdefault(row.text.removeprefix(f"{title}: ").rstrip("."), []).append(title)
+            why = row.text.removeprefix(f"{title} ({row.parameter}): ").removeprefix(f"{title}: ")
+            silent.setdefault(why.rstrip("."), []).append(title)
     return sized, list(silent.items())

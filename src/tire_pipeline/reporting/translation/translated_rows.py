@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.translation.result import EDGE
+
 ROW_COLUMNS = (
     "file",
     "own",
@@ -43,7 +45,7 @@ def rows_of(report: pd.DataFrame, own: set[str], tires: Mapping[str, str]) -> li
                 said["supplier"],
                 tires.get(file, ""),
                 said["verdict"],
-                _rounded(distance),
+                _distance(distance),
                 _rounded(ratio),
                 said["reason"],
                 said["changes"],
@@ -64,6 +66,12 @@ def by_supplier(rows: list[list[Any]]) -> list[dict[str, Any]]:
         middle = f"{np.median(ratios):.0%}" if ratios else "–"
         found.append({"name": name, "files": len(part), "counts": counts, "ratio": middle})
     return found
+
+
+def _distance(value: float) -> float | None:
+    """A file beyond the edge of the training data is not shown as one on it."""
+    rounded = _rounded(value)
+    return rounded + 0.01 if rounded == EDGE < value else rounded
 
 
 def _rounded(value: float) -> float | None:

@@ -284,5 +284,5 @@ def _largest(bias: pd.DataFrame) -> pd.DataFrame:
     own = bias[bias["region"].isin(wanted)].copy()
     own = own.reindex(own["bias"].abs().sort_values(ascending=False).index).head(45)
     for name in ("bias", "low", "high"):
-        own[name] = (100 * own[name]).map("{:+.1f} %".format)
+        own[name] = (100 * own[name]).map("{:+.1f}%".format)
     return own[["organisation", "reference", "output", "region", "bias", "low", "high"]]

@@ -98,7 +98,7 @@ class FitResult:
 
     def __repr__(self) -> str:
         errors = ", ".join(
-            f"{name} not fitted" if name in self.not_fitted else f"{name} {100 * value:.2g} %"
+            f"{name} not fitted" if name in self.not_fitted else f"{name} {100 * value:.2g}%"
             for name, value in self.relative_rms.items()
         )
         poor = f"; POOR FIT of {', '.join(self.poor)}" if self.poor else ""
@@ -125,7 +125,7 @@ class FitResult:
             if output in self.not_fitted:
                 lines.append(f"{output}: measured, but not fitted")
                 continue
-            lines.append(f"{output}: RMS of residuals {100 * value:.2f} % of the largest magnitude")
+            lines.append(f"{output}: RMS of residuals {100 * value:.2f}% of the largest magnitude")
             if output in self.poor:
                 lines.append(f"{output}: POOR FIT, not to be used: {self.poor[output]}")
         lines += ["", "coefficient        value   standard error"]

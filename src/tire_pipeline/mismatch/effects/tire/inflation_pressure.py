@@ -24,7 +24,7 @@ class InflationPressure(Effect):
     equation = (
         "d = (p - p0) / p0; friction *= 1 + friction d + friction_curvature d^2; "
         "stiffness *= 1 + stiffness d + stiffness_curvature d^2 + stiffness_load d (Fz - Fz0) / Fz0; "
-        "lateral stiffness besides *= 1 + lateral_stiffness d"
+        "lateral stiffness also *= 1 + lateral_stiffness d"
     )
     source = "MF 6.1: PPX1..4, PPY1..5; Besselink, Schmeitz, Pacejka 2010, VSD 48 (suppl. 1)"
     channels = ("pressure",)

@@ -19,7 +19,7 @@ class LoadSensitivity(Effect):
     title = "another change of friction and stiffness with load"
     equation = (
         "d = (Fz - Fz0) / Fz0; friction *= 1 + rate d; stiffness *= 1 + stiffness d; "
-        "lateral stiffness besides *= 1 + lateral_stiffness d"
+        "lateral stiffness also *= 1 + lateral_stiffness d"
     )
     source = (
         "MF 5.2: mu = PDY1 + PDY2 dfz, K = PKY1 Fz0 sin(2 arctan(Fz / (PKY2 Fz0))), PKX2, PKX3 (thesis, "
