@@ -41,9 +41,9 @@ def test_the_ingest_store_opens(folder):
 
 
 def test_the_released_model_recognizes_tires_as_it_did(folder):
-    shelf = ReleaseDataset(path=str(folder / "06_models" / "released")).load()
+    registry = ReleaseDataset(path=str(folder / "06_models" / "released")).load()
     table = _table(folder)
-    found = compare_models(shelf.model, None, table)
+    found = compare_models(registry.model, None, table)
     assert balanced_accuracy(found, "candidate") > 0.5  # of two categories that it was trained on
 
 
@@ -51,8 +51,8 @@ def test_rollback_goes_back_to_a_model_of_the_former_version(folder):
     path = str(folder / "06_models" / "released")
     first, second = (name for name in ReleaseDataset(path=path).load().release.models)
     assert ReleaseDataset(path=path).load().release.current == second
-    shelf = restore_previous(ReleaseDataset(path=path, for_going_back=True).load())
-    ReleaseDataset(path=path).save(shelf)
+    registry = restore_previous(ReleaseDataset(path=path, for_going_back=True).load())
+    ReleaseDataset(path=path).save(registry)
     again = ReleaseDataset(path=path).load()
     assert again.release.current == first
     assert again.model is not None

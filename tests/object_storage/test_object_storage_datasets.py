@@ -27,7 +27,7 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import ConflictError, Objects
 from tire_pipeline.retraining import Judged, Manifest, Store, judge
 from tire_pipeline.retraining.partition import Partition
-from tire_pipeline.retraining.release import Release, Shelf
+from tire_pipeline.retraining.release import ModelRegistry, Release
 from tire_pipeline.runs import LostTicketError, ObjectLedger, ObjectTicket, take_turn
 from tire_pipeline.tire_table import from_models
 
@@ -176,14 +176,14 @@ def test_a_store_that_changes_during_the_write_is_left_as_it_is(folder, monkeypa
 
 def test_the_record_of_releases_is_replaced_by_one_run_only(folder):
     dataset = ReleaseDataset(path=f"{folder}/released")
-    assert dataset.load() == Shelf()
+    assert dataset.load() == ModelRegistry()
     refused = partial(judge, Release(), better=False, time="now", figures={})
     judged = Judged(digest="d", settings="s", sequence=1, split="x")
     first = refused("m", judged)
-    dataset.save(Shelf(first))
+    dataset.save(ModelRegistry(first))
     assert dataset.load().release == Release.from_dict(first.to_dict())
     with pytest.raises(DatasetError, match="another run has stored"):
-        dataset.save(Shelf(refused("other", judged)))
+        dataset.save(ModelRegistry(refused("other", judged)))
 
 
 def test_files_of_a_bucket_are_read_with_their_sidecars(folder, tmp_path):
@@ -291,7 +291,7 @@ def test_a_run_that_was_declared_dead_is_told_so(folder):
     first = ObjectTicket.draw(folder, run="v1")
     first.check()
     second = ObjectTicket.draw(folder, run="v2")
-    ObjectLedger(second, 0.5).bury(first.note)
+    ObjectLedger(second, 0.5).declare_dead(first.note)
     with pytest.raises(LostTicketError):
         first.check()
     second.check()

@@ -140,9 +140,9 @@ class Shop:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)  # few tires for the bins
             candidate = nodes.train_candidate(training, *SHAPE)
-        shelf = self.released.load()
-        comparison = nodes.compare(candidate, shelf, held, PARAMETERS)
-        self.released.save(nodes.decide(candidate, shelf, comparison, store, PARAMETERS, *SHAPE)[0])
+        registry = self.released.load()
+        comparison = nodes.compare(candidate, registry, held, PARAMETERS)
+        self.released.save(nodes.decide(candidate, registry, comparison, store, PARAMETERS, *SHAPE)[0])
 
     def roll_back(self) -> None:
         self.released.save(restore_previous(self.going_back.load()))

@@ -66,18 +66,18 @@ def test_a_constant_feature_is_no_drift():
 
 def test_the_page_of_a_first_run_says_that_there_is_nothing_to_compare():
     from tire_pipeline.reporting.retraining_page import build_retraining_report
-    from tire_pipeline.retraining import Release, Shelf
+    from tire_pipeline.retraining import ModelRegistry, Release
 
     files = pd.DataFrame({"file": ["A/1.tir"], "status": ["read"], "reason": [""]})
     drift = pd.DataFrame(columns=["category", "feature", "psi", "verdict"])
     comparison = pd.DataFrame({"model": ["candidate"], "accuracy": [0.75]})
     page = build_retraining_report(
-        files, drift, comparison, {"event": "released", "reason": "the first"}, Shelf(Release())
+        files, drift, comparison, {"event": "released", "reason": "the first"}, ModelRegistry(Release())
     )
     assert "Nothing to compare" in page
     assert "<th>psi</th>" not in page
     some = pd.DataFrame({"category": ["A"], "feature": ["PKY1"], "psi": [0.5], "verdict": ["drift"]})
     page = build_retraining_report(
-        files, some, comparison, {"event": "released", "reason": "not worse"}, Shelf(Release())
+        files, some, comparison, {"event": "released", "reason": "not worse"}, ModelRegistry(Release())
     )
     assert "1 of 1 comparisons show drift" in page

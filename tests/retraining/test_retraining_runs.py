@@ -20,7 +20,7 @@ import pytest
 from retraining_files import put, put_fleet, tir_text
 
 from tire_pipeline.datasets import IngestStoreDataset, ReleaseDataset
-from tire_pipeline.retraining import Manifest, Shelf, Store, difference, ingest, judge
+from tire_pipeline.retraining import Manifest, ModelRegistry, Store, difference, ingest, judge
 
 pytestmark = pytest.mark.slow
 ROOT = Path(__file__).resolve().parents[2]
@@ -90,7 +90,7 @@ def _released(folder: Path) -> ReleaseDataset:
     return ReleaseDataset(path=str(folder / "data/06_models/released"))
 
 
-def _in_use(folder: Path) -> Shelf:
+def _in_use(folder: Path) -> ModelRegistry:
     return _released(folder).load()
 
 
@@ -154,7 +154,7 @@ def test_files_that_arrive_before_and_during_a_run(tmp_path):
     assert _in_use(folder).release == before
     later = replace(before.judged, digest="of other files")
     after = judge(before, "later", later, better=True, time="now", figures={})
-    _released(folder).save(Shelf(after, _in_use(folder).model))
+    _released(folder).save(ModelRegistry(after, _in_use(folder).model))
     assert _in_use(folder).release.current == "later"
     said = _run(folder, "rollback")
     assert f"model in use: {before.current} (later taken back)" in said

@@ -18,7 +18,16 @@ from tire_pipeline.datasets import FolderDataset, IngestStoreDataset, ReleaseDat
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.packed import as_parquet
 from tire_pipeline.representations import make_representation
-from tire_pipeline.retraining import Judged, Manifest, Shelf, Store, difference, ingest, judge, roll_back
+from tire_pipeline.retraining import (
+    Judged,
+    Manifest,
+    ModelRegistry,
+    Store,
+    difference,
+    ingest,
+    judge,
+    roll_back,
+)
 from tire_pipeline.retraining import train_model as train
 from tire_pipeline.retraining.partition import Partition
 
@@ -182,58 +191,58 @@ def place(tmp_path):
 
 
 @pytest.fixture
-def shelf(place):
+def registry(place):
     return ReleaseDataset(path=str(place))
 
 
-def _next(shelf: Shelf, name: str, model) -> Shelf:
+def _next(registry: ModelRegistry, name: str, model) -> ModelRegistry:
     judged = Judged(digest=name, settings="s", sequence=1, split="x")
-    return Shelf(judge(shelf.release, name, judged, better=True, time="t", figures={}), model)
+    return ModelRegistry(judge(registry.release, name, judged, better=True, time="t", figures={}), model)
 
 
-def test_release_and_roll_back(shelf, model):
-    assert shelf.load() == Shelf()
-    shelf.save(_next(shelf.load(), "m1", model))
-    shelf.save(_next(shelf.load(), "m2", model))
-    assert shelf.load().release.current == "m2"
-    shelf.save(Shelf(roll_back(shelf.load().release, time="t")))
-    back = shelf.load()
+def test_release_and_roll_back(registry, model):
+    assert registry.load() == ModelRegistry()
+    registry.save(_next(registry.load(), "m1", model))
+    registry.save(_next(registry.load(), "m2", model))
+    assert registry.load().release.current == "m2"
+    registry.save(ModelRegistry(roll_back(registry.load().release, time="t")))
+    back = registry.load()
     assert back.release.current == "m1"
     np.testing.assert_array_equal(back.model.bins.edges, model.bins.edges)
 
 
 @pytest.mark.parametrize("step", [0, 1])
-def test_killed_while_releasing_leaves_the_old_model_in_use(shelf, model, monkeypatch, step):
-    shelf.save(_next(shelf.load(), "m1", model))
-    after = _next(shelf.load(), "m2", model)
+def test_killed_while_releasing_leaves_the_old_model_in_use(registry, model, monkeypatch, step):
+    registry.save(_next(registry.load(), "m1", model))
+    after = _next(registry.load(), "m2", model)
     _killed_at_step(monkeypatch, step)
     with pytest.raises(_Killed):
-        shelf.save(after)
+        registry.save(after)
     monkeypatch.setattr(os, "replace", REPLACE)
-    assert shelf.load().release.current == "m1"
-    shelf.save(after)
-    assert shelf.load().release.current == "m2"
+    assert registry.load().release.current == "m1"
+    registry.save(after)
+    assert registry.load().release.current == "m2"
 
 
-def test_two_releases_at_once(shelf, model):
-    first, second = _next(shelf.load(), "m1", model), _next(shelf.load(), "m2", model)
-    shelf.save(first)
+def test_two_releases_at_once(registry, model):
+    first, second = _next(registry.load(), "m1", model), _next(registry.load(), "m2", model)
+    registry.save(first)
     with pytest.raises(DatasetError, match="another run"):
-        shelf.save(second)
+        registry.save(second)
 
 
-def test_a_tampered_model_or_record_is_not_loaded(shelf, model, tmp_path):
-    shelf.save(_next(shelf.load(), "m1", model))
+def test_a_tampered_model_or_record_is_not_loaded(registry, model, tmp_path):
+    registry.save(_next(registry.load(), "m1", model))
     path = tmp_path / "released/models/m1.npz"
     content = bytearray(path.read_bytes())
     content[len(content) // 2] ^= 1
     path.write_bytes(content)
     with pytest.raises(DatasetError, match="not loaded"):
-        shelf.load()
+        registry.load()
     record = tmp_path / "released/record.json"
     record.write_text(record.read_text().replace('"m1"', '"../../m1"'))
     with pytest.raises(DatasetError, match="damaged"):
-        shelf.load()
+        registry.load()
 
 
 # the file of the model in use is missing
@@ -247,17 +256,17 @@ def _file(place, name):
     return place / "models" / f"{name}.npz"
 
 
-def _rolled_back(shelf, place):
+def _rolled_back(registry, place):
     loaded = _going_back(place).load()
-    shelf.save(Shelf(roll_back(loaded.release, time="t", unusable=loaded.unusable)))
-    return shelf.load()
+    registry.save(ModelRegistry(roll_back(loaded.release, time="t", unusable=loaded.unusable)))
+    return registry.load()
 
 
 @pytest.fixture
-def three(shelf, model):
+def three(registry, model):
     for name in ("m1", "m2", "m3"):
-        shelf.save(_next(shelf.load(), name, model))
-    return shelf
+        registry.save(_next(registry.load(), name, model))
+    return registry
 
 
 def test_a_model_in_use_that_is_gone_is_rolled_back(three, place):
@@ -280,10 +289,10 @@ def test_a_damaged_model_is_rolled_back_and_models_that_are_gone_are_skipped(thr
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])
-def test_where_no_model_is_left_it_says_what_is_left_to_do(shelf, place, model, count):
+def test_where_no_model_is_left_it_says_what_is_left_to_do(registry, place, model, count):
     names = [f"m{number}" for number in range(count)]
     for name in names:
-        shelf.save(_next(shelf.load(), name, model))
+        registry.save(_next(registry.load(), name, model))
     for name in names:
         _file(place, name).unlink()
     loaded = _going_back(place).load()
@@ -293,7 +302,7 @@ def test_where_no_model_is_left_it_says_what_is_left_to_do(shelf, place, model, 
     assert "no model left to go back to" in text
     assert all(f"{name} is gone" in text for name in names)
     with pytest.raises(DatasetError, match="the file of the model in use is missing") as of_the_retraining:
-        shelf.load()
+        registry.load()
     for said in (text, str(of_the_retraining.value)):
         assert "from a backup" in said
         assert "move the folder of released models away" in said

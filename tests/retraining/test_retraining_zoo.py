@@ -141,13 +141,13 @@ class Machine(RuleBasedStateMachine):
 
     @rule()
     def retrain(self):
-        before = self.zoo.shelf().release
+        before = self.zoo.registry().release
         try:
             self.zoo.retrain(self._version())
         except Exception as error:
             if not one_line(error):  # a traceback; others say that there is no model, nothing to train on...
                 raise
-            assert self.zoo.shelf().release == before
+            assert self.zoo.registry().release == before
         self.book.rows = self.book.rows_after_a_run()
         assert self.zoo.agrees(self.book.rows)
 
@@ -164,26 +164,26 @@ class Machine(RuleBasedStateMachine):
 
     @rule()
     def roll_back(self):
-        shelf = self.zoo.shelf()
-        whole = [name for name in shelf.release.models[:-1] if name not in shelf.unusable]
+        registry = self.zoo.registry()
+        whole = [name for name in registry.release.models[:-1] if name not in registry.unusable]
         if whole:
             self.zoo.roll_back()
-            assert self.zoo.shelf().release.current == whole[-1]
+            assert self.zoo.registry().release.current == whole[-1]
             assert self.zoo.released.load().model is not None
         else:
             with pytest.raises(DomainError, match=r"no earlier model|no model left"):
                 self.zoo.roll_back()
 
-    @precondition(lambda self: self.zoo.shelf().release.current)
+    @precondition(lambda self: self.zoo.registry().release.current)
     @rule(gone=st.booleans())
     def lose_the_model_in_use(self, gone):
-        path = self.zoo.model_file(self.zoo.shelf().release.current)
+        path = self.zoo.model_file(self.zoo.registry().release.current)
         if gone or not path.exists():
             path.unlink(missing_ok=True)
         else:
             path.write_bytes(path.read_bytes()[:-25])
 
-    @precondition(lambda self: self.zoo.shelf().unusable)
+    @precondition(lambda self: self.zoo.registry().unusable)
     @rule()
     def begin_anew(self):
         shutil.rmtree(self.zoo.base / "06_models/released")
@@ -267,7 +267,7 @@ def test_the_whole_pipeline_in_the_zoo(pipeline):
     kedro("retrain")
     book.rows = book.rows_after_a_run()
     assert zoo.agrees(book.rows)
-    first = zoo.shelf().release.current
+    first = zoo.registry().release.current
 
     for name in [name for name, (_, good) in book.files.items() if good][::3]:
         zoo.write(name, zoo.text("A"), good=True, date=None, elsewhere=False)
@@ -284,8 +284,8 @@ def test_the_whole_pipeline_in_the_zoo(pipeline):
     counts = pd.read_csv(report).groupby("status").size()
     assert counts["read"] == sum(good for _, good in book.reached().values())
 
-    second = zoo.shelf().release.current
+    second = zoo.registry().release.current
     assert second != first
     zoo.model_file(second).unlink()
     kedro("rollback")
-    assert zoo.shelf().release.current == first
+    assert zoo.registry().release.current == first

@@ -22,7 +22,7 @@ from tire_pipeline.kedro_runs.run_errors import one_line
 from tire_pipeline.pipelines.rollback.pipeline import restore_previous
 from tire_pipeline.representations.encoded_tires import RepresentParameters
 from tire_pipeline.representations.usable_tires import DedupeFilterParameters, keep_usable
-from tire_pipeline.retraining import Shelf, Store
+from tire_pipeline.retraining import ModelRegistry, Store
 from tire_pipeline.retraining import candidate as nodes
 from tire_pipeline.runs import Ticket, take_back, take_turn
 from tire_pipeline.tire_table.binned_features import BinParameters
@@ -153,10 +153,10 @@ class Zoo:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", UserWarning)  # few tires for the bins
                 candidate = nodes.train_candidate(training, *SHAPE)
-            shelf = self.released.load()
-            comparison = nodes.compare(candidate, shelf, held, PARAMETERS)
-            shelf, _ = nodes.decide(candidate, shelf, comparison, store, PARAMETERS, *SHAPE)
-            self.released.save(shelf)
+            registry = self.released.load()
+            comparison = nodes.compare(candidate, registry, held, PARAMETERS)
+            registry, _ = nodes.decide(candidate, registry, comparison, store, PARAMETERS, *SHAPE)
+            self.released.save(registry)
         except BaseException:
             take_back(self.base, ticket.note)
             raise
@@ -201,7 +201,7 @@ class Zoo:
         """Where a released model lies."""
         return self.base / "06_models/released/models" / f"{name}.npz"
 
-    def shelf(self) -> Shelf:
+    def registry(self) -> ModelRegistry:
         return self.going_back.load()
 
 

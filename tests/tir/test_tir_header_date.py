@@ -5,7 +5,7 @@ import datetime as dt
 import pytest
 from tir_samples import PUBLIC, need_shared
 
-from tire_pipeline.fleet.files.tir_text import HANDS
+from tire_pipeline.fleet.files.tir_text import FILE_STYLES
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tir.reading.header_date import measurement_date
 
@@ -88,9 +88,9 @@ def test_only_the_header_is_read():
     assert measurement_date("") is None
 
 
-@pytest.mark.parametrize("name", sorted(HANDS))
+@pytest.mark.parametrize("name", sorted(FILE_STYLES))
 def test_every_manufacturer_of_the_fleet_is_understood(name):
-    hand = HANDS[name]
+    hand = FILE_STYLES[name]
     head = hand.newline.join(f"{hand.comment} {line}" for line in hand.header)
     assert measurement_date(head % {"date": "2011-01-31"} + REST) == DAY
 

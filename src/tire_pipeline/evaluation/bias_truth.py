@@ -40,8 +40,8 @@ def measured_bias(first: pd.DataFrame, loads: np.ndarray) -> pd.DataFrame:
         for reference, organisation in combinations(sorted(parts[1].unique()), 2):
             gap = (logs.loc[organisation] - logs.loc[reference]).dropna().to_numpy()
             error = gap.std(axis=0) / np.sqrt(len(gap))
-            for load, mean, doubt in zip(loads, gap.mean(axis=0), error, strict=True):
-                rows.append((organisation, reference, f"{what}, {load:.0f} N", np.expm1(mean), doubt))
+            for load, mean, uncertainty in zip(loads, gap.mean(axis=0), error, strict=True):
+                rows.append((organisation, reference, f"{what}, {load:.0f} N", np.expm1(mean), uncertainty))
     return pd.DataFrame(rows, columns=["organisation", "reference", "region", "true_bias", "true_error"])
 
 

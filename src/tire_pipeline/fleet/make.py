@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.fleet.files.other_values import other_values
-from tire_pipeline.fleet.files.tir_text import Template, hand_of
+from tire_pipeline.fleet.files.tir_text import Template, style_of
 from tire_pipeline.fleet.measure import measure_all, regimes_of
 from tire_pipeline.fleet.plan import EVALUATION_SETS, Plan, make_plan
 from tire_pipeline.fleet.settings import FleetSettings
@@ -99,7 +99,7 @@ class _Writer:
 
     def text(self, category: str, measurement: int, date: float, without: str) -> str:
         if category not in self.templates:
-            self.templates[category] = Template(hand_of(category), self.with_compound)
+            self.templates[category] = Template(style_of(category), self.with_compound)
         day = _FIRST_DAY + dt.timedelta(days=int(date * _DAYS))
         words = {"date": day.isoformat(), "compound": self.compound[measurement]}
         return self.templates[category].render(self.rows[measurement], words, without)
@@ -114,7 +114,7 @@ def _training_files(
     for category, own in plan.files.groupby("category"):
         numbers = rng.permutation(len(own)) + 1
         for number, row in sorted(zip(numbers, own.itertuples(index=False), strict=True)):
-            path = f"{category}/{hand_of(str(category)).name % number}"
+            path = f"{category}/{style_of(str(category)).name % number}"
             files[path] = writer.text(str(category), row.measurement, row.date, row.without)
             origin.append({"file": path, "measurement": row.measurement, "file_role": row.role})
     table = pd.DataFrame(origin)

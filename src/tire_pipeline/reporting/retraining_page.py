@@ -7,7 +7,7 @@ from typing import Any
 import pandas as pd
 
 from tire_pipeline.reporting import HOME, Table, Text, render_page
-from tire_pipeline.retraining import Shelf
+from tire_pipeline.retraining import ModelRegistry
 from tire_pipeline.retraining.drift import DRIFT
 from tire_pipeline.retraining.release import history_rows
 
@@ -17,13 +17,13 @@ def build_retraining_report(
     drift: pd.DataFrame,
     comparison: pd.DataFrame,
     outcome: dict[str, Any],
-    shelf: Shelf,
+    registry: ModelRegistry,
 ) -> str:
     """One page: what came, what drifted, how the candidate did, what was decided."""
     return render_page(
         "Retraining",
         [
-            _decision(files, outcome, shelf),
+            _decision(files, outcome, registry),
             Table(
                 comparison,
                 heading="Candidate and released model on the same held-out tires",
@@ -36,19 +36,19 @@ def build_retraining_report(
                 heading="Files that wait, cannot be read or are gone",
                 caption="A file that cannot be read is tried again when its content changes.",
             ),
-            Table(pd.DataFrame(history_rows(shelf.release)), heading="History"),
+            Table(pd.DataFrame(history_rows(registry.release)), heading="History"),
         ],
         pages=HOME,
     )
 
 
-def _decision(files: pd.DataFrame, outcome: dict[str, Any], shelf: Shelf) -> Text:
+def _decision(files: pd.DataFrame, outcome: dict[str, Any], registry: ModelRegistry) -> Text:
     counts = files.groupby("status").size().to_dict()
     came = ", ".join(f"{count} {status}" for status, count in counts.items()) or "no change"
     return Text(
         [
             f"Candidate {outcome['event']}: {outcome['reason']}.",
-            f"Model in use: {shelf.release.current or 'none'}. Files since the last run: {came}.",
+            f"Model in use: {registry.release.current or 'none'}. Files since the last run: {came}.",
         ],
         emphasis=True,
     )

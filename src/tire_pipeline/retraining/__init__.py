@@ -6,7 +6,7 @@ from tire_pipeline.retraining.held_out import held_out_rows
 from tire_pipeline.retraining.ingest import Store, ingest
 from tire_pipeline.retraining.manifest import Manifest, ManifestEntry
 from tire_pipeline.retraining.model import CategoryModel, train_model
-from tire_pipeline.retraining.release import Judged, Release, Shelf, judge, roll_back
+from tire_pipeline.retraining.release import Judged, ModelRegistry, Release, judge, roll_back
 from tire_pipeline.retraining.scan import FolderDifference, Look, difference, look_at, settled_difference
 
 __all__ = [
@@ -17,8 +17,8 @@ __all__ = [
     "Look",
     "Manifest",
     "ManifestEntry",
+    "ModelRegistry",
     "Release",
-    "Shelf",
     "Store",
     "compare_models",
     "difference",

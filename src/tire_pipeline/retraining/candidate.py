@@ -20,7 +20,7 @@ from tire_pipeline.representations.encoded_tires import RepresentParameters, unf
 from tire_pipeline.retraining import (
     CategoryModel,
     Judged,
-    Shelf,
+    ModelRegistry,
     Store,
     compare_models,
     drift_of_features,
@@ -138,18 +138,18 @@ def train_candidate(
 
 
 def compare(
-    candidate: CategoryModel, shelf: Shelf, held_out: pd.DataFrame, parameters: RetrainParameters
+    candidate: CategoryModel, registry: ModelRegistry, held_out: pd.DataFrame, parameters: RetrainParameters
 ) -> pd.DataFrame:
     """Judge candidate and released model on the same held-out tires."""
-    check_split(shelf.release, parameters.split)
-    return compare_models(candidate, shelf.model, held_out)
+    check_split(registry.release, parameters.split)
+    return compare_models(candidate, registry.model, held_out)
 
 
 def measure_drift(
-    candidate: CategoryModel, normalized: pd.DataFrame, store: Store, shelf: Shelf
+    candidate: CategoryModel, normalized: pd.DataFrame, store: Store, registry: ModelRegistry
 ) -> pd.DataFrame:
     """Drift of the files that came since the last candidate was judged, per category and feature."""
-    since = shelf.release.judged.sequence if shelf.release.judged else store.manifest.sequence
+    since = registry.release.judged.sequence if registry.release.judged else store.manifest.sequence
     incoming = normalized["file"].isin(store.manifest.read_after(since)).to_numpy()
     names = list(candidate.representation.feature_names)
     features = pd.DataFrame(candidate.representation.encode(normalized), columns=names)
@@ -158,18 +158,18 @@ def measure_drift(
 
 def decide(
     candidate: CategoryModel,
-    shelf: Shelf,
+    registry: ModelRegistry,
     comparison: pd.DataFrame,
     store: Store,
     parameters: RetrainParameters,
     *settings: Any,
-) -> tuple[Shelf, dict[str, Any]]:
+) -> tuple[ModelRegistry, dict[str, Any]]:
     """Release the candidate if it is not worse.
 
     Parameters
     ----------
     candidate : CategoryModel
-    shelf : Shelf
+    registry : ModelRegistry
     comparison : DataFrame
         From :func:`compare`.
     store : Store
@@ -179,7 +179,7 @@ def decide(
 
     Returns
     -------
-    shelf : Shelf
+    registry : ModelRegistry
     outcome : dict
         ``event, model, reason`` and both balanced accuracies.
     """
@@ -192,11 +192,11 @@ def decide(
     )
     now = datetime.datetime.now(datetime.UTC).isoformat(timespec="milliseconds")
     name = now.replace(":", ".").replace("+00.00", "Z")
-    release = judge(shelf.release, name, judged, better=not_worse(comparison), time=now, figures=figures)
-    if release is shelf.release:
+    release = judge(registry.release, name, judged, better=not_worse(comparison), time=now, figures=figures)
+    if release is registry.release:
         reason = "these files and parameters were judged before"
-        return shelf, {"event": UNCHANGED, "model": release.current, "reason": reason, **figures}
-    return Shelf(release, candidate), dict(release.last_event)
+        return registry, {"event": UNCHANGED, "model": release.current, "reason": reason, **figures}
+    return ModelRegistry(release, candidate), dict(release.last_event)
 
 
 def _digest(*settings: Any) -> str:

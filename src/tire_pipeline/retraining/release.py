@@ -98,7 +98,7 @@ class Release:
 
 
 @dataclass(frozen=True)
-class Shelf:
+class ModelRegistry:
     """The record and the model in use (or the one that shall be).
 
     Attributes

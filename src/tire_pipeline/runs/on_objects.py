@@ -148,7 +148,7 @@ class ObjectLedger:
             beat = b""
         return self._beats.state(note, beat)
 
-    def bury(self, note: Note) -> None:
+    def declare_dead(self, note: Note) -> None:
         """Declare a run dead first, so that it finds out if it is not; then its results go."""
         try:
             self.ticket.data.create(_name(note.number, "over"), b"taken")

@@ -112,7 +112,7 @@ class Ledger(Protocol):
         """Every note with a lower number and whether its run is ALIVE, DEAD or still UNKNOWN."""
         ...
 
-    def bury(self, note: Note) -> None:
+    def declare_dead(self, note: Note) -> None:
         """Take a dead run's results back, unless it has ended meanwhile."""
         ...
 
@@ -148,9 +148,9 @@ class FolderLedger:
         """As :meth:`Watch.look`."""
         return self._watch.look()
 
-    def bury(self, note: Note) -> None:
+    def declare_dead(self, note: Note) -> None:
         """As in :class:`Ledger`."""
-        _bury(self._folder, note)
+        _declare_dead(self._folder, note)
 
     def again(self) -> None:
         """As in :class:`Ledger`."""
@@ -198,7 +198,7 @@ def take_turn(
     while True:
         states = ledger.look()
         for note in (note for note, state in states if state == DEAD):
-            ledger.bury(note)
+            ledger.declare_dead(note)
         living = [n for n, state in states if state == ALIVE and not (n.alongside or ticket.note.alongside)]
         unknown = [note for note, state in states if state == UNKNOWN]
         if not living and not unknown:
@@ -225,7 +225,7 @@ def take_back(data: Path, note: Note) -> None:
             folder.parent.rmdir()  # only if no version is left
 
 
-def _bury(folder: Path, note: Note) -> None:
+def _declare_dead(folder: Path, note: Note) -> None:
     """Take a dead run's note away first, so that it finds out if it is not dead; then its results.
 
     A run that ended while it was being looked at has taken its note away itself: its results stay.

@@ -17,15 +17,15 @@ from tire_pipeline.retraining.release import (
     KEPT_MODELS,
     TO_GO_BACK,
     WITHOUT_ANY_MODEL,
+    ModelRegistry,
     Release,
-    Shelf,
 )
 
 _RECORD = "record.json"
 _NAME = re.compile(r"[0-9A-Za-z][0-9A-Za-z.\-]*").fullmatch
 
 
-class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
+class ReleaseDataset(AbstractDataset[ModelRegistry, ModelRegistry]):
     """A folder with ``record.json`` and ``models/<name>.npz``.
 
     A model is written before the record names it; renaming the record is the single step that puts it in
@@ -56,14 +56,14 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
         self._for_going_back = for_going_back
         self.metadata = metadata
 
-    def load(self) -> Shelf:
-        """The record and the model in use; an empty shelf if nothing was released."""
+    def load(self) -> ModelRegistry:
+        """The record and the model in use; an empty registry if nothing was released."""
         release, _ = self._record()
         if self._for_going_back:
-            return Shelf(release, unusable=self._unusable(release))
+            return ModelRegistry(release, unusable=self._unusable(release))
         if release.current is None:
-            return Shelf(release)
-        return Shelf(release, self._load_model(release.current, release))
+            return ModelRegistry(release)
+        return ModelRegistry(release, self._load_model(release.current, release))
 
     def _load_model(self, name: str, release: Release) -> CategoryModel:
         path = f"{self._path}/{_model(name)}"
@@ -96,7 +96,7 @@ class ReleaseDataset(AbstractDataset[Shelf, Shelf]):
                 found[name] = f"damaged ({path})"
         return found
 
-    def save(self, data: Shelf) -> None:
+    def save(self, data: ModelRegistry) -> None:
         """Store the model if it is new, then the record."""
         folder = self._files
         with held(folder):

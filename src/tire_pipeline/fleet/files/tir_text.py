@@ -1,4 +1,4 @@
-"""The ``.tir`` text of a measurement, in each manufacturer's own hand."""
+"""The ``.tir`` text of a measurement, in each manufacturer's own style."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ _REMARKS: dict[str, str] = {
 
 
 @dataclass(frozen=True)
-class Hand:
+class FileStyle:
     """How a manufacturer writes.
 
     Attributes
@@ -130,12 +130,12 @@ class Hand:
     name: str = "tyre_%06d.tir"
 
 
-HANDS: dict[str, Hand] = {
-    "A": Hand(
+FILE_STYLES: dict[str, FileStyle] = {
+    "A": FileStyle(
         header=("Flat belt laboratory", "Date of test: %(date)s", "Fit: all coefficients"),
         name="A_%05d.tir",
     ),
-    "B": Hand(
+    "B": FileStyle(
         header=("DRUM TEST BENCH  2.5 m", "processed %(date)s", 'operator "night shift'),
         newline="\r\n",
         millimetres=True,
@@ -143,7 +143,7 @@ HANDS: dict[str, Hand] = {
         remarks=False,
         name="drum_%05d.tir",
     ),
-    "C": Hand(
+    "C": FileStyle(
         header=("Measurement %(date)s = belt, one direction",),
         lower_case=True,
         comment="!",
@@ -152,13 +152,13 @@ HANDS: dict[str, Hand] = {
         shape_table=False,
         name="c%05d_mf52.tir",
     ),
-    "D": Hand(
+    "D": FileStyle(
         header=("Tyre property file for MF-Tyre 5.2", "Test date %(date)s", "Surface: asphalt replica"),
         fittyp="6",
         number="%.5E",
         name="D-%06d.tir",
     ),
-    "E": Hand(
+    "E": FileStyle(
         header=("trailer, proving ground, %(date)s",),
         fittyp="21",
         tabs=True,
@@ -168,7 +168,7 @@ HANDS: dict[str, Hand] = {
         drops_empty=True,
         name="trailer_%06d.tir",
     ),
-    "F": Hand(
+    "F": FileStyle(
         header=("internal drum", "DATE : %(date)s"),
         fittyp=None,
         degrees=True,
@@ -176,12 +176,12 @@ HANDS: dict[str, Hand] = {
         name="F%04d.tir",
     ),
 }
-_TINY_HANDS = {"G": "A", "H": "B", "I": "C", "J": "D", "K": "F"}
+_TINY_STYLES = {"G": "A", "H": "B", "I": "C", "J": "D", "K": "F"}
 
 
-def hand_of(category: str) -> Hand:
-    """How a category writes; the tiny ones copy a large one's hand."""
-    return HANDS[_TINY_HANDS.get(category, category)]
+def style_of(category: str) -> FileStyle:
+    """How a category writes; the tiny ones copy a large one's style."""
+    return FILE_STYLES[_TINY_STYLES.get(category, category)]
 
 
 class Template:
@@ -189,18 +189,18 @@ class Template:
 
     Parameters
     ----------
-    hand : Hand
+    style : FileStyle
     compound : bool
         Also write ``COMPOUND_CLASS``.
     """
 
-    def __init__(self, hand: Hand, compound: bool) -> None:
-        self.hand = hand
+    def __init__(self, style: FileStyle, compound: bool) -> None:
+        self.style = style
         self.keys: list[str] = []
-        lines = [*(f"{hand.comment} {line}" for line in hand.header)]
+        lines = [*(f"{style.comment} {line}" for line in style.header)]
         lines += self._head(compound)
         lines += self._numbers()
-        self.text = hand.newline.join(lines) + hand.newline
+        self.text = style.newline.join(lines) + style.newline
 
     def render(self, values: dict[str, float], words: dict[str, str], without: str = "") -> str:
         """Fill in one file.
@@ -219,59 +219,59 @@ class Template:
         str
             With the manufacturer's line ends.
         """
-        hand = self.hand
+        style = self.style
         filled: dict[str, str] = dict(words)
         for key in self.keys:
             filled[key] = self._number(key, values[key])
         if without:
             filled[without] = ""
         text = self.text % filled
-        if without and hand.drops_empty:
-            key = without.lower() if hand.lower_case else without
-            lines = text.split(hand.newline)
-            text = hand.newline.join(line for line in lines if line.split("=")[0].strip() != key)
+        if without and style.drops_empty:
+            key = without.lower() if style.lower_case else without
+            lines = text.split(style.newline)
+            text = style.newline.join(line for line in lines if line.split("=")[0].strip() != key)
         return text
 
     def _number(self, key: str, value: float) -> str:
-        if key in _LENGTHS and self.hand.millimetres:
+        if key in _LENGTHS and self.style.millimetres:
             return f"{value * 1000.0:.10g}"
-        if key in _PER_LENGTH and self.hand.millimetres:
+        if key in _PER_LENGTH and self.style.millimetres:
             return f"{value / 1000.0:.10g}"
-        if key in _ANGLES and self.hand.degrees:
+        if key in _ANGLES and self.style.degrees:
             return f"{value * 57.29577951308232:.8g}"
-        if key in _PRESSURES and self.hand.bar:
+        if key in _PRESSURES and self.style.bar:
             return f"{value / 1e5:.8g}"
-        return self.hand.number % value if key in _COEFFICIENTS else f"{value:.8g}"
+        return self.style.number % value if key in _COEFFICIENTS else f"{value:.8g}"
 
     def _line(self, key: str, value: str) -> str:
-        hand = self.hand
-        shown = key.lower() if hand.lower_case else key
-        gap = "\t\t" if hand.tabs else " " * max(1, 25 - len(shown))
-        remark = f"{hand.comment}{_REMARKS[key]}" if hand.remarks and key in _REMARKS else ""
+        style = self.style
+        shown = key.lower() if style.lower_case else key
+        gap = "\t\t" if style.tabs else " " * max(1, 25 - len(shown))
+        remark = f"{style.comment}{_REMARKS[key]}" if style.remarks and key in _REMARKS else ""
         return f"{shown}{gap}= {value}" + (f"   {remark}" if remark else "")
 
     def _section(self, name: str) -> list[str]:
         title = name.lower().replace("_", " ")
-        return [self.hand.comment + title.rjust(70, "-"), f"[{name}]"]
+        return [self.style.comment + title.rjust(70, "-"), f"[{name}]"]
 
     def _place(self, key: str) -> str:
         self.keys.append(key)
         return self._line(key, f"%({key})s")
 
     def _head(self, compound: bool) -> list[str]:
-        hand, line = self.hand, self._line
+        style, line = self.style, self._line
         lines = [*self._section("MDI_HEADER")]
         lines += [line("FILE_TYPE", "'tir'"), line("FILE_VERSION", "3.0")]
         lines += [line("FILE_FORMAT", "'ASCII'"), *self._section("UNITS")]
-        lines += [line("LENGTH", "'mm'" if hand.millimetres else "'meter'")]
+        lines += [line("LENGTH", "'mm'" if style.millimetres else "'meter'")]
         lines += [line("FORCE", "'newton'")]
-        lines += [line("ANGLE", "'degrees'" if hand.degrees else "'radians'")]
+        lines += [line("ANGLE", "'degrees'" if style.degrees else "'radians'")]
         lines += [line("MASS", "'kg'"), line("TIME", "'second'")]
-        if hand.bar:
+        if style.bar:
             lines += [line("PRESSURE", "'bar'")]
         lines += [*self._section("MODEL"), line("PROPERTY_FILE_FORMAT", "'MF-TYRE'")]
-        if hand.fittyp:
-            lines += [line("FITTYP", hand.fittyp)]
+        if style.fittyp:
+            lines += [line("FITTYP", style.fittyp)]
         lines += [line("TYPE", "'CAR'"), line("TYRESIDE", "'LEFT'"), line("USE_MODE", "14")]
         if compound:
             lines += [line("COMPOUND_CLASS", "'%(compound)s'")]
@@ -282,7 +282,7 @@ class Template:
         for name, keys in _PLAIN_SECTIONS.items():
             lines += self._section(name)
             lines += [self._place(key) for key in keys]
-            if name == "DIMENSION" and self.hand.shape_table:
+            if name == "DIMENSION" and self.style.shape_table:
                 lines += [*self._section("SHAPE"), "{radial width}"]
                 lines += [" 1.0    0.0", " 1.0    0.4", " 1.0    0.9", " 0.9    1.0"]
         lines += self._section("SCALING_COEFFICIENTS")

@@ -14,7 +14,7 @@ from threadpoolctl import threadpool_limits
 from tire_pipeline.magic_formula.fitting.joint import fit_together
 from tire_pipeline.magic_formula.fitting.report.result import FitResult
 from tire_pipeline.magic_formula.fitting.report.statistics import relative_rms, residual_table
-from tire_pipeline.magic_formula.fitting.report.verdict import PoorFitWarning, doubts_about
+from tire_pipeline.magic_formula.fitting.report.verdict import PoorFitWarning, poor_outputs
 from tire_pipeline.magic_formula.fitting.setup import given
 from tire_pipeline.magic_formula.fitting.setup.stages import STAGES, Stage
 from tire_pipeline.magic_formula.fitting.setup.typical import FEW_POINTS
@@ -129,7 +129,7 @@ def fit_magic_formula(
         )
     table, shares = residual_table(model, points, forces), relative_rms(model, points, forces)
     measured = pd.DataFrame({**points, **forces})
-    poor = doubts_about(model, points, forces, shares, report.fitted, start)
+    poor = poor_outputs(model, points, forces, shares, report.fitted, start)
     for output, text in poor.items():
         warnings.warn(f"{output}: {text}", PoorFitWarning, stacklevel=2)
     return FitResult(

@@ -86,7 +86,7 @@ def repair(
 
 
 def open_axes(
-    tire: Any, arrays: Mapping[str, Array], findings: Iterable[Finding], doubt: str
+    tire: Any, arrays: Mapping[str, Array], findings: Iterable[Finding], against: str
 ) -> Question | None:
     """Return what is open about the axes of a recording.
 
@@ -96,7 +96,7 @@ def open_axes(
     arrays : mapping of ndarray, shape (n,)
         Channels as they are used.
     findings : iterable of Finding
-    doubt : str
+    against : str
         What the reader saw in the file that speaks against the axes it was read in.
     """
     signs = [f for f in findings if f.axes and f.channel != "normal_load"]
@@ -104,9 +104,9 @@ def open_axes(
         said = "; ".join(f.text for f in signs)
         return Question(f"the recording agrees with the model only in other axes: {said}", _READ_ANEW)
     some = {n: a[:: max(1, a.size // 4000)] for n, a in arrays.items()}
-    if doubt and not excludes_sae(some, partial(_run, tire)):
+    if against and not excludes_sae(some, partial(_run, tire)):
         both = "the forces do not tell whether slip_angle and fy have the other sign too"
-        return Question(f"{doubt}, and {both}", _READ_ANEW)
+        return Question(f"{against}, and {both}", _READ_ANEW)
     return None
 
 

@@ -183,9 +183,9 @@ def _cause(effect: EffectReport, ranges: Ranges) -> str:
     """The effect, what cannot be excluded instead of it, and when it shows if that is part of the time."""
     names = [effect.title, *(catalogue()[a].title for a in effect.alternatives)]
     stretches = _stretches(effect, ranges)
-    doubt = "this recording cannot tell them apart" if effect.alternatives else ""
+    apart = "this recording cannot tell them apart" if effect.alternatives else ""
     seen = f"seen {stretches}" if stretches else ""
-    said = "; ".join(filter(None, [seen, doubt]))
+    said = "; ".join(filter(None, [seen, apart]))
     return f"{' or '.join(names)} ({said})" if said else names[0]
 
 

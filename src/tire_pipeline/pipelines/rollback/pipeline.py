@@ -4,15 +4,15 @@ import datetime
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.retraining import Shelf, roll_back
+from tire_pipeline.retraining import ModelRegistry, roll_back
 
 
-def restore_previous(shelf: Shelf) -> Shelf:
+def restore_previous(registry: ModelRegistry) -> ModelRegistry:
     """Put the last earlier model back whose file is whole, and say so."""
     now = datetime.datetime.now(datetime.UTC).isoformat(timespec="milliseconds")
-    release = roll_back(shelf.release, time=now, unusable=shelf.unusable)
-    print(f"model in use: {release.current} ({shelf.release.current} taken back)")
-    return Shelf(release)
+    release = roll_back(registry.release, time=now, unusable=registry.unusable)
+    print(f"model in use: {release.current} ({registry.release.current} taken back)")
+    return ModelRegistry(release)
 
 
 def create_pipeline(**_: object) -> Pipeline:

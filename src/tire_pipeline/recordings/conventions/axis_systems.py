@@ -48,7 +48,7 @@ def to_iso_w(
     -------
     said : str
         In which axes the channels are taken to be, and who says so.
-    doubt : str
+    against : str
         What in the file speaks against axes that were assumed; "" if nothing does.
 
     Raises
@@ -79,10 +79,10 @@ def to_iso_w(
         return f"{axes} axes, as stated", ""
     if systems and "?" not in systems.values():
         return "axes by the names of the channels (TYDEX)", ""
-    doubt = "Fz is negative throughout in the file, as in SAE axes" if mirrored else ""
+    against = "Fz is negative throughout in the file, as in SAE axes" if mirrored else ""
     return "ISO W axes, which nobody has stated" + (
-        f" ({doubt}; only Fz was mirrored)" if doubt else ""
-    ), doubt
+        f" ({against}; only Fz was mirrored)" if against else ""
+    ), against
 
 
 def _system(name: str) -> str:

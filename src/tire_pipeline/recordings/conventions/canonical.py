@@ -89,7 +89,7 @@ def canonical_frame(
             todo="name them with names={'their name': 'slip_angle', ...}",
         )
     frame = _ordered(columns)
-    axes_said, doubt = to_iso_w(frame, origin, raw.constants, axes, notes, conversions, source)
+    axes_said, against = to_iso_w(frame, origin, raw.constants, axes, notes, conversions, source)
     assumed.insert(0, axes_said)
     frame, repeats = _repeats(frame, notes)
     frame = frame.reset_index(drop=True)
@@ -105,7 +105,7 @@ def canonical_frame(
         "comments": raw.comments,
         "notes": notes,
         "assumed": assumed,
-        "axes_doubt": doubt,
+        "axes_doubt": against,
     }
     return frame
 

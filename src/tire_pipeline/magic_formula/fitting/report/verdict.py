@@ -30,7 +30,7 @@ class PoorFitWarning(UserWarning):
     """A fit leaves more than a tenth of the largest force, or its force falls with slip."""
 
 
-def doubts_about(
+def poor_outputs(
     model: TireModel,
     points: Mapping[str, np.ndarray],
     forces: Mapping[str, np.ndarray],
