@@ -71,6 +71,26 @@ class Prepared:
         return "" if self.question is None else self.question.verdict
 
 
+def _on_time(time: Array | None) -> list[str]:
+    """What is to be said of the time from sample to sample."""
+    if time is None:
+        return [
+            "time is not recorded: the rows are taken as steady points, a channel that stuck would not show"
+        ]
+    step = float(np.nanmedian(np.diff(time)))
+    if step > _LONG_STEP:
+        return [f"there are {step:.3g} s from sample to sample; if that is wrong, the unit of time is"]
+    return []
+
+
+def _check_what_is_left(left: int, out: int) -> None:
+    if left < LEAST_POINTS:
+        raise RecordingError(
+            f"after taking out {out} samples with a stuck or clipped channel only {left} are left",
+            todo="record again",
+        )
+
+
 def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     """Check a recording, repair what is exactly wrong, and bring it to arrays.
 
@@ -91,15 +111,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     time = _time(arrays)
     if time is not None:
         _bridge(arrays, notes)
-        if float(np.nanmedian(np.diff(time))) > _LONG_STEP:
-            notes.append(
-                f"there are {float(np.nanmedian(np.diff(time))):.3g} s from sample to sample; if that is "
-                "wrong, the unit of time is"
-            )
-    else:
-        notes.append(
-            "time is not recorded: the rows are taken as steady points, a channel that stuck would not show"
-        )
+    notes += _on_time(time)
     rows = _usable(arrays, time, notes)
     arrays = {n: a[rows] for n, a in arrays.items()}
     time = None if time is None else time[rows]
@@ -114,12 +126,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     if bad.any():
         rows, arrays = rows[~bad], {n: a[~bad] for n, a in arrays.items()}
         time = None if time is None else time[~bad]
-        if rows.size < LEAST_POINTS:
-            raise RecordingError(
-                f"after taking out {int(bad.sum())} samples with a stuck or clipped channel only "
-                f"{rows.size} are left",
-                todo="record again",
-            )
+        _check_what_is_left(rows.size, int(bad.sum()))
     _overlap(tire, arrays)
     _dead_forces(arrays, notes)
     question, driven = judge(tire, arrays, time, notes)

@@ -88,24 +88,12 @@ def assembled(it: Explained) -> MismatchReport:
     before = residual(data, [])
     located = [] if silent else locate(data, before, analysis.noise, analysis.block)
     following = _following(it, verdict, plain)
-    question = prepared.question
-    told = (
+    ranges, all_over = _ranges(analysis), everywhere(data, before, located)
+    parts = [
+        "" if prepared.question is None else prepared.question.in_words,
         ""
         if prepared.stopped
-        else summary(
-            verdict,
-            effects,
-            fit,
-            located,
-            left,
-            following,
-            _ranges(analysis),
-            everywhere(data, before, located),
-        )
-    )
-    parts = [
-        "" if question is None else question.in_words,
-        told,
+        else summary(verdict, effects, fit, located, left, following, ranges, all_over),
         on_withheld(withheld),
         on_unnamed(unnamed, verdict),
     ]
