@@ -18,14 +18,19 @@ class OutputFit:
     Parameters
     ----------
     noise_floor : float
+        RMS of the noise of the recording.
     rms_before, rms_after : float
+        RMS that the model leaves as it was, and with what was found.
     rms_after_low, rms_after_high : float
-        95% interval by resampling sweeps.
+        95% interval of ``rms_after`` by resampling sweeps.
     recovered : float
         Share of the squared error above the noise floor that is gone, within -1 and 1; NaN where next to
         nothing is above it.
     held_out_condition : str
-        The held-out condition, and ``rms_condition_before``, ``rms_condition_after``.
+        The condition, such as the highest load, whose sweeps the parameters were not fitted to; "" if there
+        is none.
+    rms_condition_before, rms_condition_after : float
+        RMS in that condition; NaN without one.
     """
 
     noise_floor: float

@@ -21,6 +21,8 @@ class EffectReport:
     ----------
     name, kind : str
         ``kind`` is ``"physics"`` or ``"artefact"``.
+    title : str
+        The name in words.
     alternatives : tuple of str
         Names that the data cannot exclude.
     confidence : float
@@ -34,6 +36,7 @@ class EffectReport:
     share : float
         Share of the held-out mismatch that it removes.
     equation, source : str
+        What the effect does to the tire or its recording, and where that is published.
     parameters : dict
         Name -> (value, standard error, unit).
     evidence : dict
@@ -80,6 +83,7 @@ class HeldOutFit:
     Parameters
     ----------
     recording : str
+        Its name.
     samples : int
         How many had numbers in all channels.
     errors : dict of str to PredictionError

@@ -103,6 +103,7 @@ class TirFile:
     mark : bytes
         Byte order mark, if any.
     path : str, optional
+        Where it was read, for messages.
 
     Notes
     -----
