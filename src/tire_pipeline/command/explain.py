@@ -12,7 +12,7 @@ from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 from tire_pipeline.errors import RecordingError
 
 if TYPE_CHECKING:
-    from tire_pipeline.mismatch import MismatchReport
+    from tire_pipeline.mismatch import EffectReport, MismatchReport
 
 NO_TIRE = "-"
 
@@ -77,6 +77,14 @@ def _among(hold_out: Path, runs: tuple[Path, ...]) -> Path:
     return hold_out
 
 
+def _rows(effect: EffectReport) -> list[tuple[str, ...]]:
+    """One row for each parameter of an effect, or one without."""
+    from tire_pipeline.mismatch.effects.amounts import amount_with_error
+
+    sizes = [(name.replace("_", " "), *amount_with_error(*size)) for name, size in effect.parameters.items()]
+    return [(effect.name, effect.kind, *row) for row in sizes or [("", "", "")]]
+
+
 def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> CommandOutcome:
     errors = Grid(
         ("output", "noise", "RMS before", "RMS after", "95% interval", "unit"),
@@ -97,12 +105,8 @@ def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Command
     if report.effects:
         grids.append(
             Grid(
-                ("effect", "kind", "parameter", "value", "standard error", "unit"),
-                [
-                    (effect.name, effect.kind, name, float(value), float(error), unit)
-                    for effect in report.effects
-                    for name, (value, error, unit) in (effect.parameters or {"": (0.0, 0.0, "")}).items()
-                ],
+                ("effect", "kind", "parameter", "value", "standard error"),
+                [row for effect in report.effects for row in _rows(effect)],
                 "Found",
             )
         )

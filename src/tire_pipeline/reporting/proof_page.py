@@ -153,7 +153,7 @@ def _drawn(scores: pd.DataFrame, what: str) -> list[Part]:
     axis.set_xlabel("share of the cases, or overlap")
     figure.legend(loc="outside upper center", ncols=5, fontsize=8)
     caption = (
-        f"{what}: our score beside the baselines. The black bar is the goal: ours should lie left of it "
+        f"{what}: our score beside the baselines. The upright bar is the goal: ours should lie left of it "
         "where the goal is an upper bound (≤), and right of it where it is a lower one (≥)."
     )
     return [Figure(figure, caption)]

@@ -107,7 +107,7 @@ def _explained(report: pd.DataFrame, parameters: TranslateParameters) -> list[st
         "supplier: its folder is no known category, so nothing can be said of its "
         "bias. Refused: it cannot be read or translated, or lies beyond what was learned from.",
         f"Only translated files are written, none beyond {reach}. Errors are RMS.",
-        f"Method: {parameters.translator}. Tires that several organisations measured were "
+        f"Method: {parameters.translator.replace('_', ' ')}. Tires that several organisations measured were "
         + ("used." if parameters.pairs else "not used."),
     ]
     if parameters.classify:

@@ -100,7 +100,7 @@ def translation_page(
             heading="Every translator at the calibrated bias",
         ),
         Table(
-            check_goals(hidden).assign(translator=lambda t: t["translator"].str.replace("_", " ")),
+            check_goals(hidden).assign(translator=lambda t: t["translator"].map(_words)),
             "Goals were fixed beforehand. Oracle: the same of a method that was given the hidden truth.",
             heading="Goals, met and missed",
         ),
@@ -127,16 +127,21 @@ def translation_page(
     return render_page("How well the translators do", parts, pages=HOME, footer=note)
 
 
+def _words(translator: str) -> str:
+    """Return the name of a translator as it stands in a sentence."""
+    return translator.replace("_", " ")
+
+
 def _summary(hidden: pd.DataFrame) -> list[str]:
     mixed = hidden[hidden["translator"].isin(MIXED)]
     largest = mixed[list(RATIOS)].max(axis=1)
     row = mixed.loc[largest.idxmax()]
     fleets = len(hidden[["kind", "bias_size", "seed"]].drop_duplicates())
     harm = "No mixed model does harm" if largest.max() <= 1.0 else "A mixed model does harm"
-    where = f"{row['translator']}, {row['kind']}, bias size {row['bias_size']:g}, seed {row['seed']}"
+    where = f"{_words(row['translator'])}, {row['kind']}, bias size {row['bias_size']:g}, seed {row['seed']}"
     left = np.sqrt(hidden[hidden["bias_size"] == 1.0].groupby("translator")["ratio_forces"].mean())
     best = "paired_mixed_model" if "paired_mixed_model" in left else MIXED[0]
-    name = best.replace("_", " ")
+    name = _words(best)
     floor = (
         f", where the target's second measurement differs by {left['floor']:.0%}" if "floor" in left else ""
     )
@@ -230,6 +235,7 @@ def _bands_and_refusals(hidden: pd.DataFrame) -> pd.DataFrame:
     }
     own = hidden[hidden["translator"].isin(MIXED)]
     rows = own.groupby(["kind", "bias_size", "translator"])[list(names)].mean().reset_index()
+    rows["translator"] = rows["translator"].map(_words)
     return rows.rename(columns={**names, "bias_size": "bias size"}).round(3)
 
 
