@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import FORCE_CHANNELS
+from tire_pipeline.channels import FORCE_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.channels import CANONICAL, FURTHER
 
@@ -109,7 +109,7 @@ def _common(recordings: Mapping[str, pd.DataFrame], notes: list[str]) -> list[st
     return common
 
 
-_NEEDED = {"a force": ("fx", "fy"), "normal_load": ("normal_load",)}
+_NEEDED = {"a force": TANGENTIAL_FORCES, "normal_load": ("normal_load",)}
 
 
 def _have(names: list[str]) -> str:

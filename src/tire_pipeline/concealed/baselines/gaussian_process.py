@@ -8,12 +8,12 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import minimize
 
-from tire_pipeline.channels import POINT_CHANNELS
+from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.concealed.baselines.report import BaselineReport, fit_entry
 from tire_pipeline.concealed.cases.clean_run import residual
 from tire_pipeline.magic_formula import TireModel
 
-_INPUTS = (*POINT_CHANNELS, "tread_temperature", "turn_slip")
+_INPUTS = (*OPERATING_CHANNELS, "turn_slip")
 
 
 def _search(objective, start, bounds):  # type: ignore[no-untyped-def]

@@ -8,18 +8,17 @@ import numpy as np
 import pandas as pd
 from sklearn.ensemble import HistGradientBoostingRegressor
 
-from tire_pipeline.channels import POINT_CHANNELS
+from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.concealed.baselines import explain_gaussian_process, explain_sindy
 from tire_pipeline.concealed.cases.clean_run import model_forces, residual
 from tire_pipeline.magic_formula import TireModel
 
 Predict = Callable[[pd.DataFrame], pd.DataFrame]
-_INPUTS = (*POINT_CHANNELS, "tread_temperature")
 
 
 def boosted(tire: TireModel, recording: pd.DataFrame) -> Predict:
     """Fit gradient boosting (100 trees of 15 leaves) to the residual of both forces over all channels."""
-    channels = [c for c in _INPUTS if c in recording]
+    channels = [c for c in OPERATING_CHANNELS if c in recording]
     left, x = residual(tire, recording), recording[channels].to_numpy()
     trees = [
         HistGradientBoostingRegressor(max_iter=100, max_leaf_nodes=15, random_state=0).fit(x, left[:, i])

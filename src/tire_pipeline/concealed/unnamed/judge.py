@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.concealed.cases.clean_run import model_forces
 from tire_pipeline.concealed.open_world.mechanism import Mechanism
 from tire_pipeline.concealed.unnamed.cases import OpenCase
@@ -15,7 +16,6 @@ from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, SymbolTable, evaluate, parse
 
-_FORCES = ("fx", "fy")
 _TOGETHER = 0.95
 """Correlation (size) from which on two channels count as moved together by the schedule."""
 _POINTS = 200
@@ -28,7 +28,7 @@ _SLOW = ("camber", "normal_load", "speed", "pressure", "tread_temperature", "tim
 
 def squared(case: OpenCase, predicted: pd.DataFrame) -> dict[str, float]:
     """Mean squared error on the held-out rows, by force, N^2."""
-    return {f: float(np.mean((case.held_out[f] - predicted[f]) ** 2)) for f in _FORCES}
+    return {f: float(np.mean((case.held_out[f] - predicted[f]) ** 2)) for f in TANGENTIAL_FORCES}
 
 
 def removed(
@@ -38,14 +38,14 @@ def removed(
 
     Both forces together, each over its error before. NaN where the true change removes too little to judge.
     """
-    total = float(sum(1.0 - oracle[f] / before[f] for f in _FORCES))
-    gone = float(sum(1.0 - after[f] / before[f] for f in _FORCES))
+    total = float(sum(1.0 - oracle[f] / before[f] for f in TANGENTIAL_FORCES))
+    gone = float(sum(1.0 - after[f] / before[f] for f in TANGENTIAL_FORCES))
     return (gone / total if total >= _SHOWS else float("nan")), total
 
 
 def oracle_of(case: OpenCase) -> tuple[dict[str, float], dict[str, float]]:
     """Squared errors of the model as it came, and with the true change put in."""
-    plain = pd.DataFrame(model_forces(case.tire, case.held_out), columns=list(_FORCES))
+    plain = pd.DataFrame(model_forces(case.tire, case.held_out), columns=list(TANGENTIAL_FORCES))
     change = (case.held_with - case.held_without)[:, :2]
     return squared(case, plain), squared(case, plain + change)
 
@@ -74,7 +74,7 @@ def equation_right(found: UnnamedReport, mechanism: Mechanism, nominal: Any) -> 
     true, ours = _points(rng, nominal, found)
     first = [found.physics.equations] if found.physics is not None else []
     for equations in [*first, *(a.equations for a in found.alternatives)][:3]:
-        acting = [f for f in _FORCES if f in mechanism.expressions]
+        acting = [f for f in TANGENTIAL_FORCES if f in mechanism.expressions]
         if acting and all(
             f in equations and _alike(equations[f], mechanism.expressions[f], true, ours) for f in acting
         ):
@@ -93,7 +93,7 @@ def _points(
     own = found.physics.nominal if found.physics is not None else nominal
     at = {"s": between(-0.15, 0.15), "k": between(-0.1, 0.1), "g": between(-0.05, 0.05)}
     load, speed, pressure, warm = between(0.4, 2.0), between(0.5, 1.7), between(0.8, 1.2), between(-1.0, 1.0)
-    forces = {f: between(-5000.0, 5000.0) for f in _FORCES}
+    forces = {f: between(-5000.0, 5000.0) for f in TANGENTIAL_FORCES}
     true = {
         **at,
         **forces,
@@ -167,8 +167,8 @@ def judged(case: OpenCase, mechanisms: Sequence[Mechanism], report: MismatchRepo
         and equation_right(found, mechanisms[0], case.nominal),
         "possible": possible,
         "removed": share,
-        "worse": any(after[f] > before[f] * (1.0 + 1e-9) for f in _FORCES),
-        "oracle_worse": any(oracle[f] > before[f] * (1.0 + 1e-9) for f in _FORCES),
+        "worse": any(after[f] > before[f] * (1.0 + 1e-9) for f in TANGENTIAL_FORCES),
+        "oracle_worse": any(oracle[f] > before[f] * (1.0 + 1e-9) for f in TANGENTIAL_FORCES),
         "rms_before": float(np.sqrt(before["fy"])),
         "rms_after": float(np.sqrt(after["fy"])),
         "rms_oracle": float(np.sqrt(oracle["fy"])),

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.channels import ANGLE_CHANNELS
+from tire_pipeline.channels import ANGLE_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.inputs import LOOKS_LIKE_DEGREES
 
@@ -65,7 +65,7 @@ def poor_outputs(
         units = _units(output, points, forces[output])
         if units and not wrong:
             wrong.append("no tire is like that")
-        if output in ("fx", "fy") and _falls(model, output, points, start):
+        if output in TANGENTIAL_FORCES and _falls(model, output, points, start):
             wrong.append(f"the force falls with {SLIP_OF[output]} in the tire's own convention")
         if wrong:
             found[output] = f"{'; '.join(wrong)}. {units or _reason(output, points, forces[output], start)}"
@@ -95,7 +95,7 @@ def _units(output: str, points: Mapping[str, np.ndarray], measured: np.ndarray) 
     if np.abs(points["slip_ratio"]).max() > _PERCENT:
         return "Likely reason: units; slip_ratio looks like percent, it has to be a ratio."
     friction = float(np.nanquantile(np.abs(measured) / points["normal_load"], 0.98))
-    if output in ("fx", "fy") and friction > _MOST_FRICTION:
+    if output in TANGENTIAL_FORCES and friction > _MOST_FRICTION:
         return (
             f"Likely reason: units; {output} reaches {friction:.3g} times the load, "
             f"look at the units of {output} and normal_load (newtons)."
@@ -112,7 +112,7 @@ def _reason(
     slip, load, force = points[name][good], points["normal_load"][good], measured[good]
     slopes = _slopes(slip, force, load, points["camber"][good])
     own = 1.0 if output == "fx" else None if start is None else _sign_of(output, start)
-    if output in ("fx", "fy") and slopes.size and own is not None and (own * slopes < 0.0).all():
+    if output in TANGENTIAL_FORCES and slopes.size and own is not None and (own * slopes < 0.0).all():
         whose = "the start model's" if output == "fy" else "a tire's (braking: negative slip_ratio and fx)"
         return f"Likely reason: axes or signs; {output} over {name} has the other sign than {whose}."
     if (slopes > 0.0).any() and (slopes < 0.0).any():

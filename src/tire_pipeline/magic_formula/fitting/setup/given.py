@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import FORCE_CHANNELS
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.fitting.setup import stages
 from tire_pipeline.magic_formula.fitting.setup.stages import Stage
@@ -21,7 +22,7 @@ def columns(recording: pd.DataFrame) -> tuple[dict[str, np.ndarray], dict[str, n
     """Return the points and the forces at them, both by name, of the rows that are whole."""
     if "normal_load" not in recording:
         raise RecordingError("there is no normal_load", todo="name the load's column normal_load, in newtons")
-    wanted = [name for name in ("fx", "fy", "mx", "my", "mz") if name in recording]
+    wanted = [name for name in FORCE_CHANNELS if name in recording]
     if not wanted:
         raise RecordingError("there is no force or moment to fit", todo="name them fx, fy, mx, my, mz")
     load = recording["normal_load"].to_numpy(dtype=float)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.random import Generator
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.fitting.setup.stages import BOUNDS, PRESSURE_BOUNDS, Stage
 from tire_pipeline.magic_formula.model import TireModel
 
@@ -48,7 +49,7 @@ def first_values(
     first = dict(typical)
     load = here["normal_load"]
     slip = here["slip_ratio" if stage.output == "fx" else "slip_angle"]
-    if stage.title.endswith("pure slip") and stage.output in ("fx", "fy"):
+    if stage.title.endswith("pure slip") and stage.output in TANGENTIAL_FORCES:
         friction = float(np.quantile(np.abs(measured) / load, 0.98))
         letter = stage.output[1].upper()
         first[f"PD{letter}1"] = min(max(1.05 * friction, 0.05), 3.5)
