@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 
 import numpy as np
@@ -86,6 +86,43 @@ class Outcome:
     bounds: Bounds
 
 
+@dataclass(frozen=True)
+class _Setup:
+    """A stage's problem over some of its coefficients, and where its searches start."""
+
+    stage: Stage
+    names: Sequence[str]
+    model: TireModel
+    rows: list[np.ndarray]
+    measured: np.ndarray
+    typical: Mapping[str, float]
+    first: Mapping[str, float]
+    known: Set[str]
+    seeds: Sequence[TireModel]
+    rng: np.random.Generator
+
+    def problem(self, free: Sequence[str]) -> tuple[Problem, Bounds]:
+        """Return the problem over these; the other coefficients keep typical values."""
+        vector = self.model.packed.copy()
+        for name in self.names:
+            vector[INDEX[name]] = self.typical[name]
+        low, high = bounds_of(list(free), self.first)
+        drawn = pull(free, self.typical, (low, high))
+        unseen = np.isin(free, sorted(self.known)) & (low > 0.0)
+        low = np.where(unseen, np.maximum(low, np.minimum(drawn.centre / _LEAST, high)), low)
+        untold = np.isin(free, sorted(self.known & {"PKY4"}))
+        bounds = low, np.where(untold, np.maximum(drawn.centre, _POSITIVE_AT_EVERY_LOAD), high)
+        family, output = self.model.family, self.stage.output
+        return Problem(vector, family, output, free, self.rows, self.measured, drawn), bounds
+
+    def starts(self, problem: Problem, bounds: Bounds, number: int) -> list[np.ndarray]:
+        """Return where searches start: so many that are drawn, and the seeds."""
+        begin = np.array([self.first[n] for n in problem.names])
+        drawn = starting_points(begin, bounds, problem.pull.spread, number, self.rng)
+        more = [[seed.coefficients.get(n, self.typical[n]) for n in problem.names] for seed in self.seeds]
+        return [*drawn, *(np.clip(values, *bounds) for values in more)]
+
+
 def fit_stage(
     stage: Stage,
     names: Sequence[str],
@@ -134,37 +171,19 @@ def fit_stage(
     silent = noise_alone(tuple(names), ranges, model.value("FNOMIN"))
     known = {n for group in closed.values() for n in group}
     rows = [np.ascontiguousarray(here[name]) for name in POINT_CHANNELS]
-
-    def problem_of(free: Sequence[str]) -> tuple[Problem, Bounds]:
-        vector = model.packed.copy()
-        for name in names:
-            vector[INDEX[name]] = typical[name]
-        low, high = bounds_of(list(free), first)
-        drawn = pull(free, typical, (low, high))
-        unseen = np.isin(free, sorted(known)) & (low > 0.0)
-        low = np.where(unseen, np.maximum(low, np.minimum(drawn.centre / _LEAST, high)), low)
-        untold = np.isin(free, sorted(known & {"PKY4"}))
-        bounds = low, np.where(untold, np.maximum(drawn.centre, _POSITIVE_AT_EVERY_LOAD), high)
-        return Problem(vector, model.family, stage.output, free, rows, measured, drawn), bounds
-
-    def points_of(problem: Problem, bounds: Bounds, number: int) -> list[np.ndarray]:
-        begin = np.array([first[n] for n in problem.names])
-        drawn = starting_points(begin, bounds, problem.pull.spread, number, options.rng)
-        more = [[seed.coefficients.get(n, typical[n]) for n in problem.names] for seed in seeds]
-        return [*drawn, *(np.clip(values, *bounds) for values in more)]
-
+    setup = _Setup(stage, names, model, rows, measured, typical, first, known, seeds, options.rng)
     free = [name for name in names if name not in known]
-    problem, bounds = problem_of(free)
-    best = least(problem, bounds, points_of(problem, bounds, options.starts))
+    problem, bounds = setup.problem(free)
+    best = least(problem, bounds, setup.starts(problem, bounds, options.starts))
     reached = lowest = problem.misfit(best)
     exact = _EXACT * float(np.abs(measured).max())
     released: dict[str, list[str]] = {}
     if known - silent and reached > exact and not are_few(problem):
         every = [name for name in names if name not in silent]
-        wider, wide = problem_of(every)
+        wider, wide = setup.problem(every)
         found = dict(zip(free, best, strict=True))
         begin = [np.array([found.get(n, typical[n]) for n in every])]
-        widest = least(wider, wide, [*begin, *points_of(wider, wide, -(-options.starts // 4))])
+        widest = least(wider, wide, [*begin, *setup.starts(wider, wide, -(-options.starts // 4))])
         lowest = min(reached, wider.misfit(widest))
         if reached > (1.0 + 0.5 * SLACK) * lowest or reached > bar:
             released = {reason: [n for n in group if n in every] for reason, group in closed.items()}
