@@ -153,10 +153,11 @@ def test_a_killed_run_is_taken_back_by_the_next(tmp_path, small_fleet):
     ("asked", "said"),
     [
         ("tir_foldr=/x", "there is no parameter 'tir_foldr' -> did you mean 'tir_folder'?"),
-        ("translate.onli=B", "there is no parameter 'onli': did you mean 'only'?"),
+        ("translate.onli=B", "error: translate: there is no parameter 'onli': did you mean 'only'? ->"),
+        ("translate.farthest=-1", "error: translate.farthest: Input should be greater than 0 (given: -1) ->"),
     ],
 )
-def test_an_unknown_parameter_is_an_error_with_the_nearest_name(tmp_path, asked, said):
+def test_a_wrong_parameter_is_one_line_that_names_it(tmp_path, asked, said):
     done = kedro_here(tmp_path, "--pipeline", "translate", "--params", asked)
     assert done.returncode == 1
     assert (done.stdout + done.stderr).count(said) == 1

@@ -18,7 +18,11 @@ _ADVICE = {
     errno.EROFS: "the folder is read-only: choose another, or mount it writable",
 }
 
-_WITHOUT_LINK = re.compile(r"\s*For further information visit https?://\S+")
+_LINK = re.compile(r"\s*For further information visit https?://\S+")
+_SECTION = re.compile(
+    r"- Parameter '(\w+)': Failed to instantiate .* validation errors? for \w+$", re.MULTILINE
+)
+_GIVEN = re.compile(r"\s*\[type=(\w+), input_value=(.*), input_type=\w+\]$")
 
 
 def one_line(error: BaseException) -> str | None:
@@ -47,7 +51,7 @@ def one_line(error: BaseException) -> str | None:
             text = f"{where}{_ADVICE[each.errno]}"
             break
         if isinstance(each, ParameterValidationError):
-            text = f"{_WITHOUT_LINK.sub('', str(each))} -> correct it in conf/base/parameters or --params"
+            text = f"{wrong_parameters(str(each))} -> correct it in conf/base/parameters or --params"
             break
     if text is None:
         outermost = next((each for each in errors if isinstance(each, DatasetError)), None)
@@ -55,6 +59,35 @@ def one_line(error: BaseException) -> str | None:
             return None
         text = _missing(str(outermost))
     return re.sub(r"\s*\n\s*", " | ", f"{prefix}{text}".strip())
+
+
+def wrong_parameters(text: str) -> str:
+    """Say which parameters are wrong, and how, from what Kedro and pydantic say of their models.
+
+    Examples
+    --------
+    >>> wrong_parameters(
+    ...     "Parameter validation failed:\\n- Parameter 'translate': Failed to instantiate T for parameter "
+    ...     "'translate': 1 validation error for T\\nfarthest\\n"
+    ...     "  Input should be greater than 0 [type=greater_than, input_value=-1, input_type=int]"
+    ... )
+    'translate.farthest: Input should be greater than 0 (given: -1)'
+    """
+    _, *sections = _SECTION.split(_LINK.sub("", text))
+    if not sections:
+        return text
+    said = []
+    for name, body in zip(sections[::2], sections[1::2], strict=True):
+        field = ""
+        for line in body.strip("\n").splitlines():
+            if not line.startswith(" "):
+                field = f".{line}"
+                continue
+            given = _GIVEN.search(line)
+            value = f" (given: {given[2]})" if given and given[1] != "value_error" else ""
+            message = _GIVEN.sub("", line).strip().removeprefix("Value error, ")
+            said.append(f"{name}{field}: {message}{value}")
+    return "; ".join(said)
 
 
 def _missing(text: str) -> str:
