@@ -114,6 +114,35 @@ def test_tests_import_public_names_only():
     assert found == set()
 
 
+SHOWN = {"_replace", "_fields", "_asdict", "_repr_html_", "_exit"}
+"""Names of the standard library and of notebooks that are public in spite of the underscore."""
+
+
+def _private(name: str) -> bool:
+    return name.startswith("_") and not name.startswith("__") and name not in SHOWN
+
+
+def _reached(module: ast.Module) -> set[str]:
+    """Private members of other objects that a module reads, or puts something in place of."""
+    found = set()
+    for each in ast.walk(module):
+        if isinstance(each, ast.Attribute) and not (
+            isinstance(each.value, ast.Name) and each.value.id in ("self", "cls")
+        ):
+            found.add(each.attr)
+        if isinstance(each, ast.Call) and ast.unparse(each.func).endswith("setattr"):
+            texts = [str(a.value) for a in each.args if isinstance(a, ast.Constant)]
+            found |= {text.rpartition(".")[2] for text in texts}
+    return {name for name in found if _private(name)}
+
+
+def test_tests_reach_for_no_private_member():
+    tests = Path(__file__).parent
+    modules = {path: ast.parse(path.read_text(encoding="utf-8")) for path in tests.rglob("*.py")}
+    found = {path.relative_to(tests).as_posix(): _reached(module) for path, module in modules.items()}
+    assert {path: names for path, names in found.items() if names} == {}
+
+
 def _written_out(module: ast.Module, names: set[str]) -> bool:
     """Whether a list of these names stands in the module, whatever else is in it."""
     lists = [each for each in ast.walk(module) if isinstance(each, ast.Tuple | ast.List | ast.Set)]
