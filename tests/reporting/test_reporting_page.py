@@ -92,3 +92,11 @@ def test_percentages_stand_on_the_right_with_their_dashes():
     table = Table(frame)
     assert table.heads == [("change", True), ("share", False), ("none", False)]
     assert [[number for _, number in row] for row, _ in table.rows] == [[True, False, False]] * 2
+
+
+def test_a_table_without_rows_says_none_and_nothing_is_a_dash():
+    page = render_page("t", [Table(pd.DataFrame({"file": []}), heading="Files that cannot be read")])
+    assert "<p>None.</p>" in page
+    assert "<table" not in page
+    (row,) = Table(pd.DataFrame({"released": [None]}, dtype=object)).rows
+    assert row[0] == [("–", False)]

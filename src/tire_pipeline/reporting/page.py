@@ -266,6 +266,8 @@ def _decimals(values: Sequence[object], digits: int) -> int | None:
 def _cell(value: object, digits: int, decimals: int | None = None) -> tuple[str, bool]:
     if isinstance(value, bool):
         return ("yes" if value else "no", False)
+    if value is None:
+        return ("–", False)
     if isinstance(value, float):
         if value != value:
             return ("–", True)
