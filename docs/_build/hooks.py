@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,9 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 from mkdocs.config.defaults import MkDocsConfig  # noqa: E402
 from mkdocs.structure.files import File, Files  # noqa: E402
+from mkdocs.structure.pages import Page  # noqa: E402
+
+_ROLE = re.compile(r":(?:func|class|meth|mod|attr|data|exc):<code>[.~]*([\w.]+)</code>")
 
 
 def _reach() -> None:
@@ -54,6 +58,21 @@ def on_config(config: MkDocsConfig, **_: Any) -> MkDocsConfig:
         if "Gallery" in part:
             part["Gallery"] = ["gallery/README.md", *gallery.navigation(ROOT)]
     return config
+
+
+def on_page_content(html: str, page: Page, **_: Any) -> str:
+    """Make links of the names to which docstrings refer, where the page has them."""
+    if page.file.src_uri != "reference/api.md":
+        return html
+    anchors = re.findall(r'id="(tire_pipeline\.[\w.]+)"', html)
+
+    def named(found: re.Match[str]) -> str:
+        *above, last = found[1].split(".")
+        name = f"{above[-1]}.{last}" if above and above[-1][0].isupper() else last
+        at = next((each for each in anchors if each.endswith(f".{name}")), "")
+        return f'<a href="#{at}"><code>{name}</code></a>' if at else f"<code>{found[1]}</code>"
+
+    return _ROLE.sub(named, html)
 
 
 def on_post_build(config: MkDocsConfig, **_: Any) -> None:

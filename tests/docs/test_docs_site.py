@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 import time
@@ -44,6 +45,15 @@ def test_every_page_of_the_site_is_there(site):
     }
     assert written <= made
     assert {"reference/effects.html", "reference/pipelines.html", "reference/api.html"} <= made
+
+
+def test_names_in_docstrings_are_links(site):
+    api = (site / "reference" / "api.html").read_text("utf-8")
+    assert '<a href="#tire_pipeline.tir.write_tir"><code>write_tir</code></a>' in api
+    linked = re.findall(r'<a href="#([^"]+)"><code>', api)
+    assert len(linked) > 10
+    assert all(f'id="{anchor}"' in api for anchor in linked)
+    assert re.findall(r":(?:func|class|meth|mod):", api) == []
 
 
 def test_every_script_of_the_gallery_has_its_picture(site):
