@@ -1,3 +1,3 @@
 """Read, translate and explain tire models: a Kedro project."""
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
