@@ -233,7 +233,8 @@ def check_target(training: pd.DataFrame, target: str) -> None:
     if target not in categories:
         raise DomainError(
             f"no training file is of the target category {target!r}",
-            todo=f"choose one of {', '.join(categories) or 'none: the table is empty'}",
+            todo="train on files of it first, or choose one of "
+            f"{', '.join(categories) or 'none: the table is empty'}",
         )
     if len(categories) < 2:
         raise DomainError(
