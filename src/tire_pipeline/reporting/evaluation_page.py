@@ -134,11 +134,14 @@ def build_report(
 
 
 def _forces(table: pd.DataFrame, references: pd.DataFrame, best: dict[str, Any], target: str) -> Figure:
+    beside = (
+        f", thick as {target} measured. Below, the differences from {target}'s measurement: dashed lines "
+        "should lie near zero"
+    )
     return Figure(
         force_figure(table, references, best),
         f"Lateral force over slip angle at 6 kN: solid as each source measured, dashed as the {best['name']} "
-        f"translated, thick as {target} measured. Below, the differences from {target}'s measurement: dashed "
-        "lines should lie near zero.",
+        f"translated{beside if len(references) else ''}.",
         heading="Force curves",
     )
 

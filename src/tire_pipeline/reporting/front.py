@@ -13,7 +13,7 @@ FRONT = "index.html"
 _TITLE = re.compile(r"<title>(.*?)</title>", re.S | re.I)
 _LEAD = re.compile(r'<div class="main">\s*<p[^>]*>(.*?)</p>', re.S)
 LEADS = (
-    ("report.html", "Evaluation on tires that the target has measured, too"),
+    ("report.html", "The translation, judged"),
     ("translated_files.html", "Your files, translated"),
     ("mismatch.html", "Your recordings"),
 )
@@ -31,7 +31,7 @@ REPORTS = (
             ("learning_curve.png", "Learning curve of the thesis' agent", "kedro run"),
             (
                 "force_curves.png",
-                "Lateral force before and after translation, beside the target's",
+                "Lateral force before and after translation",
                 "kedro run",
             ),
         ),
@@ -121,9 +121,9 @@ def _what_matters(folder: Path) -> list[Text | Links | Picture]:
     curves = _newest(folder / "force_curves.png")
     if curves is not None:
         caption = (
-            "Lateral force over slip angle: solid as each source measured, dashed as translated, thick as "
-            "the target measured. Below, the differences from the target's measurement: dashed lines should "
-            "lie near zero."
+            "Lateral force over slip angle: solid as each source measured, dashed as translated. For tires "
+            "that the target measured, too: thick as it measured, and below the differences from it, where "
+            "dashed lines should lie near zero."
         )
         parts.append(Picture(curves.relative_to(folder).as_posix(), caption))
     return parts
