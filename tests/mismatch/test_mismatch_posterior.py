@@ -150,10 +150,3 @@ def test_what_is_learnt_is_named_and_finite():
     for field in dataclasses.fields(learnt()):
         value = getattr(learnt(), field.name)
         assert np.all(np.isfinite(list(value.values()) if field.name == "background" else [value]))
-
-
-def test_how_many_samples_are_independent_comes_from_the_recording(analyses, cases):
-    """Simulated noise is white: beside coefficients and misfit most samples say something of their own."""
-    for names, analysis in analyses.items():
-        for count in cases[names].unknown.independent.values():
-            assert 0.3 * analysis.data.size < count <= analysis.data.size

@@ -123,15 +123,14 @@ class _ByFold:
     def predicted(self, likelihood: Likelihood, seen: OfSet) -> dict[str, Array]:
         """Return what is left of all rows, N, with parameters by the rows that were seen.
 
-        They are weighed as in the fit of a set: beside errors of form, the error of any size. Those that one
+        They are weighed as in the fit of a set: without errors of form, the error of any size. Those that one
         sweep determines stay where they are.
         """
         data, each = self.products.data, self.each
         labels, _ = columns_of(data, list(each.changes), list(each.free))
         off, wide = prior(data, each.changes, labels)
-        spread = np.r_[np.ones(each.parameters), np.full(each.errors, likelihood.learnt.form_error)]
-        found = likelihood.evidence(seen.products.take(np.arange(spread.size)), spread, wide=True)
-        at = found.mode[: each.parameters]
+        own = seen.products.take(np.arange(each.parameters))
+        at = likelihood.evidence(own, np.ones(each.parameters), wide=True).mode
         locked = np.array([name in LOCKED for _, name in labels], bool)
         at = np.where(locked, off / wide, at)
         columns = self.products.columns_of_set(each.changes, each.free)

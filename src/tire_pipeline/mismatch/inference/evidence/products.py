@@ -179,23 +179,16 @@ class RecordingProducts:
         rest = residual(data, changes)
         labels, columns = columns_of(data, list(changes), list(free))
         off, wide = prior(data, changes, labels)
-        errors = self.form_errors(changes)
-        return {
-            o: np.column_stack([columns[o] * wide, errors[o], self._unnamed[o], rest[o] + columns[o] @ off])
-            for o in data.outputs
-        }
-
-    def form_errors(self, changes: Sequence[Change]) -> dict[str, Array]:
-        """Return the columns of what the forms of a set get wrong, N, for each output by itself."""
-        outputs = self.data.outputs
-        shapes = [shape_columns(self.data, changes, i) for i in range(len(changes))]
-        return {
-            o: np.hstack(
-                [np.zeros((self.data.size, 0))]
-                + [part[o] if other == o else np.zeros_like(part[o]) for part in shapes for other in outputs]
+        shapes = [shape_columns(data, changes, i) for i in range(len(changes))]
+        every = {}
+        for o in data.outputs:
+            errors = [
+                part[o] if other == o else np.zeros_like(part[o]) for part in shapes for other in data.outputs
+            ]
+            every[o] = np.column_stack(
+                [columns[o] * wide, *errors, self._unnamed[o], rest[o] + columns[o] @ off]
             )
-            for o in outputs
-        }
+        return every
 
 
 def _most_alike(x: Array) -> float:

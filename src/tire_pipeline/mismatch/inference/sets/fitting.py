@@ -41,9 +41,8 @@ def fitted(
     free = [tuple(v.free) for v in variants]
     smooth = [tuple(p for p in v.free if p not in v.effect.scanned) for v in variants]
     for step in range(steps):
-        errors = products.form_errors(changes)
-        changes, gain, near = _step(products, likelihood, changes, smooth, errors)
-        changes, more = _scan(products, near, changes, smooth, errors, 50.0 if step == 0 else 800.0)
+        changes, gain, near = _step(products, likelihood, changes, smooth)
+        changes, more = _scan(products, near, changes, smooth, 50.0 if step == 0 else 800.0)
         if gain + more < _ENOUGH:
             break
     return products.of_set(changes, free)
@@ -54,19 +53,12 @@ def _cost(
     likelihood: Likelihood,
     changes: Sequence[Change],
     free: Sequence[tuple[str, ...]],
-    errors: Mapping[str, Array],
 ) -> float:
-    """Negative log posterior of the parameters beside errors of form, summed over the sizes of the rest."""
+    """Negative log posterior of the parameters, summed over the sizes of misfit and error."""
     rest = residual(products.data, changes)
-    here = products.of({o: np.column_stack([errors[o], r]) for o, r in rest.items()})
-    found = likelihood.evidence(here, _of_errors(likelihood, errors), wide=True)
+    found = likelihood.evidence(products.of({o: r[:, None] for o, r in rest.items()}), np.zeros(0), wide=True)
     off, wide = prior(products.data, changes, _moving(changes, free))
     return -found.value + 0.5 * float(np.sum((off / wide) ** 2))
-
-
-def _of_errors(likelihood: Likelihood, errors: Mapping[str, Array]) -> Array:
-    """Return the standard deviation of each error of form."""
-    return np.full(next(iter(errors.values())).shape[1], likelihood.learnt.form_error)
 
 
 def _moving(changes: Sequence[Change], free: Sequence[tuple[str, ...]]) -> Labels:
@@ -83,31 +75,28 @@ def _step(
     likelihood: Likelihood,
     changes: list[Change],
     free: Sequence[tuple[str, ...]],
-    errors: Mapping[str, Array],
 ) -> tuple[list[Change], float, Likelihood]:
     """Make one step, damped until it helps; return its gain, and the likelihood near it, too.
 
-    Parameters move to where a set is likeliest beside what its forms get wrong. Near a step the sizes of
-    misfit and error stay where they are likeliest: trials then take a twelfth of the time.
+    Near a step the sizes of misfit and error stay where they are likeliest: trials then take a twelfth of the
+    time.
     """
     data = products.data
     labels, columns = columns_of(data, changes, list(free))
     off, wide = prior(data, changes, labels)
     rest = residual(data, changes)
-    here = products.of({o: np.column_stack([columns[o] * wide, errors[o], r]) for o, r in rest.items()})
-    scale = np.r_[np.ones(wide.size), _of_errors(likelihood, errors)]
-    found = likelihood.evidence(here, scale, wide=True)
+    here = products.of({o: np.column_stack([columns[o] * wide, r]) for o, r in rest.items()})
+    found = likelihood.evidence(here, np.ones(wide.size), wide=True)
     near = likelihood.at(found.weights)
     if not labels:
         return changes, 0.0, near
-    best = _cost(products, near, changes, free, errors)
-    inner, aim = _normal_equations(found.weights, here, scale.size)
-    inner, aim = inner + np.diag(scale**-2.0), aim - np.r_[off / wide, np.zeros(scale.size - off.size)]
-    held = np.r_[np.diag(inner)[: off.size], np.zeros(scale.size - off.size)]
+    best = _cost(products, near, changes, free)
+    inner, aim = _normal_equations(found.weights, here, wide.size)
+    inner, aim = inner + np.eye(wide.size), aim - off / wide
     for damping in _DAMPINGS:
-        delta = np.linalg.solve(inner + damping * np.diag(held), aim)[: off.size] * wide
+        delta = np.linalg.solve(inner + damping * np.diag(np.diag(inner)), aim) * wide
         trial = moved(changes, labels, delta)
-        cost = _cost(products, near, trial, free, errors)
+        cost = _cost(products, near, trial, free)
         if cost < best:
             return trial, best - cost, near
     return changes, 0.0, near
@@ -118,7 +107,6 @@ def _scan(
     likelihood: Likelihood,
     changes: list[Change],
     free: Sequence[tuple[str, ...]],
-    errors: Mapping[str, Array],
     part: float,
 ) -> tuple[list[Change], float]:
     """Move moments at which the force jumps by trial: the derivative by such a moment is a spike."""
@@ -127,7 +115,7 @@ def _scan(
     if not moments:
         return changes, 0.0
     assert time is not None  # the effect needs a time line
-    first = best = _cost(products, likelihood, changes, free, errors)
+    first = best = _cost(products, likelihood, changes, free)
     for i, moment in moments:
         width = float(time[-1] - time[0]) / part
         while width > _LEAST_STEP:
@@ -135,7 +123,7 @@ def _scan(
                 trial: list[Change] = [(n, dict(p)) for n, p in changes]
                 there = float(np.clip(changes[i][1][moment] + sign * width, time[0], time[-1]))
                 trial[i] = (changes[i][0], {**changes[i][1], moment: there})
-                cost = _cost(products, likelihood, trial, free, errors)
+                cost = _cost(products, likelihood, trial, free)
                 if cost < best:
                     changes, best = trial, cost
                     break
