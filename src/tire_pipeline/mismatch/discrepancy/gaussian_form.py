@@ -10,6 +10,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.residual import share_above_noise
 from tire_pipeline.mismatch.recording.checks import INPUTS
 
 if TYPE_CHECKING:
@@ -90,16 +91,15 @@ def gaussian_form(data: Data, rest: Array, output: str, block: Array, floor: flo
     lengths = np.atleast_1d(process.kernel_.k1.k2.length_scale)
     left = rest[test] - size * process.predict(x[test][:, live])
     total = float(np.mean(rest[test] ** 2))
-    above = total - floor**2
-    gone = total - float(np.mean(left**2))
+    after = float(np.mean(left**2))
     ranges = _ranges(data, names)
     return GaussianForm(
         output=output,
         size=size * float(np.sqrt(process.kernel_.k1.k1.constant_value)),
         noise=size * float(np.sqrt(process.kernel_.k2.noise_level)),
         lengths={names[k]: float(length * ranges[k]) for k, length in zip(live, lengths, strict=True)},
-        explained=float(np.clip(gone / total, -1.0, 1.0)) if total > 0.0 else float("nan"),
-        recovered=float(np.clip(gone / above, -1.0, 1.0)) if above > 0.05 * floor**2 else float("nan"),
+        explained=float(np.clip((total - after) / total, -1.0, 1.0)) if total > 0.0 else float("nan"),
+        recovered=share_above_noise(total, after, floor),
         points=int(train.size),
     )
 

@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm
+from tire_pipeline.mismatch.model.residual import share_above_noise
 from tire_pipeline.mismatch.proof.locate import Located
-
-_TO_TELL = 0.05
-"""Least squared error above the noise floor, over the floor's square, of which a share is told."""
 
 
 @dataclass(frozen=True)
@@ -44,9 +42,7 @@ class OutputFit:
     rms_condition_after: float = float("nan")
 
     def __post_init__(self) -> None:
-        above = self.rms_before**2 - self.noise_floor**2
-        gone = self.rms_before**2 - self.rms_after**2
-        share = min(max(gone / above, -1.0), 1.0) if above > _TO_TELL * self.noise_floor**2 else float("nan")
+        share = share_above_noise(self.rms_before**2, self.rms_after**2, self.noise_floor)
         object.__setattr__(self, "recovered", share)
 
 

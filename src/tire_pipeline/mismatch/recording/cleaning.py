@@ -15,6 +15,7 @@ import numpy as np
 
 from tire_pipeline.channels import POINT_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.mismatch.model.forces import plain_forces
+from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.recording.smoothing import denoise
 
 Array = np.ndarray
@@ -97,7 +98,7 @@ def clean(
         there = _forces(tire, trial)
         felt, evidence = _judge(forces, there, recorded, start)
         smoothed = evidence > _SURE
-        done.append(Cleaning(name, smoothed, float(np.sqrt(np.mean(taken**2))), felt, evidence))
+        done.append(Cleaning(name, smoothed, rms(taken), felt, evidence))
         if smoothed:
             now, forces = trial, there
     return now, done

@@ -247,9 +247,7 @@ def _by_size(hidden: pd.DataFrame) -> MplFigure:
             for k, name in enumerate(DRAWN):
                 own = hidden[(hidden["kind"] == kind) & (hidden["translator"] == name)]
                 line = own.groupby("bias_size")[column].mean()
-                axis.plot(
-                    line.index, line, marker=MARKERS[k], color=colour_of(k), label=name.replace("_", " ")
-                )
+                axis.plot(line.index, line, marker=MARKERS[k], color=colour_of(k), label=_words(name))
             axis.axhline(1.0, color="black", linewidth=0.8)
             axis.set_yscale("log")
             axis.set_ylim(0.015, 3.0)

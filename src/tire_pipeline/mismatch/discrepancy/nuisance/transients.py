@@ -6,6 +6,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.effects.shared import first_order
 from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.residual import rms
 
 Array = np.ndarray
 _SLIP_STEP = 2e-3
@@ -44,7 +45,7 @@ def fast_load(data: Data, name: str) -> Array:
     if not np.any(change):
         return np.zeros((data.size, 0))
     rates = [rate(data, data.running_mean(change, seconds)) for seconds in _BANDS]
-    drivers = [change, *(each * (_rms(change) / max(_rms(each), 1e-12)) for each in rates)]
+    drivers = [change, *(each * (rms(change) / max(rms(each), 1e-12)) for each in rates)]
     slip = "slip_angle" if name == "fy" else "slip_ratio"
     steeper = data.slope(slip, _SLIP_STEP)[name] * data.get(slip)
     return np.column_stack([way * driver for way in (data.base[name], steeper) for driver in drivers])
@@ -57,7 +58,3 @@ def rate(data: Data, x: Array) -> Array:
     out[data.start] = 0.0
     out[np.flatnonzero(data.start)[1:] - 1] = 0.0
     return out
-
-
-def _rms(x: Array) -> float:
-    return float(np.sqrt(np.mean(x**2)))

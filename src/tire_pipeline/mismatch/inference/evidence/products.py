@@ -16,7 +16,7 @@ from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts,
 from tire_pipeline.mismatch.inference.fit import columns_of
 from tire_pipeline.mismatch.inference.priors import prior
 from tire_pipeline.mismatch.model.forces import Change
-from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.model.residual import residual, rms
 
 Array = np.ndarray
 Free = Sequence[tuple[str, ...]]
@@ -98,7 +98,7 @@ class RecordingProducts:
 
     def __init__(self, analysis: Analysis, background: Background) -> None:
         self.analysis, self.data = analysis, analysis.data
-        own = {o: float(np.sqrt(np.mean(f**2))) for o, f in self.data.recorded.items()}
+        own = {o: rms(f) for o, f in self.data.recorded.items()}
         self.largest = {o: max(size, own[o]) for o, size in analysis.largest.items()}
         self.beside = {
             o: np.hstack([analysis.columns[o], background.columns[o]]) / self.largest[o]
@@ -136,7 +136,7 @@ class RecordingProducts:
         for o, x in columns.items():
             left = x @ np.r_[-found.mode, 1.0] / self.largest[o]
             left = left - self.beside[o] @ found.weights[o].known(self.beside[o].T @ left / left.size)
-            out[o] = left.size / _most_alike(left / max(float(np.sqrt(np.mean(left**2))), 1e-300))
+            out[o] = left.size / _most_alike(left / max(rms(left), 1e-300))
         return out
 
     def of(self, columns: Mapping[str, Array], rows: Array | slice = slice(None)) -> ColumnProducts:
