@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,10 @@ from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
 from tire_pipeline.mismatch.proof.measured import OutputFit
 from tire_pipeline.mismatch.proof.nested import REPEATS, RepeatedChoice
+from tire_pipeline.recordings import read_recording
+from tire_pipeline.tir import read_tir
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def rms(x):
@@ -66,6 +71,18 @@ def test_more_than_formulas_usually_leave_is_not_called_agreement(tire, record):
     assert report.remainder.unusual["fy"] > high
     assert "I can't tell" in report.summary
     assert "agree" not in report.summary
+
+
+def test_an_error_that_no_likely_cause_explains_is_undecided():
+    """The pressure of the example's run varies; without its column no cause is likelier than none."""
+    run = read_recording(ROOT / "examples" / "rig_run.csv", axes="ISO")
+    four = run[["time", "slip_angle", "normal_load", "fy"]]
+    report = explain_mismatch(read_tir(ROOT / "examples" / "tire.tir"), four)
+    assert (report.verdict, report.effects, report.remainder.significant) == ("undecided", [], False)
+    assert report.to_dict()["verdict"] == "undecided"
+    assert "I can't tell" in report.summary
+    assert "Explain a recording with more channels" in report.next_experiment
+    assert report.located
 
 
 @pytest.mark.parametrize(

@@ -85,10 +85,13 @@ def test_tydex_halves_agree(real, half):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("half", [0, 1])
-def test_dart_other_half_agrees(real, half):
+def test_dart_other_half_is_undecided_and_gets_no_name(real, half):
+    """A formula leaves 3% of the largest force on these drives, more than fitted models usually do."""
     report, other = real.dart_other_half(half)
     f = report.fit["fy"]
-    assert report.verdict == "agrees"
+    assert not report.effects
+    assert report.verdict == "undecided"
+    assert min(report.remainder.unusual.values()) > report.remainder.usual[1]
     assert f.rms_before < 0.05 * real.largest(other)
 
 

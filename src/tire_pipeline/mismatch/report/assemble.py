@@ -39,6 +39,12 @@ from tire_pipeline.mismatch.unnamed_physics.search import more_than_usual, unnam
 
 Array = np.ndarray
 _SOMETHING_LEFT = ("unexplained", "partly explained")
+_TO_DO = {
+    "undecided": "Explain a recording with more channels, or one that the model was fitted to.",
+    "unexplained": "Record the same sweeps again, and then with one channel changed at a time: what repeats "
+    "is the tire or the rig, and what follows a channel has found its cause.",
+}
+"""What to do next where no open name asks for a sweep."""
 _MOST_SHOWN = 4000
 """Samples of a curve on the page."""
 
@@ -123,10 +129,10 @@ def assembled(it: Explained) -> MismatchReport:
 
 
 def _verdict(effects: Sequence[EffectReport], left: Remainder) -> str:
-    if not effects:
-        return "unexplained" if left.significant else "agrees"
     if left.significant:
-        return "partly explained"
+        return "partly explained" if effects else "unexplained"
+    if not effects:
+        return "undecided" if left.unusual else "agrees"
     return "ambiguous" if any(e.alternatives for e in effects) else "explained"
 
 
@@ -213,13 +219,7 @@ def _following(it: Explained, verdict: str, plain: CorrectedModel) -> str:
     question = it.prepared.question
     if it.prepared.stopped and question is not None:
         return f"{question.todo}."
-    told = next_experiment(it.analysis, it.answer, plain)
-    if told or verdict != "unexplained":
-        return told
-    return (
-        "Record the same sweeps again, and then with one channel changed at a time: what repeats is "
-        "the tire or the rig, and what follows a channel has found its cause."
-    )
+    return next_experiment(it.analysis, it.answer, plain) or _TO_DO.get(verdict, "")
 
 
 def _exact(finding: Finding, prepared: Prepared) -> EffectReport:

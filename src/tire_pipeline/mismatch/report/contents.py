@@ -10,7 +10,16 @@ from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder, Visible
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
-VERDICTS = ("agrees", "explained", "ambiguous", "partly explained", "unexplained", "unusable", "another tire")
+VERDICTS = (
+    "agrees",
+    "undecided",
+    "explained",
+    "ambiguous",
+    "partly explained",
+    "unexplained",
+    "unusable",
+    "another tire",
+)
 
 
 @dataclass(frozen=True)

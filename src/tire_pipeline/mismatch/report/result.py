@@ -23,7 +23,8 @@ class MismatchReport(ReportContents):
     Parameters
     ----------
     verdict : str
-        "agrees", "explained", "ambiguous", "partly explained", "unexplained", "unusable" or "another tire".
+        "agrees", "undecided", "explained", "ambiguous", "partly explained", "unexplained", "unusable" or
+        "another tire".
     effects : list of EffectReport
         What was found, the surest first.
     fit : dict of str to OutputFit

@@ -52,13 +52,17 @@ def summary(
     """
     fit = {o: f for o, f in fit.items() if o in TANGENTIAL_FORCES}
     if verdict == "agrees":
-        return _agreement(fit, remainder)
+        return _agreement(fit)
     ranges = ranges or {}
     place_and_size = [_spot(effects, fit, located, remainder, ranges, even or {}), _size(effects, fit)]
     middle = "; ".join(part for part in place_and_size if part)
+    first = (
+        _undecided(fit, remainder) if verdict == "undecided" else _causes(verdict, effects, remainder, ranges)
+    )
     parts = [
-        f"{_verdict(verdict, effects, remainder, ranges)}.",
+        f"{first}.",
         f"{middle[:1].upper()}{middle[1:]}." if middle else "",
+        _more_left(remainder) if effects else "",
         _next(effects, next_experiment),
     ]
     return " ".join(part for part in parts if part)
@@ -136,28 +140,42 @@ def on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
     )
 
 
-def _agreement(fit: Mapping[str, OutputFit], left: Remainder) -> str:
-    if not left.unusual:
-        sizes = ", ".join(
-            f"{o.capitalize()} {newtons(f.rms_before)} N (noise {newtons(f.noise_floor)} N)"
-            for o, f in fit.items()
-        )
-        return (
-            "Simulation and recording agree: what differs is no larger than noise and the misfit that a "
-            f"fitted tire model always has. The RMS difference is {sizes}. {_NOTHING_TO_DO}"
-        )
-    sizes = ", ".join(f"{o.capitalize()} {newtons(f.rms_before)} N" for o, f in fit.items())
-    errors = ", ".join(f"{o.capitalize()} {share:.1%}" for o, share in left.unusual.items())
-    low, high = left.usual
+def _agreement(fit: Mapping[str, OutputFit]) -> str:
+    sizes = ", ".join(
+        f"{o.capitalize()} {newtons(f.rms_before)} N (noise {newtons(f.noise_floor)} N)"
+        for o, f in fit.items()
+    )
     return (
-        f"No cause stands out. The RMS difference is {sizes}. What neither noise nor a smooth misfit of the "
-        f"formula accounts for ({errors} of the largest force) is more than fitted models usually leave "
-        f"({low:.1%} to {high:.1%}): I can't tell a coarse fit or rig from a cause that this recording does "
-        "not show. Next, explain a recording with more channels, or one that the model was fitted to."
+        "Simulation and recording agree: what differs is no larger than noise and the misfit that a "
+        f"fitted tire model always has. The RMS difference is {sizes}. {_NOTHING_TO_DO}"
     )
 
 
-def _verdict(verdict: str, effects: Sequence[EffectReport], remainder: Remainder, ranges: Ranges) -> str:
+def _undecided(fit: Mapping[str, OutputFit], left: Remainder) -> str:
+    sizes = ", ".join(f"{o.capitalize()} {newtons(f.rms_before)} N" for o, f in fit.items())
+    return (
+        f"Undecided: no cause stands out. The RMS difference is {sizes}. What neither noise nor a smooth "
+        f"misfit of the formula accounts for {_than_usual(left)}: I can't tell a coarse fit or rig from a "
+        "cause that this recording does not show"
+    )
+
+
+def _more_left(left: Remainder) -> str:
+    """Say that more is left beside names than fitted models usually leave."""
+    if left.significant or not left.unusual:
+        return ""
+    return f"What is then left {_than_usual(left)}: more may be missing."
+
+
+def _than_usual(left: Remainder) -> str:
+    errors = ", ".join(f"{o.capitalize()} {share:.1%}" for o, share in left.unusual.items())
+    low, high = left.usual
+    return (
+        f"({errors} of the largest force) is more than fitted models usually leave ({low:.1%} to {high:.1%})"
+    )
+
+
+def _causes(verdict: str, effects: Sequence[EffectReport], remainder: Remainder, ranges: Ranges) -> str:
     """The verdict, the causes, and the unexplained residual."""
     sizes = ", ".join(f"{o.capitalize()} {newtons(s)} N" for o, s in remainder.size.items())
     left = f"{sizes} RMS above noise"
