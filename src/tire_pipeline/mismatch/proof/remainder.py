@@ -11,7 +11,7 @@ from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm, gauss
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
-from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.locate import locate
 from tire_pipeline.mismatch.proof.measured import Remainder
 
@@ -42,8 +42,18 @@ def remainder(analysis: Analysis, answer: SetAnswer, usual: tuple[float, float])
     located = locate(data, rest, analysis.noise, analysis.block) if significant else []
     form = sparse_form(analysis) if significant else ""
     gaussian = gaussian_forms(analysis, size) if significant else []
-    unusual = {o: left for o, left in answer.left.items() if left > usual[1]}
+    unusual = {o: left for o, left in _left(analysis, answer, rest).items() if left > usual[1]}
     return Remainder(size, located, form, significant, answer.unnamed, gaussian, unusual, usual)
+
+
+def _left(analysis: Analysis, answer: SetAnswer, rest: dict[str, Array]) -> dict[str, float]:
+    """Return the likeliest size of the error over the largest force, no larger than all that is left.
+
+    A few independent samples leave its likeliest size open enough to be above that.
+    """
+    recorded = analysis.data.recorded
+    whole = {o: rms(r) / max(analysis.largest[o], rms(recorded[o])) for o, r in rest.items()}
+    return {o: min(left, whole[o]) for o, left in answer.left.items()}
 
 
 def gaussian_forms(analysis: Analysis, size: dict[str, float]) -> list[GaussianForm]:
