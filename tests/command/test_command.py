@@ -208,6 +208,18 @@ def test_a_held_out_recording_need_not_be_among_the_explained(folder):
     assert "On two.csv, which was held out" in text
 
 
+def test_what_was_found_is_told_though_no_corrected_file_may_be_written(folder):
+    record("run.csv", seconds=30.0)
+    wrong = pd.read_csv("run.csv")
+    wrong.assign(fy=-wrong["fy"]).to_csv("wrong.csv", index=False)
+    result = run("explain", "a.tir", "wrong.csv", "--corrected", "corrected.tir", code=2)
+    found = "the recording agrees with the model only in other axes"
+    assert found in " ".join(result.stdout.split())
+    assert "corrected.tir: nothing corrected is written" in result.stderr
+    assert found in page(folder / "a_explain.html")
+    assert not (folder / "corrected.tir").exists()
+
+
 def test_check_lists_channels_and_fails_on_what_cannot_be_explained(folder):
     record("run.csv")
     found = told("check", "run.csv")

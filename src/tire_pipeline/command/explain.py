@@ -9,7 +9,7 @@ import click
 
 from tire_pipeline.command.options import FILE, check_target, output_options, read_runs, reading_options
 from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
-from tire_pipeline.errors import RecordingError
+from tire_pipeline.errors import RecordingError, TirePipelineError
 
 if TYPE_CHECKING:
     from tire_pipeline.mismatch import EffectReport, MismatchReport
@@ -64,9 +64,16 @@ def command(
     report = explain_recordings(tire, read, held_out=held_out)
     if len(read) == 1:
         report.notes[:0] = next(iter(read.values())).attrs.get("notes", [])
-    written = [report.corrected.to_tir(corrected, overwrite=overwrite)] if corrected else []
+    written, refusal = [], None
+    if corrected:
+        try:
+            written = [report.corrected.to_tir(corrected, overwrite=overwrite)]
+        except TirePipelineError as error:
+            refusal = error
     stem = runs[0].stem if str(file) == NO_TIRE else file.stem
     finish(_outcome(report, file, written), f"{stem}_explain", **output)
+    if refusal is not None:  # what was found is told all the same
+        raise refusal
 
 
 def _among(hold_out: Path, runs: tuple[Path, ...]) -> Path:

@@ -299,6 +299,7 @@ def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, float]
     if best.along_force and abs(best.share) > 0.002:
         word = "lower" if best.mean < 0.0 else "higher"
         size = abs(best.share) * 100
-        much = f"{size:.2g}%" if size < 99.5 else f"{newtons(abs(best.mean))} N"
+        much = f"{newtons(abs(best.mean))} N"
+        much += f" ({size:.2g}% of the force there)" if size < 99.5 else ""
         return f"{where}, {name} is up to {much} {word} than the model"
     return f"{where}, {name} differs from the model by {best.mean:+,.3g} N on average"
