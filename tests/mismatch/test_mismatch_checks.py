@@ -1,10 +1,12 @@
+import re
+
 import numpy as np
 import pandas as pd
 import pytest
 
 from tire_pipeline.concealed import make_case
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch import explain_mismatch, explain_recordings
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.recording.checks import prepare
 from tire_pipeline.mismatch.report.words import interval, place
@@ -159,3 +161,36 @@ def test_gaps_and_missing_blocks_are_no_physics(tire, record):
     assert report.effects == []
     assert any("gap" in n for n in report.notes)
     assert any("no number" in n for n in report.notes)
+
+
+def test_numbers_that_came_as_text_and_dates_are_read(tire, record):
+    plain = record(0).iloc[:300]
+    stamps = pd.Timestamp("2024-05-01") + pd.to_timedelta(plain["time"], unit="s")
+    text = plain.assign(time=stamps, fy=plain["fy"].astype(str))
+    told = [explain_mismatch(tire, r).to_dict()["fit"] for r in (plain, text)]
+    assert told[0] == told[1]
+
+
+@pytest.mark.parametrize(
+    ("spoil", "message"),
+    [
+        (lambda r: pd.concat([r, r["fy"]], axis=1), "several columns of the name fy -> keep one"),
+        (
+            lambda r: r.assign(fy=[*r["fy"][:-1], "saturated"]),
+            "fy: 1 of 300 values are no numbers, the first in row 299: 'saturated'",
+        ),
+    ],
+)
+def test_what_is_no_number_is_named_with_its_row(tire, record, spoil, message):
+    with pytest.raises(RecordingError, match=re.escape(message)):
+        explain_mismatch(tire, spoil(record(0).iloc[:300]))
+
+
+def test_something_else_than_a_tire_is_refused(record):
+    with pytest.raises(RecordingError, match="of type str, which is no tire model -> read it with read_tir"):
+        explain_mismatch("tire.tir", record(0))
+
+
+def test_an_error_names_the_recording(tire, record):
+    with pytest.raises(RecordingError, match=r"run\.csv, time: time goes backwards"):
+        explain_recordings(tire, {"run.csv": record(0).iloc[::-1]})

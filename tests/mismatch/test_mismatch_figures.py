@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from tire_pipeline.mismatch.proof.measured import Remainder
 from tire_pipeline.mismatch.report.figures import drawings, time_line
+from tire_pipeline.mismatch.report.sentences import summary
 
 
 def report(changes: list[str], *, gap: float) -> SimpleNamespace:
@@ -43,3 +46,12 @@ def test_captions_speak_of_what_is_drawn():
     assert "after" not in without[0]["caption"]
     assert "Lines break where nothing was recorded" in without[1]["caption"]
     assert "Lines break" not in drawings(report([], gap=0.0))[1]["caption"]
+
+
+def test_no_residual_of_nothing_is_told():
+    """A noise as large as what is left ended in "Fy 0 N RMS above noise"."""
+    left = Remainder(size={"fy": 0.0, "fx": 30.0}, located=[], form="", significant=True)
+    told = summary("unexplained", [], {}, [], left, "")
+    assert "difference (Fx 30 N RMS above noise)." in told
+    none = summary("unexplained", [], {}, [], replace(left, size={"fy": 0.0}), "")
+    assert none == "I can't tell: no effect of the catalogue explains the difference."

@@ -35,10 +35,11 @@ def cut(frame, **columns):
         (good().drop(columns="fy"), "no_force_channel", "error", ()),
         (good().drop(columns="normal_load"), "no_normal_load", "error", ()),
         (good().drop(columns="slip_angle"), "no_slip_channel", "error", ()),
-        (good(10), "few_samples", "error", ()),
+        (good(29), "few_samples", "error", ()),
+        (good(11).drop(columns="time"), "few_samples", "error", ()),
         (cut(good(), time=(200, 1.985)), "time_runs_backwards", "error", ((200, 200),)),
-        (cut(good(), time=(7, np.nan)), "time_not_finite", "error", ((7, 7),)),
-        (cut(good(), time=(7, 0.06)), "repeated_time_stamps", "warning", ((7, 7),)),
+        (cut(good(), time=(7, np.nan)), "time_not_finite", "warning", ((7, 7),)),
+        (cut(good(), time=(7, 0.06)), "repeated_time_stamps", "error", ((7, 7),)),
         (good().drop(index=range(100, 150)), "gaps_in_time", "warning", ((100, 100),)),
         (cut(good(), fy=(slice(20, 49), np.nan)), "missing_block", "warning", ((20, 49),)),
         (good().assign(fx=np.nan), "empty_channel", "warning", ()),
@@ -52,6 +53,17 @@ def test_each_fault_is_found_where_it_is(frame, name, severity, rows):
     assert issues[0].severity == severity
     assert issues[0].rows == rows
     assert issues[0].advice in str(issues[0])
+
+
+def test_steady_points_may_be_few():
+    assert check_recording(good(12).drop(columns="time")) == []
+
+
+@pytest.mark.parametrize("channel", ["normal_load", "slip_angle", "fy"])
+def test_a_channel_without_a_number_is_missing(channel):
+    issues = check_recording(good().assign(**{channel: np.nan}))
+    assert [i.severity for i in issues] == ["error", "warning"]
+    assert issues[0].name.startswith("no_")
 
 
 def test_errors_come_first():

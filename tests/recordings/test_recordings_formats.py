@@ -269,3 +269,21 @@ def test_a_bomb_is_refused(tmp_path):
     assert Path(file).stat().st_size < 1 << 20
     with pytest.raises(RecordingError, match="times its size"):
         read_recording(file)
+
+
+def test_csv_says_which_cell_is_no_number_and_which_row_is_ragged(tmp_path):
+    file = tmp_path / "a.csv"
+    rows = ["time,slip_angle,normal_load,fy", *(f"{k / 100},0.01,4000,{k}" for k in range(60))]
+    rows[41] = "0.4,0.01,4000,overload"
+    file.write_text("\n".join(rows))
+    notes = read_recording(file).attrs["notes"]
+    assert "fy: 1 cells are no numbers and became NaN, the first in data row 41: 'overload'" in notes
+    rows[51] += ",7"
+    file.write_text("\n".join(rows))
+    with pytest.raises(RecordingError, match=r"\(Expected 4 fields in line 52, saw 5\) -> every row"):
+        read_recording(file)
+
+
+def test_a_folder_is_no_recording(tmp_path):
+    with pytest.raises(RecordingError, match="this is a folder"):
+        read_recording(tmp_path)

@@ -21,6 +21,7 @@ from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import shares_left
 from tire_pipeline.mismatch.proof.measured import OutputFit
 from tire_pipeline.mismatch.recording.checks import Prepared, prepare
+from tire_pipeline.mismatch.recording.given import numeric
 from tire_pipeline.mismatch.report.assemble import Explained, assembled
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.progress import track
@@ -58,6 +59,7 @@ class Explainer:
     def weigh(self, tire: Any, recording: pd.DataFrame) -> Explained:
         """Return what a report is made of: the recording, its sets, and what the posterior says."""
         self._check()
+        recording = numeric(recording)
         steps = track(_STEPS, "explaining the mismatch")
         step = next(steps)
         try:

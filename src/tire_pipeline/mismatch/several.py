@@ -99,7 +99,11 @@ def explain_recordings(
     else:
         joined = join_recordings(explained)
         notes = list(joined.attrs["notes"])
-    report = (explainer or Explainer()).explain(tire, joined)
+    try:
+        report = (explainer or Explainer()).explain(tire, joined)
+    except RecordingError as error:
+        where = ", ".join(filter(None, [*explained, error.where]))
+        raise RecordingError(error.what, where=where, todo=error.todo) from error
     report = replace(report, recordings=tuple(explained), notes=[*notes, *report.notes])
     if held_out is None:
         return report

@@ -10,7 +10,9 @@ import pandas as pd
 
 from tire_pipeline.channels import ANGLE_CHANNELS, FORCE_CHANNELS
 
-FEW_SAMPLES = 30
+LEAST_SAMPLES = 30
+LEAST_POINTS = 12
+"""Of a recording in time and of steady points: with less nothing is told from noise."""
 _LARGEST_ANGLE = 1.6  # rad: what no tire is turned to; the same limit as the Magic Formula's
 _GAP_FACTOR = 5.0
 _NAN_BLOCK = 10
@@ -91,7 +93,8 @@ def check_recording(recording: pd.DataFrame) -> list[Issue]:
 
 def _columns(frame: pd.DataFrame) -> list[Issue]:
     issues = []
-    if not any(c in frame for c in FORCE_CHANNELS):
+    held = {c for c in frame if pd.notna(frame[c]).any() or frame.empty}
+    if not any(c in held for c in FORCE_CHANNELS):
         issues.append(
             Issue(
                 "no_force_channel",
@@ -100,7 +103,7 @@ def _columns(frame: pd.DataFrame) -> list[Issue]:
                 "nothing to compare with: name the force, e.g. names={'their name': 'fy'}",
             )
         )
-    if "normal_load" not in frame:
+    if "normal_load" not in held:
         issues.append(
             Issue(
                 "no_normal_load",
@@ -109,15 +112,16 @@ def _columns(frame: pd.DataFrame) -> list[Issue]:
                 "the model needs the load: add a column normal_load in N",
             )
         )
-    if "slip_angle" not in frame and "slip_ratio" not in frame:
+    if "slip_angle" not in held and "slip_ratio" not in held:
         issues.append(Issue("no_slip_channel", "error", "columns", "add slip_angle (rad) or slip_ratio"))
-    if len(frame) < FEW_SAMPLES:
+    least = LEAST_SAMPLES if "time" in held else LEAST_POINTS
+    if len(frame) < least:
         issues.append(
             Issue(
                 "few_samples",
                 "error",
                 f"{len(frame)} rows",
-                f"at least {FEW_SAMPLES} are needed to tell physics from noise",
+                f"at least {least} are needed to tell physics from noise",
             )
         )
     return issues
@@ -133,9 +137,9 @@ def _time(frame: pd.DataFrame) -> list[Issue]:
         issues.append(
             Issue(
                 "time_not_finite",
-                "error",
+                "warning",
                 f"time, {broken.sum()} rows from row {int(broken.argmax())}",
-                "drop these rows",
+                "these rows are not used",
                 _runs(broken),
             )
         )
@@ -157,7 +161,7 @@ def _time(frame: pd.DataFrame) -> list[Issue]:
         issues.append(
             Issue(
                 "repeated_time_stamps",
-                "warning",
+                "error",
                 f"time, {again.sum()} rows, first at row {int(again.argmax())}",
                 "the clock is coarser than the samples: give a finer one, or average the rows",
                 _runs(again),

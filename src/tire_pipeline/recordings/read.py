@@ -97,7 +97,8 @@ def read_recording(
     """
     file = Path(path)
     if not file.is_file():
-        raise RecordingError("no such file", where=str(file))
+        what = "this is a folder" if file.is_dir() else "no such file"
+        raise RecordingError(what, where=str(file), todo="give the path of a recording")
     kind = _format(file, format)
     try:
         raw = READERS[kind](file)

@@ -18,6 +18,7 @@ from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate, simulate_moments
 from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.recording.checks import ASSUMED_ZERO, INPUTS, own_relaxation
+from tire_pipeline.mismatch.recording.given import numeric
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.smoothing import denoise
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
@@ -126,6 +127,7 @@ class CorrectedModel:
         RecordingError
             If a channel is missing that the model or an effect needs.
         """
+        recording = numeric(recording)
         data = self._data(recording)
         for name, _ in self.changes:
             for channel in catalogue()[name].lacking(data):

@@ -15,18 +15,18 @@ from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.recording.cleaning import Cleaning, clean
 from tire_pipeline.mismatch.recording.exact import open_axes, repair
+from tire_pipeline.mismatch.recording.given import check_tire, numeric
 from tire_pipeline.mismatch.recording.identity import another_tire
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
 from tire_pipeline.mismatch.recording.usable import judge, leave_out_still_slip
+from tire_pipeline.recordings.check import LEAST_POINTS, LEAST_SAMPLES
 
 Array = np.ndarray
 INPUTS = (*OPERATING_CHANNELS, "turn_slip")
 ASSUMED_ZERO = ("camber", "slip_ratio", "slip_angle")
 """What is taken as zero where it is not recorded."""
 AS_GIVEN = "columns in ISO W axes and SI units, as they were given"
-LEAST_SAMPLES = 30
-LEAST_POINTS = 12
 _RATE = 50.0
 _BRIDGED = 3
 _LONG_STEP = 1.0
@@ -107,6 +107,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
         If something is missing that nothing can replace.
     """
     notes: list[str] = []
+    check_tire(tire)
     arrays = _arrays(recording)
     time = _time(arrays)
     if time is not None:
@@ -168,17 +169,12 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
 
 def _arrays(recording: pd.DataFrame) -> dict[str, Array]:
     """Return the numeric columns that are known, as float64."""
-    if not isinstance(recording, pd.DataFrame):
-        raise RecordingError("the recording is not a DataFrame", todo="read it with read_recording")
     arrays: dict[str, Array] = {}
-    for name, series in pd.DataFrame(recording, copy=False).items():  # without attrs: pandas copies them
+    for name, series in pd.DataFrame(numeric(recording), copy=False).items():  # attrs would be copied
         try:
             arrays[str(name)] = series.to_numpy(dtype=float, na_value=np.nan)
         except (TypeError, ValueError):
-            if name in (*INPUTS, *TANGENTIAL_FORCES, "time"):
-                raise RecordingError(
-                    f"column {name} is not numeric", where=str(name), todo="convert it"
-                ) from None
+            continue  # a column of text that is no channel
     if len(recording) == 0:
         raise RecordingError("the recording has no rows", todo="record again, or check how it was read")
     for name in [n for n, a in arrays.items() if n != "time" and not np.isfinite(a).any()]:

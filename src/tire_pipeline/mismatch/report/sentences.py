@@ -177,14 +177,9 @@ def _than_usual(left: Remainder) -> str:
 
 def _causes(verdict: str, effects: Sequence[EffectReport], remainder: Remainder, ranges: Ranges) -> str:
     """The verdict, the causes, and the unexplained residual."""
-    sizes = ", ".join(f"{o.capitalize()} {newtons(s)} N" for o, s in remainder.size.items())
-    left = f"{sizes} RMS above noise"
-    if remainder.located:
-        f = remainder.located[0]
-        left += f", clearest in {f.output.capitalize()} {place(f.axis, f.low, f.high, ranges)}"
+    left = _what_is_left(remainder, ranges)
     if not effects:
-        lead = "I can't tell: no effect of the catalogue explains the difference"
-        return f"{lead} ({left})" if remainder.significant else lead
+        return f"I can't tell: no effect of the catalogue explains the difference{left}"
     physics = [_cause(e, ranges) for e in effects if e.kind == "physics"]
     faults = [_cause(e, ranges) for e in effects if e.kind != "physics"]
     parts = []
@@ -194,7 +189,17 @@ def _causes(verdict: str, effects: Sequence[EffectReport], remainder: Remainder,
         fault = "a fault" if len(faults) == 1 else "faults"
         parts.append(f"from {' and '.join(faults)}, {fault} of the recording")
     text = f"{verdict.capitalize()}: the difference comes {', and '.join(parts)}"
-    return f"{text}; an unexplained residual remains ({left})" if remainder.significant else text
+    return f"{text}; an unexplained residual remains{left}" if remainder.significant else text
+
+
+def _what_is_left(remainder: Remainder, ranges: Ranges) -> str:
+    """Size and place of the unexplained residual in brackets; nothing where neither is known."""
+    sizes = ", ".join(f"{o.capitalize()} {newtons(s)} N" for o, s in remainder.size.items() if s > 0.0)
+    said = [f"{sizes} RMS above noise"] if sizes else []
+    if remainder.located:
+        f = remainder.located[0]
+        said.append(f"clearest in {f.output.capitalize()} {place(f.axis, f.low, f.high, ranges)}")
+    return f" ({', '.join(said)})" if said and remainder.significant else ""
 
 
 def _cause(effect: EffectReport, ranges: Ranges) -> str:

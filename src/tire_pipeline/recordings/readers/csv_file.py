@@ -68,8 +68,9 @@ def read_csv(path: Path) -> RawRecording:
             low_memory=True,
         )
     except (ValueError, OverflowError, UnicodeError, IndexError) as error:
+        said = " ".join(str(error).removeprefix("Error tokenizing data. C error: ").split())
         raise RecordingError(
-            f"rows cannot be read ({error})",
+            f"rows cannot be read ({said})",
             where=str(path),
             todo="every row must have as many fields as the header",
         ) from error
@@ -209,7 +210,7 @@ def _numbers(column: pd.Series, name: str, decimal: str, notes: list[str]) -> ND
     if decimal == ",":
         text = text.str.replace(",", ".", regex=False)
     values = pd.to_numeric(text, errors="coerce")
-    lost = int((values.isna() & text.notna()).sum())
+    lost = (values.isna() & text.notna()).to_numpy(dtype=bool)
     if values.notna().sum() == 0:
         hit = find_channel(split_unit(name)[0])
         if hit and hit[0].name == "time" and text.notna().any():
@@ -220,6 +221,10 @@ def _numbers(column: pd.Series, name: str, decimal: str, notes: list[str]) -> ND
         if text.notna().any():
             notes.append(f"{name}: text, left out")
             return None
-    if lost:
-        notes.append(f"{name}: {lost} cells are no numbers and became NaN")
+    if lost.any():
+        first = int(lost.argmax())
+        notes.append(
+            f"{name}: {int(lost.sum())} cells are no numbers and became NaN, the first in data row "
+            f"{first + 1}: {text.iloc[first]!r}"
+        )
     return np.asarray(values.to_numpy(dtype=float, na_value=np.nan))

@@ -1,0 +1,69 @@
+"""What a caller gives: a tire model, and a table whose known columns are numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pandas as pd
+
+from tire_pipeline.channels import FORCE_CHANNELS, OPERATING_CHANNELS
+from tire_pipeline.errors import RecordingError
+
+KNOWN = frozenset(("time", *OPERATING_CHANNELS, "turn_slip", *FORCE_CHANNELS))
+
+
+def numeric(recording: Any) -> pd.DataFrame:
+    """Return a recording with its known columns as numbers; the same object where they are.
+
+    Numbers that came as text become numbers, and dates seconds from the first one.
+
+    Parameters
+    ----------
+    recording : pandas.DataFrame
+
+    Raises
+    ------
+    RecordingError
+        It is no table, a known column is there twice, or holds something else than numbers.
+    """
+    if not isinstance(recording, pd.DataFrame):
+        raise RecordingError("the recording is not a DataFrame", todo="read it with read_recording")
+    names = [n for n in recording.columns if n in KNOWN or str(n).startswith("simulated_")]
+    twice = [str(n) for n in dict.fromkeys(names) if names.count(n) > 1]
+    if twice:
+        raise RecordingError(
+            f"there are several columns of the name {', '.join(twice)}", todo="keep one of each"
+        )
+    other = [n for n in names if not pd.api.types.is_numeric_dtype(recording[n])]
+    return recording.assign(**{str(n): _numbers(recording[n]) for n in other}) if other else recording
+
+
+def _numbers(column: pd.Series) -> pd.Series:
+    if pd.api.types.is_datetime64_any_dtype(column):
+        return (column - column.min()).dt.total_seconds()
+    values = pd.to_numeric(column, errors="coerce")
+    lost = (values.isna() & column.notna()).to_numpy()
+    if lost.any():
+        first = int(lost.argmax())
+        raise RecordingError(
+            f"{int(lost.sum())} of {len(column)} values are no numbers, the first in row {first}: "
+            f"{column.iloc[first]!r}",
+            where=str(column.name),
+            todo="convert the column, or put NaN where nothing was measured",
+        )
+    return values.astype(float)
+
+
+def check_tire(tire: Any) -> None:
+    """Raise if something else than a tire model was given.
+
+    Raises
+    ------
+    RecordingError
+        It has no forces.
+    """
+    if tire is not None and not (hasattr(tire, "forces") and hasattr(tire, "coefficients")):
+        raise RecordingError(
+            f"the tire is of type {type(tire).__name__}, which is no tire model",
+            todo='read it with read_tir("file.tir")',
+        )
