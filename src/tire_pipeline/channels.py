@@ -17,5 +17,8 @@ OPERATING_CHANNELS = (*POINT_CHANNELS, "tread_temperature")
 FORCE_CHANNELS = ("fx", "fy", "mx", "my", "mz")
 """Forces (N) and moments (N m) in ISO W axes."""
 
+RECORDED_CHANNELS = ("time", *OPERATING_CHANNELS, "turn_slip", *FORCE_CHANNELS)
+"""Columns of a recording that have a meaning: s, an operating point, 1/m, forces and moments."""
+
 TANGENTIAL_FORCES = ("fx", "fy")
 """Forces in the plane of the road, N."""

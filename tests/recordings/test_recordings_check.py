@@ -55,6 +55,18 @@ def test_each_fault_is_found_where_it_is(frame, name, severity, rows):
     assert issues[0].advice in str(issues[0])
 
 
+@pytest.mark.parametrize("channel", ["time", "normal_load", "fy"])
+def test_two_columns_of_one_channel_are_named(channel):
+    frame = good()
+    issues = check_recording(pd.concat([frame, frame[channel]], axis=1))
+    assert [(i.name, i.severity, i.where) for i in issues] == [("repeated_channel", "error", channel)]
+
+
+def test_two_columns_of_a_name_that_is_no_channel_do_no_harm():
+    frame = good().assign(remark=1.0)
+    assert check_recording(pd.concat([frame, frame["remark"]], axis=1)) == []
+
+
 def test_steady_points_may_be_few():
     assert check_recording(good(12).drop(columns="time")) == []
 

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import ANGLE_CHANNELS, FORCE_CHANNELS
+from tire_pipeline.channels import ANGLE_CHANNELS, FORCE_CHANNELS, RECORDED_CHANNELS
 
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
@@ -87,13 +87,24 @@ def check_recording(recording: pd.DataFrame) -> list[Issue]:
     >>> found[0].name, found[0].severity
     ('no_force_channel', 'error')
     """
+    repeated = repeated_channels(recording)
+    if repeated:
+        return [Issue("repeated_channel", "error", ", ".join(repeated), "keep one of each")]
     issues = _columns(recording) + _time(recording) + _values(recording)
     return sorted(issues, key=lambda issue: issue.severity != "error")
 
 
+def repeated_channels(recording: pd.DataFrame) -> list[str]:
+    """Return the channels of which there are several columns."""
+    names = [str(n) for n in recording.columns]
+    known = [n for n in names if n in RECORDED_CHANNELS or n.startswith("simulated_")]
+    return [n for n in dict.fromkeys(known) if known.count(n) > 1]
+
+
 def _columns(frame: pd.DataFrame) -> list[Issue]:
     issues = []
-    held = {c for c in frame if pd.notna(frame[c]).any() or frame.empty}
+    columns = pd.DataFrame(frame, copy=False).items()  # without attrs: pandas copies them
+    held = {name for name, values in columns if values.notna().any() or frame.empty}
     if not any(c in held for c in FORCE_CHANNELS):
         issues.append(
             Issue(

@@ -6,10 +6,9 @@ from typing import Any
 
 import pandas as pd
 
-from tire_pipeline.channels import FORCE_CHANNELS, OPERATING_CHANNELS
+from tire_pipeline.channels import RECORDED_CHANNELS
 from tire_pipeline.errors import RecordingError
-
-KNOWN = frozenset(("time", *OPERATING_CHANNELS, "turn_slip", *FORCE_CHANNELS))
+from tire_pipeline.recordings.check import repeated_channels
 
 
 def numeric(recording: Any) -> pd.DataFrame:
@@ -28,12 +27,12 @@ def numeric(recording: Any) -> pd.DataFrame:
     """
     if not isinstance(recording, pd.DataFrame):
         raise RecordingError("the recording is not a DataFrame", todo="read it with read_recording")
-    names = [n for n in recording.columns if n in KNOWN or str(n).startswith("simulated_")]
-    twice = [str(n) for n in dict.fromkeys(names) if names.count(n) > 1]
+    twice = repeated_channels(recording)
     if twice:
         raise RecordingError(
             f"there are several columns of the name {', '.join(twice)}", todo="keep one of each"
         )
+    names = [n for n in recording.columns if n in RECORDED_CHANNELS or str(n).startswith("simulated_")]
     other = [n for n in names if not pd.api.types.is_numeric_dtype(recording[n])]
     return recording.assign(**{str(n): _numbers(recording[n]) for n in other}) if other else recording
 
