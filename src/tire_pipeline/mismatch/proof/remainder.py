@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -19,7 +20,9 @@ Array = np.ndarray
 _MOST_TERMS = 5
 
 
-def remainder(analysis: Analysis, answer: SetAnswer, usual: tuple[float, float]) -> Remainder:
+def remainder(
+    analysis: Analysis, answer: SetAnswer, usual: tuple[float, float], largest: Mapping[str, float]
+) -> Remainder:
     """Measure what neither the effects nor a misfit of the usual size explains.
 
     It counts if the posterior says that something unnamed is likelier than not.
@@ -30,6 +33,8 @@ def remainder(analysis: Analysis, answer: SetAnswer, usual: tuple[float, float])
     answer : SetAnswer
     usual : (float, float)
         Sizes of the error that fitted models usually leave, over the largest force.
+    largest : mapping of float
+        Largest force of each output by which the answer's errors are measured, N.
     """
     data, fit = analysis.data, analysis.fit
     rest = residual(data, fit.changes)
@@ -42,18 +47,10 @@ def remainder(analysis: Analysis, answer: SetAnswer, usual: tuple[float, float])
     located = locate(data, rest, analysis.noise, analysis.block) if significant else []
     form = sparse_form(analysis) if significant else ""
     gaussian = gaussian_forms(analysis, size) if significant else []
-    unusual = {o: left for o, left in _left(analysis, answer, rest).items() if left > usual[1]}
+    whole = {o: rms(r) / largest[o] for o, r in rest.items()}
+    capped = {o: min(left, whole[o]) for o, left in answer.left.items()}  # few samples leave its size open
+    unusual = {o: left for o, left in capped.items() if left > usual[1]}
     return Remainder(size, located, form, significant, answer.unnamed, gaussian, unusual, usual)
-
-
-def _left(analysis: Analysis, answer: SetAnswer, rest: dict[str, Array]) -> dict[str, float]:
-    """Return the likeliest size of the error over the largest force, no larger than all that is left.
-
-    A few independent samples leave its likeliest size open enough to be above that.
-    """
-    recorded = analysis.data.recorded
-    whole = {o: rms(r) / max(analysis.largest[o], rms(recorded[o])) for o, r in rest.items()}
-    return {o: min(left, whole[o]) for o, left in answer.left.items()}
 
 
 def gaussian_forms(analysis: Analysis, size: dict[str, float]) -> list[GaussianForm]:

@@ -78,7 +78,7 @@ def assembled(it: Explained) -> MismatchReport:
     """Return the report."""
     prepared, analysis, answer = it.prepared, it.analysis, it.answer
     data = analysis.data
-    left = remainder(analysis, answer, it.sets.likelihood.learnt.left)
+    left = remainder(analysis, answer, it.sets.likelihood.learnt.left, it.sets.products.largest)
     if prepared.stopped:
         left = replace(left, significant=False, located=[])
     effects = [_exact(finding, prepared) for finding in prepared.findings]
