@@ -299,6 +299,12 @@ class LateralPart:
     def aligning(self, parameters: np.ndarray, points: FitPoints) -> tuple[np.ndarray, np.ndarray]:
         """See :func:`aligning`."""
         p = dict(zip(FITTED_ALIGNING, _columns(parameters), strict=True))
+        jac = np.empty((len(parameters), 25, points.normal_load.shape[1]))
+        by_trail = self._by_trail(p, points, jac)
+        return by_trail + self._residual(p, points, jac), jac
+
+    def _by_trail(self, p: dict[str, np.ndarray], points: FitPoints, jac: np.ndarray) -> np.ndarray:
+        """Torque by the trail, A.29 and A.34 to A.39; writes its derivatives."""
         fz, fz0, g, r0 = points.normal_load, points.nominal_load, points.camber, points.radius
         df = (fz - fz0) / fz0
         df2, ag, turn = df * df, np.abs(g), np.cos(points.slip)
@@ -322,31 +328,17 @@ class LateralPart:
         by_bow = by_e * e_level * (p["QEZ4"] + p["QEZ5"] * g) * (2.0 / np.pi) / (1.0 + v * v)
         by_b = lever * by_u * x + by_bow * c * x
         by_x = lever * by_u * b + by_bow * b * c
-        xr = points.slip + self.shift
-        br = p["QBZ9"] + p["QBZ10"] * self.by_cy
-        root = 1.0 / np.sqrt(1.0 + (br * xr) ** 2)
-        r_scale = fz * r0 * root * turn
-        level = p["QDZ6"] + p["QDZ7"] * df + (p["QDZ8"] + p["QDZ9"] * df) * g
-        mz = lever * cosine + r_scale * level
-        by_br = -r_scale * level * root * root * br * xr * xr
         d_base = arm * cosine * d_scale
-        jac = np.empty((len(parameters), 25, fz.shape[1]))
         jac[:, 0] = by_b * b_tilt
         jac[:, 1] = jac[:, 0] * df
         jac[:, 2] = jac[:, 0] * df2
         jac[:, 3] = by_b * b_level * g
         jac[:, 4] = by_b * b_level * ag
-        jac[:, 5] = by_br
-        jac[:, 6] = by_br * self.by_cy
         jac[:, 7] = lever * by_c + by_bow * b * x
         jac[:, 8] = d_base * d_tilt
         jac[:, 9] = jac[:, 8] * df
         jac[:, 10] = d_base * (p["QDZ1"] + p["QDZ2"] * df) * g
         jac[:, 11] = jac[:, 10] * g
-        jac[:, 12] = r_scale
-        jac[:, 13] = r_scale * df
-        jac[:, 14] = r_scale * g
-        jac[:, 15] = jac[:, 14] * df
         jac[:, 16] = by_e * e_side
         jac[:, 17] = jac[:, 16] * df
         jac[:, 18] = jac[:, 16] * df2
@@ -356,4 +348,22 @@ class LateralPart:
         jac[:, 22] = by_x * df
         jac[:, 23] = by_x * g
         jac[:, 24] = jac[:, 23] * df
-        return mz, jac
+        return lever * cosine
+
+    def _residual(self, p: dict[str, np.ndarray], points: FitPoints, jac: np.ndarray) -> np.ndarray:
+        """Residual torque, A.31, A.40 and A.41; writes its derivatives."""
+        fz, fz0, g, r0 = points.normal_load, points.nominal_load, points.camber, points.radius
+        df = (fz - fz0) / fz0
+        xr = points.slip + self.shift
+        br = p["QBZ9"] + p["QBZ10"] * self.by_cy
+        root = 1.0 / np.sqrt(1.0 + (br * xr) ** 2)
+        r_scale = fz * r0 * root * np.cos(points.slip)
+        level = p["QDZ6"] + p["QDZ7"] * df + (p["QDZ8"] + p["QDZ9"] * df) * g
+        by_br = -r_scale * level * root * root * br * xr * xr
+        jac[:, 5] = by_br
+        jac[:, 6] = by_br * self.by_cy
+        jac[:, 12] = r_scale
+        jac[:, 13] = r_scale * df
+        jac[:, 14] = r_scale * g
+        jac[:, 15] = jac[:, 14] * df
+        return r_scale * level

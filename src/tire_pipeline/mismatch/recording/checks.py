@@ -135,9 +135,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
         question = another_tire(tire, arrays, driven) or open_axes(
             tire, arrays, findings, str(recording.attrs.get("axes_doubt", ""))
         )
-    assumed = list(recording.attrs.get("assumed", [AS_GIVEN]))
-    assumed += [t.replace(" from ", " converted from ", 1) for t in recording.attrs.get("conversions", [])]
-    assumed += [f"{n} is taken as {f:.6g} times what was recorded" for n, f in factors.items() if f != 1.0]
+    assumed = _assumed(recording, factors)
     present = {n for n in INPUTS if n in recording.columns and n in arrays}
     for name in ASSUMED_ZERO:
         if name not in arrays:
@@ -165,6 +163,14 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
         fixed={"own_relaxation": own},
     )
     return Prepared(data, findings, notes, rows, factors, cleaned, assumed, question)
+
+
+def _assumed(recording: pd.DataFrame, factors: Mapping[str, float]) -> list[str]:
+    """What is taken for given: by the reader, and by the repair of exact factors."""
+    assumed = list(recording.attrs.get("assumed", [AS_GIVEN]))
+    assumed += [t.replace(" from ", " converted from ", 1) for t in recording.attrs.get("conversions", [])]
+    assumed += [f"{n} is taken as {f:.6g} times what was recorded" for n, f in factors.items() if f != 1.0]
+    return assumed
 
 
 def _arrays(recording: pd.DataFrame) -> dict[str, Array]:

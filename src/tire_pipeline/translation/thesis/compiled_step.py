@@ -22,6 +22,54 @@ def is_real(state, real_features, real_lookup):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
+def move(  # type: ignore[no-untyped-def]
+    state,
+    action,
+    best,
+    n_bins,
+    target,
+    real_features,
+    real_lookup,
+    row,
+    sums,
+    feature,
+    threshold,
+    left,
+    right,
+    value,
+    roots,
+):
+    """Move one tire, and give its reward, what its valuation gained, and whether the target is reached.
+
+    Parameters
+    ----------
+    state : int64, shape (d,)
+        Written.
+    action : int
+    best : float
+        Highest valuation seen.
+    n_bins, target, real_features, real_lookup
+        See ``Rules``.
+    row : float32, shape (1, d); sums : float64, shape (1, classes)
+        Written: what the forest reads and adds to.
+    feature, threshold, left, right, value, roots
+        See ``CompiledForest``.
+    """
+    moved = action // 2
+    wanted = state[moved] + (1 if action % 2 == 1 else -1)
+    if wanted < 0 or wanted >= n_bins:
+        return OUT_OF_BOUNDS, 0.0, False
+    state[moved] = wanted
+    if not is_real(state, real_features, real_lookup):
+        return STEP, 0.0, False
+    for k in range(state.shape[0]):
+        row[0, k] = state[k]
+    sums[:] = 0.0
+    add_leaves(row, feature, threshold, left, right, value, roots, sums)
+    return STEP, sums[0, target] - best, np.argmax(sums[0]) == target
+
+
+@njit(cache=True, nogil=True)
 def advance(  # type: ignore[no-untyped-def]
     actions,
     states,
@@ -67,32 +115,18 @@ def advance(  # type: ignore[no-untyped-def]
     feature, threshold, left, right, value, roots
         See ``CompiledForest``.
     """
-    d = states.shape[1]
-    classes = value.shape[1]
-    row = np.empty((1, d), dtype=np.float32)
-    sums = np.empty((1, classes))
+    row = np.empty((1, states.shape[1]), dtype=np.float32)
+    sums = np.empty((1, value.shape[1]))
+    forest = (feature, threshold, left, right, value, roots)
     for i in range(states.shape[0]):
         ended[i] = False
         cut[i] = False
         rewards[i] = 0.0
         if frozen[i]:
             continue
-        moved = actions[i] // 2
-        wanted = states[i, moved] + (1 if actions[i] % 2 == 1 else -1)
-        gained = 0.0
-        reached = False
-        rewards[i] = STEP
-        if wanted < 0 or wanted >= n_bins:
-            rewards[i] = OUT_OF_BOUNDS
-        else:
-            states[i, moved] = wanted
-            if is_real(states[i], real_features, real_lookup):
-                for k in range(d):
-                    row[0, k] = states[i, k]
-                sums[:] = 0.0
-                add_leaves(row, feature, threshold, left, right, value, roots, sums)
-                gained = sums[0, target] - best[i]
-                reached = np.argmax(sums[0]) == target
+        rewards[i], gained, reached = move(
+            states[i], actions[i], best[i], n_bins, target, real_features, real_lookup, row, sums, *forest
+        )
         if gained > 0:
             best[i] += gained
             without_improvement[i] = 0
