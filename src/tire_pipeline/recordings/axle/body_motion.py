@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -104,6 +105,62 @@ def evenly_spaced(drive: pd.DataFrame) -> tuple[pd.DataFrame, float, list[str]]:
     return table.reset_index(drop=True), dt, notes
 
 
+@dataclass(frozen=True)
+class EvenDrive:
+    """A drive on an even time base, with its smoother.
+
+    Attributes
+    ----------
+    table : DataFrame
+    smoother : Smoother
+    missing : ndarray of bool
+        Where a needed channel has no number.
+    good : ndarray of bool
+        False where the smoother reaches a gap, or beyond an end of the drive.
+    notes : list of str
+    """
+
+    table: pd.DataFrame
+    smoother: Smoother
+    missing: NDArray[np.bool_]
+    good: NDArray[np.bool_]
+    notes: list[str]
+
+
+def even_drive(drive: pd.DataFrame, needed: Sequence[str], bandwidth: float) -> EvenDrive:
+    """Put a drive on an even time base, and say where its needed channels can be smoothed.
+
+    Parameters
+    ----------
+    drive : DataFrame
+    needed : sequence of str
+        Channels.
+    bandwidth : float
+        Half-power frequency of the smoothing, Hz.
+
+    Raises
+    ------
+    RecordingError
+        The drive is too short, or no sample has all needed channels.
+    """
+    table, dt, notes = evenly_spaced(drive)
+    smoother = make_smoother(dt, bandwidth)
+    if len(table) <= 2 * smoother.long:
+        raise RecordingError(
+            f"{len(table)} samples are too few for a bandwidth of {bandwidth:g} Hz",
+            todo=f"at least {2 * smoother.long + 1} are needed",
+        )
+    missing = ~np.isfinite(table[list(needed)].to_numpy(dtype=float)).all(axis=1)
+    if missing.all():
+        raise RecordingError(
+            f"the drive holds no finite sample of {', '.join(needed)}", todo="check these columns"
+        )
+    good = ~reached_by_gap(missing, smoother.reach, BRIDGED_SAMPLES)
+    # Window ends extrapolate: cut them.
+    good[: smoother.reach] = good[-smoother.reach :] = False
+    return EvenDrive(table, smoother, missing, good, notes)
+
+
 def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMotion:
     """Differentiate a recorded pose.
 
@@ -116,19 +173,8 @@ def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMo
     bandwidth : float
         Half-power frequency of the smoothing, Hz.
     """
-    table, dt, notes = evenly_spaced(drive)
-    smoother = make_smoother(dt, bandwidth)
-    if len(table) <= 2 * smoother.long:
-        raise RecordingError(
-            f"{len(table)} samples are too few for a bandwidth of {bandwidth:g} Hz",
-            todo=f"at least {2 * smoother.long + 1} are needed",
-        )
-    missing = ~np.isfinite(table[["x", "y", "yaw"]].to_numpy(dtype=float)).all(axis=1)
-    if missing.all():
-        raise RecordingError("the drive's pose holds no finite sample", todo="check x, y, yaw")
-    good = ~reached_by_gap(missing, smoother.reach, BRIDGED_SAMPLES)
-    # Window ends extrapolate: cut them.
-    good[: smoother.reach] = good[-smoother.reach :] = False
+    even = even_drive(drive, ("x", "y", "yaw"), bandwidth)
+    table, smoother, missing, good = even.table, even.smoother, even.missing, even.good
     x, y, yaw = _bridged(table, missing)
     yaw = yaw + vehicle.yaw_offset
     world_x, world_y, turning = smoother.first(x), smoother.first(y), smoother.first(yaw)
@@ -173,7 +219,7 @@ def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMo
             "inflation_yaw": float(np.median(more_yaw[good])) if good.any() else 1.0,
             "missing_share": float(missing.mean()),
         },
-        notes=notes,
+        notes=even.notes,
     )
 
 

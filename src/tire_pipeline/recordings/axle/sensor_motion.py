@@ -7,13 +7,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.axle.body_motion import BRIDGED_SAMPLES, BodyMotion, evenly_spaced
-from tire_pipeline.recordings.axle.smoothing import (
-    Smoother,
-    make_smoother,
-    reached_by_gap,
-    white_noise_std,
-)
+from tire_pipeline.recordings.axle.body_motion import BodyMotion, even_drive
+from tire_pipeline.recordings.axle.smoothing import Smoother, white_noise_std
 from tire_pipeline.recordings.axle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
@@ -47,23 +42,12 @@ def from_sensors(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> Bod
             f"the drive has neither a pose nor {', '.join(lacking)}",
             todo="give x, y, yaw or speed, yaw_rate, lateral_acceleration",
         )
-    table, dt, notes = evenly_spaced(drive)
-    smoother = make_smoother(dt, bandwidth)
-    if len(table) <= 2 * smoother.long:
-        raise RecordingError(
-            f"{len(table)} samples are too few for a bandwidth of {bandwidth:g} Hz",
-            todo=f"at least {2 * smoother.long + 1} are needed",
-        )
-    missing = ~np.isfinite(table[list(_NEEDED)].to_numpy(dtype=float)).all(axis=1)
-    if missing.all():
-        raise RecordingError("the sensors hold no sample that is whole", todo="check the columns")
-    good = ~reached_by_gap(missing, smoother.reach, BRIDGED_SAMPLES)
-    good[: smoother.reach] = good[-smoother.reach :] = False
+    even = even_drive(drive, _NEEDED, bandwidth)
+    table, smoother = even.table, even.smoother
     speed, rate, ay = (_filled(table[name]) for name in _NEEDED)
     keep, slope = smoother.gain(0, 0), smoother.gain(0, 1)
     stds = [white_noise_std(s) for s in (speed, rate, ay)]
     vy, vy_std, how = _lateral_speed(table, speed, rate, ay, smoother, stds)
-    notes.append(how)
     if "longitudinal_acceleration" in table:
         raw = _filled(table["longitudinal_acceleration"])
         ax, ax_std = smoother.smooth(raw), white_noise_std(raw) * keep
@@ -86,10 +70,10 @@ def from_sensors(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> Bod
         yaw_acceleration_std=one * stds[1] * slope,
         ax_std=one * ax_std,
         ay_std=one * stds[2] * keep,
-        good=good,
+        good=even.good,
         smoother=smoother,
         noise=dict(zip(("speed_std", "yaw_rate_std", "ay_std"), stds, strict=True)),
-        notes=notes,
+        notes=[*even.notes, how],
     )
 
 
