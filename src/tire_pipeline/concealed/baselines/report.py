@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.concealed.cases.clean_run import model_forces
+from tire_pipeline.concealed.cases.clean_run import model_forces, rms
 from tire_pipeline.concealed.cases.windows_and_regimes import regimes, windows
 from tire_pipeline.concealed.effect_names import PHYSICS
 from tire_pipeline.magic_formula import TireModel
@@ -93,13 +93,13 @@ def fit_entry(before: np.ndarray, after: np.ndarray) -> dict[str, dict[str, floa
     floor = noise_floor(before)
     out = {}
     for i, force in enumerate(("fx", "fy")):
-        rms = [float(np.sqrt(np.mean(r[:, i] ** 2))) for r in (before, after)]
-        room = rms[0] ** 2 - floor[i] ** 2
-        share = (rms[0] ** 2 - rms[1] ** 2) / room if room > 0 else 0.0
+        first, last = rms(before[:, i]), rms(after[:, i])
+        room = first**2 - floor[i] ** 2
+        share = (first**2 - last**2) / room if room > 0 else 0.0
         out[force] = {
             "noise_floor": float(floor[i]),
-            "rms_before": rms[0],
-            "rms_after": rms[1],
+            "rms_before": first,
+            "rms_after": last,
             "share_recoverable": float(share),
         }
     return out

@@ -98,5 +98,11 @@ def residual(tire: TireModel, frame: pd.DataFrame) -> np.ndarray:
 
 
 def rms(values: np.ndarray) -> float:
-    """Root of the mean over samples of the squared force, all components together."""
-    return float(np.sqrt(np.mean(np.sum(np.atleast_2d(values) ** 2, axis=-1))))
+    """Root of the mean over samples of the squared force, all components of a sample together.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,) or (n, components)
+    """
+    squared = np.asarray(values, dtype=float) ** 2
+    return float(np.sqrt(np.mean(squared if squared.ndim == 1 else squared.sum(axis=-1))))

@@ -320,7 +320,7 @@ def _truth(bench: _Bench, name: str, strengths: Mapping[str, float], noise_part:
     """Measure one effect by itself in the recording."""
     effect = bench.effect({name: strengths[name]})
     output = int(np.argmax(np.mean(effect**2, axis=0)))
-    floor = float(np.sqrt(np.mean(noise_part[:, output] ** 2)))
+    floor = rms(noise_part[:, output])
     size = rms(effect)
     details: dict[str, object] = {}
     if name in bench.rig.details:
@@ -362,8 +362,8 @@ def _oracle(
     best = noise_part + residual(bench.tire, clean)
     return {
         force: {
-            "rms_before": float(np.sqrt(np.mean(before[:, i] ** 2))),
-            "rms_oracle": float(np.sqrt(np.mean(best[:, i] ** 2))),
+            "rms_before": rms(before[:, i]),
+            "rms_oracle": rms(best[:, i]),
         }
         for i, force in enumerate(RIG_FORCES)
     }

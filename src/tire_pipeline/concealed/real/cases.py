@@ -11,7 +11,7 @@ import pandas as pd
 
 from tire_pipeline.concealed.cases import effect_size
 from tire_pipeline.concealed.cases.answers import Answer, EffectTruth
-from tire_pipeline.concealed.cases.clean_run import model_forces
+from tire_pipeline.concealed.cases.clean_run import model_forces, rms
 from tire_pipeline.concealed.cases.make import Case
 from tire_pipeline.concealed.cases.windows_and_regimes import regimes, windows
 from tire_pipeline.concealed.real.layout import Layout, at_rate, draw_layout, fitted, rows
@@ -160,7 +160,7 @@ def _attempt(rng: np.random.Generator, plan: RealPlan, chosen: Sequence[Sweep]) 
         misfit=bench.misfit,
         noise=bench.misfit,
         oracle={
-            "fy": {"rms_before": _rms(_left(bench.tire, held)), "rms_oracle": _rms(_left(best, clean_held))}
+            "fy": {"rms_before": rms(_left(bench.tire, held)), "rms_oracle": rms(_left(best, clean_held))}
         },
         source=plan.source,
         hidden=choice.hidden,
@@ -187,12 +187,12 @@ def _set_up(
     # Too few steady points overfit: there the formula is that of all points of the case.
     best = formula if layout.shown[0].source == "tydex" else fitted(layout.shown)
     shown = at_rate(raw, rate, picked=picked)
-    misfit = _rms(_left(best, shown))
+    misfit = rms(_left(best, shown))
     session = _session(formula, layout, raw)
     known = at_rate(rows(layout.fit, None), rate, picked=picked) if hidden else shown
-    if _rms(_left(tire, known)) > AGREES * max(misfit, _rms(_left(formula, known))):
+    if rms(_left(tire, known)) > AGREES * max(misfit, rms(_left(formula, known))):
         raise _UnfitSweeps
-    held = _rms(_left(formula if hidden else tire, raw_held))
+    held = rms(_left(formula if hidden else tire, raw_held))
     if max(misfit, held) > MOST_MISFIT * session.largest:
         raise _UnfitSweeps
     return _RealBench(layout, tire, raw, raw_held, rate, picked, misfit, session)
@@ -232,7 +232,7 @@ def _scale(rng: np.random.Generator, bench: _RealBench, name: str, details: Mapp
     """Draw how strong an effect shall be, in misfits, and find its strength."""
     inserted = INSERTED_EFFECTS[name]
     if not inserted.scaled:
-        if _rms(bench.effect({name: 1.0}, details)) < EFFECT[0] * bench.misfit:
+        if rms(bench.effect({name: 1.0}, details)) < EFFECT[0] * bench.misfit:
             raise _UnfitSweeps
         return 1.0
     wanted = effect_size.draw_ratio(rng, *EFFECT)
@@ -240,7 +240,7 @@ def _scale(rng: np.random.Generator, bench: _RealBench, name: str, details: Mapp
     unit = {"force": bench.session.largest, "radius": bench.session.radius}.get(inserted.share_of, 1.0)
 
     def measure(x: float) -> float:
-        return _rms(bench.effect({name: sign * x}, details)) / bench.misfit
+        return rms(bench.effect({name: sign * x}, details)) / bench.misfit
 
     found, got = effect_size.find_strength(
         measure, wanted, unit * inserted.guess, (unit * inserted.low, unit * inserted.high)
@@ -284,7 +284,7 @@ def _truth(
 ) -> EffectTruth:
     shown = bench.shown(bench.raw)
     timed = "time" in shown and len(shown) > 10
-    total = _rms(effect)
+    total = rms(effect)
     return EffectTruth(
         name=name,
         kind=INSERTED_EFFECTS[name].kind if name in INSERTED_EFFECTS else "physics",
@@ -301,7 +301,3 @@ def _truth(
 
 def _left(tire: TireModel, frame: pd.DataFrame) -> np.ndarray:
     return frame["fy"].to_numpy() - model_forces(tire, frame)[:, 1]
-
-
-def _rms(values: np.ndarray) -> float:
-    return float(np.sqrt(np.mean(np.asarray(values, dtype=float) ** 2)))

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import numpy as np
 import pandas as pd
 
 from tire_pipeline.concealed.brush_rig.simulate import RIG_FORCES
-from tire_pipeline.concealed.cases.clean_run import model_forces
+from tire_pipeline.concealed.cases.clean_run import model_forces, rms
 from tire_pipeline.concealed.cases.make import Case
 
 
@@ -39,7 +38,7 @@ def held_out_errors(
         measured = case.held_out[force].to_numpy()
         guess = after[force].to_numpy() if force in after else before[:, i]
         out[force] = {
-            "rms_before": float(np.sqrt(np.mean((measured - before[:, i]) ** 2))),
-            "rms_after": float(np.sqrt(np.mean((measured - guess) ** 2))),
+            "rms_before": rms(measured - before[:, i]),
+            "rms_after": rms(measured - guess),
         }
     return out
