@@ -43,6 +43,11 @@ FILES = (
     "projectchrono/projectchrono__chrono__mf_185_80R14.tir",
     "projectchrono/projectchrono__chrono__suv_Pac02Tire.tir",
 )
+SAID = re.compile(
+    r"D measures (\d+\.\d)% (more|less) (cornering stiffness|lateral grip|slip stiffness|longitudinal grip)"
+)
+KEY_WORDS = tuple(enumerate(("cornering stiffness", "lateral grip", "slip stiffness", "longitudinal grip")))
+"""Places of ``KEY_PARTS`` and what the sentences call them."""
 NO_NUMBERS = ("source_probability", "distance", "expected_rms_ratio", "harm_probability")
 NO_WORDS = ("bias_band", "changes")
 WITHOUT_FIT = ("read_sources", "translate_all", "draw_translated_files")
@@ -238,6 +243,18 @@ def test_what_is_said_of_a_translated_file_agrees_everywhere(together):
         assert cells["ratio"] == pytest.approx(ratio, rel=0.005)
         assert (cells["reason"], cells["changes"]) == (row["reason"], row["changes"])
         assert cells["bias"] == row["bias_band"]
+
+
+def test_the_bias_in_words_lies_within_its_band(together):
+    checked = 0
+    for _, row in together.report[together.report["verdict"] == "translated"].iterrows():
+        bands = row["bias_band"].split(", ")
+        ends = {part: [float(n) for n in re.findall(r"([+-]\d+\.\d)%", bands[k])] for k, part in KEY_WORDS}
+        for size, way, part in SAID.findall(row["changes"]):
+            low, high = ends[part]
+            assert low <= float(size) * (1 if way == "more" else -1) <= high, row["changes"]
+            checked += 1
+    assert checked > 400
 
 
 def test_the_page_says_which_error_and_how_far_files_are_written(together, asked):

@@ -66,7 +66,8 @@ class TranslationResult:
         ``harm_probability``, ``bias_band`` (of the supplier's bias for this tire, 90%, in words),
         ``taught`` (by how many files of other tires that were translated with it, see
         :mod:`.predict.batch`), ``protocol`` (under which of its category's protocols the file was
-        measured, if that changed) and ``changes`` (what moved and why, in words).
+        measured, if that changed) and ``changes`` (what the target measures differently of such a tire, in
+        words, and what that usually comes from).
     bands : dict of str to Band
         ``fy``, ``fx``, ``mz``; empty if the translator gives none.
     coefficients : DataFrame

@@ -130,7 +130,7 @@ def translate_all(
         The translated ``.tir`` files, no others.
     report : DataFrame
         One row a file: how its supplier is known, verdict, reason, distance, expected RMS error over that of
-        the unchanged file, band of the bias, what moved and why in words.
+        the unchanged file, band of the bias, and that in words with what it usually comes from.
     coefficients : DataFrame
         One row a coefficient that moved.
     bands : DataFrame

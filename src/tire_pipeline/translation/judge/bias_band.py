@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import pandas as pd
 
 from tire_pipeline.translation.curves.space import PARTS, UNIT
 from tire_pipeline.translation.judge.effects import EFFECT_QUANTILE, KEY_PARTS
@@ -70,3 +71,27 @@ def bias_band(model: CurveMixedModel, found: Prediction) -> BiasBand:
         middle[:, k] = found.shift[:, place] @ along
         half[:, k] = EFFECT_QUANTILE * np.sqrt(found.shift_variance[:, place] @ along**2)
     return BiasBand(np.expm1(middle - half), np.expm1(middle + half))
+
+
+def measured_by_both(
+    model: CurveMixedModel, rows: pd.DataFrame, found: Prediction
+) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """Give the curve features of n tires as their source and as the target measures them.
+
+    They differ by the bias alone. What a translation changes besides, since a file's own noise is drawn
+    towards what is usual of such a tire, says nothing of what the target measures.
+
+    Parameters
+    ----------
+    model : CurveMixedModel
+    rows : DataFrame
+        The source files.
+    found : Prediction
+
+    Returns
+    -------
+    source, target : dict of ndarray
+        By group, each (n, features).
+    """
+    _, rest = model.space.encode(rows)
+    return model.space.features(found.source, rest), model.space.features(found.source + found.shift, rest)

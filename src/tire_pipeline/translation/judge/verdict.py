@@ -11,10 +11,16 @@ import pandas as pd
 
 from tire_pipeline.translation.curves.features import encode
 from tire_pipeline.translation.decode.physics import violations
-from tire_pipeline.translation.judge.bias_band import CERTAINTY, NEGLIGIBLE, BiasBand, bias_band
+from tire_pipeline.translation.judge.bias_band import (
+    CERTAINTY,
+    NEGLIGIBLE,
+    BiasBand,
+    bias_band,
+    measured_by_both,
+)
 from tire_pipeline.translation.judge.gain import MOST_HARM, expected_gain, pooled_harm
 from tire_pipeline.translation.judge.reach import TrainingReach
-from tire_pipeline.translation.judge.words import describe_changes
+from tire_pipeline.translation.judge.words import describe_bias
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.result import LEFT_ALONE, REFUSED, TRANSLATED, UNBIASED, UNKNOWN
 
@@ -154,9 +160,8 @@ class VerdictRules:
             elif self.gate and (uncertain[i] or ratio[i] > 1.0 - LEAST_RELATIVE_GAIN):
                 verdict[i] = UNBIASED if band.negligible[i] else LEFT_ALONE
                 reason[i] = _why_alone(organisations[i], self.target, bool(uncertain[i]), band, i, ratio[i])
-        said = np.array(
-            describe_changes(encode(rows), encode(moved), organisations, self.target), dtype=object
-        )
+        before, after = measured_by_both(model, rows, found)
+        said = np.array(describe_bias(before, after, organisations, self.target), dtype=object)
         said[verdict != TRANSLATED] = ""
         return pd.DataFrame(
             {

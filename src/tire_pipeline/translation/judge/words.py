@@ -1,4 +1,4 @@
-"""What moved, in the words of a tire engineer."""
+"""What the target measures differently, in the words of a tire engineer."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _WHY = {
 }
 
 
-def describe_changes(
+def describe_bias(
     before: dict[str, np.ndarray], after: dict[str, np.ndarray], source: np.ndarray, target: str
 ) -> list[str]:
     """Say for each file what the target measures differently, and what that usually comes from.
@@ -28,7 +28,8 @@ def describe_changes(
     Parameters
     ----------
     before, after : dict of ndarray
-        Features by group (:func:`.curves.features.encode`) of the source and of the translated files.
+        Features by group of each tire as its source and as the target measures it
+        (:func:`.bias_band.measured_by_both`).
     source : ndarray of str, shape (n,)
         Source categories.
     target : str
