@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from importlib import import_module
 from typing import Any, ClassVar, Protocol, Self
 
 import numpy as np
 
-from tire_pipeline.errors import DomainError
+from tire_pipeline.class_by_name import class_by_name
 
 CLASSIFIERS: dict[str, tuple[str, str]] = {
     "random_forest": ("tire_pipeline.classifiers.methods.random_forest", "RandomForest"),
@@ -52,13 +51,6 @@ class Classifier(Protocol):
         ...
 
 
-def _class_of(name: str) -> Any:
-    if name not in CLASSIFIERS:
-        raise DomainError(f"there is no classifier {name!r}", todo=f"choose one of {', '.join(CLASSIFIERS)}")
-    module, cls = CLASSIFIERS[name]
-    return getattr(import_module(module), cls)
-
-
 def make_classifier(name: str, **options: Any) -> Classifier:
     """Make a classifier that is not trained yet.
 
@@ -74,13 +66,15 @@ def make_classifier(name: str, **options: Any) -> Classifier:
     DomainError
         If there is none of that name.
     """
-    classifier: Classifier = _class_of(name)(**options)
+    classifier: Classifier = class_by_name(CLASSIFIERS, name, "classifier")(**options)
     return classifier
 
 
 def classifier_from_state(state: Mapping[str, Any]) -> Classifier:
     """Bring back any classifier from its ``to_state()``."""
-    classifier: Classifier = _class_of(str(state["classifier"])).from_state(state)
+    classifier: Classifier = class_by_name(CLASSIFIERS, str(state["classifier"]), "classifier").from_state(
+        state
+    )
     return classifier
 
 

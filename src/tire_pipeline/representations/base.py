@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from importlib import import_module
 from typing import Any, ClassVar, Protocol, Self
 
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.errors import DomainError
+from tire_pipeline.class_by_name import class_by_name
 
 CURVE_LOADS = np.array([4000.0, 6000.0, 8000.0])
 """Normal loads of the thesis' force curves, N (section 4.2.2)."""
@@ -96,16 +95,6 @@ class Representation(Protocol):
         ...
 
 
-def _class_of(name: str) -> Any:
-    if name not in REPRESENTATIONS:
-        raise DomainError(
-            f"there is no representation {name!r}",
-            todo=f"choose one of {', '.join(REPRESENTATIONS)}",
-        )
-    module, cls = REPRESENTATIONS[name]
-    return getattr(import_module(module), cls)
-
-
 def make_representation(name: str, **options: Any) -> Representation:
     """Make a representation that is not fitted yet.
 
@@ -126,11 +115,13 @@ def make_representation(name: str, **options: Any) -> Representation:
     >>> len(make_representation("coefficients").feature_names)
     11
     """
-    representation: Representation = _class_of(name)(**options)
+    representation: Representation = class_by_name(REPRESENTATIONS, name, "representation")(**options)
     return representation
 
 
 def representation_from_state(state: Mapping[str, Any]) -> Representation:
     """Bring back any representation from its ``to_state()``."""
-    representation: Representation = _class_of(str(state["representation"])).from_state(state)
+    representation: Representation = class_by_name(
+        REPRESENTATIONS, str(state["representation"]), "representation"
+    ).from_state(state)
     return representation

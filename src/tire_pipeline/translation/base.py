@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from importlib import import_module
 from typing import Any, ClassVar, Protocol, Self
 
 import pandas as pd
 
+from tire_pipeline.class_by_name import class_by_name
 from tire_pipeline.errors import DomainError
 from tire_pipeline.translation.result import TranslationResult
 
@@ -137,10 +137,7 @@ def _class_of(name: str) -> Any:
             todo="write translator: mixed_model with "
             + ", ".join(f"{k}: {v}".lower() for k, v in options.items()),
         )
-    if name not in TRANSLATORS:
-        raise DomainError(f"there is no translator {name!r}", todo=f"choose one of {', '.join(TRANSLATORS)}")
-    module, cls = TRANSLATORS[name]
-    return getattr(import_module(module), cls)
+    return class_by_name(TRANSLATORS, name, "translator")
 
 
 def make_translator(name: str, **options: Any) -> Translator:
