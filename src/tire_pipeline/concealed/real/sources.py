@@ -34,7 +34,8 @@ GAP = 0.05
 BETWEEN_DRIVES = 60.0
 """Pause that is put between two drives, s."""
 
-_PSI = 6894.757
+_PRESSURE_STEP = 6894.757
+"""About 1 psi, Pa. Cases were sealed with this number: the exact one would make others of the same seeds."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +133,7 @@ def _sweep(source: str, name: str, frame: pd.DataFrame, recorded: bytes | None =
         name=name,
         load=float(kept["normal_load"].mean()),
         camber=float(np.radians(round(np.degrees(camber), 1))) + 0.0,
-        pressure=round(pressure / _PSI) * _PSI if np.isfinite(pressure) else pressure,
+        pressure=round(pressure / _PRESSURE_STEP) * _PRESSURE_STEP if np.isfinite(pressure) else pressure,
         sha256=total.hexdigest(),
         frame=kept,
     )

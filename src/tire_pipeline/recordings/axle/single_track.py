@@ -13,10 +13,10 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.axle.body_motion import BodyMotion, evenly_spaced, from_pose
 from tire_pipeline.recordings.axle.sensor_motion import from_sensors
 from tire_pipeline.recordings.axle.vehicle import Vehicle
+from tire_pipeline.unit_definitions import GRAVITY
 
 Array = NDArray[np.float64]
 Axle = Literal["front", "rear"]
-_GRAVITY = 9.80665  # m/s^2, the standard value; scipy.constants takes a tenth of a second to import
 
 
 @dataclass(frozen=True)
@@ -172,9 +172,9 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
     static = vehicle.front_mass if not rear else mass - vehicle.front_mass
     height = vehicle.cg_height or 0.0
     shift = mass * motion.ax / length * (1.0 if rear else -1.0)
-    load = static * _GRAVITY + shift * height
+    load = static * GRAVITY + shift * height
     load_std = np.sqrt(
-        (vehicle.axle_mass_std * _GRAVITY) ** 2
+        (vehicle.axle_mass_std * GRAVITY) ** 2
         + (shift * vehicle.cg_height_std) ** 2
         + (mass / length * height * motion.ax_std) ** 2
     )

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from tire_pipeline.unit_definitions import FOOT, GRAVITY, INCH, MILE, POUND_FORCE, PSI
+
 _DEG = math.pi / 180
-_LB = 4.4482216152605
-_PSI = 6894.757293168361
-_FT = 0.3048
 
 
 @dataclass(frozen=True)
@@ -37,24 +36,24 @@ UNITS: dict[str, Unit] = {
     **_same("force", 1, "n", "newton", "newtons"),
     **_same("force", 1e3, "kn"),
     **_same("force", 10, "dan"),
-    **_same("force", _LB, "lb", "lbs", "lbf"),
-    **_same("force", 9.80665, "kgf", "kp"),
+    **_same("force", POUND_FORCE, "lb", "lbs", "lbf"),
+    **_same("force", GRAVITY, "kgf", "kp"),
     **_same("moment", 1, "nm", "n-m", "n*m", "newtonmeter", "newton-meter"),
     **_same("moment", 1e3, "knm"),
     **_same("moment", 1e-3, "nmm", "n-mm", "n*mm"),
-    **_same("moment", _LB * _FT, "ft-lb", "ftlb", "lb-ft", "lbft", "ft-lbs", "lbf-ft", "ft-lbf"),
-    **_same("moment", _LB * _FT / 12, "in-lb", "inlb", "lb-in"),
+    **_same("moment", POUND_FORCE * FOOT, "ft-lb", "ftlb", "lb-ft", "lbft", "ft-lbs", "lbf-ft", "ft-lbf"),
+    **_same("moment", POUND_FORCE * INCH, "in-lb", "inlb", "lb-in"),
     **_same("speed", 1, "m/s", "mps", "ms-1", "m/sec"),
     **_same("speed", 1e-3, "mm/s"),
     **_same("speed", 1 / 3.6, "km/h", "kph", "kmh", "kmph", "km/hr"),
-    **_same("speed", 0.44704, "mph", "mi/h"),
-    **_same("speed", _FT, "ft/s"),
+    **_same("speed", MILE / 3600, "mph", "mi/h"),
+    **_same("speed", FOOT, "ft/s"),
     **_same("pressure", 1, "pa", "n/m2"),
     **_same("pressure", 100, "hpa", "mbar"),
     **_same("pressure", 1e3, "kpa"),
     **_same("pressure", 1e6, "mpa"),
     **_same("pressure", 1e5, "bar"),
-    **_same("pressure", _PSI, "psi", "lb/in2", "lbf/in2"),
+    **_same("pressure", PSI, "psi", "lb/in2", "lbf/in2"),
     **_same("temperature", 1, "degc", "°c", "c", "celsius", "deg_c", "grdc"),
     "k": Unit("temperature", 1, -273.15),
     "kelvin": Unit("temperature", 1, -273.15),
@@ -65,14 +64,14 @@ UNITS: dict[str, Unit] = {
     **_same("length", 1e-3, "mm"),
     **_same("length", 1e-2, "cm"),
     **_same("length", 1e3, "km"),
-    **_same("length", 0.0254, "in", "inch", "inches", '"'),
-    **_same("length", _FT, "ft"),
+    **_same("length", INCH, "in", "inch", "inches", '"'),
+    **_same("length", FOOT, "ft"),
     **_same("rate", 1, "rad/s", "1/s_rad"),
     **_same("rate", _DEG, "deg/s", "°/s"),
     **_same("rate", 2 * math.pi / 60, "rpm", "1/min", "u/min", "rev/min"),
     **_same("rate", 2 * math.pi, "1/s", "rev/s", "hz"),
     **_same("acceleration", 1, "m/s2", "m/s**2"),
-    **_same("acceleration", 9.80665, "g"),
+    **_same("acceleration", GRAVITY, "g"),
     **_same("curvature", 1, "1/m"),
 }
 

@@ -12,12 +12,7 @@ import math
 from collections.abc import Iterable, Mapping
 
 from tire_pipeline.errors import TirValueError
-
-_POUND = 0.45359237
-_GRAVITY = 9.80665
-_FOOT = 0.3048
-_LBF = _POUND * _GRAVITY
-_PSI = _LBF / (_FOOT / 12) ** 2
+from tire_pipeline.unit_definitions import FOOT, GRAVITY, INCH, MILE, POUND, POUND_FORCE, PSI
 
 _NAMES: dict[str, dict[float, str]] = {
     "LENGTH": {
@@ -25,18 +20,18 @@ _NAMES: dict[str, dict[float, str]] = {
         1e-3: "MM MILLIMETER MILLIMETERS MILLIMETRE MILLIMETRES",
         1e-2: "CM CENTIMETER CENTIMETERS CENTIMETRE CENTIMETRES",
         1e3: "KM KILOMETER KILOMETERS KILOMETRE KILOMETRES",
-        _FOOT / 12: "IN INCH INCHES",
-        _FOOT: "FT FOOT FEET",
-        1609.344: "MILE MILES",
+        INCH: "IN INCH INCHES",
+        FOOT: "FT FOOT FEET",
+        MILE: "MILE MILES",
     },
     "FORCE": {
         1.0: "N NEWTON NEWTONS",
         1e3: "KN KNEWTON KNEWTONS KILONEWTON KILONEWTONS",
         1e6: "MN MEGANEWTON MEGANEWTONS",
-        _LBF: "LBF LB LBS POUND POUNDS POUND_FORCE POUNDFORCE POUNDS_FORCE",
-        1e3 * _LBF: "KLBF KIP KIPS KPOUND_FORCE",
-        _GRAVITY: "KGF KG_FORCE KILOGRAM_FORCE KP KILOPOND",
-        _LBF / 16: "OZF OUNCE_FORCE",
+        POUND_FORCE: "LBF LB LBS POUND POUNDS POUND_FORCE POUNDFORCE POUNDS_FORCE",
+        1e3 * POUND_FORCE: "KLBF KIP KIPS KPOUND_FORCE",
+        GRAVITY: "KGF KG_FORCE KILOGRAM_FORCE KP KILOPOND",
+        POUND_FORCE / 16: "OZF OUNCE_FORCE",
         1e-5: "DYN DYNE DYNES",
     },
     "ANGLE": {
@@ -47,11 +42,11 @@ _NAMES: dict[str, dict[float, str]] = {
         1.0: "KG KILOGRAM KILOGRAMS KILO",
         1e-3: "G GRAM GRAMS",
         1e3: "T TONNE TONNES MEGAGRAM",
-        _POUND: "LB LBS LBM POUND POUNDS POUND_MASS POUNDMASS POUNDS_MASS",
-        1e3 * _POUND: "KPOUND_MASS KLBM",
-        _LBF / _FOOT: "SLUG SLUGS",
-        _LBF / (_FOOT / 12): "SLINCH SLINCHES",
-        _POUND / 16: "OZ OUNCE_MASS",
+        POUND: "LB LBS LBM POUND POUNDS POUND_MASS POUNDMASS POUNDS_MASS",
+        1e3 * POUND: "KPOUND_MASS KLBM",
+        POUND_FORCE / FOOT: "SLUG SLUGS",
+        POUND_FORCE / INCH: "SLINCH SLINCHES",
+        POUND / 16: "OZ OUNCE_MASS",
     },
     "TIME": {
         1.0: "S SEC SECS SECOND SECONDS",
@@ -65,15 +60,15 @@ _NAMES: dict[str, dict[float, str]] = {
         1e3: "KPA KPASCAL KILOPASCAL KILOPASCALS",
         1e6: "MPA MPASCAL MEGAPASCAL MEGAPASCALS N/MM^2 N/MM2",
         1e5: "BAR BARS",
-        _PSI: "PSI LBF/IN^2 LBF/IN2",
-        1e3 * _PSI: "KSI",
+        PSI: "PSI LBF/IN^2 LBF/IN2",
+        1e3 * PSI: "KSI",
     },
     "SPEED": {
         1.0: "M/S MPS METER/SECOND METERS/SECOND",
         1e-3: "MM/S",
         1 / 3.6: "KM/H KMH KPH",
-        1609.344 / 3600: "MPH MILES/HOUR",
-        _FOOT: "FT/S FPS",
+        MILE / 3600: "MPH MILES/HOUR",
+        FOOT: "FT/S FPS",
     },
 }
 FACTORS: dict[str, dict[str, float]] = {

@@ -8,11 +8,10 @@ import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.repairs import Simulate, best_repair
+from tire_pipeline.unit_definitions import GRAVITY, POUND_FORCE, PSI
 
 _DEG = 180.0 / np.pi
-_LBF = 4.4482216152605
-_PSI = 6.894757293168
-_FORCE = {_LBF: "pound-force for newton", 1e3: "kN for N", 9.80665: "kgf for N"}
+_FORCE = {POUND_FORCE: "pound-force for newton", 1e3: "kN for N", GRAVITY: "kgf for N"}
 _FACTORS: dict[str, dict[float, str]] = {
     "slip_angle": {_DEG: "degree for radian"},
     "camber": {_DEG: "degree for radian"},
@@ -22,11 +21,11 @@ _FACTORS: dict[str, dict[float, str]] = {
     "fy": _FORCE,
 }
 _PRESSURE = {
-    1.0 / _PSI: "psi for kPa",
-    1.0 / (1e3 * _PSI): "psi for Pa",
+    1e3 / PSI: "psi for kPa",
+    1.0 / PSI: "psi for Pa",
     1e-3: "kPa for Pa",
     1e-5: "bar for Pa",
-    _PSI: "kPa for psi",
+    PSI / 1e3: "kPa for psi",
 }
 
 
