@@ -1,10 +1,17 @@
 """What check_recording finds, and where."""
 
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 import pytest
 
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch.recording.checks import prepare
 from tire_pipeline.recordings import check_recording
+from tire_pipeline.tir import read_tir
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "tire.tir"
 
 
 def good(count=400):
@@ -29,6 +36,12 @@ def cut(frame, **columns):
     return frame
 
 
+def in_turn(frame, one, other):
+    """Five rows without one channel, five without the other, and so on."""
+    first = frame.index % 10 < 5
+    return frame.assign(**{one: frame[one].mask(first), other: frame[other].mask(~first)})
+
+
 @pytest.mark.parametrize(
     ("frame", "name", "severity", "rows"),
     [
@@ -43,8 +56,13 @@ def cut(frame, **columns):
         (good().drop(index=range(100, 150)), "gaps_in_time", "warning", ((100, 100),)),
         (cut(good(), fy=(slice(20, 49), np.nan)), "missing_block", "warning", ((20, 49),)),
         (good().assign(fx=np.nan), "empty_channel", "warning", ()),
-        (good().assign(slip_angle=lambda d: d.slip_angle * 57.3), "angle_in_degrees", "error", ()),
-        (good().assign(normal_load=-3000.0), "no_positive_load", "error", ()),
+        (in_turn(good(), "fy", "slip_angle"), "few_whole_rows", "error", ()),
+        (good().assign(slip_angle=lambda d: d.slip_angle * 57.3), "angle_in_degrees", "warning", ()),
+        (good().assign(slip_ratio=lambda d: d.slip_angle * 100.0), "slip_in_percent", "warning", ()),
+        (good().assign(normal_load=-3000.0), "negative_load", "warning", ()),
+        (good().assign(normal_load=0.0), "no_positive_load", "error", ()),
+        (good().assign(fy=7.0), "constant_force", "error", ()),
+        (good().assign(fx=7.0), "constant_force", "warning", ()),
     ],
 )
 def test_each_fault_is_found_where_it_is(frame, name, severity, rows):
@@ -85,3 +103,61 @@ def test_errors_come_first():
 
 def test_a_few_missing_values_are_no_issue():
     assert check_recording(cut(good(), fy=([5, 9, 30], np.nan))) == []
+
+
+DAMAGED = {
+    "as it was": lambda d: d,
+    "steady points": lambda d: d.drop(columns="time"),
+    "too few steady points": lambda d: d.drop(columns="time").head(11),
+    "too few samples": lambda d: d.head(29),
+    "no force": lambda d: d.drop(columns="fy"),
+    "a moment alone": lambda d: d.rename(columns={"fy": "mz"}),
+    "no load": lambda d: d.drop(columns="normal_load"),
+    "no slip": lambda d: d.drop(columns=["slip_angle"]),
+    "a load of nothing but NaN": lambda d: d.assign(normal_load=np.nan),
+    "degrees": lambda d: d.assign(slip_angle=np.degrees(d["slip_angle"])),
+    "camber in degrees": lambda d: d.assign(camber=3.0),
+    "slip in percent": lambda d: d.assign(slip_ratio=100.0 * d["slip_angle"]),
+    "one odd angle": lambda d: d.assign(slip_angle=d["slip_angle"].mask(d.index == 200, 2.0)),
+    "a load below zero": lambda d: d.assign(normal_load=-d["normal_load"]),
+    "a load of zero": lambda d: d.assign(normal_load=0.0),
+    "the other sign": lambda d: d.assign(fy=-d["fy"]),
+    "a force that stands": lambda d: d.assign(fy=7.0),
+    "another force that stands": lambda d: d.assign(fx=7.0),
+    "time from its end": lambda d: d.assign(time=d["time"].to_numpy()[::-1]),
+    "time back across a hole": lambda d: d.assign(
+        time=d["time"].mask(d.index == 200).mask(d.index == 201, 1.0)
+    ),
+    "time twice": lambda d: d.assign(time=d["time"].round(1)),
+    "a few holes": lambda d: d.assign(fy=d["fy"].mask(d.index % 7 == 0)),
+    "holes in every other row": lambda d: d.assign(fy=d["fy"].mask(d.index % 2 == 1)),
+    "holes in every other steady point": lambda d: d.assign(fy=d["fy"].mask(d.index % 2 == 1)).drop(
+        columns="time"
+    ),
+    "mostly holes": lambda d: d.assign(fy=d["fy"].where(d.index % 20 == 0)),
+    "an empty channel": lambda d: d.assign(camber=np.nan),
+    "a column twice": lambda d: pd.concat([d, d["fy"]], axis=1),
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGED.values(), ids=DAMAGED)
+def test_an_error_is_what_no_explanation_accepts(damage):
+    tire = read_tir(EXAMPLE)
+    frame = good()
+    frame["fy"] = tire.forces(slip_angle=frame["slip_angle"], normal_load=frame["normal_load"]).fy
+    frame = damage(frame)
+    errors = [i for i in check_recording(frame) if i.severity == "error"]
+    if errors:
+        with pytest.raises(RecordingError):
+            prepare(tire, frame)
+    else:
+        prepare(tire, frame)
+
+
+def test_a_steady_angle_in_degrees_is_converted_once():
+    tire = read_tir(EXAMPLE)
+    frame = good().assign(camber=3.0)
+    moved = tire.forces(**{n: frame[n] for n in ("slip_angle", "normal_load")}, camber=np.radians(3.0))
+    prepared = prepare(tire, frame.assign(fy=moved.fy))
+    assert [(f.name, f.channel) for f in prepared.findings] == [("unit_error", "camber")]
+    assert prepared.data.get("camber") == pytest.approx(np.radians(3.0))

@@ -128,7 +128,8 @@ def _axes(recording: pd.DataFrame, axes: str | None) -> str:
     sign = (
         "negative, as in ISO W"
         if together < 0.0
-        else "positive, unlike in ISO W; compare with the rig's manual"
+        else "positive, unlike in ISO W. Compare with the rig's manual: an explanation tries all axes, and "
+        "leaves open which hold"
     )
     return f"{read}: at a positive slip angle the side force is {sign}."
 

@@ -8,12 +8,19 @@ from typing import Literal
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import ANGLE_CHANNELS, FORCE_CHANNELS, RECORDED_CHANNELS
+from tire_pipeline.channels import OPERATING_CHANNELS, RECORDED_CHANNELS, TANGENTIAL_FORCES
 
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
 """Of a recording in time and of steady points: with less nothing is told from noise."""
-_LARGEST_ANGLE = 1.6  # rad: what no tire is turned to; the same limit as the Magic Formula's
+LARGEST = {"slip_angle": (1.6, "deg"), "camber": (1.2, "deg"), "slip_ratio": (4.0, "%")}
+"""What no wheel does, rad or 1, and the unit in which a channel that does it was recorded."""
+LEAST_WHOLE = 0.1
+"""Part of the rows that must have a number in all channels."""
+BRIDGED = 3
+"""Holes of so many samples in time are put on a straight line."""
+_USED = {*OPERATING_CHANNELS, "turn_slip", *TANGENTIAL_FORCES, "time"}
+"""Channels that a row must have to be used."""
 _GAP_FACTOR = 5.0
 _NAN_BLOCK = 10
 
@@ -101,11 +108,16 @@ def repeated_channels(recording: pd.DataFrame) -> list[str]:
     return [n for n in dict.fromkeys(known) if known.count(n) > 1]
 
 
+def in_another_unit(name: str, values: np.ndarray) -> bool:
+    """Tell whether a slip or an angle is larger than any wheel's, but for odd samples: degrees, percent."""
+    return name in LARGEST and float(np.nanquantile(np.abs(values), 0.98)) > LARGEST[name][0]
+
+
 def _columns(frame: pd.DataFrame) -> list[Issue]:
     issues = []
     columns = pd.DataFrame(frame, copy=False).items()  # without attrs: pandas copies them
     held = {name for name, values in columns if values.notna().any() or frame.empty}
-    if not any(c in held for c in FORCE_CHANNELS):
+    if not any(c in held for c in TANGENTIAL_FORCES):
         issues.append(
             Issue(
                 "no_force_channel",
@@ -135,7 +147,29 @@ def _columns(frame: pd.DataFrame) -> list[Issue]:
                 f"at least {least} are needed to tell physics from noise",
             )
         )
+    elif held:
+        issues += _whole_rows(frame, held)
     return issues
+
+
+def _whole_rows(frame: pd.DataFrame, held: set[str]) -> list[Issue]:
+    """Say that too few rows have a number in every channel."""
+    used = [c for c in frame.columns if c in held and c in _USED and pd.api.types.is_numeric_dtype(frame[c])]
+    if not used:
+        return []
+    lost = np.zeros(len(frame), dtype=bool)
+    for name in used:
+        bad = ~np.isfinite(frame[name].to_numpy(dtype=float))
+        if "time" in held and name != "time":
+            for first, last in _runs(bad, most=None):
+                if last - first < BRIDGED and first > 0 and last < len(frame) - 1:
+                    bad[first : last + 1] = False
+        lost |= bad
+    whole = int((~lost).sum())
+    if whole >= max(LEAST_POINTS, LEAST_WHOLE * len(frame)):
+        return []
+    where = f"{whole} of {len(frame)} rows have a number in each of {', '.join(used)}"
+    return [Issue("few_whole_rows", "error", where, "drop the columns that are mostly empty")]
 
 
 def _time(frame: pd.DataFrame) -> list[Issue]:
@@ -154,8 +188,9 @@ def _time(frame: pd.DataFrame) -> list[Issue]:
                 _runs(broken),
             )
         )
-    with np.errstate(invalid="ignore"):
-        step = np.diff(time)
+    known = np.flatnonzero(~broken)
+    step = np.full(time.size - 1, np.nan)
+    step[known[1:] - 1] = np.diff(time[known])
     back = np.concatenate([[False], step < 0])
     if back.any():
         issues.append(
@@ -220,27 +255,73 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
                     blocks[:20],
                 )
             )
-        if column in ANGLE_CHANNELS and np.nanmax(np.abs(np.where(bad, np.nan, values))) > _LARGEST_ANGLE:
-            issues.append(
-                Issue(
-                    "angle_in_degrees",
-                    "error",
-                    f"{column}, up to {np.nanmax(np.abs(np.where(bad, np.nan, values))):.3g} rad",
-                    "this looks like degrees: read it with units={'its name': 'deg'}",
-                )
+        issues += _unit(frame, str(column), np.where(bad, np.nan, values))
+    return issues + _force_and_load(frame)
+
+
+def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:
+    """Say that a slip or an angle is in another unit, as an explanation takes it."""
+    if not in_another_unit(column, values):
+        return []
+    unit = LARGEST[column][1]
+    name = frame.attrs.get("channels", {}).get(column, column)
+    return [
+        Issue(
+            "angle_in_degrees" if unit == "deg" else "slip_in_percent",
+            "warning",
+            f"{column}, up to {np.nanmax(np.abs(values)):.3g}{' rad' if unit == 'deg' else ''}",
+            f"no wheel does this: an explanation takes it for {unit}; say so when you read the file, "
+            f"units={{{name!r}: {unit!r}}} or --unit {name}={unit}",
+        )
+    ]
+
+
+def _force_and_load(frame: pd.DataFrame) -> list[Issue]:
+    issues = []
+    forces = {n: _numbers(frame, n) for n in TANGENTIAL_FORCES if n in frame}
+    forces = {n: f for n, f in forces.items() if f.size}
+    still = [n for n, f in forces.items() if f.size > 1 and np.ptp(f) == 0.0]
+    if still:
+        issues.append(
+            Issue(
+                "constant_force",
+                "error" if len(still) == len(forces) else "warning",
+                ", ".join(f"{n} is {forces[n][0]:.4g} N throughout" for n in still),
+                "no force was measured: check that the sensor was on",
             )
-    if "normal_load" in frame:
-        load = frame["normal_load"].to_numpy(dtype=float)
-        if np.isfinite(load).any() and not (load > 0).any():
-            issues.append(
-                Issue(
-                    "no_positive_load",
-                    "error",
-                    "normal_load",
-                    "compression is positive here: mirror it",
-                )
+        )
+    load = _numbers(frame, "normal_load") if "normal_load" in frame else np.empty(0)
+    if load.size and float(np.median(load)) < 0.0:
+        issues.append(
+            Issue(
+                "negative_load",
+                "warning",
+                "normal_load, median below zero",
+                "compression is positive here: an explanation turns the sign; say in which axes the file is",
             )
+        )
+    elif load.size and not (load > 0).any():
+        issues.append(
+            Issue("no_positive_load", "error", "normal_load", "no wheel stood on the ground: record the load")
+        )
+    against = frame.attrs.get("axes_doubt", "")
+    if against:
+        issues.append(
+            Issue(
+                "axes_in_doubt",
+                "warning",
+                str(against),
+                'read the file with axes="SAE" or axes="ISO" (--axes), whichever holds: unless the forces '
+                "tell, an explanation leaves it open and writes no corrected file",
+            )
+        )
     return issues
+
+
+def _numbers(frame: pd.DataFrame, column: str) -> np.ndarray:
+    """Return what is finite of a column; nothing of a column of text."""
+    values = pd.to_numeric(frame[column], errors="coerce").to_numpy(dtype=float)
+    return values[np.isfinite(values)]
 
 
 def _runs(mask: np.ndarray, most: int | None = 20) -> tuple[tuple[int, int], ...]:

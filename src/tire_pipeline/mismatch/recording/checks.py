@@ -20,7 +20,7 @@ from tire_pipeline.mismatch.recording.identity import another_tire
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
 from tire_pipeline.mismatch.recording.usable import judge, leave_out_still_slip
-from tire_pipeline.recordings.check import LEAST_POINTS, LEAST_SAMPLES
+from tire_pipeline.recordings.check import BRIDGED, LEAST_POINTS, LEAST_SAMPLES, LEAST_WHOLE
 
 Array = np.ndarray
 INPUTS = (*OPERATING_CHANNELS, "turn_slip")
@@ -28,7 +28,6 @@ ASSUMED_ZERO = ("camber", "slip_ratio", "slip_angle")
 """What is taken as zero where it is not recorded."""
 AS_GIVEN = "columns in ISO W axes and SI units, as they were given"
 _RATE = 50.0
-_BRIDGED = 3
 _LONG_STEP = 1.0
 
 
@@ -233,13 +232,13 @@ def _bridge(arrays: dict[str, Array], notes: list[str]) -> None:
         edges = np.flatnonzero(np.diff(np.r_[0, missing.astype(np.int8), 0]))
         known = np.flatnonzero(~missing)
         for first, last in zip(edges[::2], edges[1::2], strict=True):
-            if last - first <= _BRIDGED and first > 0 and last < x.size:
+            if last - first <= BRIDGED and first > 0 and last < x.size:
                 filled[first:last] = True
         holes = np.flatnonzero(filled & missing)
         arrays[name] = x.copy()
         arrays[name][holes] = np.interp(holes, known, x[known])
     if filled.any():
-        notes.append(f"{int(filled.sum())} samples in holes of up to {_BRIDGED} were put on straight lines")
+        notes.append(f"{int(filled.sum())} samples in holes of up to {BRIDGED} were put on straight lines")
 
 
 def _time(arrays: Mapping[str, Array]) -> Array | None:
@@ -286,7 +285,7 @@ def _usable(arrays: Mapping[str, Array], time: Array | None, notes: list[str]) -
         notes.append(
             f"{lost} of {n} samples have no number in some channel (most often {worst}) and are left out"
         )
-    if ok.sum() < max(LEAST_POINTS, 0.1 * n):
+    if ok.sum() < max(LEAST_POINTS, LEAST_WHOLE * n):
         raise RecordingError(
             f"only {int(ok.sum())} of {n} samples have numbers in all channels",
             todo="drop the columns that are mostly empty",

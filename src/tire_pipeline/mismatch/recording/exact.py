@@ -76,6 +76,8 @@ def repair(
                 for channel, repaired in finding.repaired.items():
                     factor = _ratio(repaired, some[channel])
                     arrays[channel] = arrays[channel] * factor
+                    if channel in still:  # else it would be found, and divided, again
+                        still[channel] = still[channel] * factor
                     factors[channel] = factors.get(channel, 1.0) * factor
                 kept = signs if finding.axes else findings
                 kept.append(replace(finding, repaired={}))

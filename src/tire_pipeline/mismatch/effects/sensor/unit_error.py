@@ -8,6 +8,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.repairs import Simulate, best_repair
+from tire_pipeline.recordings.check import LARGEST, in_another_unit
 from tire_pipeline.unit_definitions import GRAVITY, POUND_FORCE, PSI
 
 _DEG = 180.0 / np.pi
@@ -114,14 +115,15 @@ def _pressure(channels: Mapping[str, Array]) -> list[Finding]:
     ]
 
 
-_LARGEST = {"slip_angle": (1.6, _DEG), "camber": (1.2, _DEG), "slip_ratio": (4.0, 100.0)}
+_OF_UNIT = {"deg": _DEG, "%": 100.0}
 
 
 def _impossible(channels: Mapping[str, Array]) -> list[Finding]:
     """Angles beyond what a wheel can have: degrees, percent."""
     found = []
-    for name, (largest, factor) in _LARGEST.items():
-        if name in channels and float(np.nanquantile(np.abs(channels[name]), 0.98)) > largest:
+    for name, (_, unit) in LARGEST.items():
+        if name in channels and in_another_unit(name, channels[name]):
+            factor = _OF_UNIT[unit]
             text = _FACTORS[name][factor]
             parameters = {"ratio": (factor, 0.0, "1")}
             repaired = {name: channels[name] / factor}
