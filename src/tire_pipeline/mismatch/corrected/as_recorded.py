@@ -59,9 +59,12 @@ def as_recorded(
 def _errors(
     corrected: CorrectedModel, recording: pd.DataFrame, outputs: dict[str, OutputFit]
 ) -> dict[str, Array]:
-    """Recorded minus predicted at the recorded rows, N or N m; NaN where something is missing."""
-    predicted = corrected.predict(recording)
-    return {o: (recording[o] - predicted[o]).to_numpy(float) for o in outputs}
+    """Recorded minus predicted at the recorded rows, N or N m; NaN where something is missing.
+
+    A force in another unit is brought to newtons: it is predicted as it is recorded.
+    """
+    predicted, factors = corrected.predict(recording), corrected.factors
+    return {o: (recording[o] - predicted[o]).to_numpy(float) * factors.get(o, 1.0) for o in outputs}
 
 
 def _moved(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.noise import white_noise
@@ -16,7 +18,12 @@ Array = np.ndarray
 
 
 def prove(
-    analysis: Analysis, after: dict[str, Array], *, resamples: int = 400, seed: int = 0
+    analysis: Analysis,
+    after: dict[str, Array],
+    noise: Mapping[str, float],
+    *,
+    resamples: int = 400,
+    seed: int = 0,
 ) -> dict[str, OutputFit]:
     """Return for each output the error on sweeps that neither the choice of effects nor its fit has seen.
 
@@ -26,6 +33,8 @@ def prove(
     after : dict of ndarray, shape (n,)
         What is left of each output, N: :class:`~tire_pipeline.mismatch.proof.nested.RepeatedChoice`. In the
         held-out condition the effects are locked, and the parameters are fitted to the sweeps outside of it.
+    noise : mapping of float
+        Output -> RMS of the recording's noise, N (:func:`.proof.noise_floor.noise_floors`).
     resamples, seed : int
         Of the interval, by resampling sweeps.
     """
@@ -38,7 +47,7 @@ def prove(
     for o in data.outputs:
         low, high = _interval(analysis, after[o], resamples, rng)
         out[o] = OutputFit(
-            noise_floor=analysis.noise[o].floor,
+            noise_floor=noise[o],
             rms_before=rms(before[o]),
             rms_after=rms(after[o]),
             rms_after_low=low,

@@ -79,26 +79,25 @@ def locate(
     -------
     list of Located
         For each axis and output the stretch with the largest difference of those with p at most 0.05,
-        the largest difference first.
+        along the force where its size is off, else to one side; the largest difference first.
     """
     rng = np.random.default_rng(seed)
     count = int(block.max()) + 1
     signs = np.vstack([np.ones(count), rng.choice([-1.0, 1.0], size=(flips, count))])
     out: list[Located] = []
     for o, r in residual.items():
-        force = data.base[o]
-        largest = float(np.quantile(np.abs(force), 0.99))
-        direction = np.sign(force) * np.minimum(np.abs(force) / (0.05 * largest + 1e-12), 1.0)
-        for along, x in ((True, r * direction), (False, r)):
-            out += _axes(data, o, x / noise[o].sigma, x, block, signs, along)
+        for along in (True, False):
+            out += _axes(data, o, r, noise[o], block, signs, along)
     out.sort(key=lambda f: -abs(f.mean))
     return out
 
 
 def _axes(
-    data: Data, output: str, scaled: Array, plain: Array, block: Array, signs: Array, along: bool
+    data: Data, output: str, rest: Array, noise: Noise, block: Array, signs: Array, along: bool
 ) -> list[Located]:
     """Test all stretches of all axes; the largest statistic of each flip gives the p-values."""
+    plain = rest * _direction(data.base[output]) if along else rest
+    scaled = plain / noise.sigma
     tests: list[tuple[str, float, float, Array]] = []
     for axis in ("time", *OPERATING_CHANNELS):
         if axis == "time":
@@ -128,6 +127,7 @@ def _axes(
         own = [i for i, t in enumerate(tests) if t[0] == axis]
         chance = {i: float((1 + (top[1:] >= statistics[0, i]).sum()) / signs.shape[0]) for i in own}
         sure = [i for i in own if chance[i] <= _LEVEL]
+        sure = [i for i in sure if _along(rest, data.base[output], tests[i][3]) == along]
         if not sure:
             continue
         best = max(sure, key=lambda i: abs(float(plain[tests[i][3]].mean())))
@@ -144,6 +144,21 @@ def _axes(
         f if f is first else replace(f, own=float(rest[r].mean()) / f.mean)
         for f, r in zip(found, rows, strict=True)
     ]
+
+
+def _direction(force: Array) -> Array:
+    """Sign of a force, fading to zero where the force does."""
+    largest = float(np.quantile(np.abs(force), 0.99))
+    return np.sign(force) * np.minimum(np.abs(force) / (0.05 * largest + 1e-12), 1.0)
+
+
+def _along(rest: Array, force: Array, rows: Array) -> bool:
+    """Whether in some rows the size of the force is off, rather than the force to one side.
+
+    Both are the same where the force keeps its sign. Where it goes through zero, an offset is no part of it.
+    """
+    here = rest[rows]
+    return abs(float((here * np.sign(force[rows])).mean())) >= abs(float(here.mean()))
 
 
 def _values(data: Data, axis: str) -> Array:

@@ -21,7 +21,11 @@ _MOST_TERMS = 5
 
 
 def remainder(
-    analysis: Analysis, answer: SetAnswer, usual: tuple[float, float], largest: Mapping[str, float]
+    analysis: Analysis,
+    answer: SetAnswer,
+    usual: tuple[float, float],
+    largest: Mapping[str, float],
+    noise: Mapping[str, float],
 ) -> Remainder:
     """Measure what neither the effects nor a misfit of the usual size explains.
 
@@ -35,13 +39,15 @@ def remainder(
         Sizes of the error that fitted models usually leave, over the largest force.
     largest : mapping of float
         Largest force of each output by which the answer's errors are measured, N.
+    noise : mapping of float
+        Output -> RMS of the recording's noise, N.
     """
     data, fit = analysis.data, analysis.fit
     rest = residual(data, fit.changes)
     sensor = estimate_noise(data, rest)
     size = {}
     for o, r in rest.items():
-        floor = min(sensor[o].floor, analysis.noise[o].floor)
+        floor = min(sensor[o].floor, noise[o])
         size[o] = float(np.sqrt(max(float(np.mean(r**2)) - floor**2, 0.0)))
     significant = answer.agreement < LEVEL and (answer.unnamed > LEVEL or not answer.sets)
     located = locate(data, rest, analysis.noise, analysis.block) if significant else []

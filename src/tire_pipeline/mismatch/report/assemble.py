@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -26,6 +26,7 @@ from tire_pipeline.mismatch.proof.left_out import each_left_out, shares_left
 from tire_pipeline.mismatch.proof.locate import everywhere, locate, when, where
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.proof.never_worse import harmless
+from tire_pipeline.mismatch.proof.noise_floor import noise_floors
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.checks import Prepared
@@ -78,17 +79,18 @@ def assembled(it: Explained) -> MismatchReport:
     """Return the report."""
     prepared, analysis, answer = it.prepared, it.analysis, it.answer
     data = analysis.data
-    left = remainder(analysis, answer, it.sets.likelihood.learnt.left, it.sets.products.largest)
+    noise = noise_floors(analysis)
+    left = remainder(analysis, answer, it.sets.likelihood.learnt.left, it.sets.products.largest, noise)
     if prepared.stopped:
         left = replace(left, significant=False, located=[])
     effects = [_exact(finding, prepared) for finding in prepared.findings]
-    effects += [_found(analysis, answer, name) for name in answer.names]
+    effects += [_found(analysis, answer, name, noise) for name in answer.names]
     verdict = prepared.stopped or _verdict(effects, left)
     plain = _model(it, [])
     model, put_in, unseen = _corrected(it, plain)
     withheld = tuple(n for n in analysis.fit.names if n not in put_in.names)
     inside = replace(analysis, fit=put_in)
-    fit = as_recorded({**prove(inside, unseen), **prove_moments(inside)}, inside, model, it.recording)
+    fit = as_recorded({**prove(inside, unseen, noise), **prove_moments(inside)}, inside, model, it.recording)
     unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit)
     silent = prepared.stopped or verdict == "agrees"
     before = residual(data, [])
@@ -118,7 +120,7 @@ def assembled(it: Explained) -> MismatchReport:
             *filter(None, [_searched(it), _to_one_side(it, put_in), not_looked_for(analysis.absent)]),
         ],
         candidates=_candidates(analysis, answer),
-        series=_series(analysis),
+        series=_series(analysis, noise),
         assumed=prepared.assumed,
         visible=[]
         if prepared.stopped
@@ -246,7 +248,7 @@ def _exact(finding: Finding, prepared: Prepared) -> EffectReport:
     )
 
 
-def _found(analysis: Analysis, answer: SetAnswer, name: str) -> EffectReport:
+def _found(analysis: Analysis, answer: SetAnswer, name: str, noise: Mapping[str, float]) -> EffectReport:
     data, fit = analysis.data, analysis.fit
     index = fit.names.index(name)
     (group, confidence) = next(each for each in answer.sets if each[0][0] == name)
@@ -269,7 +271,7 @@ def _found(analysis: Analysis, answer: SetAnswer, name: str) -> EffectReport:
         confidence=confidence,
         output=output,
         where=where(part[output], data),
-        when=when(part[output], data, analysis.noise[output].floor),
+        when=when(part[output], data, noise[output]),
         share=_share(analysis, index, output),
         equation=effect.equation,
         source=effect.source,
@@ -327,7 +329,7 @@ def _probabilities(answer: SetAnswer) -> list[tuple[tuple[str, ...], float]]:
     return out
 
 
-def _series(analysis: Analysis) -> dict[str, Any]:
+def _series(analysis: Analysis, noise: Mapping[str, float]) -> dict[str, Any]:
     """Arrays for the page's figures."""
     data = analysis.data
     step = max(1, data.size // _MOST_SHOWN)
@@ -341,5 +343,5 @@ def _series(analysis: Analysis) -> dict[str, Any]:
     for o in data.outputs:
         out[f"before_{o}"] = before[o][::step]
         out[f"after_{o}"] = after[o][::step]
-        out[f"floor_{o}"] = analysis.noise[o].floor
+        out[f"floor_{o}"] = noise[o]
     return out

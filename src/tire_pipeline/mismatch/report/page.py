@@ -91,12 +91,14 @@ def percent(share: float) -> str:
 
 
 def _located(report: ReportContents) -> list[tuple[str, str, float, float, float]]:
-    """One row for each output and axis: the stretch along the force before the one of plain differences."""
+    """One row for each output and axis: the stretch with the largest difference."""
     rows: dict[tuple[str, str], Any] = {}
-    for f in sorted(report.located, key=lambda f: not f.along_force):
+    for f in report.located:
         rows.setdefault((f.output, f.axis), f)
-    order = [f for f in report.located if rows[f.output, f.axis] is f]
-    return [(f.output, interval(f.axis, f.low, f.high), f.mean, f.share, f.p_value) for f in order[:8]]
+    return [
+        (f.output, interval(f.axis, f.low, f.high), f.mean, f.share, f.p_value)
+        for f in list(rows.values())[:8]
+    ]
 
 
 def _effect(effect: EffectReport) -> dict[str, Any]:

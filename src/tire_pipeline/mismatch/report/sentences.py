@@ -282,10 +282,9 @@ def _to_both_sides(
 
 def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, float]) -> str:
     """Where recorded and simulated force differ most."""
-    along = [f for f in located if f.along_force] or list(located)
-    output = max(along, key=lambda f: abs(f.mean)).output
-    own = [f for f in along if f.output == output]
-    top = max(own, key=lambda f: abs(f.mean))
+    top = max(located, key=lambda f: abs(f.mean))
+    output = top.output
+    own = [f for f in located if f.output == output and f.along_force == top.along_force]
     own = [f for f in own if f.mean * top.mean > 0.0 and min(f.own, 1.0) * abs(f.mean) > 0.4 * abs(top.mean)]
     own = sorted(own, key=lambda f: -abs(f.mean))[:2]
     spots = [place(f.axis, f.low, f.high, ranges) for f in own]
@@ -301,10 +300,16 @@ def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, float]
         word = "lower" if even[output] < 0.0 else "higher"
         most = f"most in newtons {where}: {newtons(abs(best.mean))} N"
         return f"{name} is {abs(even[output]) * 100:.2g}% {word} than the model throughout ({most})"
-    if best.along_force and abs(best.share) > 0.002:
+    much = _of_the_force(best.share)
+    if best.along_force:
         word = "lower" if best.mean < 0.0 else "higher"
-        size = abs(best.share) * 100
-        much = f"{newtons(abs(best.mean))} N"
-        much += f" ({size:.2g}% of the force there)" if size < 99.5 else ""
-        return f"{where}, {name} is up to {much} {word} than the model"
-    return f"{where}, {name} differs from the model by {best.mean:+,.3g} N on average"
+        return f"{where}, {name} is up to {newtons(abs(best.mean))} N ({much}) {word} than the model"
+    return f"{where}, {name} differs from the model by {best.mean:+,.3g} N on average ({much})"
+
+
+def _of_the_force(share: float) -> str:
+    """A mean difference as a part of the force there, in words."""
+    if not np.isfinite(share):
+        return "where the force is small"
+    size = abs(share) * 100
+    return f"{size:.2g}% of the force there" if size < 99.5 else "more than the force there"

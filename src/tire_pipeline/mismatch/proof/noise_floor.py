@@ -1,0 +1,35 @@
+"""The noise of a recording, as its own samples show it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from tire_pipeline.mismatch.discrepancy.noise import estimate_noise, refined
+from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.model.residual import residual, rms
+
+_STATED = "_std"
+
+
+def noise_floors(analysis: Analysis) -> dict[str, float]:
+    """Return the RMS of the noise of each output, N: at most what a smooth misfit leaves of the residual.
+
+    A recording may state how uncertain its channels are (``fy_std``, ``slip_angle_std``). Samples are weighed
+    by it, but it is no noise: much of it is the same throughout a drive, such as an axle mass or the place of
+    a marker, and what of it changes is in the samples already.
+
+    Parameters
+    ----------
+    analysis : Analysis
+        With the set that is named.
+    """
+    data, fit = analysis.data, analysis.fit
+    rest = residual(data, fit.changes)
+    smooth = analysis.system.fitted(rest, fit.columns if fit.labels else None)
+    calm = {o: r - analysis.columns[o] @ smooth[o] for o, r in rest.items()}
+    noise = analysis.noise
+    seen = {n: x for n, x in data.channels.items() if not n.endswith(_STATED)}
+    if len(seen) < len(data.channels):
+        plain = replace(data, channels=seen)
+        noise = {o: refined(plain, n, calm[o]) for o, n in estimate_noise(plain, calm).items()}
+    return {o: min(n.floor, rms(calm[o]), rms(rest[o])) for o, n in noise.items()}
