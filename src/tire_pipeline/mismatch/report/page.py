@@ -12,6 +12,7 @@ from markupsafe import Markup
 
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount, amount_with_error
+from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import Visible
 from tire_pipeline.mismatch.report.contents import EffectReport, ReportContents
 from tire_pipeline.mismatch.report.figures import drawings, unnamed_curve
@@ -90,15 +91,22 @@ def percent(share: float) -> str:
     return f"{100.0 * share:#.2g}".rstrip(".") + "%" if 0.0 < abs(share) < 0.995 else "–"
 
 
-def _located(report: ReportContents) -> list[tuple[str, str, float, float, float]]:
+def _located(report: ReportContents) -> list[tuple[str, str, float, str, float, float]]:
     """One row for each output and axis: the stretch with the largest difference."""
     rows: dict[tuple[str, str], Any] = {}
     for f in report.located:
         rows.setdefault((f.output, f.axis), f)
     return [
-        (f.output, interval(f.axis, f.low, f.high), f.mean, f.share, f.p_value)
+        (f.output, interval(f.axis, f.low, f.high), f.mean, _way(f), f.share, f.p_value)
         for f in list(rows.values())[:8]
     ]
+
+
+def _way(place: Located) -> str:
+    """In which way the force differs."""
+    if not place.along_force:
+        return "off to one side"
+    return "smaller" if place.mean < 0.0 else "larger"
 
 
 def _effect(effect: EffectReport) -> dict[str, Any]:
