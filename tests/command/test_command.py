@@ -127,6 +127,21 @@ def test_a_warning_is_a_line_and_said_once(folder):
     assert len(set(lines)) == len(lines)
 
 
+def test_a_radius_that_the_file_lacks_is_stated(folder):
+    without = {name: value for name, value in COEFFICIENTS.items() if name != "UNLOADED_RADIUS"}
+    write_tir(TireModel.from_coefficients({**without, "QDZ1": 0.1}), "b.tir")
+    missing = next(
+        line for line in run("show", "b.tir", "--no-page").stdout.splitlines() if "Missing" in line
+    )
+    assert "UNLOADED_RADIUS" not in missing  # no value stands in for it
+    assert told("show", "b.tir", "--no-page")["key_figures"]["largest aligning moment"]["value"] is None
+    stated = ("--unloaded-radius", "0.32", "--no-page")
+    found = told("show", "b.tir", *stated)
+    assert found["key_figures"]["largest aligning moment"]["value"] > 0.0
+    run("convert", "b.tir", "--to", "6.1", *stated)
+    assert read_tir("b_6.1.tir").coefficients["UNLOADED_RADIUS"] == 0.32
+
+
 def test_compare_measures_the_forces_apart(folder):
     write_tir(read_tir("a.tir").replace(LMUY=0.9, PKY1=-21.0), "b.tir")
     found = told("compare", "a.tir", "b.tir", "--load", 4000)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tire_pipeline.command.options import FILE, names_of, output_options
+from tire_pipeline.command.options import FILE, names_of, output_options, radius_option
 from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 
 if TYPE_CHECKING:
@@ -25,13 +25,22 @@ _NOTHING = 1e-9
 @click.argument("second", type=FILE, metavar="B.tir")
 @click.option("--load", "loads", type=float, multiple=True, help="Normal load, N; can be repeated.")
 @click.option("--camber", type=float, default=0.0, show_default=True, help="Camber, deg.")
+@radius_option
 @output_options("-o")
-def command(first: Path, second: Path, loads: tuple[float, ...], camber: float, **output: Any) -> None:
+def command(
+    first: Path,
+    second: Path,
+    loads: tuple[float, ...],
+    camber: float,
+    radius: float | None,
+    **output: Any,
+) -> None:
     """Compare two files."""
     from tire_pipeline.tir import read_tir
 
     names = names_of([first, second])
-    outcome = compared(dict(zip(names, (read_tir(first), read_tir(second)), strict=True)), loads, camber)
+    models = (read_tir(path, unloaded_radius=radius) for path in (first, second))
+    outcome = compared(dict(zip(names, models, strict=True)), loads, camber)
     finish(outcome, f"{first.stem}_against_{second.stem}", **output)
 
 

@@ -7,7 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tire_pipeline.command.options import FILE, check_target, output_options, read_runs, reading_options
+from tire_pipeline.command.options import (
+    FILE,
+    check_target,
+    output_options,
+    radius_option,
+    read_runs,
+    reading_options,
+)
 from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 from tire_pipeline.errors import RecordingError, TirePipelineError
 
@@ -34,6 +41,7 @@ NO_TIRE = "-"
 )
 @click.option("--corrected", type=FILE, help="Write the corrected .tir file here.")
 @click.option("--overwrite", is_flag=True, help="Replace a corrected file of that name.")
+@radius_option
 @reading_options
 @output_options("-o")
 def command(
@@ -42,6 +50,7 @@ def command(
     hold_out: Path | None,
     corrected: Path | None,
     overwrite: bool,
+    radius: float | None,
     axes: str | None,
     units: tuple[str, ...],
     names: tuple[str, ...],
@@ -56,7 +65,7 @@ def command(
         if str(file) == NO_TIRE:
             raise RecordingError("without a .tir file there is none to correct", todo="leave --corrected out")
         check_target(corrected, overwrite, file)
-    tire = None if str(file) == NO_TIRE else read_tir(file)
+    tire = None if str(file) == NO_TIRE else read_tir(file, unloaded_radius=radius)
     paths = list(dict.fromkeys([*runs, *([_among(hold_out, runs)] if hold_out else [])]))
     read = read_runs(paths, axes=axes, units=units, names=names, format_=format_)
     by_path = dict(zip(paths, read, strict=True))

@@ -37,6 +37,17 @@ def output_options(*names: str) -> Callable[[F], F]:
     return add
 
 
+def radius_option(function: F) -> F:
+    """``--unloaded-radius``: what a .tir file may lack."""
+    return click.option(
+        "--unloaded-radius",
+        "radius",
+        type=click.FloatRange(0.0, min_open=True),
+        metavar="METRES",
+        help="Unloaded radius of the tire, m, where a .tir file states none.",
+    )(function)
+
+
 def reading_options(function: F) -> F:
     """``--axes``, ``--unit``, ``--name`` and ``--format``: how recordings are read."""
     for option in (

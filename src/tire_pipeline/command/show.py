@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tire_pipeline.command.options import FILE, output_options
+from tire_pipeline.command.options import FILE, output_options, radius_option
 from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 
 if TYPE_CHECKING:
@@ -31,13 +31,14 @@ _FEW = 12
     "--load", "loads", type=float, multiple=True, help="Normal load of a curve, N; can be repeated."
 )
 @click.option("--camber", type=float, default=0.0, show_default=True, help="Camber of the curves, deg.")
+@radius_option
 @output_options("-o")
-def command(file: Path, loads: tuple[float, ...], camber: float, **output: Any) -> None:
+def command(file: Path, loads: tuple[float, ...], camber: float, radius: float | None, **output: Any) -> None:
     """Show a file."""
     from tire_pipeline.magic_formula.forces import MissingRadiusWarning
     from tire_pipeline.tir import read_tir
 
-    model = read_tir(file)
+    model = read_tir(file, unloaded_radius=radius)
     warnings.simplefilter("ignore", MissingRadiusWarning)  # a note of the result says it
     finish(_outcome(model, file, loads, camber), f"{file.stem}_show", **output)
 
@@ -51,7 +52,7 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
         f"Magic Formula {model.version}, nominal load {model.value('FNOMIN'):g} N, "
         f"{len(model.coefficients)} coefficients."
     ]
-    missing = dict(model.defaulted)
+    missing = _replaced(model)
     if missing:
         lines.append(f"Missing: {_missing(missing)}.")
     lines += _gaps(model, {figure.name: figure.value for figure in figures})
@@ -66,7 +67,7 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
         "file": file,
         "version": model.version,
         "coefficients": dict(model.coefficients),
-        "missing": missing,
+        "missing": dict(model.defaulted),
         "ranges": ranges,
         "key_figures": {f.name: {"value": f.value, "unit": f.unit} for f in figures},
         "warnings": odd,
@@ -88,6 +89,11 @@ def _gaps(model: TireModel, figures: dict[str, float]) -> list[str]:
     if all(model.value(name) == 0.0 for name in ("RBX1", "RBY1")):
         gaps.append("There is no combined slip: braking and cornering do not weaken each other.")
     return gaps
+
+
+def _replaced(model: TireModel) -> dict[str, float]:
+    """What the file lacks and a value stands in for; of a radius that is missing a note speaks."""
+    return {name: value for name, value in model.defaulted.items() if value == value}
 
 
 def _missing(missing: dict[str, float]) -> str:
@@ -121,9 +127,7 @@ def _page(
     given = pd.DataFrame(
         {"coefficient": list(model.coefficients), "value": list(model.coefficients.values())}
     )
-    absent = pd.DataFrame(
-        {"coefficient": list(model.defaulted), "value used": list(model.defaulted.values())}
-    )
+    absent = pd.DataFrame(_replaced(model).items(), columns=["coefficient", "value used"])
     parts: list[Any] = [Text(lines, emphasis=True), Figure(*figure, heading="Curves")]
     if odd:
         parts.append(Text(odd, heading="What is unusual in the file"))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tire_pipeline.command.options import FILE, check_target, output_options
+from tire_pipeline.command.options import FILE, check_target, output_options, radius_option
 from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 from tire_pipeline.errors import DomainError
 
@@ -51,6 +51,7 @@ _ASSUMED = (
     help="Largest distance from the training data at which a tire is still translated; 1 is the edge.",
 )
 @click.option("--overwrite", is_flag=True, help="Replace a file of that name.")
+@radius_option
 @output_options()
 def command(
     file: Path,
@@ -60,6 +61,7 @@ def command(
     nominal_load: float | None,
     farthest: float,
     overwrite: bool,
+    radius: float | None,
     **output: Any,
 ) -> None:
     """Translate a file."""
@@ -69,7 +71,7 @@ def command(
     from tire_pipeline.translation import translator_from_state
     from tire_pipeline.translation.of_models import translate_models
 
-    model = read_tir(file)
+    model = read_tir(file, unloaded_radius=radius)
     state, source = translator_state(stored)
     translator: Any = translator_from_state(state)
     goal = str(getattr(translator, "target", "target"))

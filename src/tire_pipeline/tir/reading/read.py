@@ -133,7 +133,7 @@ def _state_radius(reading: Reading, radius: float | None) -> None:
     if own is None and radius is None:
         reading.warnings.append(
             "there is no UNLOADED_RADIUS: Mx, My, Mz, the trail and relaxation lengths that are shares of it "
-            "are NaN; state it (m) by read_tir(path, unloaded_radius=...)"
+            "are NaN; state it (m) by read_tir(path, unloaded_radius=...) or --unloaded-radius"
         )
     elif own is None and radius is not None:
         reading.coefficients["UNLOADED_RADIUS"] = radius
