@@ -113,7 +113,9 @@ def test_fit_leaves_a_tire_without_finite_curves_alone(table):
     assert fitted.iloc[3].equals(table.iloc[3])
 
 
-def test_key_attributes_are_those_of_the_curve(table):
+@pytest.mark.parametrize("seed", [0, 1, 10])  # in the second and the third a peak is beside the range's end
+def test_key_attributes_are_those_of_the_curve(seed):
+    table = synthetic_table(seed=seed)
     features = make_representation("key_attributes").encode(table)
     slip = np.linspace(0, 0.25, 20001)
     curve = -lateral_force(lateral_factors(table, CURVE_LOADS), slip)

@@ -43,8 +43,7 @@ def test_published_form_takes_the_wrong_root_between_two_curvatures():
         tires = table.assign(PEY1=curvature)
         native = published.decode_curves(published.encode(tires), tires)
         error = np.abs(native - curves_of(tires)).max(axis=(1, 2))
-        assert (error < 1e-3).all() == right
-        assert (error > 10).all() != right
+        assert (error < 1e-3).sum() == (len(tires) if right else 0)
 
 
 def test_every_stable_decoding_is_real():

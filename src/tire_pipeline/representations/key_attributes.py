@@ -105,13 +105,19 @@ def shape_and_stiffness_factor(
 
 
 def _parabola_top(curve: np.ndarray, top: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Refine the highest grid point by the parabola through it and its neighbours."""
+    """Refine the highest grid point by the parabola through it and its neighbours.
+
+    At an end of the range it is the one through the last three points; a peak beyond them is none.
+    """
     last = curve.shape[-1] - 1
-    middle = top.clip(1, last - 1)[..., None]
-    before, here, after = (np.take_along_axis(curve, middle + shift, axis=-1)[..., 0] for shift in (-1, 0, 1))
+    middle = top.clip(1, last - 1)
+    before, here, after = (
+        np.take_along_axis(curve, (middle + shift)[..., None], axis=-1)[..., 0] for shift in (-1, 0, 1)
+    )
     bend = before - 2 * here + after
-    inside = (top > 0) & (top < last) & (bend < 0)
-    shift = np.where(inside, 0.5 * (before - after) / np.where(inside, bend, 1.0), 0.0)
+    shift = np.where(bend < 0, 0.5 * (before - after) / np.where(bend < 0, bend, 1.0), np.inf)
+    inside = np.abs(shift) < 1.0
+    shift = np.where(inside, shift, 0.0)
     height = np.where(inside, here - 0.25 * (before - after) * shift, curve.max(axis=-1))
     width = PEAK_SLIP_ANGLES[1] - PEAK_SLIP_ANGLES[0]
-    return height, PEAK_SLIP_ANGLES[top] + shift * width
+    return height, PEAK_SLIP_ANGLES[np.where(inside, middle, top)] + shift * width
