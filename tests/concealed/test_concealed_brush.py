@@ -1,7 +1,10 @@
 """Physical sanity of the brush tire: what must emerge, and what must not be there."""
 
+from collections.abc import Iterable
+
 import numpy as np
 import pytest
+from scipy.stats import binomtest
 
 from tire_pipeline.concealed.brush_rig import brush
 from tire_pipeline.concealed.brush_rig.constants import TireConstants, draw_constants
@@ -31,6 +34,12 @@ def rolled(constants: TireConstants, table: np.ndarray, n_bristles: int = 24, **
     return roll(constants.vector(), strengths, table, DT, 0.0, n_bristles)
 
 
+def surely_at_least(held: Iterable[bool]) -> float:
+    """Lower end of the rate's 95% interval (Wilson)."""
+    each = list(held)
+    return float(binomtest(sum(map(bool, each)), len(each)).proportion_ci(0.95, "wilson").low)
+
+
 def step_distance(constants: TireConstants, speed: float, spring: float = 1.0) -> float:
     """Distance rolled until fy is at 63% of its end value after a step of 0.5 deg, m."""
     angle = np.where(np.arange(600) < 50, 0.0, np.deg2rad(0.5))
@@ -49,12 +58,16 @@ def test_relaxation_is_a_distance_and_not_a_time():
     assert max(distances) - min(distances) <= 0.04 + 1e-9
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_relaxation_emerges_from_carcass_spring_and_contact_length(seed):
-    constants = tire(seed)
-    slope = rolled(constants, rows(constants, 1, ALPHA=1e-3))[0, 1] / 1e-3
-    expected = slope / constants.carcass_y + constants.half_length
-    assert step_distance(constants, 10.0) == pytest.approx(expected, rel=0.2)
+def test_relaxation_emerges_from_carcass_spring_and_contact_length():
+    """In nine of ten drawn tires within a fifth of C / k + a, surely; and always shorter."""
+    shares = []
+    for seed in range(200):
+        constants = tire(seed)
+        slope = rolled(constants, rows(constants, 1, ALPHA=1e-3))[0, 1] / 1e-3
+        expected = slope / constants.carcass_y + constants.half_length
+        shares.append(step_distance(constants, 10.0) / expected)
+    assert max(shares) < 1.0
+    assert surely_at_least(share > 0.8 for share in shares) > 0.9
 
 
 def test_a_softer_carcass_relaxes_over_a_longer_distance():
@@ -105,11 +118,18 @@ def test_no_slip_gives_no_force_and_the_tire_is_symmetric():
 
 
 def test_the_number_of_bristles_is_enough():
-    constants = tire(3)
+    """With 24 bristles half of the tires are within 1%, nearly all within half a bristle's share, 1 / 48."""
     angles = np.linspace(-0.25, 0.25, 101)
-    few = rolled(constants, rows(constants, 101, ALPHA=angles), 24)[:, 1]
-    many = rolled(constants, rows(constants, 101, ALPHA=angles), 240)[:, 1]
-    assert np.abs(few - many).max() < 0.01 * np.abs(many).max()
+    off: dict[int, list[float]] = {24: [], 48: []}
+    for seed in range(200):
+        constants = tire(seed)
+        table = rows(constants, 101, ALPHA=angles)
+        many = rolled(constants, table, 240)[:, 1]
+        for n, errors in off.items():
+            errors.append(np.abs(rolled(constants, table, n)[:, 1] - many).max() / np.abs(many).max())
+    assert np.median(off[24]) < 0.01
+    assert surely_at_least(error < 0.5 / 24 for error in off[24]) > 0.95
+    assert np.median(off[48]) < 0.6 * np.median(off[24])
 
 
 @pytest.mark.parametrize(

@@ -142,16 +142,33 @@ def test_places_are_those_of_the_tire() -> None:
 
 @pytest.mark.parametrize("name", CAUSES)
 def test_a_cause_changes_the_forces_by_the_size_asked_for(name: str) -> None:
-    case = draw_case(np.random.default_rng(41), name, 2.0, rows=2400)
-    truth = case.truth
-    change = np.concatenate(
-        [truth.recording_with - truth.recording_without, truth.held_with - truth.held_without]
-    )
-    found = np.max(np.sqrt(np.mean(change**2, axis=0)) / truth.unit)
-    assert found == pytest.approx(truth.strengths[0], rel=1e-6)
-    if not CAUSES[name].fixed:
-        assert found == pytest.approx(2.0, rel=0.05)
-    assert truth.causes == (name,)
+    """With no longitudinal force none leaks into the lateral one, and the truth says so."""
+    for seed in (9, 41):  # in the first there is none
+        truth = draw_case(np.random.default_rng(seed), name, 2.0, rows=1200).truth
+        change = np.concatenate(
+            [truth.recording_with - truth.recording_without, truth.held_with - truth.held_without]
+        )
+        found = np.max(np.sqrt(np.mean(change**2, axis=0)) / truth.unit)
+        assert found == pytest.approx(truth.strengths[0], rel=1e-6)
+        braked = np.sqrt(np.mean(truth.recording_without[:, 0] ** 2)) > truth.unit[0]
+        if name == "crosstalk" and truth.parameters[0]["channel"] == "fy" and not braked:
+            assert found < 1.0
+        elif not CAUSES[name].fixed:
+            assert found == pytest.approx(2.0, rel=0.05)
+        assert truth.causes == (name,)
+
+
+@pytest.mark.long
+def test_a_cause_falls_short_only_where_physics_ends() -> None:
+    short = 0
+    sized = [(name, cause.most) for name, cause in CAUSES.items() if not cause.fixed]
+    for name, most in sized:
+        for seed in range(20):
+            truth = draw_case(np.random.default_rng(seed), name, 2.0, rows=1200).truth
+            if truth.strengths[0] < 1.9:
+                short += 1
+                assert truth.parameters[0]["size"] == most
+    assert 0 < short < 0.02 * 20 * len(sized)
 
 
 def test_nothing_changes_nothing_and_noise_is_all_that_is_left() -> None:
