@@ -13,7 +13,7 @@ from tire_pipeline.channels import OPERATING_CHANNELS, RECORDED_CHANNELS, TANGEN
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
 """Of a recording in time and of steady points: with less nothing is told from noise."""
-LARGEST = {"slip_angle": (1.6, "deg"), "camber": (1.2, "deg"), "slip_ratio": (4.0, "%")}
+LARGEST_PLAUSIBLE = {"slip_angle": (1.6, "deg"), "camber": (1.2, "deg"), "slip_ratio": (4.0, "%")}
 """What no wheel does, rad or 1, and the unit in which a channel that does it was recorded."""
 LEAST_WHOLE = 0.1
 """Part of the rows that must have a number in all channels."""
@@ -110,7 +110,9 @@ def repeated_channels(recording: pd.DataFrame) -> list[str]:
 
 def in_another_unit(name: str, values: np.ndarray) -> bool:
     """Tell whether a slip or an angle is larger than any wheel's, but for odd samples: degrees, percent."""
-    return name in LARGEST and float(np.nanquantile(np.abs(values), 0.98)) > LARGEST[name][0]
+    return (
+        name in LARGEST_PLAUSIBLE and float(np.nanquantile(np.abs(values), 0.98)) > LARGEST_PLAUSIBLE[name][0]
+    )
 
 
 def _columns(frame: pd.DataFrame) -> list[Issue]:
@@ -263,7 +265,7 @@ def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:
     """Say that a slip or an angle is in another unit, as an explanation takes it."""
     if not in_another_unit(column, values):
         return []
-    unit = LARGEST[column][1]
+    unit = LARGEST_PLAUSIBLE[column][1]
     name = frame.attrs.get("channels", {}).get(column, column)
     return [
         Issue(

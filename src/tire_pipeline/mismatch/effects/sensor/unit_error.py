@@ -8,7 +8,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.repairs import Simulate, best_repair
-from tire_pipeline.recordings.check import LARGEST, in_another_unit
+from tire_pipeline.recordings.check import LARGEST_PLAUSIBLE, in_another_unit
 from tire_pipeline.unit_definitions import GRAVITY, POUND_FORCE, PSI
 
 _DEG = 180.0 / np.pi
@@ -121,7 +121,7 @@ _OF_UNIT = {"deg": _DEG, "%": 100.0}
 def _impossible(channels: Mapping[str, Array]) -> list[Finding]:
     """Angles beyond what a wheel can have: degrees, percent."""
     found = []
-    for name, (_, unit) in LARGEST.items():
+    for name, (_, unit) in LARGEST_PLAUSIBLE.items():
         if name in channels and in_another_unit(name, channels[name]):
             factor = _OF_UNIT[unit]
             text = _FACTORS[name][factor]
