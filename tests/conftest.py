@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 _KNOWN = Path(__file__).with_name("known_misses.txt")
-_REASON = "known miss (tests/known_misses.txt): other verdicts with the misfit of real tires"
+_REASON = "known miss: a finding to look into (tests/known_misses.txt)"
 
 _HERE = Path(__file__).parent
 _CI_ONLY = _HERE / "ci_only.txt"
