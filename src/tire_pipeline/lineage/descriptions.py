@@ -65,7 +65,8 @@ def descriptions(project: Path, env: str | None = None) -> dict[str, object]:
     from kedro.framework.startup import bootstrap_project
 
     bootstrap_project(project)
-    with KedroSession.create(project_path=project, env=env) as session:
+    session = KedroSession.create(project_path=project, env=env)
+    with session:
         catalog = session.load_context().config_loader["catalog"]
     exact: dict[str, str] = {}
     for pipeline in pipelines.values():

@@ -14,9 +14,9 @@ from tire_pipeline.pages.safe_page import visible
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as MplFigure
-    from matplotlib.figure import FigureBase
+    from matplotlib.figure import SubFigure
 
-AnyFigure = TypeVar("AnyFigure", bound="FigureBase")
+AnyFigure = TypeVar("AnyFigure", "MplFigure", "SubFigure")
 
 #: Okabe and Ito (2008), in an order that also differs in lightness.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D1F")

@@ -32,12 +32,13 @@ def new_files_of(root: Path, config: ArrivalSession) -> FolderDifference:
         Environment and parameters, as for the run.
     """
     bootstrap_project(root)
-    with KedroSession.create(
+    session = KedroSession.create(
         project_path=root,
         env=config.env,
         conf_source=config.conf_source,
         runtime_params=dict(config.parameters),
-    ) as session:
+    )
+    with session:
         context = session.load_context()
         parameters = RetrainParameters(**context.config_loader["parameters"]["retrain"])
         folder, store = context.catalog.get("tir_folder"), context.catalog.get("ingested")

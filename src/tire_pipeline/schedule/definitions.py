@@ -65,12 +65,13 @@ def kedro_run(
     """
     bootstrap_project(ROOT)
     turn = {"alongside": True} if namespaces else {"wait_seconds": TURN_SECONDS}
-    with KedroSession.create(
+    session = KedroSession.create(
         project_path=ROOT,
         env=config.env,
         conf_source=config.conf_source,
         runtime_params={"one_run_at_a_time": turn, **config.parameters},
-    ) as session:
+    )
+    with session:
         session.run(pipeline_names=[pipeline], namespaces=namespaces, node_names=nodes)
 
 

@@ -62,15 +62,15 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content], dict[str, bytes]]
     def check(self) -> None:
         """Refuse, before any work is done, a folder that belongs to the user."""
         if is_remote(self._path):
-            folder: Path | Objects = Objects(self._path)
-            foreign = text_objects.belongs_to_user(folder)
+            objects = Objects(self._path)
+            where, foreign = str(objects), text_objects.belongs_to_user(objects)
         else:
             folder = Path(self._path)
-            foreign = _belongs_to_user(folder)
+            where, foreign = str(folder), _belongs_to_user(folder)
         if foreign:
             raise DomainError(
                 "this folder holds files that were not made by this project",
-                where=str(folder),
+                where=where,
                 todo="move them elsewhere (or set another folder); they are never overwritten",
             )
 
