@@ -92,10 +92,11 @@ def answered(
     agreement = sum(float(p) for e, p in zip(every, mass, strict=True) if not e.names and not e.unnamed)
     unnamed = sum(float(p) for e, p in zip(every, mass, strict=True) if e.unnamed)
     without = {each.names: float(p) for each, p in zip(every, mass, strict=True) if not each.unnamed}
-    sets = _named(probabilities, without, level)
+    gains = _gains(case, evidence)
+    sets = _named(probabilities, without, gains, level)
     named = _set_of(case, probabilities, tuple(names[0] for names, _ in sets))
     left = likelihood.evidence(named.plain, scales(named, sizes), wide=True).errors
-    return SetAnswer(sets, named, agreement, unnamed, dict(probabilities), _gains(case, evidence), left, case)
+    return SetAnswer(sets, named, agreement, unnamed, dict(probabilities), gains, left, case)
 
 
 def nothing(case: OfCase) -> SetAnswer:
@@ -104,12 +105,13 @@ def nothing(case: OfCase) -> SetAnswer:
 
 
 def _named(
-    probabilities: Mapping[Names, float], without: Mapping[Names, float], level: float
+    probabilities: Mapping[Names, float], without: Mapping[Names, float], gains: Mapping[str, float], level: float
 ) -> tuple[tuple[Names, float], ...]:
     """Return each member of the likeliest set that holds names, with what could stand in its place.
 
     A name has to be likelier than not whether or not something unnamed is beside it: what resembles a part of
-    something unknown gets no name by it.
+    something unknown gets no name by it. And the recording has to speak for it: where physics expects an effect
+    that the recording does not show, that alone makes no name.
     """
     named = {names: p for names, p in probabilities.items() if names}
     if not named:
@@ -121,7 +123,8 @@ def _named(
         group = (name, *(n for n in _instead(named, best, name) if n not in taken))
         sure = sum(p for names, p in named.items() if set(names) & set(group))
         alone = sum(p for names, p in without.items() if set(names) & set(group))
-        if sure > level and alone > level * sum(without.values()) and name not in taken:
+        likelier = sure > level and alone > level * sum(without.values())
+        if likelier and gains[name] > 0.0 and name not in taken:
             out.append((group, min(sure, 1.0)))
     return tuple(sorted(out, key=lambda each: -each[1]))
 

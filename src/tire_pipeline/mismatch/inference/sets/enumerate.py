@@ -23,9 +23,10 @@ PAIRS = 20
 TRIPLES = 6
 ASKED_FOR_FORMS = 8
 """Sets that are fitted by their own equations; the screen has scored all singles and pairs."""
-_STEPS = 4
+_STEPS = 12
+"""Steps of a fit at most; most end after fewer."""
 _INDEPENDENT = 100.0
-"""Independent samples, for the screen: how many there are is known only beside its effects."""
+"""Independent samples, for the first screen: how many there are is known only beside its effects."""
 
 
 @dataclass(frozen=True)
@@ -58,8 +59,8 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
     )
     products = RecordingProducts(analysis, background)
     guess = Likelihood(products.unknown(dict.fromkeys(analysis.data.outputs, _INDEPENDENT)), sizes)
-    found = screen(products, guess, forms)
-    likelihood = guess.counting(found.independent)
+    likelihood = guess.counting(screen(products, guess, forms).independent)
+    found = screen(products, likelihood, forms)
     fits: dict[Names, OfSet] = {(): products.of_set([], [])}
     expected = sorted(likelihood.unknown.expected & set(found.forms))
     wanted = [tuple(sorted(names)) for names in beside if set(names) <= set(found.forms)]
@@ -69,9 +70,9 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
     for name in dict.fromkeys([*found.kept, *(n for names in pairs + wanted for n in names)]):
         fits[(name,)] = fitted(products, likelihood, [found.forms[name]], _STEPS)
     for pair in dict.fromkeys(pairs):
-        fits[pair] = fitted(products, likelihood, _from_singles(found, fits, pair), _STEPS - 1)
+        fits[pair] = fitted(products, likelihood, _from_singles(found, fits, pair), _STEPS)
     for triple in _triples(likelihood, list(fits.values()), found):
-        fits[triple] = fitted(products, likelihood, _from_singles(found, fits, triple), _STEPS - 1)
+        fits[triple] = fitted(products, likelihood, _from_singles(found, fits, triple), _STEPS)
     return Enumerated(products, likelihood, _with_forms(products, likelihood, fits))
 
 

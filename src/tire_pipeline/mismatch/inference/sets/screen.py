@@ -19,6 +19,9 @@ Array = np.ndarray
 Names = tuple[str, ...]
 EFFECTS_KEPT = 12
 """Effects that go on to be fitted."""
+_ROUNDS = 8
+_ALIKE = 0.05
+"""Change of a count, as a part of it, below which it stays."""
 
 
 @dataclass(frozen=True)
@@ -93,11 +96,29 @@ def screen(products: RecordingProducts, likelihood: Likelihood, forms: Sequence[
     for pair in combinations(sorted(best), 2):
         evidence[pair] = score(*(best[name][1] for name in pair)) - nothing
     chosen = np.concatenate([rows[k] for _, k in best.values()]).astype(int) if best else np.zeros(0, int)
-    together = likelihood.evidence(every.take(chosen), np.ones(chosen.size), wide=True)
-    picked = {o: x[:, np.r_[chosen, -1]] for o, x in columns.items()}
-    independent = products.independent(picked, together)
+    independent = _independent(products, likelihood, {o: x[:, np.r_[chosen, -1]] for o, x in columns.items()})
     likeliest = {name: forms[k].variant for name, (_, k) in best.items()}
     return Screened(likeliest, evidence, _kept(evidence), independent)
+
+
+def _independent(
+    products: RecordingProducts, likelihood: Likelihood, columns: Mapping[str, Array]
+) -> Mapping[str, float]:
+    """Samples of each output that are independent beside all that is looked for.
+
+    What is left beside coefficients and misfit says how many there are, and how many there are says how much of
+    these the recording resolves. So both are sought together, from few samples on.
+    """
+    every = products.of(columns)
+    count: Mapping[str, float] = likelihood.unknown.independent
+    for _ in range(_ROUNDS):
+        before = count
+        here = likelihood.counting({o: n / likelihood.learnt.independent for o, n in before.items()})
+        found = here.evidence(every, np.ones(columns[products.data.outputs[0]].shape[1] - 1), wide=True)
+        count = products.independent(columns, found)
+        if all(abs(np.log(count[o] / before[o])) < _ALIKE for o in count):
+            break
+    return count
 
 
 def _kept(evidence: Mapping[Names, float]) -> Names:
