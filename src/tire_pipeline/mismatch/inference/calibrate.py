@@ -14,7 +14,6 @@ from tire_pipeline.mismatch.inference.evidence.hypotheses import (
     log_evidence,
     plain,
     position,
-    scales,
 )
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase
@@ -153,7 +152,7 @@ def learnt_left(cases: Sequence[Tuning], sizes: LearntSizes) -> tuple[float, flo
         if index is None:
             continue
         own, likelihood = each.case.sets[index], Likelihood(each.case.unknown, sizes)
-        found = likelihood.evidence(own.plain, scales(own, sizes), wide=True)
+        found = plain(likelihood, own, wide=True)
         logs.setdefault(each.source, []).extend(np.log(list(found.errors.values())))
     if not logs:
         return sizes.left

@@ -10,6 +10,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.inference.evidence.tails import widening
 from tire_pipeline.mismatch.inference.priors import prior
 from tire_pipeline.mismatch.model.candidates import derivatives
 from tire_pipeline.mismatch.model.data import Data
@@ -111,6 +112,7 @@ def linearised(
     data, rest = system.data, residual(system.data, changes)
     labels, columns = columns_of(data, list(changes), list(free))
     off, wide = prior(data, changes, labels)
+    wide = wide * widening(off / wide)
     count, k = system.count, len(labels)
     information, score = np.zeros((count, k, k)), np.zeros((count, k))
     for o, x in columns.items():

@@ -137,6 +137,7 @@ class _Scene:
         self.own = {o: x[:, :own] for o, x in columns.items()}
         learnt = enumerated.likelihood.learnt
         self.scale = scales(named, learnt)[:own]
+        self.tailed = np.arange(own) < named.parameters
         self.odds = {True: -EXPECTED, False: -(learnt.further if named.names else learnt.effect)}
         self.likelihood = enumerated.likelihood.at(plain(enumerated.likelihood, named).weights)
 
@@ -177,7 +178,9 @@ class _Scene:
         count, inner = self.scale.size, form[self.data.outputs[0]].shape[1]
         alone = one.take([*range(count), count + inner])
         wide = max(most, 1e-300)
-        found = self.likelihood.evidence(alone, np.r_[self.scale, wide], wide=True)
+        found = self.likelihood.evidence(
+            alone, np.r_[self.scale, wide], tailed=np.r_[self.tailed, False], wide=True
+        )
         value, error = float(found.mode[-1]), float(np.sqrt(found.covariance[-1, -1]))
 
         def gain(size: float) -> float:
@@ -185,8 +188,10 @@ class _Scene:
             with_it = self.likelihood.evidence(
                 moved.take(range(count + inner)),
                 np.r_[self.scale, np.full(inner, self.likelihood.learnt.prior)],
+                tailed=np.r_[self.tailed, np.ones(inner, bool)],
             )
-            return with_it.value - self.likelihood.evidence(moved.take(range(count)), self.scale).value
+            without = self.likelihood.evidence(moved.take(range(count)), self.scale, tailed=self.tailed)
+            return with_it.value - without.value
 
         low, high = 0.0, 3.0 * error
         for _ in range(_ROUNDS):

@@ -52,7 +52,8 @@ class Hypothesis:
         columns = self.effects.columns(wide=self.wide, form=self.form)
         own = scales(self.effects, likelihood.learnt)
         scale = np.r_[own, np.full(columns.size - own.size, likelihood.learnt.wide)]
-        return likelihood.evidence(products.take(columns), scale, wide=self.wide).value
+        tailed = np.arange(columns.size) < self.effects.parameters
+        return likelihood.evidence(products.take(columns), scale, tailed=tailed, wide=self.wide).value
 
 
 def hypotheses(case: OfCase) -> list[Hypothesis]:
@@ -67,9 +68,11 @@ def scales(each: OfSet, learnt: LearntSizes) -> Array:
     return np.r_[np.full(each.parameters, learnt.prior), np.full(each.errors, learnt.form_error)]
 
 
-def plain(likelihood: Likelihood, each: OfSet) -> Evidence:
-    """Return the evidence of a set with nothing unnamed beside it."""
-    return likelihood.evidence(each.plain, scales(each, likelihood.learnt))
+def plain(likelihood: Likelihood, each: OfSet, *, wide: bool = False) -> Evidence:
+    """Return the evidence of a set with nothing unnamed beside it, and an error of usual size or of any."""
+    scale = scales(each, likelihood.learnt)
+    tailed = np.arange(scale.size) < each.parameters
+    return likelihood.evidence(each.plain, scale, tailed=tailed, wide=wide)
 
 
 def plain_evidence(likelihood: Likelihood, each: OfSet) -> float:

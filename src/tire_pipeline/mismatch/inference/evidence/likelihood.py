@@ -19,6 +19,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.nuisance.columns import Sizes
 from tire_pipeline.mismatch.discrepancy.nuisance.sizes import nuisance_scale
+from tire_pipeline.mismatch.inference.evidence.tails import log_correction, widening
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 
 Array = np.ndarray
@@ -31,6 +32,9 @@ BACKGROUNDS = (0.3, 1.0)
 ERRORS = np.geomspace(2e-4, 0.4, 60)
 """Sizes of the error over the largest force over which it is summed."""
 _ROUNDS = 4
+_FAR = 10.0
+"""Times as wide as they are: from there priors with tails are tried, too. They can have a second mode, far
+out."""
 
 
 @dataclass(frozen=True)
@@ -197,21 +201,44 @@ class Likelihood:
             {o: tuple(v.T @ products.nuisance[o] for _, v in cells) for o, cells in self._cells.items()},
         )
 
-    def evidence(self, products: ColumnProducts | Projected, scale: Array, *, wide: bool = False) -> Evidence:
-        """Return the log evidence of columns with normal coefficients.
+    def evidence(
+        self,
+        products: ColumnProducts | Projected,
+        scale: Array,
+        *,
+        tailed: Array | None = None,
+        wide: bool = False,
+    ) -> Evidence:
+        """Return the log evidence of columns, by Laplace's approximation.
 
         Parameters
         ----------
         products : ColumnProducts or Projected
         scale : ndarray, shape (m,)
-            Standard deviations of the coefficients.
+            Spreads of the coefficients' priors.
+        tailed : ndarray of bool, shape (m,), optional
+            Coefficients whose priors have tails; the others' are normal. All have, if left out.
         wide : bool
             Whether the error may be of any size, as where something unnamed is; else it is of the
             size that is usual.
         """
         known = products if isinstance(products, Projected) else self.projected(products)
+        if not scale.size:
+            return self._climbed(known, scale, np.zeros(0, bool), 1.0, wide=wide)
+        has_tails = np.ones(scale.size, bool) if tailed is None else tailed
+        starts = (1.0, _FAR) if has_tails.any() else (1.0,)
+        found = [self._climbed(known, scale, has_tails, start, wide=wide) for start in starts]
+        return max(found, key=lambda each: each.value)
+
+    def _climbed(
+        self, known: Projected, scale: Array, has_tails: Array, start: float, *, wide: bool
+    ) -> Evidence:
+        """Return the evidence about the mode that is reached from one widening of the priors with tails."""
         z: Array = np.zeros(scale.size)
-        for _ in range(_ROUNDS if scale.size else 1):
+        times = np.where(has_tails, start, 1.0)
+        for number in range(_ROUNDS if scale.size else 1):
+            times = times if number == 0 else np.where(has_tails, widening(z), 1.0)
+            spread = scale * times
             inner, aim = np.eye(scale.size), np.zeros(scale.size)
             total, power = 0.0, 0.0
             weights, errors = {}, {}
@@ -222,13 +249,14 @@ class Likelihood:
                 weights[o] = Weights(self.count[o] / ERRORS[j] ** 2, *self._cells[o][k])
                 errors[o] = float(ERRORS[j])
                 reduced = weights[o].shrunk(own, known.parts[o][k])
-                inner += reduced[:-1, :-1] * scale[:, None] * scale[None, :]
-                aim += reduced[:-1, -1] * scale
+                inner += reduced[:-1, :-1] * spread[:, None] * spread[None, :]
+                aim += reduced[:-1, -1] * spread
                 power += float(reduced[-1, -1])
                 total += _log_sum(values) + 0.5 * float(u @ reduced @ u)
-            z = np.linalg.solve(inner, aim)
-        value = total - 0.5 * (power - float(aim @ z)) - 0.5 * float(np.linalg.slogdet(inner)[1])
-        covariance = np.linalg.inv(inner) * scale[:, None] * scale[None, :]
+            z = times * np.linalg.solve(inner, aim)
+        value = total - 0.5 * (power - float(aim @ (z / times))) - 0.5 * float(np.linalg.slogdet(inner)[1])
+        value += log_correction(z[has_tails], times[has_tails])
+        covariance = np.linalg.inv(inner) * spread[:, None] * spread[None, :]
         return Evidence(value, z * scale, covariance, weights, errors)
 
     @cached_property

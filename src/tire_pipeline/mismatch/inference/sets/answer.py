@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
-from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_evidence, log_prior, scales
+from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_evidence, log_prior, plain
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
@@ -95,7 +95,7 @@ def answered(
     gains = _gains(case, evidence)
     sets = _named(probabilities, without, gains, level)
     named = _set_of(case, probabilities, tuple(names[0] for names, _ in sets))
-    left = likelihood.evidence(named.plain, scales(named, sizes), wide=True).errors
+    left = plain(likelihood, named, wide=True).errors
     return SetAnswer(sets, named, agreement, unnamed, dict(probabilities), gains, left, case)
 
 
@@ -105,13 +105,16 @@ def nothing(case: OfCase) -> SetAnswer:
 
 
 def _named(
-    probabilities: Mapping[Names, float], without: Mapping[Names, float], gains: Mapping[str, float], level: float
+    probabilities: Mapping[Names, float],
+    without: Mapping[Names, float],
+    gains: Mapping[str, float],
+    level: float,
 ) -> tuple[tuple[Names, float], ...]:
     """Return each member of the likeliest set that holds names, with what could stand in its place.
 
     A name has to be likelier than not whether or not something unnamed is beside it: what resembles a part of
-    something unknown gets no name by it. And the recording has to speak for it: where physics expects an effect
-    that the recording does not show, that alone makes no name.
+    something unknown gets no name by it. And the recording has to speak for it: physics alone, which expects
+    an effect in it, makes no name.
     """
     named = {names: p for names, p in probabilities.items() if names}
     if not named:

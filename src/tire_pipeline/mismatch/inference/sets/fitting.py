@@ -9,6 +9,7 @@ import numpy as np
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Likelihood, Weights
 from tire_pipeline.mismatch.inference.evidence.products import OfSet, RecordingProducts
+from tire_pipeline.mismatch.inference.evidence.tails import cost, widening
 from tire_pipeline.mismatch.inference.fit import columns_of, moved
 from tire_pipeline.mismatch.inference.priors import Labels, prior
 from tire_pipeline.mismatch.model.candidates import Variant
@@ -58,7 +59,7 @@ def _cost(
     rest = residual(products.data, changes)
     found = likelihood.evidence(products.of({o: r[:, None] for o, r in rest.items()}), np.zeros(0), wide=True)
     off, wide = prior(products.data, changes, _moving(changes, free))
-    return -found.value + 0.5 * float(np.sum((off / wide) ** 2))
+    return -found.value + float(np.sum(cost(off / wide)))
 
 
 def _moving(changes: Sequence[Change], free: Sequence[tuple[str, ...]]) -> Labels:
@@ -92,13 +93,14 @@ def _step(
         return changes, 0.0, near
     best = _cost(products, near, changes, free)
     inner, aim = _normal_equations(found.weights, here, wide.size)
-    inner, aim = inner + np.eye(wide.size), aim - off / wide
+    tails = 1.0 / widening(off / wide) ** 2
+    inner, aim = inner + np.diag(tails), aim - tails * off / wide
     for damping in _DAMPINGS:
         delta = np.linalg.solve(inner + damping * np.diag(np.diag(inner)), aim) * wide
         trial = moved(changes, labels, delta)
-        cost = _cost(products, near, trial, free)
-        if cost < best:
-            return trial, best - cost, near
+        tried = _cost(products, near, trial, free)
+        if tried < best:
+            return trial, best - tried, near
     return changes, 0.0, near
 
 
@@ -123,9 +125,9 @@ def _scan(
                 trial: list[Change] = [(n, dict(p)) for n, p in changes]
                 there = float(np.clip(changes[i][1][moment] + sign * width, time[0], time[-1]))
                 trial[i] = (changes[i][0], {**changes[i][1], moment: there})
-                cost = _cost(products, likelihood, trial, free)
-                if cost < best:
-                    changes, best = trial, cost
+                tried = _cost(products, likelihood, trial, free)
+                if tried < best:
+                    changes, best = trial, tried
                     break
             width *= 0.5
     return changes, first - best

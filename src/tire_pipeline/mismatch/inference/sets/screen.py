@@ -106,8 +106,8 @@ def _independent(
 ) -> Mapping[str, float]:
     """Samples of each output that are independent beside all that is looked for.
 
-    What is left beside coefficients and misfit says how many there are, and how many there are says how much of
-    these the recording resolves. So both are sought together, from few samples on.
+    What is left beside coefficients and misfit says how many there are, and how many there are says how much
+    of these the recording resolves. So both are sought together, from few samples on.
     """
     every = products.of(columns)
     count: Mapping[str, float] = likelihood.unknown.independent
