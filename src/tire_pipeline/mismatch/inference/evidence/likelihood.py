@@ -32,6 +32,8 @@ BACKGROUNDS = (0.3, 1.0)
 ERRORS = np.geomspace(2e-4, 0.4, 60)
 """Sizes of the error over the largest force over which it is summed."""
 _ROUNDS = 4
+_ALIKE = 1e-3
+"""Change of all coefficients, over their spread, below which a mode is reached."""
 _FAR = 10.0
 """Times as wide as they are: from there priors with tails are tried, too. They can have a second mode, far
 out."""
@@ -224,16 +226,22 @@ class Likelihood:
         """
         known = products if isinstance(products, Projected) else self.projected(products)
         if not scale.size:
-            return self._climbed(known, scale, np.zeros(0, bool), 1.0, wide=wide)
+            return self._climbed(known, scale, np.zeros(0, bool), 1.0, wide=wide)[0]
         has_tails = np.ones(scale.size, bool) if tailed is None else tailed
-        starts = (1.0, _FAR) if has_tails.any() else (1.0,)
-        found = [self._climbed(known, scale, has_tails, start, wide=wide) for start in starts]
-        return max(found, key=lambda each: each.value)
+        near, least_squares = self._climbed(known, scale, has_tails, 1.0, wide=wide)
+        if not has_tails.any() or np.all(widening(least_squares[has_tails]) == 1.0):
+            return near
+        far, _ = self._climbed(known, scale, has_tails, _FAR, wide=wide)
+        return max(near, far, key=lambda each: each.value)
 
     def _climbed(
         self, known: Projected, scale: Array, has_tails: Array, start: float, *, wide: bool
-    ) -> Evidence:
-        """Return the evidence about the mode that is reached from one widening of the priors with tails."""
+    ) -> tuple[Evidence, Array]:
+        """Return the evidence about the mode that is reached from one widening of the priors with tails.
+
+        And what each coefficient would be by itself without its prior, over its spread: where none is in a
+        tail, there is one mode.
+        """
         z: Array = np.zeros(scale.size)
         times = np.where(has_tails, start, 1.0)
         for number in range(_ROUNDS if scale.size else 1):
@@ -253,11 +261,14 @@ class Likelihood:
                 aim += reduced[:-1, -1] * spread
                 power += float(reduced[-1, -1])
                 total += _log_sum(values) + 0.5 * float(u @ reduced @ u)
-            z = times * np.linalg.solve(inner, aim)
+            before, z = z, times * np.linalg.solve(inner, aim)
+            if np.max(np.abs(z - before), initial=0.0) < _ALIKE:
+                break
         value = total - 0.5 * (power - float(aim @ (z / times))) - 0.5 * float(np.linalg.slogdet(inner)[1])
         value += log_correction(z[has_tails], times[has_tails])
         covariance = np.linalg.inv(inner) * spread[:, None] * spread[None, :]
-        return Evidence(value, z * scale, covariance, weights, errors)
+        least_squares = times * aim / np.maximum(np.diag(inner) - 1.0, 1e-12)
+        return Evidence(value, z * scale, covariance, weights, errors), least_squares
 
     @cached_property
     def _grid(self) -> Mapping[str, tuple[Array, Array]]:
