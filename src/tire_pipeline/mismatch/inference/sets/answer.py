@@ -9,7 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
-from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_evidence, log_prior, plain
+from tire_pipeline.mismatch.inference.evidence.hypotheses import (
+    hypotheses,
+    log_evidence,
+    log_prior,
+    plain,
+    scales,
+)
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
@@ -92,11 +98,10 @@ def answered(
     agreement = sum(float(p) for e, p in zip(every, mass, strict=True) if not e.names and not e.unnamed)
     unnamed = sum(float(p) for e, p in zip(every, mass, strict=True) if e.unnamed)
     without = {each.names: float(p) for each, p in zip(every, mass, strict=True) if not each.unnamed}
-    gains = _gains(case, evidence)
-    sets = _named(probabilities, without, gains, level)
+    sets = _named(case, likelihood, probabilities, without, level)
     named = _set_of(case, probabilities, tuple(names[0] for names, _ in sets))
     left = plain(likelihood, named, wide=True).errors
-    return SetAnswer(sets, named, agreement, unnamed, dict(probabilities), gains, left, case)
+    return SetAnswer(sets, named, agreement, unnamed, dict(probabilities), _gains(case, evidence), left, case)
 
 
 def nothing(case: OfCase) -> SetAnswer:
@@ -105,21 +110,23 @@ def nothing(case: OfCase) -> SetAnswer:
 
 
 def _named(
+    case: OfCase,
+    likelihood: Likelihood,
     probabilities: Mapping[Names, float],
     without: Mapping[Names, float],
-    gains: Mapping[str, float],
     level: float,
 ) -> tuple[tuple[Names, float], ...]:
     """Return each member of the likeliest set that holds names, with what could stand in its place.
 
     A name has to be likelier than not whether or not something unnamed is beside it: what resembles a part of
-    something unknown gets no name by it. And the recording has to speak for it: physics alone, which expects
-    an effect in it, makes no name.
+    something unknown gets no name by it. An effect that physics expects has to show besides: that it is
+    likelier than not says nothing of the recording.
     """
     named = {names: p for names, p in probabilities.items() if names}
     if not named:
         return ()
     best = max(named, key=lambda names: named[names])
+    hidden = case.unknown.expected - _shown(likelihood, next(e for e in case.sets if e.names == best))
     out: list[tuple[Names, float]] = []
     for name in best:
         taken = {n for names, _ in out for n in names}
@@ -127,9 +134,27 @@ def _named(
         sure = sum(p for names, p in named.items() if set(names) & set(group))
         alone = sum(p for names, p in without.items() if set(names) & set(group))
         likelier = sure > level and alone > level * sum(without.values())
-        if likelier and gains[name] > 0.0 and name not in taken:
+        if likelier and name not in taken and name not in hidden:
             out.append((group, min(sure, 1.0)))
     return tuple(sorted(out, key=lambda each: -each[1]))
+
+
+def _shown(likelihood: Likelihood, each: OfSet) -> frozenset[str]:
+    """Return the effects of a set whose fit gains more than noise alone gives on average.
+
+    Beside the rest of the set, and with their priors: without an effect, twice the gain in log likelihood is
+    on average the number of parameters that the recording determines (Wilks 1938).
+    """
+    found, scale = plain(likelihood, each), scales(each, likelihood.learnt)
+    z, covariance = found.mode / scale, found.covariance / scale[:, None] / scale[None, :]
+    shown, first = set(), 0
+    for (name, _), free in zip(each.changes, each.free, strict=True):
+        own = slice(first, first + len(free))
+        twice = z[own] @ np.linalg.solve(covariance[own, own], z[own])
+        if twice > len(free) - np.trace(covariance[own, own]):
+            shown.add(name)
+        first += len(free)
+    return frozenset(shown)
 
 
 def _instead(named: Mapping[Names, float], best: Names, name: str) -> Names:
