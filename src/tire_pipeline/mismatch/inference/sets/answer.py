@@ -43,7 +43,7 @@ class SetAnswer:
     named : OfSet
         The set of the first names.
     agreement : float
-        Probability that nothing is missing.
+        Probability that nothing is missing, or nothing that shows.
     unnamed : float
         Probability that something unnamed is there, beside names or not.
     probabilities : mapping
@@ -95,10 +95,13 @@ def answered(
     probabilities: dict[Names, float] = defaultdict(float)
     for each, p in zip(every, mass, strict=True):
         probabilities[each.names] += float(p)
-    agreement = sum(float(p) for e, p in zip(every, mass, strict=True) if not e.names and not e.unnamed)
+    hidden = _hidden(case, likelihood, probabilities)
+    agreement = sum(
+        float(p) for e, p in zip(every, mass, strict=True) if set(e.names) <= hidden and not e.unnamed
+    )
     unnamed = sum(float(p) for e, p in zip(every, mass, strict=True) if e.unnamed)
     without = {each.names: float(p) for each, p in zip(every, mass, strict=True) if not each.unnamed}
-    sets = _named(case, likelihood, probabilities, without, level)
+    sets = _named(probabilities, without, hidden, level)
     named = _set_of(case, probabilities, tuple(names[0] for names, _ in sets))
     left = plain(likelihood, named, wide=True).errors
     return SetAnswer(sets, named, agreement, unnamed, dict(probabilities), _gains(case, evidence), left, case)
@@ -110,10 +113,9 @@ def nothing(case: OfCase) -> SetAnswer:
 
 
 def _named(
-    case: OfCase,
-    likelihood: Likelihood,
     probabilities: Mapping[Names, float],
     without: Mapping[Names, float],
+    hidden: frozenset[str],
     level: float,
 ) -> tuple[tuple[Names, float], ...]:
     """Return each member of the likeliest set that holds names, with what could stand in its place.
@@ -126,7 +128,6 @@ def _named(
     if not named:
         return ()
     best = max(named, key=lambda names: named[names])
-    hidden = case.unknown.expected - _shown(likelihood, next(e for e in case.sets if e.names == best))
     out: list[tuple[Names, float]] = []
     for name in best:
         taken = {n for names, _ in out for n in names}
@@ -137,6 +138,15 @@ def _named(
         if likelier and name not in taken and name not in hidden:
             out.append((group, min(sure, 1.0)))
     return tuple(sorted(out, key=lambda each: -each[1]))
+
+
+def _hidden(case: OfCase, likelihood: Likelihood, probabilities: Mapping[Names, float]) -> frozenset[str]:
+    """Return the effects that physics expects and that do not show in the likeliest set with names."""
+    named = [each for each in case.sets if each.names]
+    if not named or not case.unknown.expected:
+        return frozenset()
+    best = max(named, key=lambda each: probabilities[each.names])
+    return (case.unknown.expected & set(best.names)) - _shown(likelihood, best)
 
 
 def _shown(likelihood: Likelihood, each: OfSet) -> frozenset[str]:
