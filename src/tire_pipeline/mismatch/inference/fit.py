@@ -10,8 +10,8 @@ import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.inference.evidence.tails import widening
 from tire_pipeline.mismatch.inference.priors import prior
+from tire_pipeline.mismatch.inference.tails import widening
 from tire_pipeline.mismatch.model.candidates import derivatives
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate

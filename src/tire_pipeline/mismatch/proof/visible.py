@@ -137,7 +137,7 @@ class _Scene:
         self.own = {o: x[:, :own] for o, x in columns.items()}
         learnt = enumerated.likelihood.learnt
         self.scale = scales(named, learnt)[:own]
-        self.tailed = np.arange(own) < named.parameters
+        self.tailed = named.tailed(own)
         self.odds = {True: -EXPECTED, False: -(learnt.further if named.names else learnt.effect)}
         self.likelihood = enumerated.likelihood.at(plain(enumerated.likelihood, named).weights)
 

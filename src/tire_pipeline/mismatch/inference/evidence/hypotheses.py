@@ -52,7 +52,7 @@ class Hypothesis:
         columns = self.effects.columns(wide=self.wide, form=self.form)
         own = scales(self.effects, likelihood.learnt)
         scale = np.r_[own, np.full(columns.size - own.size, likelihood.learnt.wide)]
-        tailed = np.arange(columns.size) < self.effects.parameters
+        tailed = self.effects.tailed(columns.size)
         return likelihood.evidence(products.take(columns), scale, tailed=tailed, wide=self.wide).value
 
 
@@ -71,8 +71,7 @@ def scales(each: OfSet, learnt: LearntSizes) -> Array:
 def plain(likelihood: Likelihood, each: OfSet, *, wide: bool = False) -> Evidence:
     """Return the evidence of a set with nothing unnamed beside it, and an error of usual size or of any."""
     scale = scales(each, likelihood.learnt)
-    tailed = np.arange(scale.size) < each.parameters
-    return likelihood.evidence(each.plain, scale, tailed=tailed, wide=wide)
+    return likelihood.evidence(each.plain, scale, tailed=each.tailed(scale.size), wide=wide)
 
 
 def plain_evidence(likelihood: Likelihood, each: OfSet) -> float:

@@ -19,8 +19,8 @@ import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.nuisance.columns import Sizes
 from tire_pipeline.mismatch.discrepancy.nuisance.sizes import nuisance_scale
-from tire_pipeline.mismatch.inference.evidence.tails import log_correction, widening
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
+from tire_pipeline.mismatch.inference.tails import log_correction, widening
 
 Array = np.ndarray
 MISFITS = (0.002, 0.006, 0.02)
@@ -225,8 +225,6 @@ class Likelihood:
             size that is usual.
         """
         known = products if isinstance(products, Projected) else self.projected(products)
-        if not scale.size:
-            return self._climbed(known, scale, np.zeros(0, bool), 1.0, wide=wide)[0]
         has_tails = np.ones(scale.size, bool) if tailed is None else tailed
         near, least_squares = self._climbed(known, scale, has_tails, 1.0, wide=wide)
         if not has_tails.any() or np.all(widening(least_squares[has_tails]) == 1.0):
@@ -244,7 +242,7 @@ class Likelihood:
         """
         z: Array = np.zeros(scale.size)
         times = np.where(has_tails, start, 1.0)
-        for number in range(_ROUNDS if scale.size else 1):
+        for number in range(_ROUNDS):
             times = times if number == 0 else np.where(has_tails, widening(z), 1.0)
             spread = scale * times
             inner, aim = np.eye(scale.size), np.zeros(scale.size)

@@ -67,6 +67,10 @@ class OfSet:
         every = int(next(iter(self.products.own.values())).shape[0]) - 1
         return every - self.parameters - self.errors - sum(self.forms)
 
+    def tailed(self, count: int) -> Array:
+        """Return which of the first columns have priors with tails: the parameters, no errors of form."""
+        return np.arange(count) < self.parameters
+
     def columns(self, *, wide: bool = False, form: int | None = None) -> Array:
         """Return the numbers of the set's columns, with all unnamed forms together or with one of them."""
         own = self.parameters + self.errors

@@ -95,13 +95,14 @@ def answered(
     probabilities: dict[Names, float] = defaultdict(float)
     for each, p in zip(every, mass, strict=True):
         probabilities[each.names] += float(p)
-    hidden = _hidden(case, likelihood, probabilities)
+    best = max((names for names in probabilities if names), key=lambda n: probabilities[n], default=())
+    hidden = _hidden(case, likelihood, best)
     agreement = sum(
         float(p) for e, p in zip(every, mass, strict=True) if set(e.names) <= hidden and not e.unnamed
     )
     unnamed = sum(float(p) for e, p in zip(every, mass, strict=True) if e.unnamed)
     without = {each.names: float(p) for each, p in zip(every, mass, strict=True) if not each.unnamed}
-    sets = _named(probabilities, without, hidden, level)
+    sets = _named(probabilities, without, best, hidden, level)
     named = _set_of(case, probabilities, tuple(names[0] for names, _ in sets))
     left = plain(likelihood, named, wide=True).errors
     return SetAnswer(sets, named, agreement, unnamed, dict(probabilities), _gains(case, evidence), left, case)
@@ -115,6 +116,7 @@ def nothing(case: OfCase) -> SetAnswer:
 def _named(
     probabilities: Mapping[Names, float],
     without: Mapping[Names, float],
+    best: Names,
     hidden: frozenset[str],
     level: float,
 ) -> tuple[tuple[Names, float], ...]:
@@ -125,9 +127,6 @@ def _named(
     likelier than not says nothing of the recording.
     """
     named = {names: p for names, p in probabilities.items() if names}
-    if not named:
-        return ()
-    best = max(named, key=lambda names: named[names])
     out: list[tuple[Names, float]] = []
     for name in best:
         taken = {n for names, _ in out for n in names}
@@ -140,13 +139,12 @@ def _named(
     return tuple(sorted(out, key=lambda each: -each[1]))
 
 
-def _hidden(case: OfCase, likelihood: Likelihood, probabilities: Mapping[Names, float]) -> frozenset[str]:
-    """Return the effects that physics expects and that do not show in the likeliest set with names."""
-    named = [each for each in case.sets if each.names]
-    if not named or not case.unknown.expected:
+def _hidden(case: OfCase, likelihood: Likelihood, best: Names) -> frozenset[str]:
+    """Return the effects of the likeliest set with names that physics expects and that do not show."""
+    expected = case.unknown.expected & set(best)
+    if not expected:
         return frozenset()
-    best = max(named, key=lambda each: probabilities[each.names])
-    return (case.unknown.expected & set(best.names)) - _shown(likelihood, best)
+    return expected - _shown(likelihood, next(each for each in case.sets if each.names == best))
 
 
 def _shown(likelihood: Likelihood, each: OfSet) -> frozenset[str]:

@@ -26,7 +26,7 @@ ASKED_FOR_FORMS = 8
 _STEPS = 12
 """Steps of a fit at most; most end after fewer."""
 _INDEPENDENT = 100.0
-"""Independent samples, for the first screen: how many there are is known only beside its effects."""
+"""Independent samples, to begin with: how many there are is known only beside the effects."""
 
 
 @dataclass(frozen=True)
@@ -59,8 +59,8 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
     )
     products = RecordingProducts(analysis, background)
     guess = Likelihood(products.unknown(dict.fromkeys(analysis.data.outputs, _INDEPENDENT)), sizes)
-    likelihood = guess.counting(screen(products, guess, forms).independent)
-    found = screen(products, likelihood, forms)
+    found = screen(products, guess, forms)
+    likelihood = guess.counting(found.independent)
     fits: dict[Names, OfSet] = {(): products.of_set([], [])}
     expected = sorted(likelihood.unknown.expected & set(found.forms))
     wanted = [tuple(sorted(names)) for names in beside if set(names) <= set(found.forms)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -75,47 +75,76 @@ def screened_forms(
     return forms
 
 
-def screen(products: RecordingProducts, likelihood: Likelihood, forms: Sequence[ScreenedForm]) -> Screened:
-    """Score single effects in their likeliest form, pairs of these, and keep ``EFFECTS_KEPT`` effects."""
-    data = products.data
-    rest = residual(data, [])
-    columns = {o: np.column_stack([*(f.columns[o] for f in forms), rest[o]]) for o in data.outputs}
-    every = products.of(columns)
-    counts = [f.columns[data.outputs[0]].shape[1] for f in forms]
-    rows = np.split(np.arange(sum(counts)), np.cumsum(counts)[:-1])
+def screen(products: RecordingProducts, guess: Likelihood, forms: Sequence[ScreenedForm]) -> Screened:
+    """Score single effects in their likeliest form, pairs of these, and keep ``EFFECTS_KEPT`` effects.
 
-    def score(*which: int) -> float:
-        picked = np.concatenate([rows[k] for k in which]).astype(int) if which else np.zeros(0, int)
-        return likelihood.evidence(every.take(picked), np.ones(picked.size), wide=True).value
-
-    nothing = score()
-    best: dict[str, tuple[float, int]] = {}
-    for k, form in enumerate(forms):
-        best[form.variant.name] = max(best.get(form.variant.name, (-np.inf, k)), (score(k) - nothing, k))
-    evidence: dict[Names, float] = {(name,): value for name, (value, _) in best.items()}
+    Parameters
+    ----------
+    products : RecordingProducts
+    guess : Likelihood
+        With a guess of the independent samples. Forms chosen with it say how many there are; with that number
+        they are chosen again, and scored.
+    forms : sequence of ScreenedForm
+    """
+    columns = _Columns(products, forms)
+    independent = _independent(columns, guess, columns.likeliest(guess))
+    likelihood = guess.counting(independent)
+    best = columns.likeliest(likelihood)
+    nothing = columns.score(likelihood)
+    evidence: dict[Names, float] = {(name,): value - nothing for name, (value, _) in best.items()}
     for pair in combinations(sorted(best), 2):
-        evidence[pair] = score(*(best[name][1] for name in pair)) - nothing
-    chosen = np.concatenate([rows[k] for _, k in best.values()]).astype(int) if best else np.zeros(0, int)
-    independent = _independent(products, likelihood, {o: x[:, np.r_[chosen, -1]] for o, x in columns.items()})
+        evidence[pair] = columns.score(likelihood, *(best[name][1] for name in pair)) - nothing
     likeliest = {name: forms[k].variant for name, (_, k) in best.items()}
     return Screened(likeliest, evidence, _kept(evidence), independent)
 
 
+class _Columns:
+    """The columns of all forms and the residual, and their products."""
+
+    def __init__(self, products: RecordingProducts, forms: Sequence[ScreenedForm]) -> None:
+        data = products.data
+        rest = residual(data, [])
+        self.recording, self.forms = products, forms
+        self.columns = {o: np.column_stack([*(f.columns[o] for f in forms), rest[o]]) for o in data.outputs}
+        self.products = products.of(self.columns)
+        counts = [f.columns[data.outputs[0]].shape[1] for f in forms]
+        self._rows = np.split(np.arange(sum(counts)), np.cumsum(counts)[:-1])
+
+    def of(self, which: Iterable[int]) -> Array:
+        """Return the numbers of the columns of some forms."""
+        return np.concatenate([np.zeros(0, int), *(self._rows[k] for k in which)]).astype(int)
+
+    def score(self, likelihood: Likelihood, *which: int) -> float:
+        """Return the log evidence of some forms together."""
+        picked = self.of(which)
+        return likelihood.evidence(self.products.take(picked), np.ones(picked.size), wide=True).value
+
+    def likeliest(self, likelihood: Likelihood) -> dict[str, tuple[float, int]]:
+        """Return for each effect the log evidence and the number of its likeliest form."""
+        best: dict[str, tuple[float, int]] = {}
+        for k, form in enumerate(self.forms):
+            name = form.variant.name
+            best[name] = max(best.get(name, (-np.inf, k)), (self.score(likelihood, k), k))
+        return best
+
+
 def _independent(
-    products: RecordingProducts, likelihood: Likelihood, columns: Mapping[str, Array]
+    columns: _Columns, guess: Likelihood, best: Mapping[str, tuple[float, int]]
 ) -> Mapping[str, float]:
     """Samples of each output that are independent beside all that is looked for.
 
     What is left beside coefficients and misfit says how many there are, and how many there are says how much
     of these the recording resolves. So both are sought together, from few samples on.
     """
-    every = products.of(columns)
-    count: Mapping[str, float] = likelihood.unknown.independent
+    chosen = columns.of(k for _, k in best.values())
+    every = columns.products.take(chosen)
+    looked_for = {o: x[:, np.r_[chosen, -1]] for o, x in columns.columns.items()}
+    count: Mapping[str, float] = guess.unknown.independent
     for _ in range(_ROUNDS):
         before = count
-        here = likelihood.counting({o: n / likelihood.learnt.independent for o, n in before.items()})
-        found = here.evidence(every, np.ones(columns[products.data.outputs[0]].shape[1] - 1), wide=True)
-        count = products.independent(columns, found)
+        here = guess.counting({o: n / guess.learnt.independent for o, n in before.items()})
+        found = here.evidence(every, np.ones(chosen.size), wide=True)
+        count = columns.recording.independent(looked_for, found)
         if all(abs(np.log(count[o] / before[o])) < _ALIKE for o in count):
             break
     return count
