@@ -42,17 +42,14 @@ def learning_figure(results: Results) -> MplFigure | None:
         return None
     algorithms = [name for name in ("PPO", "A2C") if name in set(frame["algorithm"])]
     columns = max(len(algorithms), 1)
-    figure, axes = new_figure(1, columns, width=4.6 * columns, height=3.6, sharey=True)
+    figure, axes = new_figure(1, columns, width=max(4.6 * columns, 7.0), height=3.6, sharey=True)
     names = list(dict.fromkeys(frame["representation"]))
     for one, algorithm in zip(np.atleast_1d(np.asarray(axes)), algorithms, strict=True):
         for number, name in enumerate(names):
             part = frame[(frame["algorithm"] == algorithm) & (frame["representation"] == name)]
             if part.empty:
                 continue
-            place = part.groupby("seed").cumcount()
-            grouped = part.groupby(place)
-            steps, mean = grouped["step"].mean(), grouped["episode_reward"].mean()
-            spread = grouped["episode_reward"].std().fillna(0.0)
+            steps, mean, spread = _over_seeds(part)
             one.plot(steps, mean, color=colour_of(number), label=in_words(name))
             one.fill_between(steps, mean - spread, mean + spread, color=colour_of(number), alpha=0.15, lw=0)
         one.set_title(algorithm)
@@ -61,6 +58,19 @@ def learning_figure(results: Results) -> MplFigure | None:
     first.set_ylabel("reward of an episode")
     first.legend(fontsize=8)
     return figure
+
+
+def _over_seeds(part: pd.DataFrame) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Steps that all seeds have reached, mean reward there, and its standard deviation.
+
+    Episodes end at other steps in each seed, so each seed's rewards are put on common steps first.
+    """
+    seeds = [one.sort_values("step") for _, one in part.groupby("seed")]
+    first, last = (pick(one["step"].iloc[at] for one in seeds) for pick, at in ((max, 0), (min, -1)))
+    steps = np.unique(part["step"].to_numpy(dtype=float))
+    steps = steps[(steps >= first) & (steps <= last)]
+    rewards = np.array([np.interp(steps, one["step"], one["episode_reward"]) for one in seeds])
+    return steps, rewards.mean(axis=0), rewards.std(axis=0, ddof=1) if len(seeds) > 1 else 0.0 * steps
 
 
 def force_figure(results: Results, representation: str) -> MplFigure | None:

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.classifiers.scores import SPLITS
+from tire_pipeline.progress import track
 from tire_pipeline.reporting import MARKERS, colour_of, new_figure
 from tire_pipeline.thesis.pages.agent_figures import AGENT_FIGURES
 from tire_pipeline.thesis.results import Results, in_words
@@ -27,7 +28,7 @@ BIN_FIGURES = {
 def all_figures(results: Results) -> dict[str, MplFigure]:
     """Draw every figure for which there are results."""
     made = {}
-    for name, draw in {**CLASSIFIER_FIGURES, **AGENT_FIGURES}.items():
+    for name, draw in track({**CLASSIFIER_FIGURES, **AGENT_FIGURES}.items(), "drawing figures of the thesis"):
         figure = draw(results)
         if figure is not None:
             made[name] = figure
@@ -125,7 +126,8 @@ def reliability_figure(results: Results) -> MplFigure:
         one.set_title(in_words(split))
         one.set_xlim(0.15, 1.0)
     np.asarray(axes)[0].set_ylabel("share that is right")
-    np.asarray(axes)[0].legend(fontsize=8)
+    handles, labels = np.asarray(axes)[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=5, fontsize=8)
     return figure
 
 

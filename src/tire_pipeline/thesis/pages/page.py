@@ -83,7 +83,7 @@ def _comparable(results: Results) -> list[Part]:
         "what can be tested.",
         f"{results.cells_run} cells of the agents' grid were run with {len(facts['seeds'])} seed"
         f"{'s' if len(facts['seeds']) != 1 else ''} each; classifiers were trained "
-        f"{facts['trainings']} times. "
+        f"{facts['trainings']} time{'s' if facts['trainings'] != 1 else ''}. "
         "Every figure on classifiers is given on the random split and on the split by physical tire. The "
         "agents are always judged on tires that are in no training file.",
     ]

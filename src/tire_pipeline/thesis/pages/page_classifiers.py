@@ -7,6 +7,7 @@ from collections.abc import Callable
 import pandas as pd
 
 from tire_pipeline.classifiers.tuning import ANN_GRID
+from tire_pipeline.progress import track
 from tire_pipeline.reporting import Figure, Table, Text
 from tire_pipeline.thesis.pages.figures import BIN_FIGURES, CLASSIFIER_FIGURES, SPLITS
 from tire_pipeline.thesis.pages.words import least_within, listed, number, plus_minus, points
@@ -14,6 +15,13 @@ from tire_pipeline.thesis.published import published_figure, published_table
 from tire_pipeline.thesis.results import Results, in_words, over_trainings
 
 Part = Text | Table | Figure
+CONDITION_COLUMNS = {
+    "normal_load": "normal load / N",
+    "condition_median": "condition (median)",
+    "condition_p95": "condition (95%)",
+    "gain_median": "gain (median)",
+    "gain_p95": "gain (95%)",
+}
 SHORT = {"ANN": "ann", "GNB": "naive_bayes", "RF": "random_forest"}
 
 
@@ -30,7 +38,7 @@ def classifier_parts(results: Results) -> list[Part]:
         _calibration,
         _condition,
     )
-    return [part for section in sections for part in section(results)]
+    return [part for section in track(sections, "drawing the classifiers") for part in section(results)]
 
 
 def figure_part(results: Results, name: str, number: str, words: list[str]) -> list[Part]:
@@ -40,8 +48,22 @@ def figure_part(results: Results, name: str, number: str, words: list[str]) -> l
     heading = f"Figure {number}: {published.caption}"
     parts: list[Part] = [Text([f"Thesis: {published.says}", *words], heading=heading)]
     if drawn is not None:
-        parts.append(Figure(drawn, "Ours."))
+        parts.append(Figure(drawn, _to_see(name)))
     return parts
+
+
+def _to_see(name: str) -> str:
+    """What to look at in a figure of ours."""
+    return {
+        "figure_4_1": "Our files of each category: those that both splits share out.",
+        "figure_4_2": "Our training files of each category. With SMOTE all bars are equally high.",
+        "figure_5_3": "Shares of our test files. What lies off the diagonal was taken for another category: "
+        "the row is the true one.",
+    }.get(
+        name,
+        "Ours. Where a line is level, going further to the right gains nothing. The gap between the splits "
+        "is what variants of one tire on both sides are worth.",
+    )
 
 
 def _classes(results: Results) -> list[Part]:
@@ -80,6 +102,7 @@ def _ann(results: Results) -> list[Part]:
             part = frame[frame["split"] == split].nlargest(most, "accuracy")
             shown.append(part.assign(whose=f"ours, {_folds(split)}"))
         table = pd.concat(shown, ignore_index=True)[["whose", *keys, "accuracy", "f1"]]
+        table = table.rename(columns=lambda name: name.replace("_", " "))
         words = _tuning_words(frame, published.frame, most)
         if table_number == "5.3":
             words += _left_out(found, grid)
@@ -210,7 +233,10 @@ def _comparison(results: Results) -> list[Part]:
     chosen = {split: best[split] for split in SPLITS}
     return [
         Text(lines, heading=f"Table 5.6: {printed.caption}"),
-        Table(pd.DataFrame(rows, columns=columns), "Mean ± standard deviation of several trainings."),
+        Table(
+            pd.DataFrame(rows, columns=columns),
+            "Mean over the trainings, ± their standard deviation if there are several.",
+        ),
         Text(
             [
                 "Thesis: random forest, 30 trees of depth 10, with SMOTE.",
@@ -229,7 +255,8 @@ def _comparison(results: Results) -> list[Part]:
 
 def _spread(means: pd.DataFrame, name: str, smote: bool, split: str, column: str) -> str:
     row = means.loc[(name, smote, split)]
-    return f"{row[column]:.3f} ± {row[f'{column}_std']:.3f}"
+    spread = row[f"{column}_std"]
+    return f"{row[column]:.3f} ± {spread:.3f}" if row["trainings"] > 1 else f"{row[column]:.3f}"
 
 
 def _per_class(results: Results) -> list[Part]:
@@ -315,7 +342,12 @@ def _bins(results: Results) -> list[Part]:
             f"{points(accuracies[name], float(thesis))}; {new:.3f} on tires it has not seen."
         )
     parts.append(Text(lines, heading=f"Table 5.9: {printed.caption}"))
-    parts.append(Table(pd.DataFrame(rows, columns=columns), "The forest with SMOTE, 10 bins a feature."))
+    parts.append(
+        Table(
+            pd.DataFrame(rows, columns=columns),
+            "The forest with SMOTE, 10 bins a feature; ± standard deviation if there are several trainings.",
+        )
+    )
     return parts
 
 
@@ -341,7 +373,10 @@ def _calibration(results: Results) -> list[Part]:
     drawn = CLASSIFIER_FIGURES["reliability"](results)
     parts: list[Part] = [Text(lines, heading="Reliability of the probabilities"), Table(table)]
     if drawn is not None:
-        parts.append(Figure(drawn, "Trained with SMOTE; all trainings together."))
+        said = (
+            "Trained with SMOTE; all trainings together. On the dotted line a probability means what it says."
+        )
+        parts.append(Figure(drawn, said))
     return parts
 
 
@@ -356,5 +391,9 @@ def _condition(results: Results) -> list[Part]:
     )
     return [
         Text([line], heading="Why the power series is unstable"),
-        Table(frame, "Singular values of the Jacobian, in units of spreads, over all tires."),
+        Table(
+            frame.rename(columns=CONDITION_COLUMNS),
+            "Singular values of the Jacobian, in units of spreads, over all tires. Condition: the largest "
+            "over the smallest.",
+        ),
     ]

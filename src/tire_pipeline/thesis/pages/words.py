@@ -8,11 +8,11 @@ import pandas as pd
 
 
 def plus_minus(value: float, spread: float, digits: int = 3) -> str:
-    """A value with its spread; a dash where there is none."""
+    """A value with its spread, none where it is of one training; a dash where there is no value."""
     if pd.isna(value):
         return "–"
     text = number(value, digits)
-    return text if pd.isna(spread) else f"{text} ± {number(spread, 2)}"
+    return text if pd.isna(spread) or spread == 0.0 else f"{text} ± {number(spread, 2)}"
 
 
 def number(value: float, digits: int = 3) -> str:
