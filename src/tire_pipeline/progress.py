@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import threading
 import time
 from collections.abc import Generator, Iterable, Iterator
 from multiprocessing import current_process
@@ -14,6 +15,8 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 _SHOW_AFTER_SECONDS = 2.0
 _LINE_EVERY_SECONDS = 10.0
+_TERMINAL = threading.Lock()
+"""Of the bar that is shown: one within another waits until that one has ended."""
 
 
 def track(items: Iterable[T], what: str, total: int | None = None) -> Generator[T, None, None]:
@@ -71,13 +74,14 @@ def _bar(items: Iterable[T], what: str, total: int | None, console: Console) -> 
         for done, item in enumerate(items, 1):
             yield item
             elapsed = time.monotonic() - start
-            if not started and elapsed > _SHOW_AFTER_SECONDS:
-                progress.start()
+            if not started and elapsed > _SHOW_AFTER_SECONDS and _TERMINAL.acquire(blocking=False):
                 started = True
+                progress.start()
             progress.update(task, completed=done, rate=_pace(done, elapsed))
     finally:
         if started:
             progress.stop()
+            _TERMINAL.release()
 
 
 def _lines(items: Iterable[T], what: str, total: int | None) -> Iterator[T]:

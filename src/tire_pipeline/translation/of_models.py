@@ -10,6 +10,7 @@ import pandas as pd
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.progress import track
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.translation.base import Translator
 from tire_pipeline.translation.decode.decoder import COEFFICIENTS
@@ -94,7 +95,7 @@ def at_own_load(
     """
     back = normalize_table(result.table, own["FNOMIN"].to_numpy())
     translated, comments = {}, {}
-    for row, file in enumerate(own["file"]):
+    for row, file in enumerate(track(own["file"], "putting files back to their own loads")):
         if result.report["verdict"].iloc[row] != TRANSLATED:
             continue
         model = models[file]

@@ -19,6 +19,7 @@ from tire_pipeline.classifiers.suppliers import (
 )
 from tire_pipeline.errors import DomainError, TirePipelineError
 from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.progress import track
 from tire_pipeline.tasks import Map, in_blocks, in_turn
 from tire_pipeline.tir import tir_bytes
 from tire_pipeline.tir.format.values import COMPUTED_DIGITS
@@ -148,7 +149,7 @@ def translate_all(
     translated, comments = at_own_load(result, models, own)
     texts = {
         file: tir_bytes(model, comments=comments[file], digits=COMPUTED_DIGITS)
-        for file, model in translated.items()
+        for file, model in track(translated.items(), "writing translated files")
     }
     report = pd.concat([result.report, unreadable], ignore_index=True) if len(unreadable) else result.report
     report = report.reset_index(drop=True)

@@ -17,6 +17,7 @@ import pandas as pd
 from scipy.linalg import eigh
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.progress import track
 from tire_pipeline.translation.curves.features import GROUPS, LOADS, encode
 from tire_pipeline.translation.metadata import Metadata
 
@@ -181,7 +182,7 @@ def fit_curve_space(table: pd.DataFrame) -> tuple[CurveSpace, Cells]:
     parts: dict[str, tuple[np.ndarray, ...]] = {}
     scores, apart, noise = [], [], []
     features = encode(table)
-    for name, part in PARTS.items():
+    for name, part in track(PARTS.items(), "finding how curves differ"):
         values = features[part.group][:, part.columns] / UNIT[part.group]
         if not np.isfinite(values).all():
             bad = table["file"].iloc[int(np.flatnonzero(~np.isfinite(values).all(axis=1))[0])]

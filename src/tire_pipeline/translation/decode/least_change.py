@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.levenberg_marquardt import LeastSquares, Steps, solve
+from tire_pipeline.progress import track
 from tire_pipeline.translation.curves.features import GROUPS, Group
 from tire_pipeline.translation.curves.pure_slip import columns
 from tire_pipeline.translation.decode.physics import curvature_excess
@@ -70,9 +71,9 @@ def decode(table: pd.DataFrame, target: DecodeTarget) -> pd.DataFrame:
     differences. A curvature factor above 1 costs more and more, until next to none is left.
     """
     decoded = table.copy()
-    for group in GROUPS:
-        if group.name in target.features:
-            decoded[list(group.coefficients)] = _Solver(decoded, group, target).solve()
+    asked = [group for group in GROUPS if group.name in target.features]
+    for group in track(asked, "finding coefficients of the translated tires, force by force"):
+        decoded[list(group.coefficients)] = _Solver(decoded, group, target).solve()
     return decoded
 
 

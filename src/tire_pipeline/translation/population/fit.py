@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.progress import track
 from tire_pipeline.translation.curves.space import PARTS, Cells, CurveSpace, fit_curve_space
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.population.category_spread import (
@@ -220,7 +221,8 @@ def _protocols(training: pd.DataFrame, made: PreparedTraining) -> Protocols:
     x = np.concatenate(list(made.design.blocks.values()), axis=1)
     parts = {n: place for n, place in made.space.slices.items() if PARTS[n].group in CHANGE_GROUPS}
     gap = np.zeros_like(made.cells.scores)
-    for k in np.concatenate([np.arange(s.start, s.stop) for s in parts.values()]):
+    searched = np.concatenate([np.arange(s.start, s.stop) for s in parts.values()])
+    for k in track(searched, "looking for changes of protocol"):
         one = _fit_score(made.design, made.cells, made.space, made.scale, k, VARIANCE_GUESS)
         gap[:, k] = made.cells.scores[:, k] / made.scale[k] - x @ one.mean[: x.shape[1]]
     dated = Dated(gap, made.rows["category"].to_numpy(dtype=str), day, made.cells.cell)
@@ -241,7 +243,10 @@ def _classes(
     )
     blocks = {name: design.blocks[name] for name in CLASS_BLOCKS if name in design.blocks}
     plain = Design(blocks, design.tire, design.files)
-    fitted = [_fit_score(plain, cells, space, scale, k, VARIANCE_GUESS, alone_known=True) for k in telling]
+    fitted = [
+        _fit_score(plain, cells, space, scale, k, VARIANCE_GUESS, alone_known=True)
+        for k in track(telling, "fitting what tells classes of tires")
+    ]
     linked = np.concatenate([np.zeros((len(cells.row), 1)), design.tire], axis=1).argmax(axis=1)
     same = np.where(linked > 0, linked, -1 - np.arange(len(cells.row)))
     question = ClassSearchInput(
@@ -269,7 +274,8 @@ def _fit_scores(design: Design, cells: Cells, space: CurveSpace, scale: np.ndarr
 
     Six categories tell little about the variance of their effects on one score; all scores together do.
     """
-    first = [_fit_score(design, cells, space, scale, k, VARIANCE_GUESS) for k in range(scale.size)]
+    numbers = track(range(scale.size), "fitting each property of the curves")
+    first = [_fit_score(design, cells, space, scale, k, VARIANCE_GUESS) for k in numbers]
     noise = space.noise / scale**2
     common = {
         name: float(np.exp(np.mean(np.log(np.array([f.variances[name] for f in first]) / noise))))
@@ -277,8 +283,9 @@ def _fit_scores(design: Design, cells: Cells, space: CurveSpace, scale: np.ndarr
         if name in first[0].variances
     }
     guesses = [{**VARIANCE_GUESS, **{name: common[name] * one for name in common}} for one in noise]
+    again = track(guesses, "fitting each with what all have in common")
     return tuple(
-        _fit_score(design, cells, space, scale, k, guess, tuple(common)) for k, guess in enumerate(guesses)
+        _fit_score(design, cells, space, scale, k, guess, tuple(common)) for k, guess in enumerate(again)
     )
 
 
@@ -379,7 +386,8 @@ def _kinds(
     score that it would explain.
     """
     chosen = np.concatenate([np.arange(s.start, s.stop) for s in (space.slices[n] for n in KIND_PARTS)])
-    fitted = [_fit_score(design, cells, space, scale, k, VARIANCE_GUESS) for k in chosen]
+    told = track(chosen, "fitting what tells kinds of tires")
+    fitted = [_fit_score(design, cells, space, scale, k, VARIANCE_GUESS) for k in told]
     ends = np.cumsum([block.shape[1] for block in design.blocks.values()])
     of_tire = np.concatenate(
         [np.full(block.shape[1], name in TIRE_BLOCKS) for name, block in design.blocks.items()]

@@ -91,7 +91,7 @@ def find_classes(question: ClassSearchInput, seed: int = 0) -> tuple[TireClasses
 def _laid_anew(question: ClassSearchInput, state: ClassState) -> ClassState:
     """Forget, one category after the other, which tires are of which class, and climb again."""
     organisation = question.design.blocks["category"].argmax(axis=1)
-    for category in np.unique(organisation):
+    for category in track(np.unique(organisation), "sorting the tires of each organisation again"):
         own = organisation == category
         probability = state.probability.copy()
         probability[own] = np.exp(log_shares(question.metadata[own], state.shares))
