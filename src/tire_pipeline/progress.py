@@ -16,14 +16,14 @@ T = TypeVar("T")
 _SHOW_AFTER_SECONDS = 2.0
 _LINE_EVERY_SECONDS = 10.0
 _TERMINAL = threading.Lock()
-"""Of the bar that is shown: one within another waits until that one has ended."""
+"""Of the bar that is shown: another one waits until it has ended."""
 
 
 def track(items: Iterable[T], what: str, total: int | None = None) -> Generator[T, None, None]:
     """Yield the items and show progress, with a rate and the time left, once two seconds have passed.
 
-    On a terminal it is a bar on standard error; elsewhere (a log, CI, a process that shares the terminal with
-    others) one line every ten seconds.
+    On a terminal it is a bar on standard error, unless another one is shown; elsewhere (a log, CI, a process
+    that shares the terminal with others) one line every ten seconds.
 
     Parameters
     ----------
