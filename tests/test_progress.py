@@ -1,88 +1,124 @@
-"""Progress: one bar at a time on a terminal, and lines in a log."""
+"""Progress: one row on a terminal, and lines in a log."""
 
 from __future__ import annotations
 
 import io
-import itertools
 import re
-from types import SimpleNamespace
+import sys
+import time
 
 import pytest
 
-from tire_pipeline import progress
+from tire_pipeline import progress_display
+from tire_pipeline.progress import track, under_way
+
+PATIENCE_SECONDS = 30.0
 
 
-class Terminal(io.StringIO):
+class Stream(io.StringIO):
     """Keeps what is written to it."""
 
+    def __init__(self, terminal: bool) -> None:
+        super().__init__()
+        self.terminal = terminal
+
     def isatty(self) -> bool:
-        return True
+        return self.terminal
 
-    def shown(self) -> str:
-        """Give what was written since the last call, without the codes that move the cursor."""
-        text = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", self.getvalue())
-        self.seek(0)
-        self.truncate()
-        return text
+    def text(self) -> str:
+        """Give what was written, without the codes that move the cursor."""
+        return re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", self.getvalue())
 
-
-@pytest.fixture
-def slow(monkeypatch):
-    """Let a minute pass between one look at the clock and the next."""
-    minutes = itertools.count(0.0, 60.0)
-    monkeypatch.setattr(progress, "time", SimpleNamespace(monotonic=lambda: next(minutes)))
+    def wait_for(self, wanted: str) -> None:
+        end = time.monotonic() + PATIENCE_SECONDS
+        while wanted not in self.text():
+            assert time.monotonic() < end, f"{wanted!r} is not in {self.text()!r}"
+            time.sleep(0.01)
 
 
-def terminal_instead_of_a_log(monkeypatch) -> Terminal:
+def errors_to(monkeypatch, *, terminal: bool, after: float = 0.0) -> Stream:
     """Called in the test itself: pytest puts its own stream in place of another's when a test begins."""
-    for name, value in {"TERM": "xterm", "COLUMNS": "120"}.items():
-        monkeypatch.setenv(name, value)
+    monkeypatch.setattr(progress_display, "PAUSE_SECONDS", -1.0)
+    monkeypatch.setattr(progress_display, "SHOW_AFTER_SECONDS", after)
+    monkeypatch.setattr(progress_display, "LINE_EVERY_SECONDS", after)
+    monkeypatch.setattr(progress_display, "TICK_SECONDS", 0.01)
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", "120")
     for name in ("FORCE_COLOR", "NO_COLOR", "TTY_COMPATIBLE", "TTY_INTERACTIVE"):
         monkeypatch.delenv(name, raising=False)
-    made = Terminal()
-    monkeypatch.setattr("sys.stderr", made)
+    made = Stream(terminal)
+    monkeypatch.setattr(sys, "stderr", made)
     return made
 
 
-def test_a_bar_says_what_is_done_and_how_far_it_is(monkeypatch, slow):
-    terminal = terminal_instead_of_a_log(monkeypatch)
-    assert list(progress.track([1, 2, 3], "files")) == [1, 2, 3]
-    shown = terminal.shown()
-    assert "files" in shown
-    assert "3/3" in shown
+@pytest.mark.parametrize("terminal", [True, False])
+def test_a_loop_says_what_it_does_and_how_far_it_is(monkeypatch, terminal):
+    stream = errors_to(monkeypatch, terminal=terminal)
+    for number in track([1, 2, 3], "counting"):
+        stream.wait_for(f"{number - 1}/3")
+    assert "counting" in stream.text()
 
 
-def test_a_quick_loop_shows_nothing(monkeypatch):
-    terminal = terminal_instead_of_a_log(monkeypatch)
-    monkeypatch.setattr(progress, "time", SimpleNamespace(monotonic=lambda: 0.0))
-    assert list(progress.track([1, 2, 3], "files")) == [1, 2, 3]
-    assert terminal.shown() == ""
+@pytest.mark.parametrize("terminal", [True, False])
+def test_a_quick_loop_says_nothing(monkeypatch, terminal):
+    stream = errors_to(monkeypatch, terminal=terminal, after=1e6)
+    for _ in track([1, 2, 3], "counting"):
+        time.sleep(0.05)
+    assert stream.text() == ""
 
 
-def test_a_bar_within_another_is_not_drawn_over_it(monkeypatch, slow):
-    terminal = terminal_instead_of_a_log(monkeypatch)
-    seen, shown = [], []
-    for number in progress.track([1, 2], "files"):
-        terminal.shown()
-        seen += [(number, each) for each in progress.track("ab", "forces")]
-        shown.append(terminal.shown())
-    assert seen == [(number, each) for number in (1, 2) for each in "ab"]
-    assert "forces" in shown[0]  # nothing else was shown yet
-    assert "forces" not in shown[1]
+@pytest.mark.parametrize("terminal", [True, False])
+def test_what_cannot_be_counted_is_shown_with_its_time(monkeypatch, terminal):
+    stream = errors_to(monkeypatch, terminal=terminal)
+    with under_way("thinking"):
+        stream.wait_for("thinking")
+    assert "?" not in stream.text()
 
 
-def test_a_loop_that_is_left_makes_room_for_the_next_bar(monkeypatch, slow):
-    terminal = terminal_instead_of_a_log(monkeypatch)
-    left = progress.track([1, 2, 3], "files")
-    next(left), next(left)
-    assert "files" in terminal.shown()
+def test_of_loops_within_each_other_the_innermost_has_the_one_row(monkeypatch):
+    stream = errors_to(monkeypatch, terminal=True)
+    for _ in track([1, 2], "outer"):
+        stream.wait_for("outer")
+        for _ in track("ab", "inner"):
+            stream.wait_for("inner")
+        stream.truncate(stream.seek(0))
+        stream.wait_for("outer")
+        assert "\n" not in stream.text().strip()
+
+
+def test_a_loop_that_is_left_is_shown_no_more(monkeypatch):
+    stream = errors_to(monkeypatch, terminal=True)
+    left = track([1, 2, 3], "left")
+    next(left)
+    stream.wait_for("left")
     left.close()
-    terminal.shown()
-    list(progress.track([1, 2], "forces"))
-    assert "forces" in terminal.shown()
+    stream.truncate(stream.seek(0))
+    with under_way("next"):
+        stream.wait_for("next")
+    assert "left" not in stream.text()
 
 
-def test_a_log_has_lines(slow, capsys):
-    assert list(progress.track("ab", "letters")) == ["a", "b"]
-    lines = capsys.readouterr().err.splitlines()
-    assert [line.split(" (")[0] for line in lines] == ["letters: 1/2", "letters: 2/2"]
+def test_many_short_steps_are_long_together(monkeypatch):
+    stream = errors_to(monkeypatch, terminal=True, after=0.3)
+    monkeypatch.setattr(progress_display, "PAUSE_SECONDS", 1e6)
+    for number in range(100):
+        with under_way(f"step {number}"):
+            time.sleep(0.02)
+    assert re.search(r"step \d+", stream.text())
+
+
+def test_what_is_printed_meanwhile_goes_where_it_went_before(monkeypatch):
+    stream = errors_to(monkeypatch, terminal=True)
+    printed = Stream(terminal=False)
+    monkeypatch.setattr(sys, "stdout", printed)
+    with under_way("thinking"):
+        stream.wait_for("thinking")
+        print("a result")
+    assert printed.getvalue() == "a result\n"
+    assert "a result" not in stream.text()
+
+
+def test_a_stream_that_is_closed_ends_no_loop(monkeypatch):
+    stream = errors_to(monkeypatch, terminal=False)
+    stream.close()
+    assert [number for number in track([1, 2, 3], "counting") if not time.sleep(0.05)] == [1, 2, 3]

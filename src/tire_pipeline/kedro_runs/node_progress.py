@@ -2,23 +2,36 @@
 
 from __future__ import annotations
 
+import io
 import logging
+import sys
 import threading
 import time
+from contextlib import ExitStack
 from typing import Any
 
 from kedro.framework.hooks import hook_impl
+
+from tire_pipeline.progress import under_way
 
 SAY_AFTER_SECONDS = 2.0
 _LOG = logging.getLogger(__name__)
 
 
 class NodeProgressHooks:
-    """One line when a node has worked for two seconds, one when it is done."""
+    """One line when a node has worked for two seconds, one when it is done; what it is at in between."""
 
     def __init__(self) -> None:
         self._total, self._done, self._began = 0, 0, 0.0
         self._timer: threading.Timer | None = None
+        self._under_way = ExitStack()
+
+    @hook_impl
+    def after_context_created(self) -> None:
+        """Have logs written above what shows progress; Kedro allows no handler of one's own."""
+        for handler in logging.getLogger().handlers:
+            if isinstance(handler, logging.StreamHandler) and handler.stream is sys.stdout:
+                handler.setStream(StandardOutput())
 
     @hook_impl
     def before_pipeline_run(self, pipeline: Any) -> None:
@@ -26,9 +39,15 @@ class NodeProgressHooks:
         self._total, self._done = len(pipeline.nodes), 0
 
     @hook_impl
+    def before_dataset_loaded(self, dataset_name: str) -> None:
+        """Say what is read, if it takes long."""
+        self._at(f"reading {dataset_name}")
+
+    @hook_impl
     def before_node_run(self, node: Any) -> None:
         """Say what the node does, if it takes long."""
         self._stop()
+        self._at(node.name)
         self._began = time.monotonic()
         text = (node.func.__doc__ or "").strip().split("\n\n")[0]
         said = f"{node.name}: {' '.join(text.split())}"
@@ -45,11 +64,48 @@ class NodeProgressHooks:
         _LOG.info("%d of %d done: %s (%.1f s)", self._done, self._total, node.name, taken)
 
     @hook_impl
+    def before_dataset_saved(self, dataset_name: str) -> None:
+        """Say what is written, if it takes long."""
+        self._at(f"writing {dataset_name}")
+
+    @hook_impl
+    def after_dataset_loaded(self) -> None:
+        """It is read."""
+        self._under_way.close()
+
+    @hook_impl
+    def after_dataset_saved(self) -> None:
+        """It is written."""
+        self._under_way.close()
+
+    @hook_impl
     def on_node_error(self) -> None:
         """Say nothing more of a node that failed."""
         self._stop()
 
+    @hook_impl
+    def on_pipeline_error(self) -> None:
+        """Nor of a dataset."""
+        self._stop()
+
+    def _at(self, what: str) -> None:
+        self._under_way.close()
+        self._under_way.enter_context(under_way(what))
+
     def _stop(self) -> None:
+        self._under_way.close()
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None
+
+
+class StandardOutput(io.TextIOBase):
+    """Writes to what is standard output now: above a progress bar, where one is shown."""
+
+    def write(self, text: str) -> int:
+        """Write."""
+        return sys.stdout.write(text)
+
+    def flush(self) -> None:
+        """Flush."""
+        sys.stdout.flush()

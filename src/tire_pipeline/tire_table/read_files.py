@@ -13,6 +13,7 @@ from pydantic import Field
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.parameters import Parameters
+from tire_pipeline.progress import track
 from tire_pipeline.tire_table.in_pieces import Piece, TableInPieces, numbers_of
 from tire_pipeline.tire_table.read_blocks import ReadBlock, blocks_of, unpacked
 
@@ -70,7 +71,7 @@ def join_files(
     """
     pieces: list[Piece] = []
     rows: list[dict[str, Any]] = []
-    for read in blocks.values():
+    for read in track(blocks.values(), "joining what was read", total=len(blocks)):
         part, of_part = unpacked(read())
         rows += of_part
         pieces.append(Piece(len(part), numbers_of(part.columns), partial(_table_of, read)))

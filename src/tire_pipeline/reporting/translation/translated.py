@@ -12,6 +12,7 @@ from markupsafe import Markup
 
 from tire_pipeline.pages.drawing import page_style
 from tire_pipeline.pages.safe_page import page_environment, policy, visible
+from tire_pipeline.progress import track
 from tire_pipeline.reporting.embedded import (
     LEVELS,
     data_element,
@@ -101,7 +102,7 @@ def _parts(order: list[int], curves: Mapping[str, Any], coefficients: pd.DataFra
     """Compressed curves, and numbers as JSON, of ``CURVES_TOGETHER`` rows each."""
     by_file = dict(tuple(coefficients.groupby("file"))) if len(coefficients) else {}
     parts = []
-    for first in range(0, len(order), CURVES_TOGETHER):
+    for first in track(range(0, len(order), CURVES_TOGETHER), "drawing the translated files"):
         rows = order[first : first + CURVES_TOGETHER]
         forces, numbers = [], []
         for i in rows:

@@ -1,0 +1,202 @@
+"""What shows progress: a row on a terminal, or lines in a log, written by a thread of their own.
+
+So that a single step that lasts long shows, too, before it has ended.
+"""
+
+from __future__ import annotations
+
+import atexit
+import os
+import sys
+import threading
+import time
+from contextlib import suppress
+from dataclasses import dataclass, field
+from multiprocessing import current_process
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.progress import Progress, TaskID
+
+TICK_SECONDS = 0.2
+SHOW_AFTER_SECONDS = 2.0
+LINE_EVERY_SECONDS = 10.0
+PAUSE_SECONDS = 1.0
+"""Work that begins within so much of earlier work goes on with it: many short steps are long together."""
+
+
+@dataclass(eq=False)
+class Activity:
+    """Something that is being done.
+
+    Attributes
+    ----------
+    what : str
+    total : int or None
+        How many there are, if that is known.
+    counted : bool
+    done : int
+    began : float
+    """
+
+    what: str
+    total: int | None = None
+    counted: bool = True
+    done: int = 0
+    began: float = field(default_factory=time.monotonic)
+
+    def count(self) -> str:
+        """How many are done of how many."""
+        return f"{self.done}/{self.total or '?'}" if self.counted else ""
+
+    def pace(self, now: float) -> str:
+        """A rate, or the seconds that each takes if that is more than one."""
+        return pace(self.done, now - self.began) if self.done else ""
+
+    def line(self, now: float) -> str:
+        """All of it, for a log."""
+        seconds = now - self.began
+        if not self.counted:
+            return f"{self.what}: {seconds:.0f} s so far"
+        known = [f"{seconds:.0f} s so far"]
+        if self.done:
+            known = [self.pace(now)]
+        if self.done and self.total:
+            known.append(f"{(self.total - self.done) * seconds / self.done:.0f} s left")
+        return f"{self.what}: {self.count()} ({', '.join(known)})"
+
+
+def pace(done: int, seconds: float) -> str:
+    """Give a rate, or the seconds that each takes if that is more than one.
+
+    Examples
+    --------
+    >>> pace(10, 5.0), pace(1, 90.0)
+    ('2/s', '90 s each')
+    """
+    return f"{seconds / done:.3g} s each" if seconds > done else f"{done / max(seconds, 1e-9):.3g}/s"
+
+
+class Display:
+    """Shows the innermost activity of this process that has lasted a moment."""
+
+    def __init__(self) -> None:
+        self._reset()
+        atexit.register(self._hide)
+        os.register_at_fork(after_in_child=self._reset)
+
+    def _reset(self) -> None:
+        self._changed = threading.Condition(threading.RLock())
+        self._active: list[Activity] = []
+        self._began = self._ended = self._said = -PAUSE_SECONDS
+        self._thread: threading.Thread | None = None
+        self._console: Console | None = None
+        self._row: Progress | None = None
+        self._shown: tuple[Activity, TaskID] | None = None
+
+    def enter(self, activity: Activity) -> None:
+        """Begin an activity."""
+        with self._changed:
+            now = time.monotonic()
+            if not self._active and now - self._ended > PAUSE_SECONDS:
+                self._began = self._said = now
+            self._active.append(activity)
+            if self._thread is None or not self._thread.is_alive():
+                self._thread = threading.Thread(target=self._watch, name="progress", daemon=True)
+                self._thread.start()
+            self._changed.notify()
+
+    def leave(self, activity: Activity) -> None:
+        """End an activity."""
+        with self._changed, suppress(ValueError):  # a generator of a forked process may end one of its parent
+            self._active.remove(activity)
+            if not self._active:
+                self._hide()
+                self._ended = time.monotonic()
+
+    def _watch(self) -> None:
+        """Show what is under way; a stream that is closed ends this, and nothing else."""
+        with suppress(OSError, ValueError):
+            while True:
+                with self._changed:
+                    while not self._active:
+                        self._changed.wait()
+                    self._show(time.monotonic())
+                time.sleep(TICK_SECONDS)
+
+    def _show(self, now: float) -> None:
+        if now - self._began < SHOW_AFTER_SECONDS:
+            return
+        if self._console is None:
+            self._console = _console()
+        drawn = self._console.is_terminal and current_process().name == "MainProcess"
+        least = TICK_SECONDS if drawn else SHOW_AFTER_SECONDS
+        lasting = [each for each in self._active if now - each.began > least]
+        if lasting and drawn:
+            self._draw_row(self._console, lasting[-1], now)
+        elif lasting:
+            self._write_line(lasting[-1], now, over_a_row=self._console.is_terminal)
+
+    def _write_line(self, activity: Activity, now: float, over_a_row: bool) -> None:
+        if now - self._said < LINE_EVERY_SECONDS:
+            return
+        self._said = now
+        start = "\r\x1b[K" if over_a_row else ""  # the row of the process that this one belongs to
+        print(f"{start}{activity.line(now)}", file=sys.stderr, flush=True)
+
+    def _draw_row(self, console: Console, activity: Activity, now: float) -> None:
+        new = self._row is None
+        if self._row is None:
+            self._row = _row(console)
+        if self._shown is None or self._shown[0] is not activity:
+            if self._shown is not None:
+                self._row.remove_task(self._shown[1])
+            task = self._row.add_task(activity.what, total=activity.total, visible=False, count="", pace="")
+            self._row.tasks[0].start_time = self._row.get_time() - (now - activity.began)
+            self._shown = (activity, task)
+        self._row.update(
+            self._shown[1],
+            completed=activity.done,
+            visible=True,
+            count=activity.count(),
+            pace=activity.pace(now),
+        )
+        if new:
+            self._row.start()
+        self._row.refresh()
+
+    def _hide(self) -> None:
+        if self._row is not None:
+            with suppress(OSError, ValueError):
+                self._row.stop()
+            self._began = time.monotonic()
+        self._row = self._shown = self._console = None
+
+
+def _console() -> Console:
+    from rich.console import Console  # not needed by an import alone
+
+    return Console(file=sys.stderr)
+
+
+def _row(console: Console) -> Progress:
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+    from rich.table import Column
+
+    return Progress(
+        TextColumn("{task.description}", table_column=Column(no_wrap=True, overflow="ellipsis")),
+        BarColumn(),
+        TextColumn("{task.fields[count]}"),
+        TextColumn("{task.fields[pace]}"),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+        console=console,
+        transient=True,
+        auto_refresh=False,
+        redirect_stdout=sys.stdout.isatty(),  # what goes into a file stays there
+    )
+
+
+DISPLAY = Display()
+"""Of this process."""
