@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, cast
@@ -72,10 +73,26 @@ def attempt(name: str, task: Task[_T]) -> Done[_T]:
     task : callable
     """
     try:
-        with _pools(len(sys.modules)).limit(limits=1):
+        with one_thread():
             return Done(name, task())
     except Exception as error:
         return Done(name, error=error)
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """Keep linear algebra to one thread in the block.
+
+    Its threads wait for each other by spinning. With many small matrices on a machine that does other things,
+    too, this takes several times the time of one thread.
+
+    Examples
+    --------
+    >>> with one_thread():
+    ...     pass
+    """
+    with _pools(len(sys.modules)).limit(limits=1):
+        yield
 
 
 @lru_cache(maxsize=1)

@@ -24,7 +24,8 @@ from tire_pipeline.mismatch.recording.checks import Prepared, prepare
 from tire_pipeline.mismatch.recording.given import numeric
 from tire_pipeline.mismatch.report.assemble import Explained, assembled
 from tire_pipeline.mismatch.report.result import MismatchReport
-from tire_pipeline.progress import track
+from tire_pipeline.progress import track, under_way
+from tire_pipeline.tasks import one_thread
 
 _STEPS = ("check", "noise and misfit", "sets", "answer")
 
@@ -54,7 +55,10 @@ class Explainer:
 
     def explain(self, tire: Any, recording: pd.DataFrame) -> MismatchReport:
         """Explain one recording; parameters, returns and errors as :func:`explain_mismatch`."""
-        return assembled(self.weigh(tire, recording))
+        with one_thread():
+            explained = self.weigh(tire, recording)
+            with under_way("proving the explanation on held-out sweeps"):
+                return assembled(explained)
 
     def weigh(self, tire: Any, recording: pd.DataFrame) -> Explained:
         """Return what a report is made of: the recording, its sets, and what the posterior says."""
