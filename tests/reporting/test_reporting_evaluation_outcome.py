@@ -24,7 +24,7 @@ def test_none_translated_says_what_became_of_each():
     assert said.startswith(
         "Of your files in the test split (3), none was translated (2 already unbiased, 1 refused)."
     )
-    assert "`kedro run --pipeline translate` translates all of your files." in said
+    assert "`kedro run --pipeline translate`, with the same --params, translates all of your files." in said
     assert "estimate" not in said
 
 

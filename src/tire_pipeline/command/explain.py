@@ -123,7 +123,7 @@ def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Command
             Grid(
                 ("effect", "kind", "parameter", "value", "standard error"),
                 [row for effect in report.effects for row in _rows(effect)],
-                "Found",
+                "Found: parameters of the effects' equations, which the page shows",
             )
         )
     if report.held_out is not None:

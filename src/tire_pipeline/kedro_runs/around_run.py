@@ -203,6 +203,19 @@ class FolderHooks:
         error.add_note(f"node '{node.name}' failed")
 
 
+def _read(summary: dict[str, Any]) -> str:
+    """How many files were read.
+
+    Examples
+    --------
+    >>> _read({"files": 1600, "read": 1599, "set_aside": 1})
+    '1,599 of 1,600 files were read; the ingest report says why 1 was not.'
+    """
+    aside = summary["set_aside"]
+    why = f"; the ingest report says why {aside:,} {'was' if aside == 1 else 'were'} not" if aside else ""
+    return f"{summary['read']:,} of {summary['files']:,} files were read{why}."
+
+
 def _duration(seconds: float) -> str:
     minutes, rest = divmod(round(seconds), 60)
     return f"{minutes} min {rest} s" if minutes else f"{rest} s"
@@ -244,6 +257,8 @@ class SignpostHooks:
         for name in self.OUTCOMES:
             if name in made:
                 print(*catalog.load(name), sep="\n")
+        if "ingest_summary" in made:
+            print(_read(catalog.load("ingest_summary")))
         for name, what in self.SIGNS:
             if name in made:
                 dataset = catalog.get(name)

@@ -100,7 +100,8 @@ def _unjudged(table: pd.DataFrame, best: dict[str, Any], target: str) -> str:
     part, count = chosen[chosen["verdict"] == TRANSLATED], len(chosen)
     rest = (
         f"No evaluation tires measured by {target} were given, so these files show neither the true error "
-        "nor the floor. `kedro run --pipeline translate` translates all of your files."
+        "nor the floor. `kedro run --pipeline translate`, with the same --params, translates all of your "
+        "files."
     )
     if part.empty:
         verdicts = ", ".join(f"{n} {what}" for what, n in chosen["verdict"].value_counts().items())

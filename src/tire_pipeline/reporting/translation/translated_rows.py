@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.result import EDGE
+from tire_pipeline.translation.result import EDGE, UNBIASED
 
 ROW_COLUMNS = (
     "file",
@@ -28,7 +28,11 @@ SHOWN_VERDICTS = ("translated", "already unbiased", "left alone", "refused", "un
 
 
 def rows_of(report: pd.DataFrame, own: set[str], tires: Mapping[str, str]) -> list[list[Any]]:
-    """Give the rows by ``ROW_COLUMNS``, the user's own files first, then by file; None: not known."""
+    """Give the rows by ``ROW_COLUMNS``; None: not known.
+
+    The user's own files come first, and of them those that were judged before those that need no translation;
+    then by file.
+    """
     texts = report.reindex(
         columns=["file", "source", "supplier", "verdict", "reason", "changes", "bias_band", "protocol"]
     )
@@ -53,7 +57,7 @@ def rows_of(report: pd.DataFrame, own: set[str], tires: Mapping[str, str]) -> li
                 said["protocol"],
             ]
         )
-    return sorted(rows, key=lambda row: (not row[1], row[0]))
+    return sorted(rows, key=lambda row: (not row[1], row[5] == UNBIASED, row[0]))
 
 
 def by_supplier(rows: list[list[Any]]) -> list[dict[str, Any]]:
