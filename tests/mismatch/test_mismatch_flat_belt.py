@@ -48,6 +48,25 @@ def test_nothing_hidden_gives_no_name(bench, rate):
     assert row.after == row.before
 
 
+PUT_IN = {
+    "nothing": (lambda run: run, set()),
+    "offset": (lambda run: run.assign(fy=run["fy"] + 400.0), {"force_offset"}),
+    "gain": (lambda run: run.assign(fy=1.2 * run["fy"]), {"force_gain"}),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("rate", [100, 50, 20])
+@pytest.mark.parametrize("what", PUT_IN)
+def test_rows_of_a_run_count_as_a_run_if_time_was_not_kept(bench, rate, what):
+    table = bench.sweeps(rate)
+    channels = [name for name in bench.CHANNELS if name != "time"]
+    run = table[~table["low"] & ~table["leaning"]][channels].reset_index(drop=True)
+    put_in, truth = PUT_IN[what]
+    report = explain_mismatch(bench.model(rate), put_in(run))
+    assert {effect.name for effect in report.effects} == truth
+
+
 @pytest.mark.long
 def test_at_all_rates_names_are_true_ones_and_no_load_comes_out_worse(bench):
     rows = list(bench.rows([100, 50, 20, 10]))

@@ -61,10 +61,10 @@ def flexible_form(
 
 
 def _direction(data: Data, slip: str) -> Array | None:
-    """Direction of the sweep, -1 to 1: rate of the slip over its typical size; None without a time line."""
-    if data.time is None or not data.varies(slip):
+    """Direction of the sweep, -1 to 1: rate of the slip over its typical size; without time, that by rows."""
+    if not data.varies(slip):
         return None
-    changes = rate(data, data.smooth(slip)) / np.maximum(data.step, 1e-12)
+    changes = rate(data, data.smooth(slip)) / (1.0 if data.time is None else np.maximum(data.step, 1e-12))
     typical = max(float(np.quantile(np.abs(changes), 0.75)), 1e-12)
     return np.tanh(2.0 * changes / typical)
 

@@ -103,12 +103,12 @@ class Unknown:
     independent : dict of float
         Samples of each output that are independent by the correlation of what is left beside all that is
         looked for.
-    in_time : bool
-        Whether samples follow each other; each of some steady points is a measurement of its own.
     white : dict of float
         White noise of neighbouring samples, RMS over the largest force.
     expected : frozenset of str
         Effects of which physics leaves no doubt in this recording.
+    apart : float
+        Share of the samples that were measured apart and don't follow the one before.
     """
 
     gram: Mapping[str, Array]
@@ -116,9 +116,9 @@ class Unknown:
     families: tuple[str, ...]
     samples: int
     independent: Mapping[str, float]
-    in_time: bool = True
     white: Mapping[str, float] = field(default_factory=dict)
     expected: frozenset[str] = frozenset()
+    apart: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -192,8 +192,12 @@ class Likelihood:
 
     @cached_property
     def count(self) -> Mapping[str, float]:
-        """How many independent samples each output of the recording counts for."""
-        part = self.learnt.independent if self.unknown.in_time else 1.0
+        """How many independent samples each output of the recording counts for.
+
+        Of a run, the learnt part of those that the correlation leaves. Points of a test plan were measured
+        apart, and each counts.
+        """
+        part = self.learnt.independent + (1.0 - self.learnt.independent) * self.unknown.apart
         return {o: part * n for o, n in self.unknown.independent.items()}
 
     def projected(self, products: ColumnProducts) -> Projected:

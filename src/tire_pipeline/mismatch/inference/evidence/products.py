@@ -9,6 +9,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.background import Background
 from tire_pipeline.mismatch.discrepancy.form_error import shape_columns
+from tire_pipeline.mismatch.discrepancy.independent import independent, measured_apart
 from tire_pipeline.mismatch.discrepancy.noise import white_noise
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.analysis import Analysis
@@ -20,8 +21,6 @@ from tire_pipeline.mismatch.model.residual import residual, rms
 
 Array = np.ndarray
 Free = Sequence[tuple[str, ...]]
-_STRETCHES = 15
-"""Fewest stretches whose variance says anything."""
 
 
 @dataclass(frozen=True)
@@ -119,13 +118,12 @@ class RecordingProducts:
         names = {v.name for v in self.analysis.variants}
         sure = frozenset(n for n in names if catalogue()[n].expected(self.data))
         sizes, count = self.analysis.sizes, self.data.size
-        return Unknown(self.gram, sizes, self.families, count, independent, in_time, white, sure)
+        return Unknown(
+            self.gram, sizes, self.families, count, independent, white, sure, measured_apart(self.data)
+        )
 
     def independent(self, columns: Mapping[str, Array], found: Evidence) -> dict[str, float]:
         """Return how many samples of each output are independent, by the correlation of what is left.
-
-        Sums over stretches of white noise have the variance of their length; what is left has more. The
-        stretch at which the excess is largest counts. Steady points have no neighbours: each is one.
 
         Parameters
         ----------
@@ -134,13 +132,11 @@ class RecordingProducts:
         found : Evidence
             Of these columns.
         """
-        if self.data.time is None:
-            return dict.fromkeys(columns, float(self.data.size))
         out = {}
         for o, x in columns.items():
             left = x @ np.r_[-found.mode, 1.0] / self.largest[o]
             left = left - self.beside[o] @ found.weights[o].known(self.beside[o].T @ left / left.size)
-            out[o] = left.size / _most_alike(left / max(rms(left), 1e-300))
+            out[o] = independent(self.data, left)
         return out
 
     def of(self, columns: Mapping[str, Array], rows: Array | slice = slice(None)) -> ColumnProducts:
@@ -193,13 +189,3 @@ class RecordingProducts:
                 [columns[o] * wide, *errors, self._unnamed[o], rest[o] + columns[o] @ off]
             )
         return every
-
-
-def _most_alike(x: Array) -> float:
-    """Largest variance of sums over stretches of a series of unit power, over that of white noise."""
-    worst, length = 1.0, 1
-    while x.size // length >= _STRETCHES:
-        whole = x[: x.size // length * length].reshape(-1, length)
-        worst = max(worst, float(np.mean(whole.sum(axis=1) ** 2)) / length)
-        length *= 2
-    return worst

@@ -151,7 +151,7 @@ def _shown(likelihood: Likelihood, each: OfSet) -> frozenset[str]:
     """Return the effects of a set whose fit gains more than noise alone gives on average.
 
     Beside the rest of the set, and with their priors: without an effect, twice the gain in log likelihood is
-    on average the number of parameters that the recording determines (Wilks 1938).
+    on average the number of parameters that the recording determines (Wilks 1938). An effect is at least one.
     """
     found, scale = plain(likelihood, each), scales(each, likelihood.learnt)
     z, covariance = found.mode / scale, found.covariance / scale[:, None] / scale[None, :]
@@ -159,7 +159,7 @@ def _shown(likelihood: Likelihood, each: OfSet) -> frozenset[str]:
     for (name, _), free in zip(each.changes, each.free, strict=True):
         own = slice(first, first + len(free))
         twice = z[own] @ np.linalg.solve(covariance[own, own], z[own])
-        if twice > len(free) - np.trace(covariance[own, own]):
+        if twice > max(len(free) - np.trace(covariance[own, own]), 1.0):
             shown.add(name)
         first += len(free)
     return frozenset(shown)

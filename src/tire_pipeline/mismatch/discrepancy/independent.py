@@ -1,0 +1,66 @@
+"""How many samples of a recording are measurements of their own."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from tire_pipeline.channels import SLIP_AND_LOAD
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.residual import rms
+
+Array = np.ndarray
+_SLIPS = ("slip_angle", "slip_ratio")
+_STRETCHES = 15
+"""Fewest stretches whose variance says anything."""
+_JUMP = 0.1
+"""Step of an input, over its range, by which a test plan goes on; the steps of a run are smaller."""
+
+
+def measured_apart(data: Data) -> float:
+    """Return the share of samples that don't follow the one before: without time, where an input jumps."""
+    if data.time is not None:
+        return 0.0
+    inputs = [data.get(n) for n in SLIP_AND_LOAD if data.varies(n)]
+    steps = [np.abs(np.diff(x)) / np.ptp(x) for x in inputs]
+    return float(np.mean(np.max(steps, axis=0) > _JUMP)) if steps else 0.0
+
+
+def independent(data: Data, left: Array) -> float:
+    """Return how many samples are independent, by the correlation of what is left.
+
+    Sums over stretches of white noise have the variance of their length; what is left has more. The stretch
+    at which the excess is largest counts. Without time neighbours may also be those in the operating space,
+    and the order counts in which they are more alike.
+
+    Parameters
+    ----------
+    data : Data
+    left : ndarray, shape (n,)
+        What is left of one output.
+    """
+    unit = left / max(rms(left), 1e-300)
+    return left.size / max(_most_alike(unit[order]) for order in _orders(data))
+
+
+def _orders(data: Data) -> list[Array]:
+    """That of the rows, and without time that of a k-d tree.
+
+    Its points are the slips and the model's forces, each over its range: stretches of its leaves are regions
+    of the operating space, in whatever order the rows were given.
+    """
+    rows = np.arange(data.size)
+    if data.time is not None:
+        return [rows]
+    place = np.column_stack([*(data.get(n) for n in _SLIPS if data.varies(n)), *data.base.values()])
+    return [rows, np.asarray(cKDTree(place / np.maximum(np.ptp(place, axis=0), 1e-12), leafsize=1).indices)]
+
+
+def _most_alike(x: Array) -> float:
+    """Largest variance of sums over stretches of a series of unit power, over that of white noise."""
+    worst, length = 1.0, 1
+    while x.size // length >= _STRETCHES:
+        whole = x[: x.size // length * length].reshape(-1, length)
+        worst = max(worst, float(np.mean(whole.sum(axis=1) ** 2)) / length)
+        length *= 2
+    return worst
