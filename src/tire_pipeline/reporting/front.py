@@ -121,9 +121,9 @@ def _what_matters(folder: Path) -> list[Text | Links | Picture]:
     curves = _newest(folder / "force_curves.png")
     if curves is not None:
         caption = (
-            "Lateral force over slip angle: solid as each source measured, dashed as translated. For tires "
-            "that the target measured, too: thick as it measured, and below the differences from it, where "
-            "dashed lines should lie near zero."
+            "Lateral force over slip angle: solid as each source measured, dashed as translated. Where "
+            "the target measured the tires, too: thick as it measured, and in a second row the differences "
+            "from it, where dashed lines should lie near zero."
         )
         parts.append(Picture(curves.relative_to(folder).as_posix(), caption))
     return parts
