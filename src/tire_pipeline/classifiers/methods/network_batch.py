@@ -16,6 +16,7 @@ import numpy as np
 import torch
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.progress import track
 
 HIDDEN_LAYERS = (128, 128, 64)
 """Nodes of the thesis' three hidden layers."""
@@ -97,7 +98,7 @@ def train_networks(
     steps = _Steps(optimizer, network, learning_rates, weight_decays, steps_of)
     out: dict[int, list[Layers]] = {}
     order = np.zeros((len(sets), int(steps_of.max()) * batch_size), dtype=np.int64)
-    for epoch in range(1, wanted[-1] + 1):
+    for epoch in track(range(1, wanted[-1] + 1), "training neural networks, epoch by epoch"):
         for index, (shuffle, count) in enumerate(zip(shuffles, counts, strict=True)):
             order[index, :count] = shuffle.permutation(count)
             order[index, count:] = longest - 1
