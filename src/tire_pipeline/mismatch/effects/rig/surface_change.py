@@ -7,17 +7,20 @@ import numpy as np
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
+_STEP = 0.2
+"""s over which friction steps, so that the moment can be refined."""
+
 
 class SurfaceChange(Effect):
-    """Friction changes at one moment and stays.
+    """Friction changes at one moment, or gradually, and stays.
 
-    Covers one step for both forces. Not covered: a way back, several patches, and a surface that changes
-    gradually (as rubber is laid down), which looks like wear or temperature.
+    Covers one step for both forces, and one steady change over the whole recording, as rubber or dust is
+    laid down. Not covered: a way back, several patches, and a change over a part of the recording.
     """
 
     name = "surface_change"
-    title = "another surface from a moment on"
-    equation = "friction *= 1 + friction H(t - moment)"
+    title = "another surface from a moment on, or gradually"
+    equation = "friction *= 1 + friction clip((t - moment) / duration + 1/2, 0, 1)"
     source = "a step of LMUX = LMUY in time"
     needs_time = True
     scanned = ("moment",)
@@ -27,19 +30,26 @@ class SurfaceChange(Effect):
     parameters = (
         Parameter("friction", "1", -0.8, 1.0, 0.01, prior=0.15),
         Parameter("moment", "s", -1e12, 1e12, 0.05, form=True, kept=True),
+        Parameter("duration", "s", 0.2, 1e12, 0.05, form=True, kept=True),
     )
     looks_like = {
         "friction_scale": "a friction factor holds from the start",
-        "temperature": "temperature changes gradually",
-        "wear": "wear changes gradually",
+        "temperature": "temperature goes back when the tire rests",
+        "wear": "wear grows with friction work, a surface changes while the tire rests, too",
     }
     experiment = "drive back onto the first surface"
     order = 40
 
     def starts(self, data: object) -> list[dict[str, float]]:
-        """Try moments over the whole recording."""
+        """Try steps over the whole recording, and a steady change from its begin to its end."""
         first, last = data.time[0], data.time[-1]  # type: ignore[attr-defined]
-        return [{"friction": 0.0, "moment": float(m)} for m in np.linspace(first, last, 26)[1:-1]]
+        steps = [(m, _STEP) for m in np.linspace(first, last, 26)[1:-1]]
+        forms = [*steps, (0.5 * (first + last), last - first)]
+        return [{"friction": 0.0, "moment": float(m), "duration": float(d)} for m, d in forms]
+
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """Friction, and the moment of a step; a steady change lasts the whole recording."""
+        return ("friction", "moment") if start["duration"] <= _STEP else ("friction",)
 
     def outside(self, data: object, p: Parameters) -> bool:
         """Ask for a twentieth of the recording before and after: at its ends it is something that settles."""
@@ -48,6 +58,6 @@ class SurfaceChange(Effect):
         return bool(not first + edge < p["moment"] < last - edge)
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
-        """Step the friction, over 0.2 s so that the moment can be refined."""
-        ramp = np.clip((data.time - p["moment"]) / 0.2 + 0.5, 0.0, 1.0)  # type: ignore[attr-defined]
+        """Change the friction."""
+        ramp = np.clip((data.time - p["moment"]) / max(p["duration"], _STEP) + 0.5, 0.0, 1.0)  # type: ignore[attr-defined]
         state.log_friction = state.log_friction + safe_log1p(p["friction"] * ramp)

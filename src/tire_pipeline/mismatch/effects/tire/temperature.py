@@ -47,7 +47,7 @@ class Temperature(Effect):
     looks_like = {
         "wear": "wear never goes back; temperature does, when the tire rests",
         "sensor_drift": "drift is there at zero slip too",
-        "surface_change": "a surface change is sudden",
+        "surface_change": "a surface changes at once, or while the tire rests, too",
         "friction_scale": "a friction factor does not change over time",
     }
     experiment = "repeat the first sweep after cooling: temperature comes back, wear does not"

@@ -30,7 +30,7 @@ class Wear(Effect):
     looks_like = {
         "temperature": "temperature goes back when the tire rests",
         "sensor_drift": "drift is there at zero slip too",
-        "surface_change": "a surface change is sudden",
+        "surface_change": "a surface changes at once, or while the tire rests, too",
     }
     experiment = "repeat the first sweep at the end, after cooling"
     order = 40
