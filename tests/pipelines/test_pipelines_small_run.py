@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import json
 import re
+import sys
 from pathlib import Path
 
 import pandas as pd
@@ -12,6 +13,9 @@ import pytest
 from conftest_kedro import kedro_here
 
 from tire_pipeline.tir import read_tir
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "viz"))
+from viz_browser import browser, needs_browser
 
 pytestmark = pytest.mark.slow
 TRANSLATORS = ("thesis' agent", "our agent", "mixed model")
@@ -130,3 +134,19 @@ def test_shuffled_truth_leaves_every_translated_file_as_it_was(small_run, tmp_pa
     finally:
         for path, text in zip(truth, texts, strict=True):
             path.write_bytes(text)
+
+
+def test_its_report_and_the_front_page_lead_to_each_other_in_a_browser(small_run, tmp_path):
+    needs_browser()
+    outcome = [line for line in (small_run / "stdout.txt").read_text().splitlines() if "floor" in line]
+    with browser(tmp_path) as driver:
+        driver.get((small_run / "data" / "08_reporting" / "index.html").as_uri())
+        assert outcome[0] in driver.find_element("css selector", "body").text
+        driver.find_element("link text", "The translation, judged").click()
+        head = driver.find_element("css selector", ".main").text
+        assert [line for line in outcome if line not in head] == []
+        assert driver.find_elements("css selector", "figure svg, figure img")
+        driver.find_element("link text", "ingest_report.csv")
+        driver.find_element("link text", "All reports").click()
+        assert driver.title == "Tire pipeline: all reports"
+        assert [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"] == []

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import io
 import json
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -22,6 +25,16 @@ from tire_pipeline.tir import read_tir
 
 pytestmark = pytest.mark.slow
 RESULTS = ROOT / "benchmarks" / "results"
+TIRE, RUN = (str(ROOT / "examples" / name) for name in ("tire.tir", "rig_run.csv"))
+OTHER = ROOT / "tests" / "data_of_0_1" / "07_model_output" / "translated" / "A" / "A_00001.tir"
+COMMANDS = {
+    "show": ([TIRE], ("Magic Formula 5.2", "cornering stiffness", "PKY1")),
+    "compare": ([TIRE, str(OTHER)], ("coefficients differ", "Forces", "PDY1")),
+    "check": ([RUN, "--axes", "ISO"], ("no errors and no warnings", "slip_angle", "SA from deg to rad")),
+    "fit": ([RUN, "--axes", "ISO"], ("RMS of the residuals", "Not determined by the data", "PKY1")),
+    "convert": ([TIRE, "--to", "6.1"], ("RMS difference of the forces", "Coefficients that differ")),
+}
+"""Command -> its arguments, and what its page says."""
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +60,18 @@ def reports(tmp_path_factory):
     (folder / "proof.html").write_text(page)
     (folder / "translation.html").write_text(translation_page(pd.read_csv(RESULTS / "translation.csv")))
     (folder / "index.html").write_text(front_page(folder))
+    (folder / "command").mkdir()
+    for name, (arguments, _) in COMMANDS.items():
+        written = ["-o", "made.tir"] if name == "fit" else []
+        page = ["--page" if name in ("fit", "convert") else "-o", str(folder / "command" / f"{name}.html")]
+        _run([name, *arguments, *written, *page], tmp_path_factory.mktemp(name))
     return folder
+
+
+def _run(arguments: list[str], folder: Path) -> None:
+    command = [sys.executable, "-m", "tire_pipeline.command", *arguments]
+    done = subprocess.run(command, cwd=folder, check=False, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 @pytest.fixture(scope="module")
@@ -108,7 +132,21 @@ def test_the_proof_says_too_few_cases_and_the_translators_page_begins_with_a_sen
     assert "leaves" in driver.find_element("css selector", ".main p").text
 
 
-@pytest.mark.parametrize("name", ["index.html", "mismatch.html", "mismatch/rig/run.html", "proof.html"])
+@pytest.mark.parametrize(("name", "words"), [(name, words) for name, (_, words) in COMMANDS.items()])
+def test_pages_of_the_command(reports, driver, name, words):
+    driver.get((reports / "command" / f"{name}.html").as_uri())
+    text = _text(driver)
+    assert [word for word in words if word not in text] == []
+    assert driver.find_elements("css selector", "figure svg, figure img")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("index.html", "mismatch.html", "mismatch/rig/run.html", "proof.html", "translation.html"),
+        *(f"command/{name}.html" for name in COMMANDS),
+    ],
+)
 def test_every_page_is_dark_where_that_is_asked_for_and_white_on_paper(reports, driver, name):
     def paper(media: str, scheme: str) -> str:
         features = [{"name": "prefers-color-scheme", "value": scheme}]
