@@ -83,7 +83,7 @@ viz: install
 
 # The same as one page that opens without a server.
 viz-page: install
-	$(BIN)/kedro viz build --include-previews
+	PYTHONWARNINGS="ignore:ORJSONResponse is deprecated" $(BIN)/kedro viz build --include-previews
 	$(BIN)/python -m tire_pipeline.lineage.one_page build $(DATA)/08_reporting/lineage.html
 	@rm -rf build
 
