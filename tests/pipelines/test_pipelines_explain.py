@@ -98,3 +98,18 @@ def test_what_cannot_be_explained_together_is_said(halves):
     (halves / "tire" / "three.csv").unlink()
     with pytest.raises(RecordingError, match="belong to several tires"):
         _explain(RecordingFolderDataset(path=str(halves)).load(), ExplainParameters(together=True))
+
+
+def test_effects_that_are_left_out_are_not_looked_for(tmp_path):
+    for name in ("rig", "other"):
+        (tmp_path / name).mkdir()
+        shutil.copy(ROOT / "examples" / "tire.tir", tmp_path / name)
+        shutil.copy(ROOT / "examples" / "rig_run.csv", tmp_path / name)
+    loaders = RecordingFolderDataset(path=str(tmp_path)).load()
+    rule = {"match": "rig", "without": ["inflation_pressure"]}
+    reports, *_ = _explain(loaders, ExplainParameters(axes="ISO", recordings=[rule]))
+    found = {name: [effect["name"] for effect in report["effects"]] for name, report in reports.items()}
+    assert found["other/rig_run.csv"] == ["inflation_pressure"]
+    assert "inflation_pressure" not in found["rig/rig_run.csv"]
+    with pytest.raises(RecordingError, match="no effect 'inflation_presure' -> did you mean 'inflation_pre"):
+        _explain(loaders, ExplainParameters(without="wear;inflation_presure"))

@@ -39,6 +39,13 @@ NO_TIRE = "-"
     help="A recording that is not used for the explanation: the explained model predicts it, and the page "
     "says how well.",
 )
+@click.option(
+    "--without",
+    "without",
+    multiple=True,
+    metavar="EFFECT",
+    help="An effect of the catalogue that is not looked for; may be given several times.",
+)
 @click.option("--corrected", type=FILE, help="Write the corrected .tir file here.")
 @click.option("--overwrite", is_flag=True, help="Replace a corrected file of that name.")
 @radius_option
@@ -48,6 +55,7 @@ def command(
     file: Path,
     runs: tuple[Path, ...],
     hold_out: Path | None,
+    without: tuple[str, ...],
     corrected: Path | None,
     overwrite: bool,
     radius: float | None,
@@ -58,7 +66,7 @@ def command(
     **output: Any,
 ) -> None:
     """Explain a mismatch."""
-    from tire_pipeline.mismatch import explain_recordings
+    from tire_pipeline.mismatch import Explainer, explain_recordings
     from tire_pipeline.tir import read_tir
 
     if corrected is not None:
@@ -70,7 +78,7 @@ def command(
     read = read_runs(paths, axes=axes, units=units, names=names, format_=format_)
     by_path = dict(zip(paths, read, strict=True))
     held_out = by_path[_among(hold_out, runs)] if hold_out else None
-    report = explain_recordings(tire, read, held_out=held_out)
+    report = explain_recordings(tire, read, held_out=held_out, explainer=Explainer(without=without))
     if len(read) == 1:
         report.notes[:0] = next(iter(read.values())).attrs.get("notes", [])
     written, refusal = [], None

@@ -41,6 +41,8 @@ class ExplainTask:
         The recording that takes no part and is predicted.
     learnt : LearntSizes
         What the posterior has learnt.
+    without : tuple of str
+        Effects that are not looked for.
     """
 
     name: str
@@ -48,12 +50,13 @@ class ExplainTask:
     how: Mapping[str, Mapping[str, Any]]
     held_out: str | None
     learnt: LearntSizes = field(default_factory=learnt)
+    without: tuple[str, ...] = ()
 
     @property
     def key(self) -> str:
         """A hash of all that the result depends on; another one each time where a reader cannot tell."""
         sizes = json.dumps(self.learnt.to_dict(), sort_keys=True)
-        total = hashlib.sha256(f"{self.name}\0{self.held_out}\0{sizes}\0".encode())
+        total = hashlib.sha256(f"{self.name}\0{self.held_out}\0{sizes}\0{self.without}\0".encode())
         for each, load in self.loads.items():
             own = getattr(load, "fingerprint", None)
             content = uuid.uuid4().hex if own is None else own(self.how[each].get("tir", ""))
@@ -67,9 +70,8 @@ class ExplainTask:
         loads = {each: partial(load, **self.how[each]) for each, load in self.loads.items()}
         try:
             tire, runs = _read(loads)
-            report = explain_recordings(
-                tire, runs, held_out=self.held_out, explainer=Explainer(learnt=self.learnt)
-            )
+            explainer = Explainer(without=self.without, learnt=self.learnt)
+            report = explain_recordings(tire, runs, held_out=self.held_out, explainer=explainer)
         except TirePipelineError as error:
             return self.lost(str(error))
         row["verdict"] = report.verdict

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from fnmatch import fnmatch
 from functools import partial
@@ -17,6 +17,7 @@ from pydantic import Field
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.files.packed import unpack
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.progress import track
@@ -40,6 +41,8 @@ class RecordingRule(Parameters):
         By the file's channel name: its unit, and the canonical channel that it is.
     tir : str
         The tire's file, relative to the recording's folder or to that of all recordings.
+    without : list of str
+        Effects of the catalogue that are not looked for.
     """
 
     match: str = Field("*", min_length=1)
@@ -47,6 +50,7 @@ class RecordingRule(Parameters):
     units: dict[str, str] = {}
     names: dict[str, str] = {}
     tir: str = ""
+    without: Several = []
 
     def fits(self, name: str) -> bool:
         """Whether the rule is about a recording."""
@@ -66,6 +70,8 @@ class ExplainParameters(Parameters):
         Recordings, folders or patterns; empty is all. On the command line several are separated by ``;``.
     axes : {"ISO", "SAE"}, optional
         Axes of all recordings, unless a rule of ``recordings`` says otherwise.
+    without : list of str
+        Effects of the catalogue that are looked for in no recording.
     recordings : list of RecordingRule
         What is known of some recordings, by pattern.
     learnt : str
@@ -76,6 +82,7 @@ class ExplainParameters(Parameters):
     hold_out: str = ""
     only: Several = []
     axes: Literal["ISO", "SAE"] | None = None
+    without: Several = []
     recordings: list[RecordingRule] = []
     learnt: str = ""
 
@@ -90,6 +97,11 @@ class ExplainParameters(Parameters):
                 found["names"] |= rule.names
         return {key: value for key, value in found.items() if value}
 
+    def left_out(self, names: Iterable[str]) -> tuple[str, ...]:
+        """Effects that are not looked for in recordings that are explained together."""
+        rules = [rule for rule in self.recordings if any(rule.fits(name) for name in names)]
+        return tuple(sorted({*self.without, *(effect for rule in rules for effect in rule.without)}))
+
 
 def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, ExplainTask]:
     """Say how each recording is explained; what is stored and has not changed is not explained again.
@@ -103,8 +115,9 @@ def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, 
     Raises
     ------
     RecordingError
-        None matches ``only``, ``hold_out`` or a rule.
+        None matches ``only``, ``hold_out`` or a rule, or the catalogue has no such effect.
     """
+    _check_effects(parameters)
     recordings = _chosen(recordings, parameters)
     groups = by_folder(recordings) if parameters.together else {name: [name] for name in recordings}
     held_out = _held_out(groups, parameters)
@@ -113,7 +126,7 @@ def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, 
     for name, members in groups.items():
         loads = {each: recordings[each] for each in members}
         how = {each: parameters.how(each) for each in members}
-        task = ExplainTask(name, loads, how, held_out.get(name), sizes)
+        task = ExplainTask(name, loads, how, held_out.get(name), sizes, parameters.left_out(members))
         tasks[f"{code}/{task.key}.zip"] = task
     return tasks
 
@@ -172,6 +185,18 @@ def _check_any(reports: Mapping[str, Any], rows: list[dict[str, str]]) -> None:
 
 def _member(read: Callable[[], bytes], name: str) -> bytes:
     return unpack(read())[name]
+
+
+def _check_effects(parameters: ExplainParameters) -> None:
+    known = catalogue()
+    for effect in [*parameters.without, *(each for rule in parameters.recordings for each in rule.without)]:
+        if effect not in known:
+            near = get_close_matches(effect, known, n=1)
+            raise RecordingError(
+                f"the catalogue has no effect {effect!r}",
+                where="explain_mismatch: without",
+                todo=f"did you mean {near[0]!r}?" if near else f"there are {', '.join(known)}",
+            )
 
 
 def _chosen(recordings: Pairs, parameters: ExplainParameters) -> Pairs:
