@@ -33,7 +33,7 @@ from tire_pipeline.mismatch.recording.checks import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.result import MismatchReport
-from tire_pipeline.mismatch.report.sentences import on_unnamed, on_withheld, summary
+from tire_pipeline.mismatch.report.sentences import on_expected, on_unnamed, on_withheld, summary
 from tire_pipeline.mismatch.report.words import not_looked_for
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.search import more_than_usual, unnamed_physics
@@ -103,6 +103,7 @@ def assembled(it: Explained) -> MismatchReport:
         if prepared.stopped
         else summary(verdict, effects, fit, located, left, following, ranges, all_over),
         on_withheld(withheld),
+        "" if prepared.stopped else on_expected(_unseen(it, effects)),
         on_unnamed(unnamed, verdict),
     ]
     return MismatchReport(
@@ -128,6 +129,12 @@ def assembled(it: Explained) -> MismatchReport:
         withheld=withheld,
         probabilities=_probabilities(answer),
     )
+
+
+def _unseen(it: Explained, effects: Sequence[EffectReport]) -> list[str]:
+    """Return what physics expects in this recording and no set of names holds."""
+    said = {name for effect in effects for name in (effect.name, *effect.alternatives)}
+    return sorted(it.sets.likelihood.unknown.expected - said)
 
 
 def _verdict(effects: Sequence[EffectReport], left: Remainder) -> str:

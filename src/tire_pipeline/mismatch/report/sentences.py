@@ -123,6 +123,20 @@ def on_withheld(names: Sequence[str]) -> str:
     )
 
 
+def on_expected(names: Sequence[str]) -> str:
+    """Say which effects act in every tire, vary in the recording, and are too small here to be named."""
+    if not names:
+        return ""
+    titles = " and ".join(catalogue()[n].title for n in names)
+    acts, it, is_ = (
+        ("act", "them", "their effects are") if len(names) > 1 else ("acts", "it", "its effect is")
+    )
+    return (
+        f"{titles[:1].upper()}{titles[1:]} {acts} on every tire, and the tire model has no coefficient for "
+        f"{it}: in this recording {is_} too small to be told from the misfit of the formula."
+    )
+
+
 def on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
     """Return what is known of the part without a name, in a sentence or two; empty where nothing is."""
     if found is None or found.physics is None:
