@@ -10,7 +10,7 @@ import time
 import pytest
 
 from tire_pipeline import progress_display
-from tire_pipeline.progress import track, under_way
+from tire_pipeline.progress import silent, track, under_way
 
 PATIENCE_SECONDS = 30.0
 
@@ -105,6 +105,16 @@ def test_many_short_steps_are_long_together(monkeypatch):
         with under_way(f"step {number}"):
             time.sleep(0.02)
     assert re.search(r"step \d+", stream.text())
+
+
+def test_one_process_of_many_says_nothing(monkeypatch):
+    stream = errors_to(monkeypatch, terminal=False)
+    with silent():
+        for _ in track([1, 2, 3], "counting"):
+            time.sleep(0.05)
+    assert stream.text() == ""
+    with under_way("thinking"):
+        stream.wait_for("thinking")
 
 
 def test_what_is_printed_meanwhile_goes_where_it_went_before(monkeypatch):

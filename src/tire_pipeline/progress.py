@@ -62,3 +62,19 @@ def under_way(what: str) -> Iterator[None]:
         yield
     finally:
         DISPLAY.leave(activity)
+
+
+@contextmanager
+def silent() -> Iterator[None]:
+    """Show nothing of the block, in a process of many whose parent shows how many tasks are done.
+
+    Examples
+    --------
+    >>> with silent(), under_way("thinking"):
+    ...     pass
+    """
+    before, DISPLAY.silent = DISPLAY.silent, True
+    try:
+        yield
+    finally:
+        DISPLAY.silent = before

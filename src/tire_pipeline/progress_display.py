@@ -82,6 +82,7 @@ class Display:
     """Shows the innermost activity of this process that has lasted a moment."""
 
     def __init__(self) -> None:
+        self.silent = False
         self._reset()
         atexit.register(self._hide)
         os.register_at_fork(after_in_child=self._reset)
@@ -97,6 +98,8 @@ class Display:
 
     def enter(self, activity: Activity) -> None:
         """Begin an activity."""
+        if self.silent:
+            return
         with self._changed:
             now = time.monotonic()
             if not self._active and now - self._ended > PAUSE_SECONDS:

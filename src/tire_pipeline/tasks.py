@@ -11,7 +11,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, cast
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.progress import track
+from tire_pipeline.progress import silent, track
 
 if TYPE_CHECKING:
     from threadpoolctl import ThreadpoolController
@@ -122,6 +122,12 @@ def in_turn(tasks: Mapping[str, Task[_T]], what: str) -> Iterator[Done[_T]]:
     yield from shown((attempt(name, task) for name, task in tasks.items()), what, len(tasks))
 
 
+def attempt_in_silence(name: str, task: Task[_T]) -> Done[_T]:
+    """Attempt a task in a process of its own: that it is done is shown by the process that waits for it."""
+    with silent():
+        return attempt(name, task)
+
+
 def in_processes(count: int) -> Map:
     """Give a map that does so many tasks at once in processes of this machine.
 
@@ -140,7 +146,7 @@ def in_processes(count: int) -> Map:
         from joblib import Parallel, delayed
 
         parallel = Parallel(n_jobs=count, return_as="generator_unordered")
-        done = parallel(delayed(attempt)(name, task) for name, task in tasks.items())
+        done = parallel(delayed(attempt_in_silence)(name, task) for name, task in tasks.items())
         yield from shown(done, what, len(tasks))
 
     return work

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from urllib.parse import urlsplit
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.tasks import Done, LostTaskError, Map, Task, attempt, shown
+from tire_pipeline.tasks import Done, LostTaskError, Map, Task, attempt_in_silence, shown
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -160,7 +160,7 @@ def run_task(name: str, task: Task[_T]) -> Done[_T]:
 
     The value comes in a wrapper: Dask sends bytes of a special class as plain ones.
     """
-    value = attempt(name, task).result()
+    value = attempt_in_silence(name, task).result()
     for file, reason in getattr(value, "failures", {}).items():
         logging.getLogger("distributed.worker").warning("%s: %s", file, reason)
     return Done(name, value)
