@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.model.data import Data
@@ -53,7 +53,12 @@ def _orders(data: Data) -> list[Array]:
     if data.time is not None:
         return [rows]
     place = np.column_stack([*(data.get(n) for n in _SLIPS if data.varies(n)), *data.base.values()])
-    return [rows, np.asarray(cKDTree(place / np.maximum(np.ptp(place, axis=0), 1e-12), leafsize=1).indices)]
+    return [
+        rows,
+        np.asarray(
+            scipy.spatial.cKDTree(place / np.maximum(np.ptp(place, axis=0), 1e-12), leafsize=1).indices
+        ),
+    ]
 
 
 def _most_alike(x: Array) -> float:

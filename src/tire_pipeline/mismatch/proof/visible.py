@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from statistics import NormalDist
 
 import numpy as np
-from scipy.special import ndtri
 
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount
@@ -29,8 +29,8 @@ from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.measured import Visible
 
 Array = np.ndarray
-_SEEN = float(ndtri(0.95))
-_RULED_OUT = float(ndtri(0.975))
+_SEEN = NormalDist().inv_cdf(0.95)
+_RULED_OUT = NormalDist().inv_cdf(0.975)
 _ROUNDS = 7
 _MOST_FORMS = 3
 _SMALL, _SIZES, _HALVINGS = 1e-4, 97, 40
@@ -165,7 +165,7 @@ class _Scene:
             if not np.isfinite(seen) or seen > most:
                 break
             column = self._column(out, seen, before)
-        told = (_SEEN - float(ndtri(0.5 * FALSE / max(self.count, 1)))) * error
+        told = (_SEEN - float(NormalDist().inv_cdf(0.5 * FALSE / max(self.count, 1)))) * error
         return Sight(variant, parameter, self._possible(out, seen), self._possible(out, told), value, error)
 
     def _weighed(

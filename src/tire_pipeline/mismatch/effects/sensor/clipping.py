@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.special import bdtrc
+import scipy
 
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.shared import CLIPPED
@@ -98,6 +98,6 @@ def _crest(values: Array, counts: Array, end: float) -> bool:
     last = int(counts[distance < 0.5 * resolution].sum())
     around = int(counts[distance < (_STEPS - 0.5) * resolution].sum())
     by_chance = (
-        1.0 if last == 0 else float(bdtrc(last - 1, around, _STEPS**-0.5))
+        1.0 if last == 0 else float(scipy.special.bdtrc(last - 1, around, _STEPS**-0.5))
     )  # binomial: so many or more
     return by_chance > _LEVEL

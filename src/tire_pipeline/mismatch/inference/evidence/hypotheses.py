@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import logsumexp
+import scipy
 
 from tire_pipeline.mismatch.inference.evidence.likelihood import Evidence, Likelihood, Projected
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
@@ -136,7 +136,7 @@ def log_prior(case: OfCase, sizes: LearntSizes) -> Array:
 def log_posterior(case: OfCase, sizes: LearntSizes) -> Array:
     """Return the log of the posterior probability of each of :func:`hypotheses`, shape (h,)."""
     value = log_evidence(case, sizes) + log_prior(case, sizes)
-    return value - logsumexp(value)
+    return value - scipy.special.logsumexp(value)
 
 
 def position(case: OfCase, names: Sequence[str]) -> int | None:

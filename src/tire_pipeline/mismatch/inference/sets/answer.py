@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import logsumexp
+import scipy
 
 from tire_pipeline.mismatch.inference.evidence.hypotheses import (
     hypotheses,
@@ -91,7 +91,7 @@ def answered(
     likelihood = likelihood or Likelihood(case.unknown, sizes)
     every, evidence = hypotheses(case), log_evidence(case, sizes, likelihood)
     value = evidence + log_prior(case, sizes)
-    mass = np.exp(value - logsumexp(value))
+    mass = np.exp(value - scipy.special.logsumexp(value))
     probabilities: dict[Names, float] = defaultdict(float)
     for each, p in zip(every, mass, strict=True):
         probabilities[each.names] += float(p)
