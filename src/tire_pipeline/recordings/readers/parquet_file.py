@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet as pq
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.canonical import RawChannel, RawRecording
 from tire_pipeline.recordings.readers.limits import check_expansion
+
+if TYPE_CHECKING:
+    import pyarrow.parquet as pq
 
 
 def read_parquet(path: Path) -> RawRecording:
@@ -33,6 +36,8 @@ def read_parquet(path: Path) -> RawRecording:
     RecordingError
         The file is damaged or holds no numeric columns.
     """
+    import pyarrow.parquet as pq  # slow to import, and few recordings are Parquet
+
     try:
         with pq.ParquetFile(path) as file:
             rows, schema = file.metadata.num_rows, file.schema_arrow
