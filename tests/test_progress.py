@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+import subprocess
 import sys
 import time
 
@@ -132,3 +133,28 @@ def test_a_stream_that_is_closed_ends_no_loop(monkeypatch):
     stream = errors_to(monkeypatch, terminal=False)
     stream.close()
     assert [number for number in track([1, 2, 3], "counting") if not time.sleep(0.05)] == [1, 2, 3]
+
+
+INTERRUPTED = """
+import os, sys
+from tire_pipeline import progress_display
+from tire_pipeline.progress import track
+progress_display.SHOW_AFTER_SECONDS = progress_display.LINE_EVERY_SECONDS = 0.0
+progress_display.TICK_SECONDS = 1e-4
+outer = track([1, 2], "outer")
+next(outer)
+if sys.argv[1] == "fork":
+    child = os.fork()
+    if child:
+        sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+    list(track([1, 2], "inner"))
+"""
+
+
+@pytest.mark.parametrize("how", ["exit", "fork"])
+def test_a_process_ends_well_with_work_left(how):
+    for _ in range(5):
+        command = [sys.executable, "-c", INTERRUPTED, how]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+        assert done.returncode == 0, done.stderr
+        assert "Error" not in done.stderr

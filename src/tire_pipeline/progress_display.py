@@ -84,12 +84,23 @@ class Display:
     def __init__(self) -> None:
         self.silent = False
         self._reset()
-        atexit.register(self._hide)
-        os.register_at_fork(after_in_child=self._reset)
+        atexit.register(self._end)
+        os.register_at_fork(  # so that no stream or import is locked in a child by a thread that it lacks
+            before=self._lock,
+            after_in_parent=self._unlock,
+            after_in_child=self._reset,
+        )
+
+    def _lock(self) -> None:
+        self._changed.acquire()
+
+    def _unlock(self) -> None:
+        self._changed.release()
 
     def _reset(self) -> None:
         self._changed = threading.Condition(threading.RLock())
         self._active: list[Activity] = []
+        self._over = threading.Event()
         self._began = self._ended = self._said = -PAUSE_SECONDS
         self._thread: threading.Thread | None = None
         self._console: Console | None = None
@@ -98,7 +109,7 @@ class Display:
 
     def enter(self, activity: Activity) -> None:
         """Begin an activity."""
-        if self.silent:
+        if self.silent or self._over.is_set():
             return
         with self._changed:
             now = time.monotonic()
@@ -112,6 +123,8 @@ class Display:
 
     def leave(self, activity: Activity) -> None:
         """End an activity."""
+        if self._over.is_set():
+            return
         with self._changed, suppress(ValueError):  # a generator of a forked process may end one of its parent
             self._active.remove(activity)
             if not self._active:
@@ -123,10 +136,12 @@ class Display:
         with suppress(OSError, ValueError):
             while True:
                 with self._changed:
-                    while not self._active:
+                    while not self._active and not self._over.is_set():
                         self._changed.wait()
+                    if self._over.is_set():
+                        return
                     self._show(time.monotonic())
-                time.sleep(TICK_SECONDS)
+                self._over.wait(TICK_SECONDS)
 
     def _show(self, now: float) -> None:
         if now - self._began < SHOW_AFTER_SECONDS:
@@ -168,6 +183,15 @@ class Display:
         if new:
             self._row.start()
         self._row.refresh()
+
+    def _end(self) -> None:
+        """End the thread before the interpreter does: it would stop wherever it is, and keep its lock."""
+        with self._changed:
+            self._over.set()
+            self._hide()
+            self._changed.notify()
+        if self._thread is not None:
+            self._thread.join(PAUSE_SECONDS)
 
     def _hide(self) -> None:
         if self._row is not None:
