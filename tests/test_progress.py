@@ -158,3 +158,25 @@ def test_a_process_ends_well_with_work_left(how):
         done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
         assert done.returncode == 0, done.stderr
         assert "Error" not in done.stderr
+
+
+IN_PROCESSES = """
+import sys, time
+from tire_pipeline import progress_display
+from tire_pipeline.progress import track
+from tire_pipeline.tasks import in_processes
+def slow():
+    progress_display.SHOW_AFTER_SECONDS = progress_display.LINE_EVERY_SECONDS = 0.0
+    progress_display.TICK_SECONDS = 0.01
+    for _ in track(range(20), "steps of a task"):
+        time.sleep(0.02)
+tasks = {str(number): slow for number in range(int(sys.argv[1]))}
+list(in_processes(2)(tasks, "tasks"))
+"""
+
+
+@pytest.mark.parametrize(("tasks", "steps"), [(2, True), (5, False)])
+def test_processes_of_a_pool_show_steps_only_where_each_has_one_task(tasks, steps):
+    command = [sys.executable, "-c", IN_PROCESSES, str(tasks)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+    assert ("steps of a task" in done.stderr) == steps

@@ -146,7 +146,9 @@ def in_processes(count: int) -> Map:
         from joblib import Parallel, delayed
 
         parallel = Parallel(n_jobs=count, return_as="generator_unordered")
-        done = parallel(delayed(attempt_in_silence)(name, task) for name, task in tasks.items())
+        one_each = len(tasks) <= count  # how many are done says nothing until the end
+        doing = attempt if one_each else attempt_in_silence
+        done = parallel(delayed(doing)(name, task) for name, task in tasks.items())
         yield from shown(done, what, len(tasks))
 
     return work
