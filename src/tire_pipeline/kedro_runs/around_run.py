@@ -235,6 +235,8 @@ class SignpostHooks:
         ("retraining_report", "page of the retraining"),
         ("translation_page", "page of the translators"),
         ("ingest_report", "ingest report"),
+        ("filter_report", "which files are not used, and why"),
+        ("fleet_files", "demonstration fleet"),
         ("thesis_page", "page of the thesis"),
     )
 
