@@ -97,3 +97,15 @@ def test_a_file_just_beyond_the_edge_is_not_shown_on_it():
         {"file": ["a", "b"], "distance": [1.0004, 0.9], "verdict": ["refused", "translated"]}
     )
     assert [row[ROW_COLUMNS.index("distance")] for row in rows_of(report, set(), {})] == [1.01, 0.9]
+
+
+def test_own_files_come_first_and_those_that_need_no_translation_last():
+    verdicts = {
+        "lab/a.tir": "already unbiased",
+        "x/b.tir": "translated",
+        "x/a.tir": "refused",
+        "A/1.tir": "translated",
+    }
+    report = pd.DataFrame({"file": list(verdicts), "verdict": list(verdicts.values())})
+    rows = rows_of(report, {"lab/a.tir", "x/a.tir", "x/b.tir"}, {})
+    assert [row[0] for row in rows] == ["x/a.tir", "x/b.tir", "lab/a.tir", "A/1.tir"]
