@@ -9,7 +9,15 @@ import sys
 import pytest
 
 HEAVY = ("torch", "stable_baselines3", "gymnasium", "kedro", "matplotlib", "sklearn")
-SLOW_SCIPY = ("scipy.stats", "scipy.signal", "scipy.optimize", "scipy.io")
+SLOW = (
+    "scipy.stats",
+    "scipy.signal",
+    "scipy.optimize",
+    "scipy.io",
+    "scipy.special",
+    "scipy.spatial",
+    "pyarrow.parquet",
+)
 
 
 def loaded(statement: str) -> set[str]:
@@ -35,7 +43,7 @@ def loaded(statement: str) -> set[str]:
 def test_an_import_loads_nothing_that_is_not_needed_yet(statement):
     modules = loaded(statement)
     assert "numpy" in modules or "import tire_pipeline.mismatch" in statement
-    assert modules.isdisjoint((*HEAVY, *SLOW_SCIPY))
+    assert modules.isdisjoint((*HEAVY, *SLOW))
 
 
 @pytest.mark.slow
