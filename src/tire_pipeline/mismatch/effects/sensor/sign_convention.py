@@ -210,7 +210,7 @@ def _likelier(recorded: Array, base: Array, other: Array, *, sized: bool = True)
 
 
 def _finding(name: str, repaired: dict[str, Array], alike: Iterable[tuple[str, ...]] = ()) -> Finding:
-    parameters = {"ratio": (-1.0, 0.0, "1")}
+    parameters = {"ratio": (-1.0, 0.0, "times")}
     have = "have" if ", " in name else "has"
     text = f"{name} {have} the other sign"
     alike = tuple(alike)

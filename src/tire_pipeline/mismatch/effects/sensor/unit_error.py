@@ -79,7 +79,7 @@ class UnitError(Effect):
         if best is not None:
             factors, (name, factor, text) = best[1], best[2]
             repaired = {n: channels[n] * f for n, f in factors.items()}
-            parameters = {"ratio": (float(factor), 0.0, "1")}
+            parameters = {"ratio": (float(factor), 0.0, "times")}
             found.append(
                 Finding(self.name, name, f"{name} is wrong by {factor:.5g} ({text})", parameters, repaired)
             )
@@ -107,7 +107,7 @@ def _pressure(channels: Mapping[str, Array]) -> list[Finding]:
     if distance > np.log(4.0):
         return []
     repaired = {"pressure": channels["pressure"] / factor}
-    parameters = {"ratio": (float(factor), 0.0, "1")}
+    parameters = {"ratio": (float(factor), 0.0, "times")}
     return [
         Finding(
             UnitError.name, "pressure", f"pressure is wrong by {factor:.5g} ({text})", parameters, repaired
@@ -125,7 +125,7 @@ def _impossible(channels: Mapping[str, Array]) -> list[Finding]:
         if name in channels and in_another_unit(name, channels[name]):
             factor = _OF_UNIT[unit]
             text = _FACTORS[name][factor]
-            parameters = {"ratio": (factor, 0.0, "1")}
+            parameters = {"ratio": (factor, 0.0, "times")}
             repaired = {name: channels[name] / factor}
             found.append(
                 Finding(
