@@ -9,6 +9,8 @@ from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 _STEP = 0.2
 """s over which friction steps, so that the moment can be refined."""
+_GAP = 0.5
+"""Part of the time from begin to end: a steady change is not told from a step in a longer gap."""
 
 
 class SurfaceChange(Effect):
@@ -41,10 +43,14 @@ class SurfaceChange(Effect):
     order = 40
 
     def starts(self, data: object) -> list[dict[str, float]]:
-        """Try steps over the whole recording, and a steady change from its begin to its end."""
+        """Try steps over the whole recording, and a steady change from its begin to its end.
+
+        A step in a long gap between two pieces would look the same.
+        """
         first, last = data.time[0], data.time[-1]  # type: ignore[attr-defined]
-        steps = [(m, _STEP) for m in np.linspace(first, last, 26)[1:-1]]
-        forms = [*steps, (0.5 * (first + last), last - first)]
+        forms = [(m, _STEP) for m in np.linspace(first, last, 26)[1:-1]]
+        if np.max(np.diff(data.time)) < _GAP * (last - first):  # type: ignore[attr-defined]
+            forms.append((0.5 * (first + last), last - first))
         return [{"friction": 0.0, "moment": float(m), "duration": float(d)} for m, d in forms]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
