@@ -21,20 +21,9 @@ from tire_pipeline.magic_formula.equations.equations_61 import (
     evaluate_61,
     rolling_load_factor,
 )
-from tire_pipeline.magic_formula.equations.jit import checksum_of, compiled
+from tire_pipeline.magic_formula.equations.jit import checksum_with_equations, compiled
 from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS, SATURATION
 
-_SOURCES = (
-    "tire_pipeline.magic_formula.compiled.kernel",
-    "tire_pipeline.magic_formula.compiled.unpacking",
-    "tire_pipeline.magic_formula.compiled.fast_math",
-    "tire_pipeline.magic_formula.equations.jit",
-    "tire_pipeline.magic_formula.equations.ops",
-    "tire_pipeline.magic_formula.equations.shapes",
-    "tire_pipeline.magic_formula.equations.equations_52",
-    "tire_pipeline.magic_formula.equations.equations_61",
-    "tire_pipeline.magic_formula.parameters.coefficients",
-)
 BLOCK = 256
 """Points in a block."""
 
@@ -61,7 +50,7 @@ _SIGNATURE = types.void(
 @lru_cache(maxsize=1)
 def _stamp() -> int:
     """Return a number made from the sources of a kernel: part of the key that it is kept under."""
-    return int(checksum_of(_SOURCES)[:15], 16)
+    return int(checksum_with_equations(__name__)[:15], 16)
 
 
 @lru_cache(maxsize=8)

@@ -15,7 +15,7 @@ import numpy as np
 
 from tire_pipeline.magic_formula.equations.equations_52 import evaluate_52
 from tire_pipeline.magic_formula.equations.equations_61 import NO_TURN_SLIP, evaluate_61, rolling_load_factor
-from tire_pipeline.magic_formula.equations.jit import checksum_of
+from tire_pipeline.magic_formula.equations.jit import checksum_with_equations
 from tire_pipeline.magic_formula.parameters.coefficients import (
     COEFFICIENT_NAMES,
     EXTENSIONS_6,
@@ -26,17 +26,6 @@ from tire_pipeline.magic_formula.parameters.coefficients import (
 DERIVED = ("fx", "fy", "mx", "my", "mz")
 """The outputs that have gradients, in the order in which the equations return them."""
 
-_SOURCES = (
-    "tire_pipeline.magic_formula.derivatives.derive",
-    "tire_pipeline.magic_formula.compiled.fast_math",
-    "tire_pipeline.magic_formula.compiled.unpacking",
-    "tire_pipeline.magic_formula.equations.jit",
-    "tire_pipeline.magic_formula.equations.ops",
-    "tire_pipeline.magic_formula.equations.shapes",
-    "tire_pipeline.magic_formula.equations.equations_52",
-    "tire_pipeline.magic_formula.equations.equations_61",
-    "tire_pipeline.magic_formula.parameters.coefficients",
-)
 _UFUNCS = {
     np.add: "+",
     np.subtract: "-",
@@ -322,7 +311,7 @@ def module_source(family: int) -> str:
 @lru_cache(maxsize=1)
 def source_stamp() -> str:
     """Return a mark of the sources that the gradients are made from and compiled with."""
-    return checksum_of(_SOURCES)
+    return checksum_with_equations(__name__)
 
 
 _HEAD = '''"""Gradients over coefficients, family {family}, written by derive.py."""

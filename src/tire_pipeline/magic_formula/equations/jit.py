@@ -37,10 +37,23 @@ jitable = register_jitable(**OPTIONS)
 """Mark a function that the interpreter runs on arrays and the compiler runs on scalars."""
 
 
-def checksum_of(modules: tuple[str, ...]) -> str:
-    """Return a mark of the sources of some modules, which need not be imported for it."""
+_EQUATION_SOURCES = (
+    "tire_pipeline.magic_formula.compiled.unpacking",
+    "tire_pipeline.magic_formula.compiled.fast_math",
+    "tire_pipeline.magic_formula.equations.jit",
+    "tire_pipeline.magic_formula.equations.ops",
+    "tire_pipeline.magic_formula.equations.shapes",
+    "tire_pipeline.magic_formula.equations.equations_52",
+    "tire_pipeline.magic_formula.equations.equations_61",
+    "tire_pipeline.magic_formula.parameters.coefficients",
+)
+"""Modules whose text decides what is compiled from the equations."""
+
+
+def checksum_with_equations(module: str) -> str:
+    """Return a mark of the sources of a module and of the equations, which need not be imported for it."""
     text = b""
-    for name in modules:
+    for name in (module, *_EQUATION_SOURCES):
         spec = find_spec(name)
         assert spec is not None, name
         text += Path(str(spec.origin)).read_bytes()
