@@ -141,17 +141,27 @@ def on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
     """Return what is known of the part without a name, in a sentence or two; empty where nothing is."""
     if found is None or found.physics is None:
         return ""
-    errors = [
-        f"{o.capitalize()} from {newtons(found.unseen[o][0])} N to {newtons(found.unseen[o][1])} N"
-        for o in found.physics.equations
-    ]
     drivers = ", ".join(found.physics.depends_on) or "the force itself"
-    what = "The unexplained part" if verdict in ("unexplained", "partly explained") else "What is still left"
+    first = verdict in ("unexplained", "partly explained")
+    what = "The unexplained residual" if first else "The remaining residual"
     return (
-        f"{what} has no name. Of what was recorded it follows {drivers} best, and an equation of it "
-        f"is in the corrected model: on sweeps that neither its choice nor its fit has seen, it takes the "
-        f"RMS error of {', that of '.join(errors)}."
+        f"{what} is of no effect of the catalogue. Of what was recorded, it follows {drivers} best. An "
+        f"equation of it is in the corrected model. On sweeps that neither its choice nor its fit has seen, "
+        f"{_gain(found, beside_names=verdict not in ('unexplained', 'undecided'))}."
     )
+
+
+def _gain(found: UnnamedReport, *, beside_names: bool) -> str:
+    """What an equation does on unseen sweeps. Beside names, the summary has given the errors with it."""
+    assert found.physics is not None
+    seen = {o.capitalize(): found.unseen[o][:2] for o in found.physics.equations}
+    if beside_names:
+        shares = [
+            f"{100.0 * (1.0 - after / before):.0f}% of that of {o}" for o, (before, after) in seen.items()
+        ]
+        return f"of the remaining RMS error it removes {' and '.join(shares)}; the figures above include that"
+    errors = [f"{o} from {newtons(before)} N to {newtons(after)} N" for o, (before, after) in seen.items()]
+    return f"it takes the RMS error of {', that of '.join(errors)}"
 
 
 def _agreement(fit: Mapping[str, OutputFit]) -> str:
@@ -178,7 +188,7 @@ def _more_left(left: Remainder) -> str:
     """Say that more is left beside names than fitted models usually leave."""
     if left.significant or not left.unusual:
         return ""
-    return f"What is then left {_than_usual(left)}: more may be missing."
+    return f"The remaining residual {_than_usual(left)}: more may be missing."
 
 
 def _than_usual(left: Remainder) -> str:
