@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,10 @@ from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tir import read_tir, write_tir
 from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_table
 from tire_pipeline.translation import make_translator
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "viz"))
+
+from viz_browser import browser, needs_browser, read_page
 
 pytestmark = pytest.mark.slow
 NEWEST = "2026-03-01T10.00.00.000Z"
@@ -129,3 +134,12 @@ def test_other_places_of_a_model(folder, translator):
     assert "damaged" in run("translate", "A/tire.tir", "--model", "released", code=2).stderr
     (folder / "other.npz").write_bytes(pack_state({"classifier": "random_forest"}))
     assert "no translator" in run("translate", "A/tire.tir", "--model", "other.npz", code=2).stderr
+
+
+def test_its_page_is_read_in_a_browser(folder):
+    needs_browser()
+    run("translate", "A/tire.tir", "--model", "06_models/translator.npz")
+    with browser(folder) as driver:
+        text = read_page(driver, folder / "tire_translate.html")
+        assert [word for word in ("translated", "PDY1", "90%") if word not in text] == []
+        assert driver.find_elements("css selector", "figure svg, figure img")

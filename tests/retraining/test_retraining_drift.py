@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import sys
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 import pytest
 
-from tire_pipeline.retraining import drift_of_features
+from tire_pipeline.reporting.retraining_page import build_retraining_report
+from tire_pipeline.retraining import ModelRegistry, Release, drift_of_features
 from tire_pipeline.retraining.drift import DRIFT, NEW, SAME, TOO_FEW, stability_index
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "viz"))
+
+from viz_browser import browser, needs_browser, read_page
 
 
 def _features(rng, rows):
@@ -65,9 +73,6 @@ def test_a_constant_feature_is_no_drift():
 
 
 def test_the_page_of_a_first_run_says_that_there_is_nothing_to_compare():
-    from tire_pipeline.reporting.retraining_page import build_retraining_report
-    from tire_pipeline.retraining import ModelRegistry, Release
-
     files = pd.DataFrame({"file": ["A/1.tir"], "status": ["read"], "reason": [""]})
     drift = pd.DataFrame(columns=["category", "feature", "psi", "verdict"])
     comparison = pd.DataFrame({"model": ["candidate"], "accuracy": [0.75]})
@@ -81,3 +86,23 @@ def test_the_page_of_a_first_run_says_that_there_is_nothing_to_compare():
         files, some, comparison, {"event": "released", "reason": "not worse"}, ModelRegistry(Release())
     )
     assert "1 of 1 comparisons show drift" in page
+
+
+def test_the_page_is_read_in_a_browser(tmp_path):
+    needs_browser()
+    files = pd.DataFrame(
+        {"file": ["A/1.tir", "A/<b>2</b>.tir"], "status": ["read", "set aside"], "reason": ["", "line 3"]}
+    )
+    drift = pd.DataFrame({"category": ["A"], "feature": ["PKY1"], "psi": [0.5], "verdict": ["drift"]})
+    comparison = pd.DataFrame({"model": ["candidate"], "accuracy": [0.75]})
+    outcome = {"event": "released", "reason": "not worse"}
+    page = tmp_path / "retraining.html"
+    page.write_text(
+        build_retraining_report(files, drift, comparison, outcome, ModelRegistry(Release())), encoding="utf-8"
+    )
+    with browser(tmp_path) as driver:
+        text = read_page(driver, page)
+        assert [
+            word for word in ("Candidate released", "PKY1", "A/<b>2</b>.tir", "0.75") if word not in text
+        ] == []
+        assert driver.find_elements("link text", "All reports")

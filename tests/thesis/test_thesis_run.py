@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import re
+import sys
+from pathlib import Path
 
 import pandas as pd
 import pytest
 from thesis_stored import stored_results
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "viz"))
+
+from viz_browser import browser, needs_browser, read_page
 
 pytestmark = pytest.mark.slow
 
@@ -83,3 +89,13 @@ def test_every_curve_is_there_as_data_and_as_figure(interrupted_run):
         assert (folder / f"{name}.svg").stat().st_size > 1000
     for name in ("forest_trees", "forest_depth", "bins", "latent", "learning", "force_curves"):
         assert len(pd.read_csv(folder / f"{name}.csv")) > 0
+
+
+def test_the_page_is_read_in_a_browser_and_leads_to_the_front_page(interrupted_run, tmp_path):
+    needs_browser()
+    with browser(tmp_path) as driver:
+        text = read_page(driver, interrupted_run.folder / "data" / "08_reporting" / "thesis.html")
+        assert [name for name in ("Table 5.21:", "Figure 5.16:", "RQ4:") if name not in text] == []
+        assert driver.find_elements("css selector", "figure svg")
+        driver.find_element("link text", "All reports").click()
+        assert driver.title == "Tire pipeline: all reports"

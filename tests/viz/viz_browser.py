@@ -93,3 +93,12 @@ def browser(folder: Path, width: int = 1500, height: int = 900) -> Iterator[obje
         yield driver
     finally:
         driver.quit()
+
+
+def read_page(driver: object, page: Path) -> str:
+    """Open a page, unfold what can be unfolded, and return its text; the browser may complain of nothing."""
+    driver.get(page.as_uri())
+    for control in driver.find_elements("css selector", "summary"):
+        control.click()
+    assert [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"] == []
+    return driver.find_element("css selector", "body").text
