@@ -10,7 +10,7 @@ PURE_SLIP_ANGLE = 0.01
 """Below this magnitude of slip angle (rad) a point counts as pure longitudinal slip."""
 
 BOUNDS: dict[str, tuple[float, float, float]] = {
-    "PCY1": (0.6, 2.5, 1.35),
+    "PCY1": (1.0, 2.5, 1.35),
     "PDY1": (0.01, 4.0, 1.0),
     "PDY2": (-2.0, 2.0, -0.1),
     "PDY3": (-100.0, 100.0, 0.0),
@@ -33,7 +33,7 @@ BOUNDS: dict[str, tuple[float, float, float]] = {
     "PVY2": (-0.5, 0.5, 0.0),
     "PVY3": (-5.0, 5.0, 0.0),
     "PVY4": (-10.0, 10.0, 0.0),
-    "PCX1": (0.8, 2.5, 1.6),
+    "PCX1": (1.0, 2.5, 1.6),
     "PDX1": (0.01, 4.0, 1.1),
     "PDX2": (-2.0, 2.0, -0.1),
     "PDX3": (-100.0, 100.0, 0.0),
