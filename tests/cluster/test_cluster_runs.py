@@ -7,7 +7,6 @@ import shutil
 import subprocess
 import sys
 import threading
-import time
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
@@ -112,9 +111,12 @@ def test_a_killed_scheduler_costs_what_was_under_way_only(tmp_path, chosen, clus
     dataset = ComputedFolderDataset(path=str(tmp_path / "out"))
     work = {f"{n:02d}": partial(tasks.slow_bytes, tmp_path / f"calls{n:02d}", n) for n in range(40)}
 
+    over = threading.Event()
+
     def kill() -> None:
         while not (tmp_path / "out" / "05").exists():
-            time.sleep(0.02)
+            if over.wait(0.02):
+                return
         own.kill_scheduler()
 
     killer = threading.Thread(target=kill)
@@ -123,6 +125,7 @@ def test_a_killed_scheduler_costs_what_was_under_way_only(tmp_path, chosen, clus
         with pytest.raises(Exception, match="the Dask scheduler does not answer any more") as found:
             dataset.save(work)
     finally:
+        over.set()
         killer.join()
         own.end()
     assert "run again" in str(found.value)
