@@ -3,21 +3,25 @@
 The model is fitted to 82 kPa and no camber. It then meets recordings of the other pressure, the other camber,
 or both, at three of five loads. The other two loads judge the correction, beside a formula that is refitted
 to the rows that were explained. It needs the shared recordings:
-``python benchmarks/flat_belt_hidden.py [rates]``.
+``python benchmarks/flat_belt_hidden.py [rates]``, which writes ``benchmarks/results/flat_belt_hidden.csv``;
+``--write`` puts the stored table into docs/explanation/concealed.md.
 """
 
 from __future__ import annotations
 
-import sys
+import argparse
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from doc_tables import markdown, write_between
 
+from tire_pipeline.code_hash import code_hash
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
@@ -25,6 +29,9 @@ from tire_pipeline.recordings import read_recording
 
 FILE = Path(__file__).parents[2] / "shared/recordings/calspan/cornering_part.mat"
 CHANNELS = ["time", "slip_angle", "camber", "normal_load", "speed", "pressure", "fy"]
+RESULTS = Path(__file__).parent / "results" / "flat_belt_hidden.csv"
+PAGE = Path(__file__).parent.parent / "docs" / "explanation" / "concealed.md"
+BEGIN = "<!-- from flat_belt_hidden.py -->"
 HIDDEN = ("nothing", "pressure", "camber", "camber and pressure")
 LOADS = (800.0, 1350.0, 1900.0, 2450.0)
 """Between the five levels, N."""
@@ -129,9 +136,51 @@ def rows(rates: list[int]) -> Iterator[Row]:
                 yield judge(hidden, rate, temperature)
 
 
+def main() -> None:
+    """Judge all recordings, or write what was judged into the documentation."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("rates", nargs="*", type=int, default=[100, 50, 20, 10], help="Hz")
+    parser.add_argument("--write", action="store_true", help="the stored table, into docs/")
+    options = parser.parse_args()
+    if options.write:
+        write_between(PAGE, BEGIN, written(pd.read_csv(RESULTS)))
+        return
+    table = []
+    for row in rows(options.rates):
+        table.append(
+            {
+                "hidden": row.hidden,
+                "rate": row.rate,
+                "temperature": row.temperature,
+                "verdict": row.verdict,
+                "names": ", ".join(row.names),
+                "before": round(row.before, 1),
+                "after": round(row.after, 1),
+                "refitted": round(row.refitted, 1),
+                "code": code_hash("mismatch", "magic_formula"),
+                "date": f"{datetime.now(UTC):%Y-%m-%d}",
+            }
+        )
+        print(*table[-1].values(), sep="  ", flush=True)
+    pd.DataFrame(table).to_csv(RESULTS, index=False)
+
+
+def written(table: pd.DataFrame) -> str:
+    """Return the table of the documentation, one recording a row."""
+    head = ["hidden", "rate / Hz", "tread temperature", "named", "before / N", "after / N", "refitted / N"]
+    lines = [
+        [
+            str(row.hidden),
+            str(row.rate),
+            "recorded" if row.temperature else "not recorded",
+            row.names if isinstance(row.names, str) else "nothing",
+            *(f"{value:.0f}" for value in (row.before, row.after, row.refitted)),
+        ]
+        for row in table.itertuples()
+    ]
+    told = f"Hash of the code {table['code'].iloc[0]}, {table['date'].iloc[0]}."
+    return f"{markdown(head, lines)}\n\n{told}"
+
+
 if __name__ == "__main__":
-    print(f"{'hidden':20} Hz  T  {'verdict':18} before after refitted    s  names")
-    for row in rows([int(x) for x in sys.argv[1:]] or [100, 50, 20, 10]):
-        start = f"{row.hidden:20} {row.rate:3} {'x' if row.temperature else '-'}  {row.verdict:18}"
-        errors = f"{row.before:6.0f} {row.after:5.0f} {row.refitted:8.0f}"
-        print(f"{start} {errors} {row.seconds:4.1f}  {', '.join(row.names) or '-'}", flush=True)
+    main()
