@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import scipy
 
@@ -26,25 +28,25 @@ def measured_apart(data: Data) -> float:
     return float(np.mean(np.max(steps, axis=0) > _JUMP)) if steps else 0.0
 
 
-def independent(data: Data, left: Array) -> float:
+def independent(left: Array, orders: Sequence[Array]) -> float:
     """Return how many samples are independent, by the correlation of what is left.
 
     Sums over stretches of white noise have the variance of their length; what is left has more. The stretch
-    at which the excess is largest counts. Without time neighbours may also be those in the operating space,
-    and the order counts in which they are more alike.
+    at which the excess is largest counts, in the order in which neighbours are more alike.
 
     Parameters
     ----------
-    data : Data
     left : ndarray, shape (n,)
         What is left of one output.
+    orders : sequence of ndarray of int, shape (n,)
+        Of :func:`orders_of`.
     """
     unit = left / max(rms(left), 1e-300)
-    return left.size / max(_most_alike(unit[order]) for order in _orders(data))
+    return left.size / max(_most_alike(unit[order]) for order in orders)
 
 
-def _orders(data: Data) -> list[Array]:
-    """That of the rows, and without time that of a k-d tree.
+def orders_of(data: Data) -> list[Array]:
+    """Return the orders in which neighbours may err alike: that of the rows, and without time a k-d tree's.
 
     Its points are the slips and the model's forces, each over its range: stretches of its leaves are regions
     of the operating space, in whatever order the rows were given.
@@ -53,12 +55,8 @@ def _orders(data: Data) -> list[Array]:
     if data.time is not None:
         return [rows]
     place = np.column_stack([*(data.get(n) for n in _SLIPS if data.varies(n)), *data.base.values()])
-    return [
-        rows,
-        np.asarray(
-            scipy.spatial.cKDTree(place / np.maximum(np.ptp(place, axis=0), 1e-12), leafsize=1).indices
-        ),
-    ]
+    tree = scipy.spatial.cKDTree(place / np.maximum(np.ptp(place, axis=0), 1e-12), leafsize=1)
+    return [rows, np.asarray(tree.indices)]
 
 
 def _most_alike(x: Array) -> float:

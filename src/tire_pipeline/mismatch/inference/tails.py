@@ -23,8 +23,7 @@ _NORMAL = 2.0
 
 def cost(z: Array) -> Array:
     """Return the negative log density at some sizes over their spread, shape as ``z``; 0 at the centre."""
-    beyond = np.maximum(np.abs(z) / _NORMAL, 1.0)
-    return 0.5 * np.minimum(np.abs(z), _NORMAL) ** 2 + _NORMAL**2 * np.log(beyond)
+    return 0.5 * np.minimum(np.abs(z), _NORMAL) ** 2 + _NORMAL**2 * np.log(widening(z))
 
 
 def widening(z: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Another surface from a moment on."""
+"""Another surface from a moment on, or gradually."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class SurfaceChange(Effect):
     parameters = (
         Parameter("friction", "1", -0.8, 1.0, 0.01, prior=0.15),
         Parameter("moment", "s", -1e12, 1e12, 0.05, form=True, kept=True),
-        Parameter("duration", "s", 0.2, 1e12, 0.05, form=True, kept=True),
+        Parameter("duration", "s", _STEP, 1e12, 0.05, form=True, kept=True),
     )
     looks_like = {
         "friction_scale": "a friction factor holds from the start",

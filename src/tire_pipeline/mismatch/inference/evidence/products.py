@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.background import Background
 from tire_pipeline.mismatch.discrepancy.form_error import shape_columns
-from tire_pipeline.mismatch.discrepancy.independent import independent, measured_apart
+from tire_pipeline.mismatch.discrepancy.independent import independent, measured_apart, orders_of
 from tire_pipeline.mismatch.discrepancy.noise import white_noise
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.analysis import Analysis
@@ -111,6 +112,10 @@ class RecordingProducts:
         self.families = background.families
         self.gram = {o: z.T @ z / self.data.size for o, z in self.beside.items()}
 
+    @cached_property
+    def _orders(self) -> list[Array]:
+        return orders_of(self.data)
+
     def unknown(self, independent: Mapping[str, float]) -> Unknown:
         """Return what is never known, with the number of samples of each output that are independent."""
         in_time, rest = self.data.time is not None, residual(self.data, [])
@@ -136,7 +141,7 @@ class RecordingProducts:
         for o, x in columns.items():
             left = x @ np.r_[-found.mode, 1.0] / self.largest[o]
             left = left - self.beside[o] @ found.weights[o].known(self.beside[o].T @ left / left.size)
-            out[o] = independent(self.data, left)
+            out[o] = independent(left, self._orders)
         return out
 
     def of(self, columns: Mapping[str, Array], rows: Array | slice = slice(None)) -> ColumnProducts:
