@@ -2,9 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 from tire_pipeline.file_names import printable
+
+
+def did_you_mean(name: str, known: Iterable[str], otherwise: str, cutoff: float = 0.6) -> str:
+    """Return what to do about a name that is not known: the nearest one, or else some other advice.
+
+    Examples
+    --------
+    >>> did_you_mean("wera", ["wear", "camber"], "there are two")
+    "did you mean 'wear'?"
+    """
+    from difflib import get_close_matches  # errors are rare, and this module is imported by all
+
+    near = get_close_matches(name, list(known), n=1, cutoff=cutoff)
+    return f"did you mean {near[0]!r}?" if near else otherwise
 
 
 class TirePipelineError(Exception):

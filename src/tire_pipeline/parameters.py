@@ -1,9 +1,10 @@
 """What all parameter models share: unknown keys are errors, and values are not changed afterwards."""
 
-from difflib import get_close_matches
 from typing import Annotated
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, model_validator
+
+from tire_pipeline.errors import did_you_mean
 
 
 def _several(value: object) -> object:
@@ -27,8 +28,7 @@ class Parameters(BaseModel):
         """Name the nearest parameter to one that is unknown."""
         for name in values if isinstance(values, dict) else ():
             if name not in cls.model_fields:
-                near = get_close_matches(str(name), list(cls.model_fields), n=1, cutoff=0.5)
                 known = ", ".join(cls.model_fields)
-                advice = f"did you mean {near[0]!r}?" if near else f"there are {known}"
+                advice = did_you_mean(str(name), cls.model_fields, f"there are {known}", cutoff=0.5)
                 raise ValueError(f"there is no parameter {name!r}: {advice}")
         return values

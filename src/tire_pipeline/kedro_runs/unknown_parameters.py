@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +11,7 @@ from kedro.config import OmegaConfigLoader
 from kedro.framework.hooks import hook_impl
 from omegaconf.resolvers import oc
 
-from tire_pipeline.errors import DomainError
+from tire_pipeline.errors import DomainError, did_you_mean
 
 _RUNTIME = re.compile(r"\$\{runtime_params:\s*(\w+)")
 
@@ -55,9 +54,10 @@ def check_names(asked: Iterable[str], known: set[str]) -> None:
     """
     for name in asked:
         if str(name) not in known:
-            near = get_close_matches(str(name), sorted(known), n=1, cutoff=0.5)
             raise DomainError(
                 f"there is no parameter {name!r}",
                 where="--params",
-                todo=f"did you mean {near[0]!r}?" if near else f"use one of {', '.join(sorted(known))}",
+                todo=did_you_mean(
+                    str(name), sorted(known), f"use one of {', '.join(sorted(known))}", cutoff=0.5
+                ),
             )

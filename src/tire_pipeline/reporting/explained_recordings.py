@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import logging
 from collections.abc import Callable, Iterable, Mapping
-from difflib import get_close_matches
 from fnmatch import fnmatch
 from functools import partial
 from pathlib import PurePosixPath
@@ -15,7 +14,7 @@ import pandas as pd
 from pydantic import Field
 
 from tire_pipeline.code_hash import code_hash
-from tire_pipeline.errors import RecordingError
+from tire_pipeline.errors import RecordingError, did_you_mean
 from tire_pipeline.files.packed import unpack
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
@@ -191,11 +190,10 @@ def _check_effects(parameters: ExplainParameters) -> None:
     known = catalogue()
     for effect in [*parameters.without, *(each for rule in parameters.recordings for each in rule.without)]:
         if effect not in known:
-            near = get_close_matches(effect, known, n=1)
             raise RecordingError(
                 f"the catalogue has no effect {effect!r}",
                 where="explain_mismatch: without",
-                todo=f"did you mean {near[0]!r}?" if near else f"there are {', '.join(known)}",
+                todo=did_you_mean(effect, known, f"there are {', '.join(known)}"),
             )
 
 
@@ -204,11 +202,10 @@ def _chosen(recordings: Pairs, parameters: ExplainParameters) -> Pairs:
     patterns = [*parameters.only, *(rule.match for rule in parameters.recordings)]
     for pattern in patterns:
         if not any(_matches(name, pattern) for name in recordings):
-            near = get_close_matches(pattern, recordings, n=1)
             raise RecordingError(
                 f"{pattern!r} matches none of {len(recordings)} recordings",
                 where="explain_mismatch",
-                todo=f"did you mean {near[0]!r}?" if near else f"there is {next(iter(recordings))}",
+                todo=did_you_mean(pattern, recordings, f"there is {next(iter(recordings))}"),
             )
     if not parameters.only:
         return recordings

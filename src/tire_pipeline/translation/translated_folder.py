@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from difflib import get_close_matches
 from fnmatch import fnmatch
 from typing import Any
 
@@ -17,7 +16,7 @@ from tire_pipeline.classifiers.suppliers import (
     category_of,
     with_suppliers,
 )
-from tire_pipeline.errors import DomainError, TirePipelineError
+from tire_pipeline.errors import DomainError, TirePipelineError, did_you_mean
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.tasks import Map, in_blocks, in_turn
@@ -99,11 +98,10 @@ def chosen_files(files: Files, only: list[str]) -> dict[str, Callable[[], TireMo
     for pattern in only:
         if not any(matches(file, pattern) for file in files):
             folders = sorted({file.rpartition("/")[0] for file in files if "/" in file})
-            near = get_close_matches(pattern, [*folders, *files], n=1)
             raise DomainError(
                 f"only = {pattern!r} matches none of {len(files)} files",
                 where="translate",
-                todo=f"did you mean {near[0]!r}?" if near else f"suppliers are {', '.join(folders[:20])}",
+                todo=did_you_mean(pattern, [*folders, *files], f"suppliers are {', '.join(folders[:20])}"),
             )
     return {file: load for file, load in files.items() if any(matches(file, pattern) for pattern in only)}
 
