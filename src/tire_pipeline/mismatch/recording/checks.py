@@ -74,8 +74,8 @@ def _on_time(time: Array | None) -> list[str]:
     """What is to be said of the time from sample to sample."""
     if time is None:
         return [
-            "time is not recorded: rows that follow each other are taken for a run, others for steady points; "
-            "a channel that stuck would not show"
+            "time is not recorded: rows that follow each other are taken for a run, others for steady "
+            "points; a channel that stuck would not show"
         ]
     step = float(np.nanmedian(np.diff(time)))
     if step > _LONG_STEP:
