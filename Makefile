@@ -1,16 +1,17 @@
-# make run | make cluster | make quick | make test | make checks | make docs | make viz | make long | make bench | make lint | make coverage | make audit | make build | make schedule
+# make run | make cluster | make quick | make test | make checks | make test-and-checks | make docs | make viz | make long | make bench | make lint | make coverage | make audit | make build | make schedule
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 DATA := data
 DIST := dist
+EXTRAS ?= dev
 COMMA := ,
 export OMP_NUM_THREADS ?= 2
 export PYTHONUNBUFFERED = 1
 # Two processes, each file of tests in one of them, in the order of tests/conftest.py.
 TWO := -n 2 --dist loadfile --no-loadscope-reorder
 
-.PHONY: run cluster quick test checks docs lint long bench coverage audit build sbom viz viz-page schedule install
+.PHONY: run cluster quick test checks test-and-checks docs lint long bench coverage audit build sbom viz viz-page schedule install
 
 run: install
 	@if [ -z "$$(find $(DATA)/01_raw/tir -iname '*.tir' -print -quit 2>/dev/null)" ]; then \
@@ -30,6 +31,10 @@ test: install
 # What CI runs besides: more cases, whole runs, real recordings (tests/ci_only.txt).
 checks: install
 	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "ci and not long" $(TWO)
+
+# Both in one go, as CI does: what their tests share is made once.
+test-and-checks: install
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "not long" $(TWO)
 
 # Rates over many cases, and runs of an hour.
 long: install
@@ -113,5 +118,5 @@ $(VENV)/.installed: pyproject.toml requirements.lock
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	@echo "Installing (a few minutes the first time)"
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check torch==2.13.0 -c requirements.lock
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[dev]" -c requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[$(EXTRAS)]" -c requirements.lock
 	@touch $@
