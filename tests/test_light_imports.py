@@ -58,6 +58,13 @@ def test_a_run_loads_what_trains_and_draws_only_in_the_nodes_that_need_it():
     )
 
 
+def test_a_run_says_that_it_starts_before_what_is_slow_is_imported():
+    """Kedro imports these two before it calls the project's ``run``, which says so first."""
+    modules = loaded("import tire_pipeline.settings, tire_pipeline.cli")
+    assert "kedro" in modules
+    assert modules.isdisjoint({*HEAVY, *SLOW, "pandas", "numba"} - {"kedro"})
+
+
 def test_the_names_that_are_imported_on_demand_are_there():
     import tire_pipeline.mismatch as mismatch
 

@@ -25,6 +25,7 @@ def _run(**options: Any) -> Any:
         options["pipelines"], options["pipeline"] = [options["pipeline"]], None
     try:
         _check_names(options.get("pipelines") or ())
+        click.echo("starting: loading the pipelines", err=True)
         return kedro_run.callback(**options)  # type: ignore[misc]
     except Exception as error:
         line = one_line(error)

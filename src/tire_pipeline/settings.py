@@ -7,8 +7,8 @@ from tire_pipeline.kedro_runs.around_run import FolderHooks, RunLedgerHooks, Sig
 from tire_pipeline.kedro_runs.front_page import FrontPageHooks
 from tire_pipeline.kedro_runs.newest_tables import NewestTablesHooks
 from tire_pipeline.kedro_runs.node_progress import NodeProgressHooks
+from tire_pipeline.kedro_runs.thesis_grid import ThesisGridHooks
 from tire_pipeline.kedro_runs.unknown_parameters import UnknownParameterHooks
-from tire_pipeline.pipelines.reproduce_thesis.chosen_grid import ThesisGridHooks
 
 HOOKS = (
     UnknownParameterHooks(),

@@ -9,8 +9,9 @@ import pytest
 import yaml
 from kedro.pipeline import Pipeline
 
+from tire_pipeline.kedro_runs.thesis_grid import ThesisGridHooks
 from tire_pipeline.pipelines.reproduce_thesis import create_pipeline
-from tire_pipeline.pipelines.reproduce_thesis.chosen_grid import ThesisGridHooks, chosen_grid
+from tire_pipeline.pipelines.reproduce_thesis.chosen_grid import chosen_grid
 from tire_pipeline.thesis.parameters import GridParameters, ReproduceThesisParameters
 from tire_pipeline.translation.thesis.grid import CELLS
 

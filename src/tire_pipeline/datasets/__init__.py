@@ -1,18 +1,40 @@
 """Kedro datasets: tire property files and recordings, folders of them, model states, pages."""
 
-from tire_pipeline.datasets.models.release import ReleaseDataset
-from tire_pipeline.datasets.models.state import StateDataset
-from tire_pipeline.datasets.tables.csv_table import CsvTableDataset
-from tire_pipeline.datasets.tables.ingest_store import IngestStoreDataset
-from tire_pipeline.datasets.tables.table_parts import TablePartsDataset
-from tire_pipeline.datasets.texts.computed_folder import ComputedFolderDataset
-from tire_pipeline.datasets.texts.html_page import HtmlPageDataset
-from tire_pipeline.datasets.texts.made_files import MadeFilesDataset
-from tire_pipeline.datasets.texts.text_folder import TextFolderDataset
-from tire_pipeline.datasets.users_files.folder import FolderDataset
-from tire_pipeline.datasets.users_files.recording_folder import RecordingFolderDataset
-from tire_pipeline.datasets.users_files.tir_file import TirDataset
-from tire_pipeline.datasets.users_files.tir_folder import TirFolderDataset
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tire_pipeline.datasets.models.release import ReleaseDataset
+    from tire_pipeline.datasets.models.state import StateDataset
+    from tire_pipeline.datasets.tables.csv_table import CsvTableDataset
+    from tire_pipeline.datasets.tables.ingest_store import IngestStoreDataset
+    from tire_pipeline.datasets.tables.table_parts import TablePartsDataset
+    from tire_pipeline.datasets.texts.computed_folder import ComputedFolderDataset
+    from tire_pipeline.datasets.texts.html_page import HtmlPageDataset
+    from tire_pipeline.datasets.texts.made_files import MadeFilesDataset
+    from tire_pipeline.datasets.texts.text_folder import TextFolderDataset
+    from tire_pipeline.datasets.users_files.folder import FolderDataset
+    from tire_pipeline.datasets.users_files.recording_folder import RecordingFolderDataset
+    from tire_pipeline.datasets.users_files.tir_file import TirDataset
+    from tire_pipeline.datasets.users_files.tir_folder import TirFolderDataset
+
+_MODULES = {
+    "ComputedFolderDataset": "texts.computed_folder",
+    "CsvTableDataset": "tables.csv_table",
+    "FolderDataset": "users_files.folder",
+    "HtmlPageDataset": "texts.html_page",
+    "IngestStoreDataset": "tables.ingest_store",
+    "MadeFilesDataset": "texts.made_files",
+    "RecordingFolderDataset": "users_files.recording_folder",
+    "ReleaseDataset": "models.release",
+    "StateDataset": "models.state",
+    "TablePartsDataset": "tables.table_parts",
+    "TextFolderDataset": "texts.text_folder",
+    "TirDataset": "users_files.tir_file",
+    "TirFolderDataset": "users_files.tir_folder",
+}
 
 __all__ = [
     "ComputedFolderDataset",
@@ -29,3 +51,10 @@ __all__ = [
     "TirDataset",
     "TirFolderDataset",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import what is asked for, so that a run says that it starts before pandas and numba are loaded."""
+    if name in _MODULES:
+        return getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

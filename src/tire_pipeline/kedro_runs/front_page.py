@@ -9,10 +9,9 @@ from typing import Any
 
 from kedro.framework.hooks import hook_impl
 
-from tire_pipeline.datasets import HtmlPageDataset
+from tire_pipeline.datasets.texts.html_page import HtmlPageDataset
 from tire_pipeline.files.objects import Objects
 from tire_pipeline.kedro_runs.data_place import data_place
-from tire_pipeline.reporting.front import FRONT, front_page
 
 _REPORTS = "08_reporting"
 _BEGINNING = 40_000
@@ -42,6 +41,8 @@ class FrontPageHooks:
     @hook_impl(trylast=True)
     def after_pipeline_run(self) -> None:
         """Link what is there now, and say where."""
+        from tire_pipeline.reporting.front import FRONT, front_page  # slow to import
+
         if isinstance(self._folder, Objects):
             with tempfile.TemporaryDirectory() as copy:
                 _beginnings(self._folder, Path(copy))
