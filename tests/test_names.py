@@ -34,7 +34,7 @@ def _constants(module: ast.Module) -> list[str]:
     assigned = [each for each in module.body if isinstance(each, ast.Assign)]
     annotated = [each for each in module.body if isinstance(each, ast.AnnAssign) and each.value]
     targets = [target for each in assigned for target in each.targets] + [each.target for each in annotated]
-    names = [target.id for target in targets if isinstance(target, ast.Name)]
+    names = [each.id for target in targets for each in ast.walk(target) if isinstance(each, ast.Name)]
     return [name for name in names if name.isupper() and not name.startswith("_")]
 
 

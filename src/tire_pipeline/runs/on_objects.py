@@ -131,7 +131,7 @@ class ObjectLedger:
         return str(self.ticket.data)
 
     def look(self) -> list[tuple[Note, str]]:
-        """Every open note with a lower number and whether its run is ALIVE, DEAD or still UNKNOWN."""
+        """Every open note with a lower number and whether its run is ALIVE, DEAD or still UNDECIDED."""
         data, found = self.ticket.data, []
         for number, states in sorted(_states(data).items()):
             if "over" in states or "json" not in states or number >= self.ticket.note.number:

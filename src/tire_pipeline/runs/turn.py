@@ -20,7 +20,7 @@ _LOG = logging.getLogger(__name__)
 EXPIRY_SECONDS = 30.0
 _POLL_SECONDS = 0.5
 _BEATS = 4.0  # a run is not declared dead before it has missed so many of its own beats
-ALIVE, DEAD, UNKNOWN = "alive", "dead", "unknown"
+ALIVE, DEAD, UNDECIDED = "alive", "dead", "undecided"
 
 
 @dataclass
@@ -39,7 +39,7 @@ class Beats:
     _seen: dict[int, tuple[Hashable, float, bool]] = field(default_factory=dict)
 
     def state(self, note: Note, beat: Hashable) -> str:
-        """ALIVE, DEAD or UNKNOWN, from what the beat of a run is now."""
+        """ALIVE, DEAD or UNDECIDED, from what the beat of a run is now."""
         now = self.monotonic()
         before, since, moved = self._seen.get(note.number, (beat, now, False))
         if beat != before:
@@ -47,7 +47,7 @@ class Beats:
         self._seen[note.number] = (before, since, moved)
         if now - since >= max(self.expiry_seconds, _BEATS * note.beat_seconds):
             return DEAD
-        return ALIVE if moved else UNKNOWN
+        return ALIVE if moved else UNDECIDED
 
 
 @dataclass
@@ -79,7 +79,7 @@ class Watch:
         self._beats = Beats(self.expiry_seconds, self.monotonic)
 
     def look(self) -> list[tuple[Note, str]]:
-        """Every note with a lower number and whether its run is ALIVE, DEAD or still UNKNOWN."""
+        """Every note with a lower number and whether its run is ALIVE, DEAD or still UNDECIDED."""
         return [(note, self._state(note)) for note in open_notes(self.folder, self.own.number)]
 
     def _state(self, note: Note) -> str:
@@ -109,7 +109,7 @@ class Ledger(Protocol):
         ...
 
     def look(self) -> list[tuple[Note, str]]:
-        """Every note with a lower number and whether its run is ALIVE, DEAD or still UNKNOWN."""
+        """Every note with a lower number and whether its run is ALIVE, DEAD or still UNDECIDED."""
         ...
 
     def declare_dead(self, note: Note) -> None:
@@ -200,14 +200,14 @@ def take_turn(
         for note in (note for note, state in states if state == DEAD):
             ledger.declare_dead(note)
         living = [n for n, state in states if state == ALIVE and not (n.alongside or ticket.note.alongside)]
-        unknown = [note for note, state in states if state == UNKNOWN]
-        if not living and not unknown:
+        undecided = [note for note, state in states if state == UNDECIDED]
+        if not living and not undecided:
             ticket.check()
             ledger.again()
             return
         if living and monotonic() >= last:
             raise _refusal(living[0], ledger.where)
-        line = f"Waiting for {living[0]} to end." if living else f"Is {unknown[0]} still alive? Watching."
+        line = f"Waiting for {living[0]} to end." if living else f"Is {undecided[0]} still alive? Watching."
         if line not in said:
             said.add(line)
             _LOG.warning(line)

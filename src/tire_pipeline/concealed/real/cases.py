@@ -24,7 +24,7 @@ from tire_pipeline.concealed.real.put_in import (
     friction_work,
     put_in,
 )
-from tire_pipeline.concealed.real.sources import RADIUS, Pool, Sweep, pool
+from tire_pipeline.concealed.real.sources import UNLOADED_RADIUS, Pool, Sweep, pool
 from tire_pipeline.errors import DomainError, RecordingError
 from tire_pipeline.magic_formula import TireModel
 
@@ -224,7 +224,7 @@ def _session(formula: TireModel, layout: Layout, raw: pd.DataFrame) -> RecordedS
         work=max(work, 1e-9),
         largest=float(raw["fy"].abs().max()),
         opposing=float(np.sign(np.corrcoef(raw["slip_angle"], raw["fy"])[0, 1])) or 1.0,
-        radius=RADIUS[layout.shown[0].source],
+        radius=UNLOADED_RADIUS[layout.shown[0].source],
     )
 
 

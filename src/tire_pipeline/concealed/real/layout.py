@@ -12,7 +12,7 @@ from functools import lru_cache
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.concealed.real.sources import RADIUS, Sweep
+from tire_pipeline.concealed.real.sources import UNLOADED_RADIUS, Sweep
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 
@@ -176,7 +176,9 @@ def _fitted(chosen: tuple[Sweep, ...]) -> TireModel:
     channels = ["slip_angle", "normal_load", "fy"]
     channels += [name for name in ("camber", "pressure") if len(_of(name, chosen)) > 1]
     version = "6.1" if "pressure" in channels else "5.2"
-    model = fit_magic_formula(frame[channels], version, unloaded_radius=RADIUS[chosen[0].source]).model
+    model = fit_magic_formula(
+        frame[channels], version, unloaded_radius=UNLOADED_RADIUS[chosen[0].source]
+    ).model
     if "speed" in frame:
         model = model.replace(LONGVL=round(float(frame["speed"].mean()), 3))
     return model

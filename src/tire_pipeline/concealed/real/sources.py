@@ -24,7 +24,7 @@ from tire_pipeline.recordings import DART_CAR, axle_recording, read_dart, read_r
 
 Pool = Literal["development", "sealed"]
 SOURCES = ("calspan", "dart", "tydex")
-RADIUS = {"calspan": 0.2, "dart": 0.023, "tydex": 0.3}
+UNLOADED_RADIUS = {"calspan": 0.2, "dart": 0.023, "tydex": 0.3}
 """Of the wheel, m: every property file states it."""
 
 LIST = "development.csv"

@@ -60,12 +60,12 @@ def open_coefficients(
             _spread(points["pressure"])
             <= share * MIN_PRESSURE_SPREAD * max(np.median(points["pressure"]), 1.0),
             "one pressure only",
-            stages.PRESSURE,
+            stages.BY_PRESSURE,
         ),
         (
             _spread(points["speed"]) <= share * MIN_SPEED_SPREAD * max(np.median(points["speed"]), 1.0),
             "one speed only",
-            stages.SPEED,
+            stages.BY_SPEED,
         ),
     ]
     found: dict[str, list[str]] = {}

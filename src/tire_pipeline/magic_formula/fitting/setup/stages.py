@@ -187,8 +187,10 @@ ONE_SIDED_SLIP = frozenset(["PHY1", "PHY2", "PVY1", "PVY2", "PEY3", "QDZ6", "QDZ
 """Coefficients that need slip angles of both signs."""
 ONE_SIDED_RATIO = frozenset(["PHX1", "PHX2", "PVX1", "PVX2", "PEX4"])
 """Coefficients that need slip ratios of both signs."""
-PRESSURE = frozenset(["PPY1", "PPY2", "PPY3", "PPY4", "PPY5", "PPX1", "PPX2", "PPX3", "PPX4", "PPZ1", "PPZ2"])
-SPEED = frozenset(["QSY3", "QSY4"])
+BY_PRESSURE = frozenset(
+    ["PPY1", "PPY2", "PPY3", "PPY4", "PPY5", "PPX1", "PPX2", "PPX3", "PPX4", "PPZ1", "PPZ2"]
+)
+BY_SPEED = frozenset(["QSY3", "QSY4"])
 
 
 @dataclass(frozen=True)
