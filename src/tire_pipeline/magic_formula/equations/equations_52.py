@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from tire_pipeline.magic_formula.equations.jit import jitable
 from tire_pipeline.magic_formula.equations.ops import (
-    TWO_OVER_PI,
     absolute,
     arctan,
     cos,
@@ -25,6 +24,9 @@ from tire_pipeline.magic_formula.equations.shapes import (
     equivalent_slip,
     sign,
     sine_curve,
+    trail_curvature_factor,
+    trail_slip,
+    trail_stiffness_factor,
     weight,
 )
 
@@ -98,13 +100,8 @@ def combined_lateral(p, fy0, muy, alpha, kappa, gamma, fz, dfz):
 def pneumatic_trail(p, alpha, ratio, kappa, gamma, fz, dfz):
     """Return the trail t (A.29, A.30, A.34 to A.39, A.64, A.68); E_t takes alpha_t, the curve alpha_t,eq."""
     gamma_z = gamma * p.LGAZ
-    alpha_t = alpha + p.QHZ1 + p.QHZ2 * dfz + (p.QHZ3 + p.QHZ4 * dfz) * gamma_z
-    bt = (
-        (p.QBZ1 + p.QBZ2 * dfz + p.QBZ3 * dfz * dfz)
-        * (1.0 + p.QBZ4 * gamma_z + p.QBZ5 * absolute(gamma_z))
-        * p.LKY
-        / p.LMUY
-    )
+    alpha_t = trail_slip(p, alpha, gamma_z, dfz)
+    bt = trail_stiffness_factor(p, gamma_z, dfz)
     dt = (
         fz
         * (p.QDZ1 + p.QDZ2 * dfz)
@@ -112,9 +109,7 @@ def pneumatic_trail(p, alpha, ratio, kappa, gamma, fz, dfz):
         * (p.UNLOADED_RADIUS / p.FNOMIN)
         * p.LTR
     )
-    et = (p.QEZ1 + p.QEZ2 * dfz + p.QEZ3 * dfz * dfz) * (
-        1.0 + (p.QEZ4 + p.QEZ5 * gamma_z) * TWO_OVER_PI * arctan(bt * p.QCZ1 * alpha_t)
-    )
+    et = trail_curvature_factor(p, bt, alpha_t, gamma_z, dfz)
     alpha_eq = equivalent_slip(alpha_t, ratio, kappa)
     return dt * cosine_curve(bt, p.QCZ1, minimum(et, 1.0), alpha_eq) * cos(alpha)
 

@@ -11,7 +11,6 @@ from collections import namedtuple
 
 from tire_pipeline.magic_formula.equations.jit import jitable
 from tire_pipeline.magic_formula.equations.ops import (
-    TWO_OVER_PI,
     absolute,
     arctan,
     cos,
@@ -29,6 +28,9 @@ from tire_pipeline.magic_formula.equations.shapes import (
     equivalent_slip,
     sign,
     sine_curve,
+    trail_curvature_factor,
+    trail_slip,
+    trail_stiffness_factor,
     weight,
 )
 
@@ -151,13 +153,8 @@ def slip_ratio_side_force(p, muy, alpha, kappa, gamma, fz, dfz, z2):
 @jitable
 def pneumatic_trail(p, alpha, ratio, kappa, gamma, fz, dfz, dpi, direction, z):
     """Return the trail t (4.E34, 4.E35, 4.E40 to 4.E44, 4.E73, 4.E77), camber terms as in MF-Tyre."""
-    alpha_t = alpha + p.QHZ1 + p.QHZ2 * dfz + (p.QHZ3 + p.QHZ4 * dfz) * gamma
-    bt = (
-        (p.QBZ1 + p.QBZ2 * dfz + p.QBZ3 * dfz * dfz)
-        * (1.0 + p.QBZ4 * gamma + p.QBZ5 * absolute(gamma))
-        * p.LKY
-        / p.LMUY
-    )
+    alpha_t = trail_slip(p, alpha, gamma, dfz)
+    bt = trail_stiffness_factor(p, gamma, dfz)
     dt = (
         fz
         * (p.UNLOADED_RADIUS / p.FNOMIN)
@@ -168,9 +165,7 @@ def pneumatic_trail(p, alpha, ratio, kappa, gamma, fz, dfz, dpi, direction, z):
         * direction
         * z.z5
     )
-    et = (p.QEZ1 + p.QEZ2 * dfz + p.QEZ3 * dfz * dfz) * (
-        1.0 + (p.QEZ4 + p.QEZ5 * gamma) * TWO_OVER_PI * arctan(bt * p.QCZ1 * alpha_t)
-    )
+    et = trail_curvature_factor(p, bt, alpha_t, gamma, dfz)
     alpha_eq = equivalent_slip(alpha_t, ratio, kappa)
     return dt * cosine_curve(bt, p.QCZ1, minimum(et, 1.0), alpha_eq) * cos(alpha)
 

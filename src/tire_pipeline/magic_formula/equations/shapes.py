@@ -5,6 +5,7 @@ from __future__ import annotations
 from tire_pipeline.magic_formula.equations.jit import jitable
 from tire_pipeline.magic_formula.equations.ops import (
     HUGE,
+    TWO_OVER_PI,
     absolute,
     arctan,
     cos,
@@ -82,3 +83,28 @@ def equivalent_slip(alpha, ratio, kappa):
 def magnitude(x):
     """Return the magnitude of x."""
     return absolute(x)
+
+
+@jitable
+def trail_slip(p, alpha, gamma, dfz):
+    """Return alpha_t = alpha + S_Ht, the slip angle that the trail follows."""
+    return alpha + p.QHZ1 + p.QHZ2 * dfz + (p.QHZ3 + p.QHZ4 * dfz) * gamma
+
+
+@jitable
+def trail_stiffness_factor(p, gamma, dfz):
+    """Return B_t, the stiffness factor of the trail."""
+    return (
+        (p.QBZ1 + p.QBZ2 * dfz + p.QBZ3 * dfz * dfz)
+        * (1.0 + p.QBZ4 * gamma + p.QBZ5 * absolute(gamma))
+        * p.LKY
+        / p.LMUY
+    )
+
+
+@jitable
+def trail_curvature_factor(p, bt, alpha_t, gamma, dfz):
+    """Return E_t, the curvature factor of the trail, not yet bounded by 1."""
+    return (p.QEZ1 + p.QEZ2 * dfz + p.QEZ3 * dfz * dfz) * (
+        1.0 + (p.QEZ4 + p.QEZ5 * gamma) * TWO_OVER_PI * arctan(bt * p.QCZ1 * alpha_t)
+    )
