@@ -6,7 +6,7 @@ import hashlib
 import io
 import json
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -26,6 +26,21 @@ def without_prefix(prefix: str, state: Mapping[str, Any]) -> dict[str, Any]:
     """Give the part of a state that :func:`prefixed` put into it."""
     start = f"{prefix}."
     return {name[len(start) :]: value for name, value in state.items() if name.startswith(start)}
+
+
+def layers_to_state(layers: Iterable[tuple[np.ndarray, np.ndarray]]) -> dict[str, Any]:
+    """Give weight and bias of a network's layers by numbered names."""
+    state = {}
+    for index, (weight, bias) in enumerate(layers):
+        state[f"weight_{index}"] = weight
+        state[f"bias_{index}"] = bias
+    return state
+
+
+def layers_from_state(state: Mapping[str, Any]) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Give the layers that :func:`layers_to_state` put into a state, whatever else is in it."""
+    n_layers = sum(name.startswith("weight_") for name in state)
+    return [(np.asarray(state[f"weight_{i}"]), np.asarray(state[f"bias_{i}"])) for i in range(n_layers)]
 
 
 def pack_state(state: dict[str, Any]) -> bytes:

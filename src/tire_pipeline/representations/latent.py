@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.state_files import layers_from_state, layers_to_state
 from tire_pipeline.representations.base import CURVE_LOADS, CURVE_SLIP_ANGLES
 from tire_pipeline.representations.curve_fit import fit_lateral
 from tire_pipeline.representations.lateral_curve import lateral_factors, lateral_force
@@ -106,10 +107,7 @@ class Latent:
             "mean": self.mean,
             "scale": self.scale,
         }
-        for index, (weight, bias) in enumerate(self.layers):
-            state[f"weight_{index}"] = weight
-            state[f"bias_{index}"] = bias
-        return state
+        return state | layers_to_state(self.layers)
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
@@ -122,10 +120,7 @@ class Latent:
         )
         back.mean = np.asarray(state["mean"], dtype=float)
         back.scale = float(state["scale"])
-        back.layers = [
-            (np.asarray(state[f"weight_{i}"], float), np.asarray(state[f"bias_{i}"], float))
-            for i in range(_LAYERS)
-        ]
+        back.layers = layers_from_state(state)
         return back
 
     def _check_fitted(self) -> None:

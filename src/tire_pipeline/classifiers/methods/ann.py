@@ -10,6 +10,7 @@ import numpy as np
 from tire_pipeline.classifiers.methods.gradient_boosting import softmax
 from tire_pipeline.classifiers.methods.oversampling import oversample
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.state_files import layers_from_state, layers_to_state
 
 
 class Ann:
@@ -112,10 +113,7 @@ class Ann:
             "scale": self.scale,
             "n_layers": len(self.layers),
         }
-        for index, (weight, bias) in enumerate(self.layers):
-            state[f"weight_{index}"] = weight
-            state[f"bias_{index}"] = bias
-        return state
+        return state | layers_to_state(self.layers)
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
@@ -124,10 +122,7 @@ class Ann:
         back.classes_ = np.asarray(state["classes"]).astype(str)
         back.mean = np.asarray(state["mean"], dtype=float)
         back.scale = np.asarray(state["scale"], dtype=float)
-        back.layers = [
-            (np.asarray(state[f"weight_{i}"]), np.asarray(state[f"bias_{i}"]))
-            for i in range(int(state["n_layers"]))
-        ]
+        back.layers = layers_from_state(state)
         return back
 
 

@@ -6,6 +6,7 @@ rows at a time, thousands of times a second.
 
 from __future__ import annotations
 
+from collections import namedtuple
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -17,7 +18,8 @@ try:
 except ImportError:  # numba is a dependency; this keeps a broken one from stopping the pipeline
     njit = None  # type: ignore[assignment]
 
-_ARRAYS = ("feature", "threshold", "left", "right", "value", "roots")
+ForestArrays = namedtuple("ForestArrays", ["feature", "threshold", "left", "right", "value", "roots"])
+ForestArrays.__doc__ = "The arrays of a :class:`CompiledForest`, as compiled code takes them."
 
 
 @dataclass(frozen=True)
@@ -61,7 +63,7 @@ class CompiledForest:
         if njit is None:
             return self.sums_without_numba(rows)
         out = np.zeros((len(rows), self.value.shape[1]))
-        add_leaves(rows, *self.arrays(), out)  # type: ignore[call-arg]
+        add_leaves(rows, self.arrays(), out)
         return out
 
     def sums_without_numba(self, features: np.ndarray) -> np.ndarray:
@@ -78,18 +80,18 @@ class CompiledForest:
             child = np.where(goes_left, self.left[node], self.right[node])
             node = np.where(inner, child, node)
 
-    def arrays(self) -> tuple[np.ndarray, ...]:
-        """Give the arrays in the order of the attributes, for compiled code."""
-        return tuple(getattr(self, name) for name in _ARRAYS)
+    def arrays(self) -> ForestArrays:
+        """Give the arrays, for compiled code."""
+        return ForestArrays(**self.to_state())
 
     def to_state(self) -> dict[str, np.ndarray]:
         """Give the arrays by name."""
-        return {name: getattr(self, name) for name in _ARRAYS}
+        return {name: getattr(self, name) for name in ForestArrays._fields}
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> CompiledForest:
         """Bring back what :meth:`to_state` gave."""
-        return cls(**{name: np.asarray(state[name]) for name in _ARRAYS})
+        return cls(**{name: np.asarray(state[name]) for name in ForestArrays._fields})
 
 
 def compile_trees(trees: Sequence[Any], values: Sequence[np.ndarray]) -> CompiledForest:
@@ -132,8 +134,9 @@ def compile_forest(forest: Any) -> CompiledForest:
 if njit is not None:
 
     @njit(cache=True, nogil=True)
-    def add_leaves(rows, feature, threshold, left, right, value, roots, out):  # type: ignore[no-untyped-def]
-        """Add to ``out`` (n, outputs) the leaves that the ``rows`` (n, d) fall into."""
+    def add_leaves(rows, forest, out):  # type: ignore[no-untyped-def]
+        """Add to ``out`` (n, outputs) the leaves of the forest that the ``rows`` (n, d) fall into."""
+        feature, threshold, left, right, value, roots = forest
         for row in range(rows.shape[0]):
             for root in roots:
                 node = root

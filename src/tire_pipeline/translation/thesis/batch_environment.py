@@ -46,16 +46,7 @@ class BatchEnv(VecEnv):
         self.rules = rules
         real = np.array([rules.is_real(state) for state in self.starts])
         self._start_values = np.where(real, forest.sums(self.starts)[:, rules.target], 0.0)
-        self._constants = (
-            rules.reward == "maximize_reward",
-            rules.n_bins,
-            rules.target,
-            rules.patience,
-            rules.max_steps,
-            np.ascontiguousarray(rules.real_features, dtype=np.int64).reshape(-1, 3),
-            np.ascontiguousarray(rules.real_lookup, dtype=np.bool_),
-            *forest.arrays(),
-        )
+        self._constants = (rules.for_compiled_code(), forest.arrays())
         self._random = np.random.default_rng(seed)
         self._states = np.zeros((n_envs, rules.n_features), dtype=np.int64)
         self._best = np.zeros(n_envs)

@@ -10,35 +10,18 @@ from tire_pipeline.translation.thesis.rules import OUT_OF_BOUNDS, REACHED, STEP
 
 
 @njit(cache=True, nogil=True)
-def is_real(state, real_features, real_lookup):  # type: ignore[no-untyped-def]
+def is_real(state, rules):  # type: ignore[no-untyped-def]
     """Tell whether one state has a real solution."""
-    for group in range(real_features.shape[0]):
-        a = state[real_features[group, 0]]
-        b = state[real_features[group, 1]]
-        c = state[real_features[group, 2]]
-        if not real_lookup[group, a, b, c]:
+    features = rules.real_features
+    for group in range(features.shape[0]):
+        a, b, c = state[features[group, 0]], state[features[group, 1]], state[features[group, 2]]
+        if not rules.real_lookup[group, a, b, c]:
             return False
     return True
 
 
 @njit(cache=True, nogil=True)
-def move(  # type: ignore[no-untyped-def]
-    state,
-    action,
-    best,
-    n_bins,
-    target,
-    real_features,
-    real_lookup,
-    row,
-    sums,
-    feature,
-    threshold,
-    left,
-    right,
-    value,
-    roots,
-):
+def move(state, action, best, row, sums, rules, forest):  # type: ignore[no-untyped-def]
     """Move one tire, and give its reward, what its valuation gained, and whether the target is reached.
 
     Parameters
@@ -48,51 +31,28 @@ def move(  # type: ignore[no-untyped-def]
     action : int
     best : float
         Highest valuation seen.
-    n_bins, target, real_features, real_lookup
-        See ``Rules``.
     row : float32, shape (1, d); sums : float64, shape (1, classes)
         Written: what the forest reads and adds to.
-    feature, threshold, left, right, value, roots
-        See ``CompiledForest``.
+    rules : RulesForCompiledCode
+    forest : ForestArrays
     """
     moved = action // 2
     wanted = state[moved] + (1 if action % 2 == 1 else -1)
-    if wanted < 0 or wanted >= n_bins:
+    if wanted < 0 or wanted >= rules.n_bins:
         return OUT_OF_BOUNDS, 0.0, False
     state[moved] = wanted
-    if not is_real(state, real_features, real_lookup):
+    if not is_real(state, rules):
         return STEP, 0.0, False
     for k in range(state.shape[0]):
         row[0, k] = state[k]
     sums[:] = 0.0
-    add_leaves(row, feature, threshold, left, right, value, roots, sums)
-    return STEP, sums[0, target] - best, np.argmax(sums[0]) == target
+    add_leaves(row, forest, sums)
+    return STEP, sums[0, rules.target] - best, np.argmax(sums[0]) == rules.target
 
 
 @njit(cache=True, nogil=True)
 def advance(  # type: ignore[no-untyped-def]
-    actions,
-    states,
-    best,
-    without_improvement,
-    steps,
-    rewards,
-    ended,
-    cut,
-    frozen,
-    maximize,
-    n_bins,
-    target,
-    patience,
-    max_steps,
-    real_features,
-    real_lookup,
-    feature,
-    threshold,
-    left,
-    right,
-    value,
-    roots,
+    actions, states, best, without_improvement, steps, rewards, ended, cut, frozen, rules, forest
 ):
     """Move N tires by one action each; every array but the rules and the forest is written.
 
@@ -108,36 +68,29 @@ def advance(  # type: ignore[no-untyped-def]
         Episode over by the rules, or by ``max_steps``.
     frozen : bool, shape (N,)
         Tires that do not move.
-    maximize : bool
-        *Maximize Reward*, else *Reach Target Fast*.
-    n_bins, target, patience, max_steps, real_features, real_lookup
-        See ``Rules``.
-    feature, threshold, left, right, value, roots
-        See ``CompiledForest``.
+    rules : RulesForCompiledCode
+    forest : ForestArrays
     """
     row = np.empty((1, states.shape[1]), dtype=np.float32)
-    sums = np.empty((1, value.shape[1]))
-    forest = (feature, threshold, left, right, value, roots)
+    sums = np.empty((1, forest.value.shape[1]))
     for i in range(states.shape[0]):
         ended[i] = False
         cut[i] = False
         rewards[i] = 0.0
         if frozen[i]:
             continue
-        rewards[i], gained, reached = move(
-            states[i], actions[i], best[i], n_bins, target, real_features, real_lookup, row, sums, *forest
-        )
+        rewards[i], gained, reached = move(states[i], actions[i], best[i], row, sums, rules, forest)
         if gained > 0:
             best[i] += gained
             without_improvement[i] = 0
         else:
             without_improvement[i] += 1
-        if maximize:
+        if rules.maximize:
             if gained > 0:
                 rewards[i] = STEP + gained
-            ended[i] = without_improvement[i] >= patience
+            ended[i] = without_improvement[i] >= rules.patience
         elif reached:
             rewards[i] = REACHED
             ended[i] = True
         steps[i] += 1
-        cut[i] = steps[i] >= max_steps and not ended[i]
+        cut[i] = steps[i] >= rules.max_steps and not ended[i]

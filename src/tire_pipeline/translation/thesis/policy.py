@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.files.state_files import layers_from_state, layers_to_state
+
 _LAYERS = ("mlp_extractor.policy_net.0", "mlp_extractor.policy_net.2", "action_net")
 
 
@@ -63,16 +65,9 @@ class GreedyPolicy:
 
     def to_state(self) -> dict[str, Any]:
         """Give the weights."""
-        state: dict[str, Any] = {"n_bins": self.n_bins}
-        for index, (weight, bias) in enumerate(self.layers):
-            state[f"weight_{index}"] = weight
-            state[f"bias_{index}"] = bias
-        return state
+        return {"n_bins": self.n_bins} | layers_to_state(self.layers)
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> GreedyPolicy:
         """Bring back what :meth:`to_state` gave."""
-        layers = [
-            (np.asarray(state[f"weight_{i}"]), np.asarray(state[f"bias_{i}"])) for i in range(len(_LAYERS))
-        ]
-        return cls(layers, int(state["n_bins"]))
+        return cls(layers_from_state(state), int(state["n_bins"]))

@@ -55,7 +55,8 @@ def roll_out(policy: GreedyPolicy, starts: np.ndarray, forest: CompiledForest, r
 
     m = len(starts)
     states = np.ascontiguousarray(starts, dtype=np.int64).copy()
-    maximize = rules.reward == "maximize_reward"
+    compiled_rules, trees = rules.for_compiled_code(), forest.arrays()
+    maximize = compiled_rules.maximize
     probabilities = forest.sums(states)
     real = np.array([rules.is_real(state) for state in states], dtype=bool)
     start_valuations = np.where(real, probabilities[:, rules.target], 0.0)
@@ -71,13 +72,7 @@ def roll_out(policy: GreedyPolicy, starts: np.ndarray, forest: CompiledForest, r
         actions = policy.actions(states).astype(np.int64)
         counts += np.bincount(actions[~frozen], minlength=rules.n_actions)
         before = best.copy()
-        advance(
-            actions, states, best, without, steps, rewards, ended, cut, frozen, maximize,
-            rules.n_bins, rules.target, rules.patience, rules.max_steps,
-            np.ascontiguousarray(rules.real_features, dtype=np.int64).reshape(-1, 3),
-            np.ascontiguousarray(rules.real_lookup, dtype=np.bool_),
-            *forest.arrays(),
-        )  # fmt: skip
+        advance(actions, states, best, without, steps, rewards, ended, cut, frozen, compiled_rules, trees)
         keep = best > before
         if not maximize:
             keep |= ended

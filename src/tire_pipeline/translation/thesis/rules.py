@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -36,6 +36,18 @@ def _everything_is_real() -> np.ndarray:
 
 def _no_groups() -> np.ndarray:
     return np.zeros((0, 3), dtype=np.int64)
+
+
+class RulesForCompiledCode(NamedTuple):
+    """What of :class:`Rules` compiled code reads; ``maximize`` says *Maximize Reward*."""
+
+    maximize: bool
+    n_bins: int
+    target: int
+    patience: int
+    max_steps: int
+    real_features: np.ndarray
+    real_lookup: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -86,6 +98,18 @@ class Rules:
         return all(
             self.real_lookup[group, state[a], state[b], state[c]]
             for group, (a, b, c) in enumerate(self.real_features)
+        )
+
+    def for_compiled_code(self) -> RulesForCompiledCode:
+        """Give the rules as numba takes them."""
+        return RulesForCompiledCode(
+            self.reward == "maximize_reward",
+            self.n_bins,
+            self.target,
+            self.patience,
+            self.max_steps,
+            np.ascontiguousarray(self.real_features, dtype=np.int64).reshape(-1, 3),
+            np.ascontiguousarray(self.real_lookup, dtype=np.bool_),
         )
 
     def to_state(self) -> dict[str, Any]:
