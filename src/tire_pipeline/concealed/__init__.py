@@ -2,6 +2,9 @@
 
 A brush tire that is no Magic Formula is run on a rig with an effect that its ``.tir`` leaves out.
 See ``docs/explanation/concealed.md``.
+
+``second`` stays one flat folder: its published hash covers names and import lines, so a move would end the
+proof that it is what it was before the engine. The order in which it reads is a rule of import-linter.
 """
 
 from tire_pipeline.concealed.cases.answers import Answer, EffectTruth, seal, unseal
