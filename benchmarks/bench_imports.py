@@ -2,7 +2,7 @@
 
 Processor time, as other programs may run meanwhile. The first run of each, which may compile, is not counted;
 the least and the median of the others are given, and that of ``import numpy, pandas, numba``, which no change
-of ours makes faster. Bytecode is kept even where ``PYTHONDONTWRITEBYTECODE`` is set: each run would be a first.
+of ours makes faster. Bytecode is kept even where ``PYTHONDONTWRITEBYTECODE`` is set.
 
 Run: python benchmarks/bench_imports.py [--rounds 7]
 """
