@@ -7,11 +7,14 @@ import re
 import subprocess
 import sys
 import time
+from dataclasses import dataclass
+from functools import partial
 
 import pytest
 
 from tire_pipeline import progress_display
 from tire_pipeline.progress import silent, track, under_way
+from tire_pipeline.tasks import in_turn
 
 PATIENCE_SECONDS = 30.0
 
@@ -74,6 +77,25 @@ def test_what_cannot_be_counted_is_shown_with_its_time(monkeypatch, terminal):
     with under_way("thinking"):
         stream.wait_for("thinking")
     assert "?" not in stream.text()
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_tasks_that_take_long_are_named_while_they_are_done(monkeypatch, terminal):
+    stream = errors_to(monkeypatch, terminal=terminal)
+    tasks = {name: partial(stream.wait_for, f"trying ({name})") for name in ("this", "that")}
+    tasks["12ab.zip"] = WithLabel(stream, "a run")
+    assert [done.error for done in in_turn(tasks, "trying")] == [None] * 3
+
+
+@dataclass
+class WithLabel:
+    """A task that has another name for people."""
+
+    stream: Stream
+    label: str
+
+    def __call__(self) -> None:
+        self.stream.wait_for(f"trying ({self.label})")
 
 
 def test_of_loops_within_each_other_the_innermost_has_the_one_row(monkeypatch):
@@ -170,7 +192,8 @@ def slow():
     progress_display.TICK_SECONDS = 0.01
     for _ in track(range(20), "steps of a task"):
         time.sleep(0.02)
-tasks = {str(number): slow for number in range(int(sys.argv[1]))}
+tasks = {f"task {number}": slow for number in range(int(sys.argv[1]))}
+progress_display.SHOW_AFTER_SECONDS = progress_display.LINE_EVERY_SECONDS = 0.0
 list(in_processes(2)(tasks, "tasks"))
 """
 
@@ -180,3 +203,4 @@ def test_processes_of_a_pool_show_steps_only_where_each_has_one_task(tasks, step
     command = [sys.executable, "-c", IN_PROCESSES, str(tasks)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
     assert ("steps of a task" in done.stderr) == steps
+    assert "tasks (task 0; task 1): 0/" in done.stderr

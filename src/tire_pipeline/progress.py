@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import contextmanager
 from typing import TypeVar
 
@@ -11,7 +11,9 @@ from tire_pipeline.progress_display import DISPLAY, Activity
 T = TypeVar("T")
 
 
-def track(items: Iterable[T], what: str, total: int | None = None) -> Generator[T, None, None]:
+def track(
+    items: Iterable[T], what: str, total: int | None = None, now_at: Callable[[], str] | None = None
+) -> Generator[T, None, None]:
     """Yield the items and show progress, with a rate and the time left, once two seconds have passed.
 
     On a terminal it is a bar on standard error; elsewhere (a log, CI, a process that shares the terminal with
@@ -24,6 +26,8 @@ def track(items: Iterable[T], what: str, total: int | None = None) -> Generator[
         What is being done, for the label.
     total : int, optional
         How many there are, if ``items`` has no length.
+    now_at : callable, optional
+        Returns what is under way at the moment, for the label.
 
     Examples
     --------
@@ -32,7 +36,7 @@ def track(items: Iterable[T], what: str, total: int | None = None) -> Generator[
     """
     if total is None and hasattr(items, "__len__"):
         total = len(items)  # type: ignore[arg-type]
-    activity = Activity(what, total)
+    activity = Activity(what, total, now_at=now_at)
     DISPLAY.enter(activity)
     try:
         for item in items:

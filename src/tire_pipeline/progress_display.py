@@ -10,6 +10,7 @@ import os
 import sys
 import threading
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from multiprocessing import current_process
@@ -38,6 +39,8 @@ class Activity:
     counted : bool
     done : int
     began : float
+    now_at : callable or None
+        Returns what is under way at the moment.
     """
 
     what: str
@@ -45,6 +48,12 @@ class Activity:
     counted: bool = True
     done: int = 0
     began: float = field(default_factory=time.monotonic)
+    now_at: Callable[[], str] | None = None
+
+    def label(self) -> str:
+        """What is being done, and what of it at the moment."""
+        at = self.now_at() if self.now_at is not None else ""
+        return f"{self.what} ({at})" if at else self.what
 
     def count(self) -> str:
         """How many are done of how many."""
@@ -58,13 +67,13 @@ class Activity:
         """All of it, for a log."""
         seconds = now - self.began
         if not self.counted:
-            return f"{self.what}: {seconds:.0f} s so far"
+            return f"{self.label()}: {seconds:.0f} s so far"
         known = [f"{seconds:.0f} s so far"]
         if self.done:
             known = [self.pace(now)]
         if self.done and self.total:
             known.append(f"{(self.total - self.done) * seconds / self.done:.0f} s left")
-        return f"{self.what}: {self.count()} ({', '.join(known)})"
+        return f"{self.label()}: {self.count()} ({', '.join(known)})"
 
 
 def pace(done: int, seconds: float) -> str:
@@ -175,6 +184,7 @@ class Display:
             self._shown = (activity, task)
         self._row.update(
             self._shown[1],
+            description=activity.label(),
             completed=activity.done,
             visible=True,
             count=activity.count(),

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 _T = TypeVar("_T")
 _T_co = TypeVar("_T_co", covariant=True)
 _LOG = logging.getLogger(__name__)
+_LABELS_SHOWN = 4
 
 
 class LostTaskError(DomainError):
@@ -103,9 +104,29 @@ def _pools(modules: int) -> ThreadpoolController:
     return ThreadpoolController()
 
 
-def shown(done: Iterator[Done[_T]], what: str, total: int) -> Iterator[Done[_T]]:
-    """The same, with progress in the terminal, and a line for each task that failed."""
-    for each in track(done, what, total=total):
+def shown(
+    done: Iterator[Done[_T]], what: str, tasks: Mapping[str, Task[_T]], at_once: int
+) -> Iterator[Done[_T]]:
+    """The same, with progress in the terminal, and a line for each task that failed.
+
+    Parameters
+    ----------
+    done : iterator
+    what : str
+        The label.
+    tasks : mapping
+        In the order in which they are begun. A task is shown by its name, or by its ``label``.
+    at_once : int
+        How many are under way at the same time; zero if it is not known which.
+    """
+    waiting = {name: getattr(task, "label", name) for name, task in tasks.items()}
+
+    def now_at() -> str:
+        named = list(waiting.values())[:at_once] if at_once <= _LABELS_SHOWN else []
+        return "; ".join(filter(None, named))
+
+    for each in track(done, what, total=len(tasks), now_at=now_at):
+        waiting.pop(each.name, None)
         if each.error is not None:
             _LOG.warning("%s: %s: %s", what, each.name, each.error)
         yield each
@@ -119,7 +140,7 @@ def in_turn(tasks: Mapping[str, Task[_T]], what: str) -> Iterator[Done[_T]]:
     >>> [(each.name, each.result()) for each in in_turn({"a": lambda: 1}, "counting")]
     [('a', 1)]
     """
-    yield from shown((attempt(name, task) for name, task in tasks.items()), what, len(tasks))
+    yield from shown((attempt(name, task) for name, task in tasks.items()), what, tasks, 1)
 
 
 def attempt_in_silence(name: str, task: Task[_T]) -> Done[_T]:
@@ -149,7 +170,7 @@ def in_processes(count: int) -> Map:
         one_each = len(tasks) <= count  # how many are done says nothing until the end
         doing = attempt if one_each else attempt_in_silence
         done = parallel(delayed(doing)(name, task) for name, task in tasks.items())
-        yield from shown(done, what, len(tasks))
+        yield from shown(done, what, tasks, count)
 
     return work
 
@@ -171,6 +192,7 @@ class Block(Generic[_T]):
     """
 
     tasks: Mapping[str, Task[_T]]
+    label = ""
 
     def __call__(self) -> dict[str, Done[_T]]:
         """Do all; one that fails does not stop the others."""

@@ -56,7 +56,9 @@ def score_classifiers(
     for name, split in product(NAMES, SPLITS):
         rows = split_rows(features, splits, split)
         options = {"seeds": seeds, **parameters.options(name)}
-        tasks[f"{name}, {split}"] = partial(evaluate_classifier, name, values, labels, *rows, **options)
+        tasks[f"{name} on split {split}".replace("_", " ")] = partial(
+            evaluate_classifier, name, values, labels, *rows, **options
+        )
     done = all_done(work, tasks, "training classifiers").values()
     scored = [
         _score_row("as they are", name, split, parameters, each.result())

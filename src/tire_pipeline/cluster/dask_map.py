@@ -172,7 +172,7 @@ class _DaskMap:
         self._address = address
 
     def __call__(self, tasks: Mapping[str, Task[_T]], what: str) -> Iterator[Done[_T]]:
-        yield from shown(self._done(tasks, what), what, len(tasks))
+        yield from shown(self._done(tasks, what), what, tasks, at_once=0)
 
     def _done(self, tasks: Mapping[str, Task[_T]], what: str) -> Iterator[Done[_T]]:
         from distributed import KilledWorker, as_completed

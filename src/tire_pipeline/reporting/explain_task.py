@@ -53,6 +53,11 @@ class ExplainTask:
     without: tuple[str, ...] = ()
 
     @property
+    def label(self) -> str:
+        """What progress calls it."""
+        return self.name
+
+    @property
     def key(self) -> str:
         """A hash of all that the result depends on; another one each time where a reader cannot tell."""
         sizes = json.dumps(self.learnt.to_dict(), sort_keys=True)

@@ -49,6 +49,7 @@ class ReadBlock:
     """
 
     files: Mapping[str, Load]
+    label = ""
 
     def __call__(self) -> TablePart:
         """Read them; one that cannot be read has its reason in the report."""
