@@ -20,6 +20,8 @@ _T = TypeVar("_T")
 _T_co = TypeVar("_T_co", covariant=True)
 _LOG = logging.getLogger(__name__)
 _LABELS_SHOWN = 4
+_WAITING: set[int] = set()
+"""How many processes wait for more tasks."""
 
 
 class LostTaskError(DomainError):
@@ -166,6 +168,7 @@ def in_processes(count: int) -> Map:
             return
         from joblib import Parallel, delayed
 
+        _WAITING.add(count)
         parallel = Parallel(n_jobs=count, return_as="generator_unordered")
         one_each = len(tasks) <= count  # how many are done says nothing until the end
         doing = attempt if one_each else attempt_in_silence
@@ -173,6 +176,18 @@ def in_processes(count: int) -> Map:
         yield from shown(done, what, tasks, count)
 
     return work
+
+
+def end_processes() -> None:
+    """End the processes of :func:`in_processes`, which wait for more tasks.
+
+    At the end of this process they would end by themselves, but take seconds for it.
+    """
+    if _WAITING:
+        from joblib.externals.loky import get_reusable_executor
+
+        get_reusable_executor(reuse=True).shutdown(wait=True, kill_workers=True)
+        _WAITING.clear()
 
 
 def all_done(work: Map, tasks: Mapping[str, Task[_T]], what: str) -> dict[str, Done[_T]]:

@@ -6,6 +6,7 @@ import math
 import os
 import pickle
 from functools import partial
+from pathlib import Path
 
 import cluster_tasks as tasks
 import pytest
@@ -13,7 +14,15 @@ import pytest
 from tire_pipeline.cluster.dask_map import check_address, dask_map
 from tire_pipeline.cluster.parameters import ClusterParameters
 from tire_pipeline.errors import DomainError, TirError
-from tire_pipeline.tasks import Block, LostTaskError, all_done, in_blocks, in_processes, in_turn
+from tire_pipeline.tasks import (
+    Block,
+    LostTaskError,
+    all_done,
+    end_processes,
+    in_blocks,
+    in_processes,
+    in_turn,
+)
 
 
 def test_every_result_comes_back_by_its_name(work):
@@ -64,6 +73,18 @@ def test_a_block_is_what_its_tasks_are():
     assert pickle.dumps([d.value for d in block.join(parts).values()]) == pickle.dumps(
         [d.value for d in block().values()]
     )
+
+
+def test_processes_wait_for_more_tasks_until_they_are_ended():
+    def used() -> set[int]:
+        wanted = {str(number): os.getpid for number in range(4)}
+        return {done.result() for done in in_processes(2)(wanted, "asking")}
+
+    first = used()
+    assert all(Path(f"/proc/{pid}").exists() for pid in first)
+    end_processes()
+    assert not any(Path(f"/proc/{pid}").exists() for pid in first)
+    assert used().isdisjoint(first)
 
 
 def test_one_thread_wherever_it_is_done(work):

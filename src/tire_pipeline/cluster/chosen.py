@@ -12,7 +12,7 @@ from pydantic import ValidationError
 
 from tire_pipeline.cluster.parameters import ClusterParameters
 from tire_pipeline.errors import DomainError
-from tire_pipeline.tasks import Done, Map, Task, in_processes
+from tire_pipeline.tasks import Done, Map, Task, end_processes, in_processes
 
 _T = TypeVar("_T")
 _CHOSEN = {"parameters": ClusterParameters()}
@@ -59,7 +59,7 @@ def given_map(function: Callable[..., _T], *, without_cluster: int | None = None
 
 
 class ClusterHooks:
-    """Takes the parameter ``cluster`` of the run, and lets go of the cluster when the run ends."""
+    """Takes the parameter ``cluster`` of the run, and lets go of cluster and processes when the run ends."""
 
     @hook_impl
     def after_context_created(self, context: Any) -> None:
@@ -79,15 +79,16 @@ class ClusterHooks:
 
     @hook_impl
     def after_pipeline_run(self) -> None:
-        """Close the connection."""
+        """Close the connection, end the processes."""
         self._close()
 
     @hook_impl
     def on_pipeline_error(self) -> None:
-        """Close the connection; what is still under way is given up."""
+        """The same; what is still under way is given up."""
         self._close()
 
     def _close(self) -> None:
+        end_processes()
         if _CHOSEN["parameters"].scheduler:
             from tire_pipeline.cluster.dask_map import close
 
