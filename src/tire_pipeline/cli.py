@@ -43,6 +43,5 @@ def _check_names(asked: Sequence[str]) -> None:
             raise DomainError(f"there is no pipeline {name!r}", todo=f"use one of {', '.join(known)}")
 
 
-cli.add_command(
-    click.Command("run", params=kedro_run.params, callback=_run, help="Run one pipeline, or all eight.")
-)
+run = click.Command("run", params=kedro_run.params, callback=_run, help="Run one pipeline, or all eight.")
+cli.add_command(run)

@@ -71,6 +71,12 @@ def test_a_misspelt_parameter_is_named(tmp_path):
     assert "binz" in _one_line(kedro_here(tmp_path, "--params", "bin.binz=3"))
 
 
+def test_a_misspelt_environment_is_named(tmp_path):
+    line = _one_line(kedro_here(tmp_path, "--env", "smal"))
+    assert "conf/smal" in line
+    assert "correct --env" in line
+
+
 @pytest.mark.parametrize(
     ("option", "name"),
     [

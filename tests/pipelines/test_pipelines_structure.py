@@ -6,10 +6,12 @@ from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
+from kedro.framework.cli.utils import find_run_command
 from kedro.framework.project import pipelines
 from kedro.framework.session import KedroSession
 from kedro.framework.startup import bootstrap_project
 
+from tire_pipeline.cli import cli
 from tire_pipeline.datasets import ComputedFolderDataset
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -42,6 +44,10 @@ def _datasets(pipeline) -> set[str]:
 
 def test_the_names_that_users_type_are_registered(catalog):
     assert {*EIGHT, "make_fleet", "__default__"} <= set(pipelines)
+
+
+def test_python_m_tire_pipeline_does_what_kedro_run_does():
+    assert find_run_command("tire_pipeline") is cli.commands["run"]
 
 
 def test_the_default_is_the_eight(catalog):

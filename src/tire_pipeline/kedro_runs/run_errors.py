@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import re
 
+from kedro.config import MissingConfigException
 from kedro.io import DatasetError
 from kedro.validation import ParameterValidationError
 
@@ -49,6 +50,9 @@ def one_line(error: BaseException) -> str | None:
         if isinstance(each, OSError) and each.errno in _ADVICE:
             where = f"{each.filename}: " if each.filename else ""
             text = f"{where}{_ADVICE[each.errno]}"
+            break
+        if isinstance(each, MissingConfigException):
+            text = f"{each} -> run it in the project's folder; correct --env or --conf-source if you gave one"
             break
         if isinstance(each, ParameterValidationError):
             text = f"{wrong_parameters(str(each))} -> correct it in conf/base/parameters or --params"

@@ -6,46 +6,18 @@ from dataclasses import dataclass
 
 from tire_pipeline.fleet.fits.formula import FITTED_ALIGNING, FITTED_LATERAL, FITTED_LONGITUDINAL
 
-_COMBINED_X = ["RBX1", "RBX2", "RCX1", "REX1", "REX2", "RHX1"]
-_COMBINED_Y = [
-    "RBY1 RBY2 RBY3 RCY1 REY1 REY2 RHY1 RHY2 RVY1 RVY2 RVY3 RVY4 RVY5 RVY6",
-]
-_SCALE_FACTORS = [
-    "LFZO",
-    "LCX",
-    "LMUX",
-    "LEX",
-    "LKX",
-    "LHX",
-    "LVX",
-    "LGAX",
-    "LCY",
-    "LMUY",
-    "LEY",
-    "LKY",
-    "LHY",
-    "LVY",
-    "LGAY",
-    "LTR",
-    "LRES",
-    "LGAZ",
-    "LXAL",
-    "LYKA",
-    "LVYKA",
-    "LS",
-    "LSGKP",
-    "LSGAL",
-    "LGYR",
-    "LMX",
-    "LVMX",
-    "LMY",
-]
+_COMBINED_X = "RBX1 RBX2 RCX1 REX1 REX2 RHX1".split()
+_COMBINED_Y = "RBY1 RBY2 RBY3 RCY1 REY1 REY2 RHY1 RHY2 RVY1 RVY2 RVY3 RVY4 RVY5 RVY6".split()
+_SCALE_FACTORS = (
+    "LFZO LCX LMUX LEX LKX LHX LVX LGAX LCY LMUY LEY LKY LHY LVY LGAY "
+    "LTR LRES LGAZ LXAL LYKA LVYKA LS LSGKP LSGAL LGYR LMX LVMX LMY"
+).split()
 
 # The coefficient sections in file order. Each key is a column of the table of values.
 WRITTEN_SECTIONS: dict[str, list[str]] = {
     "LONGITUDINAL_COEFFICIENTS": [*FITTED_LONGITUDINAL, *_COMBINED_X, "PTX1", "PTX2", "PTX3"],
     "OVERTURNING_COEFFICIENTS": ["QSX1", "QSX2", "QSX3"],
-    "LATERAL_COEFFICIENTS": [*FITTED_LATERAL, *_COMBINED_Y[0].split(), "PTY1", "PTY2"],
+    "LATERAL_COEFFICIENTS": [*FITTED_LATERAL, *_COMBINED_Y, "PTY1", "PTY2"],
     "ROLLING_COEFFICIENTS": ["QSY1", "QSY2", "QSY3", "QSY4"],
     "ALIGNING_COEFFICIENTS": [*FITTED_ALIGNING, "SSZ1", "SSZ2", "SSZ3", "SSZ4", "QTZ1", "MBELT"],
 }
