@@ -176,3 +176,14 @@ def test_what_only_ci_runs_is_there():
             file, _, case = line.partition("::")
             text = (tests.parent / file).read_text(encoding="utf-8")
             assert not case or f"def {case.partition('[')[0]}(" in text, line
+
+
+KEDROS = {"__init__", "__main__", "cli", "settings"}
+"""Modules that Kedro wants where they are."""
+
+
+def test_the_page_on_architecture_names_each_folder_and_module_at_the_top():
+    page = (Path(__file__).parents[1] / "docs" / "reference" / "architecture.md").read_text(encoding="utf-8")
+    there = {f"{path.parent.name}/" for path in ROOT.glob("*/__init__.py")}
+    there |= {path.name for path in ROOT.glob("*.py") if path.stem not in KEDROS}
+    assert there - set(page.replace(":", " ").split()) == set()
