@@ -76,8 +76,3 @@ def classifier_from_state(state: Mapping[str, Any]) -> Classifier:
         state
     )
     return classifier
-
-
-def predicted_labels(classifier: Classifier, features: np.ndarray) -> np.ndarray:
-    """Give the most probable class of every row, shape (n,)."""
-    return classifier.classes_[classifier.predict_proba(features).argmax(axis=1)]
