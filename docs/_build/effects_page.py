@@ -52,7 +52,7 @@ def _one(effect: Effect) -> list[str]:
         if text:
             lines += [f"{name.replace('_', ' ').capitalize()}: {text if isinstance(text, str) else '; '.join(text)}.", ""]
     if effect.parameters:
-        lines += ["| parameter | unit | bounds | absent at |", "|---|---|---|---|"]
+        lines += ["| parameter | unit | bounds | no effect at |", "|---|---|---|---|"]
         lines += [f"| `{p.name}` | {p.unit} | {p.low:g} to {p.high:g} | {p.zero:g} |" for p in effect.parameters]
         lines.append("")
     if effect.looks_like:

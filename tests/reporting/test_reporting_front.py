@@ -55,6 +55,12 @@ def test_every_link_leads_to_a_file_even_with_hostile_names(tmp_path):
     assert not re.search("https?:", page)
 
 
+def test_a_recording_is_called_by_its_name_also_where_there_is_but_one(tmp_path):
+    (tmp_path / "mismatch" / "rig").mkdir(parents=True)
+    (tmp_path / "mismatch" / "rig" / "run 1.html").write_text("<title>run 1.csv</title>")
+    assert ">Where recording and simulation differ: rig/run 1</a>" in front_page(tmp_path)
+
+
 def test_it_begins_with_the_first_sentence_of_each_report_and_the_curves(tmp_path):
     lead = '<title>x</title><div class="main"><p>From 297 N to 69 N &lt;&amp;.</p><p>More.</p></div>'
     (tmp_path / "report.html").write_text(lead)

@@ -10,7 +10,6 @@ from pathlib import Path
 from tire_pipeline.reporting.page import Links, Picture, Text, render_page
 
 FRONT = "index.html"
-_TITLE = re.compile(r"<title>(.*?)</title>", re.S | re.I)
 _LEAD = re.compile(r'<div class="main">\s*<p[^>]*>(.*?)</p>', re.S)
 LEADS = (
     ("report.html", "The translation, judged"),
@@ -142,22 +141,18 @@ def _items(folder: Path, pattern: str, name: str, command: str) -> list[tuple[st
     found = [newest for path in sorted(folder.glob(pattern)) if (newest := _newest(path)) is not None]
     if not found:
         return [("", name, f"not made yet: {command}")]
-    several = len(found) > 1
+    places = [path.relative_to(folder) for path in found]
     return [
-        (
-            path.relative_to(folder).as_posix(),
-            _one_of(name, path) if several else name,
-            _date(path),
-        )
-        for path in found
+        (place.as_posix(), _one_of(name, place) if "*" in pattern else name, _date(path))
+        for place, path in zip(places, found, strict=True)
     ]
 
 
-def _one_of(name: str, path: Path) -> str:
-    """What one of several reports of a kind is called."""
-    if path.suffix == ".csv":
-        return path.stem.replace("_", " ")
-    return f"{name}: {_title(path) or path.stem}"
+def _one_of(name: str, place: Path) -> str:
+    """What one of the reports of a kind is called, of which there may be several."""
+    if place.suffix == ".csv":
+        return place.stem.replace("_", " ")
+    return f"{name}: {Path(*place.parts[1:]).with_suffix('').as_posix()}"
 
 
 def _newest(path: Path) -> Path | None:
@@ -165,12 +160,6 @@ def _newest(path: Path) -> Path | None:
     if path.is_file():
         return path
     return max(path.glob(f"*/{path.name}"), default=None)
-
-
-def _title(path: Path) -> str:
-    with path.open(encoding="utf-8", errors="replace") as file:
-        found = _TITLE.search(file.read(20_000))
-    return html.unescape(found[1]).strip() if found else ""
 
 
 def _date(path: Path) -> str:
