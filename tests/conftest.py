@@ -21,24 +21,35 @@ _SLOW_FOLDERS = frozenset(
 """Whole runs, browsers, simulators and explanations. Elsewhere the slow files say so themselves."""
 
 _LONGEST_FIRST = (
+    "mismatch/test_mismatch_explain.py",
+    "thesis/test_thesis_run.py",
+    "pipelines/test_pipelines_small_run.py",
+    "mismatch/test_mismatch_questions.py",
+    "mismatch/test_mismatch_checks.py",
+    "cluster/test_cluster_runs.py",
+    "mismatch/test_mismatch_effects.py",
+    "mismatch/test_mismatch_few_channels.py",
+    "mismatch/test_mismatch_real_recordings.py",
+    "mismatch/test_mismatch_spent.py",
+    "mismatch/test_mismatch_flat_belt.py",
+    "viz/test_viz_pages.py",
+    "viz/test_viz_browser.py",
     "retraining/test_retraining_runs.py",
     "pipelines/test_pipelines_bad_input.py",
     "pipelines/test_pipelines_public_files.py",
-    "thesis/test_thesis_run.py",
-    "mismatch/test_mismatch_real_recordings.py",
-    "mismatch/test_mismatch_questions.py",
+    "mismatch/test_mismatch_model.py",
+    "mismatch/test_mismatch_visible.py",
     "notebooks/test_notebooks_run.py",
-    "pipelines/test_pipelines_small_run.py",
-    "mismatch/test_mismatch_explain.py",
-    "mismatch/test_mismatch_few_channels.py",
+    "mismatch/test_mismatch_brake_sweeps.py",
+    "mismatch/test_mismatch_lags.py",
+    "mismatch/test_mismatch_guard.py",
     "mismatch/test_mismatch_rates.py",
     "translation/test_translation_bias_translators.py",
     "translation/test_translation_learns_from_batch.py",
     "docs/test_docs_site.py",
-    "viz/test_viz_browser.py",
     "concealed/test_concealed_second.py",
 )
-"""Files that take long: begun last, they would leave all but one process with nothing to do."""
+"""Files that take long, longest first: begun last, they would leave all but one process with nothing to do."""
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:

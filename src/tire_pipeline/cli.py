@@ -11,7 +11,7 @@ import click
 from kedro.framework.cli.project import run as kedro_run
 
 from tire_pipeline import pipelines
-from tire_pipeline.errors import DomainError
+from tire_pipeline.errors import DomainError, did_you_mean
 from tire_pipeline.kedro_runs.run_errors import one_line
 
 
@@ -40,7 +40,9 @@ def _check_names(asked: Sequence[str]) -> None:
     known = sorted(module.name for module in pkgutil.iter_modules(pipelines.__path__) if module.ispkg)
     for name in asked:
         if name not in (*known, "__default__"):
-            raise DomainError(f"there is no pipeline {name!r}", todo=f"use one of {', '.join(known)}")
+            all_of_them = f"there are {', '.join(known)}"
+            near = did_you_mean(name, known, "")
+            raise DomainError(f"there is no pipeline {name!r}", todo=f"{near} {all_of_them}".strip())
 
 
 run = click.Command("run", params=kedro_run.params, callback=_run, help="Run one pipeline, or all eight.")

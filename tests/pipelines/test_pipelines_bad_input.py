@@ -88,6 +88,7 @@ def test_a_misspelt_environment_is_named(tmp_path):
 def test_a_misspelt_pipeline_is_named_with_those_there_are(tmp_path, option, name):
     line = _one_line(kedro_here(tmp_path, option, name))
     assert f"no pipeline '{name}'" in line
+    assert ("did you mean 'ingest_tir'?" in line) == (name == "ingest")
     assert "ingest_tir" in line
     assert "translate" in line
 
