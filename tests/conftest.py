@@ -49,7 +49,7 @@ _LONGEST_FIRST = (
     "docs/test_docs_site.py",
     "concealed/test_concealed_second.py",
 )
-"""Files that take long, longest first: begun last, they would leave all but one process with nothing to do."""
+"""Files that take long, longest first: begun last, they would leave one process with nothing to do."""
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
