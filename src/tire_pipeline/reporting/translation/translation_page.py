@@ -98,6 +98,7 @@ def translation_page(
             "Squared error over that of the untranslated files (1: nothing gained), mean over the seeds, "
             "100 hidden tires from five organisations each; improved: share of improved curves.",
             heading="Every translator at the calibrated bias",
+            decimals=3,
         ),
         Table(
             check_goals(hidden).assign(translator=lambda t: t["translator"].map(_words)),
@@ -109,6 +110,7 @@ def translation_page(
             "Coverage: share of the target's own points inside the 90% band. A file is correctly left alone "
             "if its translation would have been worse: precision and recall are those of leaving alone.",
             heading="Bands and refusals",
+            decimals=3,
         ),
     ]
     if beside_truth is not None and len(beside_truth):
@@ -166,7 +168,7 @@ def _at_calibrated(hidden: pd.DataFrame) -> pd.DataFrame:
         ["kind", "translator"], key=lambda c: c.map(order) if c.name == "translator" else c
     )
     rows = rows.assign(translator=rows["translator"].map(IN_WORDS))
-    return rows.rename(columns={**RATIOS, **MORE}).round(3)
+    return rows.rename(columns={**RATIOS, **MORE})
 
 
 def check_goals(hidden: pd.DataFrame) -> pd.DataFrame:
@@ -236,7 +238,8 @@ def _bands_and_refusals(hidden: pd.DataFrame) -> pd.DataFrame:
     own = hidden[hidden["translator"].isin(MIXED)]
     rows = own.groupby(["kind", "bias_size", "translator"])[list(names)].mean().reset_index()
     rows["translator"] = rows["translator"].map(_words)
-    return rows.rename(columns={**names, "bias_size": "bias size"}).round(3)
+    rows["bias_size"] = rows["bias_size"].map("{:g}".format)
+    return rows.rename(columns={**names, "bias_size": "bias size"})
 
 
 def _by_size(hidden: pd.DataFrame) -> MplFigure:
