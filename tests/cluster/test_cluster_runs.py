@@ -12,18 +12,25 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import cluster_tasks as tasks
+import pandas as pd
 import pytest
 
 from tire_pipeline.cluster import ClusterHooks, work_map
+from tire_pipeline.command.stored import translator_state
 from tire_pipeline.datasets import ComputedFolderDataset, RecordingFolderDataset, TirFolderDataset
 from tire_pipeline.reporting.explained_recordings import (
     ExplainParameters,
     collect_explained,
     explain_each,
 )
+from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.tire_table.read_files import IngestParameters, join_files, read_files
+from tire_pipeline.translation import translated_folder
+from tire_pipeline.translation.parameters import TranslateParameters
+from tire_pipeline.translation.translated_folder import join_translated, translate_each
 
 ROOT = Path(__file__).resolve().parents[2]
+STORED = ROOT / "tests" / "data_of_0_1"
 
 
 def _choose(**parameters) -> None:
@@ -51,6 +58,8 @@ def raw(tmp_path):
         put(tmp_path / "tir", f"{'AB'[number % 2]}/{number}.tir", tir_text(number))
     for number in range(3):
         put(tmp_path / "tir", f"A/bad{number}.tir", "no tire")
+    for tire in (STORED / "07_model_output" / "translated").rglob("*.tir"):
+        put(tmp_path / "tir", f"A/{tire.name}", tire.read_bytes())
     place = tmp_path / "recordings" / "rig"
     place.mkdir(parents=True)
     shutil.copy(ROOT / "examples" / "tire.tir", place / "model.tir")
@@ -59,6 +68,18 @@ def raw(tmp_path):
     (tmp_path / "recordings" / "bad").mkdir()
     (tmp_path / "recordings" / "bad" / "recording.csv").write_text("time,slip_angle\n0,0.01\n")
     return tmp_path
+
+
+def _translate(files: dict, folder: Path) -> None:
+    """Translate the files by a stored translator, in blocks of a few."""
+    (table,) = (STORED / "03_primary").rglob("*.parquet/*/*.parquet")
+    state, _ = translator_state(STORED / "06_models" / "translator.npz")
+    blocks = ComputedFolderDataset(path=str(folder))
+    given = (pd.read_parquet(table), TranslateParameters(farthest=3.0), NormalizeParameters(), 0)
+    blocks.save(translate_each(state, files, *given))
+    texts, report, *_ = join_translated(blocks.load(), state)
+    assert len(report) == len(files)
+    assert sorted(texts) == sorted(report.loc[report["verdict"] == "translated", "file"]) != []
 
 
 def _stored(raw: Path, folder: Path) -> dict[str, bytes]:
@@ -70,6 +91,7 @@ def _stored(raw: Path, folder: Path) -> dict[str, bytes]:
     table, report, _ = join_files(blocks.load(), IngestParameters())
     assert list(table.frame()["file"]) == sorted(f for f in files if "bad" not in f)
     assert (report["status"] == "set aside").sum() == 3
+    _translate(files, folder / "translated")
     explained = ComputedFolderDataset(path=str(folder / "explained"))
     explained.save(explain_each(recordings, ExplainParameters()))
     reports, overview, pages, _ = collect_explained(explained.load())
@@ -79,7 +101,8 @@ def _stored(raw: Path, folder: Path) -> dict[str, bytes]:
     return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
 
 
-def test_results_are_the_same_to_the_last_bit(raw, request):
+def test_results_are_the_same_to_the_last_bit(raw, request, monkeypatch):
+    monkeypatch.setattr(translated_folder, "TRANSLATED_TOGETHER", 6)
     alone = _stored(raw, raw / "alone")
     request.getfixturevalue("chosen")
     assert work_map().__class__.__name__ == "_DaskMap"

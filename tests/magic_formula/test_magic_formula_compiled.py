@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from functools import partial
 
 import numpy as np
 import pytest
@@ -79,7 +80,22 @@ def test_very_large_angles_and_shapes_go_to_numpy():
         tire.packed, 5, np.array([1e8 + 0.3, 0.1]), 0.0, 0.0, np.full(2, 3000.0), np.full(2, 16.7), 0.0
     )
     np.testing.assert_array_equal(far.mz, wanted[4])
-    assert not engine.compiles(tire.replace(RCY1=1e5).packed[None, :])
+    assert not engine.compiles(tire.replace(RCY1=1e5).packed[None, :]).any()
+
+
+@needs_numba
+def test_a_tire_that_goes_to_numpy_leaves_those_beside_it_as_they_are():
+    tire = TIRES["5.2"]
+    several = np.stack([tire.packed, tire.replace(RCY1=1e5).packed, tire.packed])
+    points = [
+        np.tile(x, (3, 1))
+        for x in np.array([[0.1, 0.05], [0.0, 0.02], [0, 0], [3e3] * 2, [16.7] * 2, [0, 0]])
+    ]
+    run = partial(engine.run, family=5, signs=engine.NO_SIGNS, wanted=["fx", "fy"], largest_angle=0.1)
+    together = run(several, points=points)
+    for row in range(3):
+        alone = run(several[[row]], points=[x[[row]] for x in points])
+        np.testing.assert_array_equal(together[row], alone[0])
 
 
 @pytest.mark.slow

@@ -124,9 +124,9 @@ def test_the_tires_that_choose_a_translator_are_judged_nowhere(catalog):
     assert "tuning" not in config["parameters"]["evaluate"]["sets"]
 
 
-def test_translate_reads_fits_translates_and_draws():
+def test_translate_fits_translates_joins_and_draws():
     steps = {node.short_name for node in pipelines["translate"].nodes}
-    assert steps == {"read_sources", "fit_translator", "translate_all", "draw_translated_files"}
+    assert steps == {"fit_translator", "translate_each", "join_translated", "draw_translated_files"}
     fitted = next(node for node in pipelines["translate"].nodes if node.short_name == "fit_translator")
     assert fitted.outputs == ["translator"]
     assert fitted in pipelines["__default__"].nodes

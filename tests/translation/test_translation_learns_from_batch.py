@@ -252,9 +252,7 @@ def test_no_file_of_the_training_tires_or_the_target_teaches_who_leaves_one_out(
 
 def test_the_page_says_that_the_files_taught():
     parameters = TranslateParameters(learn_from_batch=True)
-    curves = {"files": [], "normal_load": np.array([4000.0]), "slip": np.array([0.0])}
-    tires = pd.DataFrame(columns=["file", "tire_id"])
     for taught, said in ((40, True), (0, False)):  # a file alone learns from no other
         report = pd.DataFrame({"file": ["E/a.tir"], "verdict": ["refused"], "taught": taught})
-        page, _ = translate_page(report, curves, pd.DataFrame(), pd.DataFrame(), tires, [], parameters, "D")
+        page, _ = translate_page(report, {}, pd.DataFrame(), [], parameters, "D")
         assert ("Among other files the result would differ a little" in page) is said

@@ -126,14 +126,9 @@ def test_state(protocols):
 
 def test_the_page_tells_of_a_change_and_only_then():
     report = pd.DataFrame({"file": ["E/a.tir"], "verdict": ["refused"], "protocol": ["before 2015-06-01"]})
-    curves = {"files": [], "normal_load": np.array([4000.0]), "slip": np.array([0.0])}
-    tires = pd.DataFrame(columns=["file", "tire_id"])
     changed = pd.DataFrame({"category": ["E"], "day": ["2015-06-01"], "probability": [0.999]})
-    given = (tires, [], TranslateParameters(), "D")
-    page, _ = translate_page(report, curves, pd.DataFrame(), changed, *given)
+    given = ([], TranslateParameters(), "D")
+    page, _ = translate_page(report, {}, changed, *given)
     assert "Changes of protocol" in page
     assert "2015-06-01" in page
-    assert (
-        "Changes of protocol"
-        not in translate_page(report, curves, pd.DataFrame(), changed.head(0), *given)[0]
-    )
+    assert "Changes of protocol" not in translate_page(report, {}, changed.head(0), *given)[0]

@@ -12,6 +12,7 @@ import pandas as pd
 import pytest
 from viz_browser import ROOT, browser, needs_browser
 
+from tire_pipeline.reporting.translation.drawn_files import DrawnFiles
 from tire_pipeline.reporting.translation.translated import translated_page
 from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
 
@@ -57,6 +58,12 @@ def _curves(report: pd.DataFrame) -> dict[str, object]:
     return found
 
 
+def drawn(curves: dict[str, object], moved: pd.DataFrame) -> DrawnFiles:
+    files = DrawnFiles()
+    files.add(curves, moved)
+    return files
+
+
 @pytest.fixture(scope="module")
 def made():
     report = _report()
@@ -73,8 +80,7 @@ def made():
         "Translated to D",
         ["302 files, to be as D would have measured them."],
         report,
-        curves,
-        moved,
+        drawn(curves, moved),
         own=set(OWN),
         tires={file: TIRES.get(file[0], "") for file in report["file"]},
     )
@@ -280,7 +286,9 @@ def test_nothing_of_a_file_name_runs_and_nothing_is_asked_for_elsewhere(driver, 
 def test_a_hostile_supplier_and_title_stay_text(tmp_path):
     needs_browser()
     report = _report().head(3).assign(source="</script><img src=x onerror=window.hacked=1>")
-    page = translated_page("<b>T", ["<i>line"], report, _curves(report), pd.DataFrame(), own=set(), tires={})
+    page = translated_page(
+        "<b>T", ["<i>line"], report, drawn(_curves(report), pd.DataFrame()), own=set(), tires={}
+    )
     assert "<img" not in page
     place = Path(tmp_path / "page.html")
     place.write_text(page, encoding="utf-8")

@@ -16,6 +16,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.row_products import by_group, by_row
 
 LEAST_PROBABILITY = 0.95
 """A file is given to a category from this calibrated probability on."""
@@ -118,7 +119,7 @@ class OpenSetClassifier:
         -------
         Assignment
         """
-        chances = self.calibrated.predict_proba(self.space.scaled(features))
+        chances = by_group(self.calibrated.predict_proba, self.space.scaled(features))
         best = chances.argmax(axis=1)
         rows = np.arange(len(best))
         distance = self.space.distances(features)[rows, best]
@@ -162,7 +163,8 @@ class _Space:
     def distances(self, features: np.ndarray) -> np.ndarray:
         """Squared Mahalanobis distance to each category, (n, categories)."""
         away = self.scaled(features)[:, None, :] - self.means
-        return np.einsum("nkd,de,nke->nk", away, self.precision, away, optimize=True)
+        along = by_row(away.reshape(-1, away.shape[2]), self.precision).reshape(away.shape)
+        return np.asarray((along * away).sum(axis=2))
 
 
 def left_out_check(

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Self
+
 import pandas as pd
 
 from tire_pipeline.classifiers.open_set import (
@@ -26,42 +30,75 @@ def category_of(file: str, known: set[str]) -> str:
     return next((name for name in reversed(folders) if name in known), "")
 
 
-def with_suppliers(
-    source: pd.DataFrame, training: pd.DataFrame, *, classify: bool, seed: int
-) -> pd.DataFrame:
-    """Say of each file who supplied it, and how that is known.
+@dataclass(frozen=True)
+class KnownSuppliers:
+    """Says of files to translate who supplied them.
 
-    Parameters
+    Attributes
     ----------
-    source : DataFrame
-        Files to translate, at the nominal load of ``training``; ``category`` is "" where the folder is no
-        known category.
-    training : DataFrame
-        What is known of suppliers.
-    classify : bool
-        Classify files of unknown suppliers. Only those are given to a category whose probability and
-        typicality suffice (:mod:`.classifiers.open_set`).
-    seed : int
-
-    Returns
-    -------
-    DataFrame
-        ``source`` with ``category`` as it is known now, ``category_probability``, ``supplier`` (how the
-        supplier is known, in words; "unknown") and ``supplier_note`` (of unknown suppliers: why and what to
-        do).
+    names : tuple of str
+        The training files' categories, sorted.
+    classifier : OpenSetClassifier or None
+        Classifies files of unknown suppliers, if it is asked for.
     """
-    known = sorted(training["category"].astype(str).unique())
-    unknown = ~source["category"].isin(known)
-    found = source.copy().assign(category_probability=1.0, supplier=BY_FOLDER, supplier_note="")
-    found.loc[unknown, "supplier"] = UNKNOWN_SUPPLIER
-    found.loc[unknown, "category_probability"] = float("nan")
-    found.loc[unknown, "supplier_note"] = [
-        f"{_place(file)} is no known category ({', '.join(known)}): {WHAT_TO_DO}"
-        for file in found.loc[unknown, "file"]
-    ]
-    if classify and unknown.any():
-        _classify(found, unknown, training, seed)
-    return found
+
+    names: tuple[str, ...]
+    classifier: OpenSetClassifier | None = None
+
+    @classmethod
+    def learn(cls, training: pd.DataFrame, files: Collection[str], *, classify: bool, seed: int) -> Self:
+        """Learn from the training files.
+
+        Parameters
+        ----------
+        training : DataFrame
+            What is known of suppliers.
+        files : collection of str
+            The files to translate: nothing is trained if all their folders say it.
+        classify : bool
+            Classify files of unknown suppliers. Only those are given to a category whose probability and
+            typicality suffice (:mod:`.classifiers.open_set`).
+        seed : int
+        """
+        names = sorted(training["category"].astype(str).unique())
+        known = set(names)
+        if not classify or all(category_of(file, known) for file in files):
+            return cls(tuple(names))
+        labels, tires = (training[name].to_numpy(dtype=str) for name in ("category", "tire_id"))
+        model = OpenSetClassifier().fit(supplier_features(training)[0], labels, tires, seed=seed)
+        return cls(tuple(names), model)
+
+    def by_folder(self, file: str) -> str:
+        """The innermost folder of a file that is a known category, "" if none is."""
+        return category_of(file, set(self.names))
+
+    def of(self, source: pd.DataFrame) -> pd.DataFrame:
+        """Say of each file who supplied it, and how that is known.
+
+        Parameters
+        ----------
+        source : DataFrame
+            Files to translate, at the nominal load of the training files; ``category`` is "" where the folder
+            is no known category.
+
+        Returns
+        -------
+        DataFrame
+            ``source`` with ``category`` as it is known now, ``category_probability``, ``supplier`` (how the
+            supplier is known, in words; "unknown") and ``supplier_note`` (of unknown suppliers: why and what
+            to do).
+        """
+        unknown = ~source["category"].isin(self.names)
+        found = source.copy().assign(category_probability=1.0, supplier=BY_FOLDER, supplier_note="")
+        found.loc[unknown, "supplier"] = UNKNOWN_SUPPLIER
+        found.loc[unknown, "category_probability"] = float("nan")
+        found.loc[unknown, "supplier_note"] = [
+            f"{_place(file)} is no known category ({', '.join(self.names)}): {WHAT_TO_DO}"
+            for file in found.loc[unknown, "file"]
+        ]
+        if self.classifier is not None and unknown.any():
+            _classify(found, unknown, self.classifier)
+        return found
 
 
 def _place(file: str) -> str:
@@ -69,11 +106,7 @@ def _place(file: str) -> str:
     return f"its folder {folder!r}" if folder else "it is in no folder, which"
 
 
-def _classify(found: pd.DataFrame, unknown: pd.Series, training: pd.DataFrame, seed: int) -> None:
-    tires = training["tire_id"].to_numpy(dtype=str)
-    model = OpenSetClassifier().fit(
-        supplier_features(training)[0], training["category"].to_numpy(dtype=str), tires, seed=seed
-    )
+def _classify(found: pd.DataFrame, unknown: pd.Series, model: OpenSetClassifier) -> None:
     told = model.assign(supplier_features(found.loc[unknown])[0])
     for i, row in enumerate(found.index[unknown]):
         if told.given[i]:

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from tire_pipeline.datasets.models.release import ReleaseDataset
     from tire_pipeline.datasets.models.state import StateDataset
     from tire_pipeline.datasets.tables.csv_table import CsvTableDataset
+    from tire_pipeline.datasets.tables.frame_parts import FramePartsDataset
     from tire_pipeline.datasets.tables.ingest_store import IngestStoreDataset
     from tire_pipeline.datasets.tables.table_parts import TablePartsDataset
     from tire_pipeline.datasets.texts.computed_folder import ComputedFolderDataset
@@ -24,6 +25,7 @@ _MODULES = {
     "ComputedFolderDataset": "texts.computed_folder",
     "CsvTableDataset": "tables.csv_table",
     "FolderDataset": "users_files.folder",
+    "FramePartsDataset": "tables.frame_parts",
     "HtmlPageDataset": "texts.html_page",
     "IngestStoreDataset": "tables.ingest_store",
     "MadeFilesDataset": "texts.made_files",
@@ -40,6 +42,7 @@ __all__ = [
     "ComputedFolderDataset",
     "CsvTableDataset",
     "FolderDataset",
+    "FramePartsDataset",
     "HtmlPageDataset",
     "IngestStoreDataset",
     "MadeFilesDataset",

@@ -33,6 +33,12 @@ def unpack(content: bytes) -> dict[str, bytes]:
         return {name: archive.read(name) for name in archive.namelist()}
 
 
+def member(content: bytes, name: str) -> bytes:
+    """One of the files of one ZIP."""
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        return archive.read(name)
+
+
 def as_parquet(frame: pd.DataFrame) -> bytes:
     """A table as a Parquet file."""
     buffer = io.BytesIO()

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.packed import pack
 
 _PLAIN = "plain.json"
 _SUM = "sha256"
@@ -44,17 +45,14 @@ def layers_from_state(state: Mapping[str, Any]) -> list[tuple[np.ndarray, np.nda
 
 
 def pack_state(state: dict[str, Any]) -> bytes:
-    """A state as the bytes of a ZIP file."""
-    members: dict[str, bytes] = {}
-    plain: dict[str, Any] = {}
-    _split(state, "", members, plain)
-    members[_PLAIN] = json.dumps(plain, sort_keys=True).encode()
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name in sorted(members):
-            archive.writestr(name, members[name])
-        archive.writestr(_SUM, _checksum(members))
-    return buffer.getvalue()
+    """A state as the bytes of a ZIP file; the same state gives the same bytes."""
+    members = _members(state)
+    return pack({**{name: members[name] for name in sorted(members)}, _SUM: _checksum(members).encode()})
+
+
+def state_digest(state: dict[str, Any]) -> str:
+    """A hash of a state's content."""
+    return _checksum(_members(state))
 
 
 def unpack_state(content: bytes, where: str = "model state") -> dict[str, Any]:
@@ -78,6 +76,13 @@ def unpack_state(content: bytes, where: str = "model state") -> dict[str, Any]:
             raise
         raise DomainError("the model file is damaged", where=where, todo=todo) from error
     return state
+
+
+def _members(state: dict[str, Any]) -> dict[str, bytes]:
+    members: dict[str, bytes] = {}
+    plain: dict[str, Any] = {}
+    _split(state, "", members, plain)
+    return {**members, _PLAIN: json.dumps(plain, sort_keys=True).encode()}
 
 
 def _split(state: dict[str, Any], prefix: str, members: dict[str, bytes], plain: dict[str, Any]) -> None:

@@ -62,7 +62,7 @@ class ReadBlock:
             try:
                 tire = load()
             except Exception as error:  # a loader may wrap what went wrong
-                cause = _cause(error)
+                cause = cause_in_file(error)
                 if cause is None or isinstance(cause, UnreachableError):
                     raise
                 _set_aside(row, str(cause), getattr(cause, "line", None))
@@ -103,17 +103,21 @@ def blocks_of(files: Mapping[str, Load]) -> dict[str, ReadBlock]:
         they have changed (:meth:`.TirLoader.fingerprint`) are read every time.
     """
     code = code_hash("tir", "magic_formula", "tire_table")
+    return {
+        f"{code}/{number:06d}-{digest_of(block)}.zip": ReadBlock(block)
+        for number, block in divided(files).items()
+    }
+
+
+def divided(files: Mapping[str, Load], most: int = FILES) -> dict[int, dict[str, Load]]:
+    """Number -> files of a block, about ``most``, sorted: by the hashes of their names."""
     count = 1
-    while count * FILES < len(files):
+    while count * most < len(files):
         count *= 2
     members: list[dict[str, Load]] = [{} for _ in range(count)]
     for file in sorted(files):
         members[int(hashlib.sha256(file.encode()).hexdigest()[:8], 16) % count][file] = files[file]
-    return {
-        f"{code}/{number:06d}-{_digest(block)}.zip": ReadBlock(block)
-        for number, block in enumerate(members)
-        if block
-    }
+    return {number: block for number, block in enumerate(members) if block}
 
 
 def unpacked(part: bytes) -> tuple[pd.DataFrame, list[dict[str, Any]]]:
@@ -127,7 +131,8 @@ def _packed(table: pd.DataFrame, rows: list[dict[str, Any]], kept: type[TablePar
     return kept(pack(content))
 
 
-def _digest(block: Mapping[str, Load]) -> str:
+def digest_of(block: Mapping[str, Load]) -> str:
+    """A hash of what files depend on; another one each time where a reader cannot tell."""
     total = hashlib.sha256()
     for file, load in block.items():
         total.update(f"{file}\0{_fingerprint(load)}\0".encode())
@@ -160,7 +165,7 @@ def _describe(row: dict[str, Any], tire: TireModel) -> None:
     row["notes"] = " | ".join(map(str, notes)) if isinstance(notes, list | tuple) else str(notes)
 
 
-def _cause(error: BaseException) -> BaseException | None:
+def cause_in_file(error: BaseException) -> BaseException | None:
     """The first in the chain that is of the file, not of the program; None if there is none."""
     wanted = (each for each in chain(error) if isinstance(each, TirePipelineError | OSError))
     return next(wanted, None)

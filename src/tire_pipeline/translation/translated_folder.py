@@ -2,38 +2,50 @@
 
 from __future__ import annotations
 
+import hashlib
+import logging
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from fnmatch import fnmatch
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.classifiers.suppliers import (
-    BY_FOLDER,
-    UNKNOWN_SUPPLIER,
-    category_of,
-    with_suppliers,
-)
-from tire_pipeline.errors import DomainError, TirePipelineError, did_you_mean
+from tire_pipeline.classifiers.suppliers import KnownSuppliers
+from tire_pipeline.code_hash import code_hash
+from tire_pipeline.errors import DomainError, did_you_mean
+from tire_pipeline.files.state_files import state_digest
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
-from tire_pipeline.tasks import Map, in_blocks, in_turn
-from tire_pipeline.tir import tir_bytes
-from tire_pipeline.tir.format.values import COMPUTED_DIGITS
-from tire_pipeline.tire_table import from_models, normalize_table
+from tire_pipeline.tasks import Map, all_done, in_turn
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
+from tire_pipeline.tire_table.read_blocks import digest_of, divided
 from tire_pipeline.translation import translator_from_state
-from tire_pipeline.translation.curves.of_files import file_curves
-from tire_pipeline.translation.of_models import at_own_load
+from tire_pipeline.translation.judge.effects import protocol_changes
 from tire_pipeline.translation.parameters import TranslateParameters
-from tire_pipeline.translation.result import UNKNOWN, TranslationResult
+from tire_pipeline.translation.translated_block import (
+    Given,
+    LookForTeachers,
+    TranslateBlock,
+    has_tables,
+    table_in,
+    texts_in,
+    unreadable_in,
+)
+from tire_pipeline.translation.translator import CurveTranslator
 
 Files = Mapping[str, Callable[[], TireModel]]
+Parts = Mapping[str, Callable[[], bytes]]
+_LOG = logging.getLogger(__name__)
+_SAID = 20
+TRANSLATED_TOGETHER = 500
+"""So many files are translated together, two seconds' work."""
 
 
-def read_sources(
+def translate_each(
+    translator: dict[str, Any],
     files_to_translate: Files,
     normalized_table: pd.DataFrame,
     parameters: TranslateParameters,
@@ -41,11 +53,13 @@ def read_sources(
     seed: int,
     *,
     work: Map = in_turn,
-) -> tuple[dict[str, TireModel], pd.DataFrame, pd.DataFrame]:
-    """Read the files to translate, and say of each who supplied it.
+) -> dict[str, TranslateBlock]:
+    """Say how the files are translated, some at a time; what is stored and has not changed is not done again.
 
     Parameters
     ----------
+    translator : dict
+        State of a fitted translator.
     files_to_translate : mapping
         ``category/.../name.tir`` to the function that reads it.
     normalized_table : DataFrame
@@ -54,36 +68,50 @@ def read_sources(
     normalize : NormalizeParameters
     seed : int
     work : Map
-        Does the reading.
+        Reads all files first where the translator learns from them; nothing else.
 
     Returns
     -------
-    models : dict of str to TireModel
-        Those that could be read.
-    sources : DataFrame
-        The same as a tire table at one nominal load, with suppliers (:func:`.suppliers.with_suppliers`).
-    unreadable : DataFrame
-        ``file, source, supplier, verdict, reason`` of the others.
+    dict
+        A name that says all that the block's part depends on -> the block.
 
     Raises
     ------
     DomainError
-        If not one file could be read, or none is of those that were asked for.
+        If none of the files is of those that were asked for.
     """
-    wanted = chosen_files(files_to_translate, parameters.only)
-    models, problems = _read(wanted, parameters.trials, work)
-    known = set(normalized_table["category"])
-    own = from_models((file, category_of(file, known), model) for file, model in models.items())
-    sources = normalize_table(own, normalize.nominal_load)
-    sources = with_suppliers(sources, normalized_table, classify=parameters.classify, seed=seed)
-    for row in problems:
-        row["source"] = category_of(row["file"], known) or UNKNOWN_SUPPLIER
-        row["supplier"] = BY_FOLDER if row["source"] in known else UNKNOWN_SUPPLIER
-    return (
-        models,
-        sources,
-        pd.DataFrame(problems, columns=["file", "source", "supplier", "verdict", "reason"]),
-    )
+    chosen = chosen_files(files_to_translate, parameters.only)
+    chosen = dict(list(chosen.items())[: parameters.trials or None])
+    fitted = translator_from_state(translator)
+    assert isinstance(fitted, CurveTranslator)  # the parameters allow no other
+    suppliers = KnownSuppliers.learn(normalized_table, chosen, classify=parameters.classify, seed=seed)
+    given = Given(fitted, suppliers, normalize.nominal_load, parameters.farthest)
+    common = [
+        state_digest(translator).encode(),
+        repr((normalize.nominal_load, parameters.farthest, suppliers.names)).encode(),
+    ]
+    if suppliers.classifier is not None:
+        hashes = pd.util.hash_pandas_object(normalized_table, index=False).to_numpy()
+        common += [hashes.tobytes(), str(seed).encode()]
+    blocks = divided(chosen, TRANSLATED_TOGETHER)
+    digests = {number: digest_of(block) for number, block in blocks.items()}
+    if fitted.learn_from_batch:
+        given = replace(given, translator=_taught(given, blocks, work))
+        common.append("".join(digests.values()).encode())
+    salt = hashlib.sha256(b"\0".join(common)).hexdigest()[:16]
+    return {
+        f"{code_hash('.')}/{salt}/{number:06d}-{digests[number]}.zip": TranslateBlock(block, given)
+        for number, block in blocks.items()
+    }
+
+
+def _taught(given: Given, blocks: Mapping[int, Files], work: Map) -> CurveTranslator:
+    """The translator after it has learned from all files: from the rows of those that may teach."""
+    tasks = {next(iter(block)): LookForTeachers(block, given) for block in blocks.values()}
+    found = [done.result() for done in all_done(work, tasks, "reading files to learn from").values()]
+    teachers = pd.concat([rows for _, rows in found], ignore_index=True)
+    teachers = teachers.sort_values("file", ignore_index=True)
+    return given.translator.taught(np.unique(np.concatenate([tires for tires, _ in found])), teachers)
 
 
 def chosen_files(files: Files, only: list[str]) -> dict[str, Callable[[], TireModel]]:
@@ -106,107 +134,85 @@ def chosen_files(files: Files, only: list[str]) -> dict[str, Callable[[], TireMo
     return {file: load for file, load in files.items() if any(matches(file, pattern) for pattern in only)}
 
 
-def translate_all(
-    translator: dict[str, Any],
-    models: dict[str, TireModel],
-    sources: pd.DataFrame,
-    unreadable: pd.DataFrame,
-    parameters: TranslateParameters,
-) -> tuple[dict[str, bytes], pd.DataFrame, pd.DataFrame, pd.DataFrame, pd.DataFrame, dict[str, Any]]:
-    """Translate every file whose supplier is known, and give each a verdict.
+def join_translated(
+    parts: Parts, translator: dict[str, Any]
+) -> tuple[
+    dict[str, Callable[[], bytes]],
+    pd.DataFrame,
+    list[Callable[[], pd.DataFrame]],
+    list[Callable[[], pd.DataFrame]],
+    list[Callable[[], pd.DataFrame]],
+    pd.DataFrame,
+]:
+    """Put together what was translated. Of all files only the rows of the report are in memory.
 
     Parameters
     ----------
+    parts : mapping
+        What :func:`translate_each` gave, done.
     translator : dict
-        State of a fitted translator.
-    models, sources, unreadable
-        From :func:`read_sources`.
-    parameters : TranslateParameters
+        State of the translator.
 
     Returns
     -------
-    files : dict of str to bytes
-        The translated ``.tir`` files, no others.
+    files : dict
+        The translated ``.tir`` files, no others, by the function that reads each.
     report : DataFrame
         One row a file: how its supplier is known, verdict, reason, distance, expected RMS error over that of
         the unchanged file, band of the bias, and that in words with what it usually comes from.
-    coefficients : DataFrame
-        One row a coefficient that moved.
-    bands : DataFrame
-        ``file, output, normal_load, slip, middle, low, high``: curves of the translated files with their 90%
-        band.
+    sources, coefficients, bands : list of callable
+        By parts, a function each: the files as a tire table at one nominal load, with suppliers; one row a
+        coefficient that moved; ``file, output, normal_load, slip, middle, low, high``: curves of the
+        translated files with their 90% band.
     protocols : DataFrame
         Categories that changed how they measure.
-    curves : dict
-        Of every file, for the page (:func:`.translation.curves.of_files.file_curves`).
+
+    Raises
+    ------
+    DomainError
+        If not one file could be read.
     """
-    fitted = translator_from_state(translator)
-    result = _named_suppliers(fitted.translation(sources, farthest=parameters.farthest), sources)
-    own = from_models((file, "", model) for file, model in models.items())
-    curves = file_curves(list(own["file"]), models, result)
-    translated, comments = at_own_load(result, models, own)
-    texts = {
-        file: tir_bytes(model, comments=comments[file], digits=COMPUTED_DIGITS)
-        for file, model in track(translated.items(), "writing translated files")
-    }
-    report = pd.concat([result.report, unreadable], ignore_index=True) if len(unreadable) else result.report
-    report = report.reset_index(drop=True)
-    return texts, report, result.coefficients, _bands(result, own), result.protocols, curves
-
-
-def _named_suppliers(result: TranslationResult, source: pd.DataFrame) -> TranslationResult:
-    """The result with how each supplier is known, and what to do where it is not."""
-    report = result.report.copy()
-    report.insert(1, "supplier", source["supplier"].to_numpy())
-    unknown = (report["verdict"] == UNKNOWN).to_numpy()
-    report.loc[unknown, "source"] = UNKNOWN_SUPPLIER
-    report.loc[unknown, "reason"] = source["supplier_note"].to_numpy()[unknown]
-    targets = (report["supplier"] != BY_FOLDER) & (report["source"] == report["target"])
-    report.loc[targets, "reason"] = "classified as the target's own"
-    return replace(result, report=report)
-
-
-def _read(files: Files, most: int, work: Map) -> tuple[dict[str, TireModel], list[dict[str, str]]]:
-    models: dict[str, TireModel] = {}
-    problems = []
-    wanted = dict(list(files.items())[: most or None])
-    done = {each.name: each for each in in_blocks(work, wanted, "reading files to translate")}
-    for file in wanted:
-        error = done[file].error
-        if error is None:
-            models[file] = done[file].result()
-            continue
-        cause = error if isinstance(error, TirePipelineError) else error.__cause__ or error
-        if not isinstance(cause, TirePipelineError | OSError):
-            raise error
-        problems.append({"file": file, "verdict": "refused", "reason": f"cannot be read: {cause}"})
-    if not models:
+    files, last = dict[str, Callable[[], bytes]](), _LastTexts()
+    reports, unreadable = list[pd.DataFrame](), list[dict[str, str]]()
+    read = list[Callable[[], bytes]]()
+    for load in track(parts.values(), "joining what was translated", total=len(parts)):
+        part = load()
+        unreadable += unreadable_in(part)
+        if has_tables(part):
+            read.append(load)
+            reports.append(table_in(part, "report"))
+            files |= {file: partial(last.text, load, file) for file in texts_in(part)}
+    aside = pd.DataFrame(unreadable, columns=["file", "source", "supplier", "verdict", "reason"])
+    aside = aside.sort_values("file", ignore_index=True)
+    for file, reason in aside[["file", "reason"]].head(_SAID).itertuples(index=False):
+        _LOG.warning("%s is refused: %s", file, reason)
+    if not reports:
         raise DomainError(
-            f"none of {len(wanted)} files could be read; the first: {problems[0]['reason']}",
+            f"none of {len(aside)} files could be read; the first: {aside['reason'].iloc[0]}",
             where="translate",
             todo="correct them, then run again",
         )
-    return models, problems
+    report = pd.concat(reports, ignore_index=True).sort_values("file", ignore_index=True)
+    report = pd.concat([report, aside], ignore_index=True) if len(aside) else report
+    model = translator_from_state(translator).model  # type: ignore[attr-defined]
+    sources, coefficients, bands = (
+        [_table_of(load, name) for load in read] for name in ("sources", "coefficients", "bands")
+    )
+    return files, report, sources, coefficients, bands, protocol_changes(model)
 
 
-def _bands(result: TranslationResult, own: pd.DataFrame) -> pd.DataFrame:
-    """Bands of the translated files as one long table."""
-    parts = []
-    for output, every in result.bands.items():
-        known = np.isfinite(every.low).any(axis=(1, 2))
-        band = replace(every, middle=every.middle[known], low=every.low[known], high=every.high[known])
-        n, loads, slips = band.middle.shape
-        files = own["file"].to_numpy()[known]
-        parts.append(
-            pd.DataFrame(
-                {
-                    "file": np.repeat(files, loads * slips),
-                    "output": output,
-                    "normal_load": np.tile(np.repeat(band.normal_load, slips), n),
-                    "slip": np.tile(band.slip, n * loads),
-                    **{name: getattr(band, name).ravel() for name in ("middle", "low", "high")},
-                }
-            )
-        )
-    columns = ["file", "output", "normal_load", "slip", "middle", "low", "high"]
-    return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=columns)
+def _table_of(load: Callable[[], bytes], name: str) -> Callable[[], pd.DataFrame]:
+    return lambda: table_in(load(), name)
+
+
+class _LastTexts:
+    """Texts of the part that was read last: they are written part by part."""
+
+    def __init__(self) -> None:
+        self._load: Callable[[], bytes] | None = None
+        self._texts: dict[str, bytes] = {}
+
+    def text(self, load: Callable[[], bytes], file: str) -> bytes:
+        if self._load is not load:
+            self._load, self._texts = load, texts_in(load())
+        return self._texts[file]

@@ -19,7 +19,7 @@ from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE, VerdictRu
 from tire_pipeline.translation.population.fit import PreparedTraining, fit_curve_mixed_model, prepare
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.base import Predictor
-from tire_pipeline.translation.predict.batch import BatchLearning
+from tire_pipeline.translation.predict.batch import BatchLearning, Taught
 from tire_pipeline.translation.predict.mixed import MixedPredictor
 from tire_pipeline.translation.result import TRANSLATED, Band, TranslationResult, moved_coefficients
 
@@ -36,6 +36,8 @@ class Parts:
         Scores of the target's file.
     batch : BatchLearning or None
         Learns from the files to translate, if it is asked for.
+    taught : Taught or None
+        What a batch has taught already; None: the files that are predicted are the batch.
     decoder : Decoder
         Coefficients from scores.
     verdict : VerdictRules
@@ -47,20 +49,28 @@ class Parts:
     batch: BatchLearning | None
     decoder: Decoder
     verdict: VerdictRules
+    taught: Taught | None = None
 
     def predict(self, source: pd.DataFrame) -> Prediction:
         """Predict the target's scores of every source file."""
         found = self.predictor.predict(self.model, source, self.verdict.target)
         if self.batch is None or not isinstance(self.predictor, MixedPredictor):
             return found
-        return self.batch.predict(
-            self.model,
-            source,
-            self.verdict.target,
-            before=found,
-            near=self.verdict.near(self.model, source, found),
-            predictor=self.predictor,
-        )
+        taught = self.taught
+        if taught is None:
+            teachers = source.iloc[np.flatnonzero(self._teach(self.batch, source, found))]
+            taught = self.batch.learn(self.model, source["tire_id"].to_numpy(dtype=str), teachers)
+        return taught.predict(source, self.verdict.target, before=found, predictor=self.predictor)
+
+    def teachers(self, source: pd.DataFrame) -> pd.DataFrame:
+        """The source files that may teach, none if nothing is learned from a batch."""
+        if self.batch is None:
+            return source.iloc[:0]
+        found = self.predictor.predict(self.model, source, self.verdict.target)
+        return source.iloc[np.flatnonzero(self._teach(self.batch, source, found))]
+
+    def _teach(self, batch: BatchLearning, source: pd.DataFrame, found: Prediction) -> np.ndarray:
+        return self.verdict.near(self.model, source, found) & batch.sure_and_new(source)
 
 
 class CurveTranslator:
@@ -179,6 +189,42 @@ class CurveTranslator:
         other.__dict__.update(self.__dict__)
         other._parts = replace(self.parts, verdict=replace(self.parts.verdict, **changes))
         other.gate, other.farthest = other._parts.verdict.gate, other._parts.verdict.farthest
+        return other
+
+    def teaching(self, source: pd.DataFrame) -> tuple[np.ndarray, pd.DataFrame]:
+        """Give what :meth:`taught` needs of some files of a batch: the tires, and the files that may teach.
+
+        Parameters
+        ----------
+        source : DataFrame
+            As for :meth:`translation`.
+        """
+        parts = self.parts
+        rows = source.iloc[np.flatnonzero(parts.verdict.refusals(parts.model, source) == "")]
+        if not len(rows):
+            return np.empty(0, dtype=str), rows
+        with threadpool_limits(1):
+            return np.unique(rows["tire_id"].to_numpy(dtype=str)), parts.teachers(rows)
+
+    def taught(self, tires: np.ndarray, teachers: pd.DataFrame) -> Self:
+        """Give the same translator after it has learned from a batch.
+
+        It translates any files of the batch as if all were translated together. One that learns from no batch
+        is given back as it is.
+
+        Parameters
+        ----------
+        tires : ndarray of str
+        teachers : DataFrame
+            From :meth:`teaching`, of all files of the batch.
+        """
+        parts = self.parts
+        if parts.batch is None:
+            return self
+        other = object.__new__(type(self))
+        other.__dict__.update(self.__dict__)
+        with threadpool_limits(1):
+            other._parts = replace(parts, taught=parts.batch.learn(parts.model, tires, teachers))
         return other
 
     def translate(self, source: pd.DataFrame) -> pd.DataFrame:

@@ -14,7 +14,7 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.files.packed import as_parquet, from_parquet
 from tire_pipeline.tire_table.in_pieces import Piece, TableInPieces, numbers_of
 
-_TODO = "run again; what lies there is not used"
+RUN_AGAIN = "run again; what lies there is not used"
 
 
 class TablePartsDataset(VersionedDataset[TableInPieces]):
@@ -59,7 +59,7 @@ class TablePartsDataset(VersionedDataset[TableInPieces]):
                 Piece(
                     part["rows"],
                     tuple(part["numbers"]),
-                    partial(read_part, folder, part["name"], part["sha256"], _TODO),
+                    partial(read_part, folder, part["name"], part["sha256"], RUN_AGAIN),
                 )
                 for part in parts
             )

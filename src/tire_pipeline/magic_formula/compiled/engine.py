@@ -60,21 +60,29 @@ def run(
     -------
     ndarray of shape (tires, len(wanted), points)
     """
+    compiled = np.zeros(len(matrix), dtype=bool)
+    if turn_slip is None and largest_angle <= _LARGEST_ANGLE:
+        compiled = compiles(matrix)
     tires, count = points[0].shape
     out = np.empty((tires, len(wanted), count))
+    if compiled.any() and not compiled.all():  # a tire's forces do not depend on what stands beside it
+        for part in (compiled, ~compiled):
+            some = [values[part] for values in points]
+            out[part] = run(matrix[part], family, some, signs, wanted, largest_angle)
+        return out
     rows = np.full(len(OUTPUTS), -1)
     for row, name in enumerate(wanted):
         rows[OUTPUTS.index(name)] = row
-    if turn_slip is None and largest_angle <= _LARGEST_ANGLE and compiles(matrix):
+    if compiled.all():
         _run_compiled(matrix, family, points, signs, rows, out)
     else:
         _run_numpy(matrix, family, points, signs, rows, out, turn_slip)
     return out
 
 
-def compiles(matrix: np.ndarray) -> bool:
-    """Return whether compiled code is there and right for these coefficients."""
-    return HAVE_NUMBA and are_moderate(matrix)
+def compiles(matrix: np.ndarray) -> np.ndarray:
+    """Return of each tire whether compiled code is there and right for its coefficients."""
+    return are_moderate(matrix) & HAVE_NUMBA
 
 
 def run_point(vector: np.ndarray, family: int, point: Sequence[float]) -> tuple[float, ...]:

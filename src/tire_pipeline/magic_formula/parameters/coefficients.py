@@ -238,12 +238,12 @@ def is_possible(name: str, value: float) -> bool:
     return True
 
 
-def are_moderate(matrix: np.ndarray) -> bool:
-    """Return whether no shape factor of packed tires is beyond 1000.
+def are_moderate(matrix: np.ndarray) -> np.ndarray:
+    """Return of each packed tire whether none of its shape factors is beyond 1000.
 
     Shape factors multiply angles inside sines and cosines; compiled code knows those only up to 1e5.
     """
-    return bool(np.abs(matrix[:, _SHAPES]).max(initial=0.0) <= _LARGEST_SHAPE)
+    return np.asarray(np.abs(matrix[:, _SHAPES]).max(axis=1, initial=0.0) <= _LARGEST_SHAPE)
 
 
 def pack_mapping(coefficients: Mapping[str, float], defaulted: Mapping[str, float]) -> np.ndarray:

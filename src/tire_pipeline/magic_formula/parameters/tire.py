@@ -100,7 +100,7 @@ class TireParameters:
     @cached_property
     def moderate(self) -> bool:
         """Whether compiled code is right for these coefficients; see :func:`.coefficients.are_moderate`."""
-        return are_moderate(self.packed[None, :])
+        return bool(are_moderate(self.packed[None, :])[0])
 
     @cached_property
     def lacks_radius(self) -> bool:

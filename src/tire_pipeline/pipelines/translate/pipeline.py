@@ -5,53 +5,46 @@ from kedro.pipeline import Node, Pipeline
 from tire_pipeline.cluster import given_map
 from tire_pipeline.reporting.translation.translated_folder_page import translate_page
 from tire_pipeline.translation.fitted import fit_translator
-from tire_pipeline.translation.translated_folder import read_sources, translate_all
+from tire_pipeline.translation.translated_folder import join_translated, translate_each
 
 
 def create_pipeline(**_: object) -> Pipeline:
-    """Translate the user's files to the target category: read, fit, translate, draw."""
+    """Translate the user's files to the target category: fit, translate, join, draw."""
     return Pipeline(
         [
+            fit_node(),
             Node(
-                given_map(read_sources, without_cluster=1),
+                given_map(translate_each),
                 inputs=[
+                    "translator",
                     "files_to_translate",
                     "normalized_table",
                     "params:translate",
                     "params:normalize",
                     "params:seed",
                 ],
-                outputs=["source_models", "source_table", "unreadable_sources"],
-                name="read_sources",
+                outputs="translated_blocks",
+                name="translate_each",
             ),
-            fit_node(),
             Node(
-                translate_all,
-                inputs=[
-                    "translator",
-                    "source_models",
-                    "source_table",
-                    "unreadable_sources",
-                    "params:translate",
-                ],
+                join_translated,
+                inputs=["translated_blocks", "translator"],
                 outputs=[
                     "translation_files",
                     "translation_report",
+                    "source_table",
                     "translation_coefficients",
                     "translation_bands",
                     "translation_protocols",
-                    "translation_curves",
                 ],
-                name="translate_all",
+                name="join_translated",
             ),
             Node(
                 translate_page,
                 inputs=[
                     "translation_report",
-                    "translation_curves",
-                    "translation_coefficients",
+                    "translated_blocks",
                     "translation_protocols",
-                    "source_table",
                     "demonstration_files",
                     "params:translate",
                     "params:target_category",

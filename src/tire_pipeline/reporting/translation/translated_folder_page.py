@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable, Mapping
 
 import pandas as pd
 
 from tire_pipeline.classifiers.open_set import LEAST_PROBABILITY, LEAST_TYPICALITY
+from tire_pipeline.progress import track
 from tire_pipeline.reporting import Table
+from tire_pipeline.reporting.translation.drawn_files import DrawnFiles
 from tire_pipeline.reporting.translation.translated import translated_page
 from tire_pipeline.translation.parameters import TranslateParameters
 from tire_pipeline.translation.result import EDGE, REFUSED, TRANSLATED, UNKNOWN
+from tire_pipeline.translation.translated_block import curves_in, has_tables, table_in
 
 _PROTOCOLS = (
     "Categories whose files show that the way of measuring changed on a day: that day with its 90% range, "
@@ -21,10 +24,8 @@ _PROTOCOLS = (
 
 def translate_page(
     report: pd.DataFrame,
-    curves: dict[str, Any],
-    coefficients: pd.DataFrame,
+    parts: Mapping[str, Callable[[], bytes]],
     protocols: pd.DataFrame,
-    source_table: pd.DataFrame,
     demonstration_files: list[str],
     parameters: TranslateParameters,
     target: str,
@@ -33,11 +34,10 @@ def translate_page(
 
     Parameters
     ----------
-    report, coefficients, protocols : DataFrame
-    curves : dict
-        From :func:`.nodes.translate_all`.
-    source_table : DataFrame
-        Tires by ``file`` and ``tire_id``.
+    report : DataFrame
+    parts : mapping
+        What was translated (:func:`.translation.translated_folder.translate_each`); read one after the other.
+    protocols : DataFrame
     demonstration_files : list of str
         Files that are not the user's own.
     parameters : TranslateParameters
@@ -56,14 +56,20 @@ def translate_page(
     if len(protocols):
         shown = protocols.rename(columns=lambda name: name.replace("_", " "))
         tables.append(Table(shown, _PROTOCOLS, heading="Changes of protocol"))
+    drawn, tires = DrawnFiles(), dict[str, str]()
+    for load in track(parts.values(), "reading what was translated", total=len(parts)):
+        part = load()
+        if has_tables(part):
+            drawn.add(curves_in(part), table_in(part, "coefficients"))
+            names = table_in(part, "sources")[["file", "tire_id"]]
+            tires |= dict(names.itertuples(index=False, name=None))
     page = translated_page(
         f"Translated to {target}",
         [*outcome, *_explained(report, parameters)],
         report,
-        curves,
-        coefficients,
+        drawn,
         own=own,
-        tires=dict(zip(source_table["file"], source_table["tire_id"], strict=True)),
+        tires=tires,
         tables=tables,
     )
     return page, outcome

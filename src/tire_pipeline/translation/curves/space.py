@@ -18,6 +18,7 @@ from scipy.linalg import eigh
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.progress import track
+from tire_pipeline.row_products import by_row
 from tire_pipeline.translation.curves.features import GROUPS, LOADS, encode
 from tire_pipeline.translation.metadata import Metadata
 
@@ -126,8 +127,8 @@ class CurveSpace:
         scores, rest = [], {}
         for name, part in PARTS.items():
             apart = features[part.group][:, part.columns] / UNIT[part.group] - self.mean[name]
-            own = apart @ self.onto[name]
-            left = apart - own @ self.back[name]
+            own = by_row(apart, self.onto[name])
+            left = apart - by_row(own, self.back[name])
             scores.append(own)
             rest[name] = np.clip(left, -self.limit[name], self.limit[name])
         return np.concatenate(scores, axis=1), rest
@@ -137,7 +138,7 @@ class CurveSpace:
         found: dict[str, list[np.ndarray]] = {group.name: [] for group in GROUPS}
         for name, place in self.slices.items():
             group = PARTS[name].group
-            values = self.mean[name] + scores[:, place] @ self.back[name] + rest[name]
+            values = self.mean[name] + by_row(scores[:, place], self.back[name]) + rest[name]
             found[group].append(values * UNIT[group])
         return {group: np.concatenate(values, axis=1) for group, values in found.items()}
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.row_products import by_row
 from tire_pipeline.translation.curves.space import PARTS, UNIT
 from tire_pipeline.translation.judge.effects import EFFECT_QUANTILE, KEY_PARTS
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
@@ -68,8 +69,9 @@ def bias_band(model: CurveMixedModel, found: Prediction) -> BiasBand:
     for k, part in enumerate(KEY_PARTS):
         place = model.space.slices[part]
         along = model.space.back[part].mean(axis=1) * UNIT[PARTS[part].group]
-        middle[:, k] = found.shift[:, place] @ along
-        half[:, k] = EFFECT_QUANTILE * np.sqrt(found.shift_variance[:, place] @ along**2)
+        middle[:, k] = by_row(found.shift[:, place], along[:, None])[:, 0]
+        variance = by_row(found.shift_variance[:, place], along[:, None] ** 2)[:, 0]
+        half[:, k] = EFFECT_QUANTILE * np.sqrt(variance)
     return BiasBand(np.expm1(middle - half), np.expm1(middle + half))
 
 

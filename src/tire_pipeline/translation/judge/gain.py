@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.special import ndtr
 
+from tire_pipeline.row_products import by_row
 from tire_pipeline.translation.curves.space import PARTS
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 
@@ -41,8 +42,8 @@ def expected_gain(model: CurveMixedModel, found: Prediction) -> tuple[np.ndarray
         place, back = model.space.slices[name], model.space.back[name]
         weight = back @ back.T / back.shape[1]
         step = found.target[:, place] - found.source[:, place]
-        after += found.variance[:, place] @ np.diag(weight)
-        along = step @ weight
+        after += by_row(found.variance[:, place], np.diag(weight)[:, None])[:, 0]
+        along = by_row(step, weight)
         move += (step * along).sum(axis=1)
         move_variance += (along**2 * found.variance[:, place]).sum(axis=1)
     harm = ndtr(-0.5 * move / np.sqrt(np.maximum(move_variance, 1e-12)))

@@ -73,4 +73,6 @@ def _size(model: CurveMixedModel, found: Prediction) -> np.ndarray:
     """Root mean square surprise of the forces; a torque that was fitted badly is no other tire."""
     kept = np.ones(found.surprise.shape[1], dtype=bool)
     kept[model.space.slices["aligning torque"]] = False
-    return np.sqrt((found.surprise[:, kept] ** 2).mean(axis=1))
+    squares = found.surprise[:, kept] ** 2
+    # summed from left to right: a sum takes another order where there is only one file
+    return np.asarray(np.sqrt(np.cumsum(squares, axis=1)[:, -1] / squares.shape[1]))

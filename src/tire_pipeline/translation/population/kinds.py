@@ -13,6 +13,8 @@ from typing import Any, Self
 
 import numpy as np
 
+from tire_pipeline.row_products import by_row
+
 TIRE_BLOCKS = ("metadata", "size", "class")
 """The blocks of the mixed model that say what a tire is, whoever measures it."""
 
@@ -57,7 +59,8 @@ class TireKinds:
         own : ndarray, shape (n, q)
             What is a tire's own beyond its expectation, scores in their standard deviations.
         """
-        return (tire_regressors(blocks) @ self.expected - self.centre + own) @ self.turn
+        expected = by_row(tire_regressors(blocks), self.expected)
+        return by_row(expected - self.centre + own, self.turn)
 
     def to_state(self) -> dict[str, Any]:
         """Give arrays that bring it back."""

@@ -17,6 +17,7 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.row_products import by_row
 from tire_pipeline.translation.curves.space import CurveSpace
 from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.population.classes.search import with_classes
@@ -153,7 +154,7 @@ class CurveMixedModel:
     def _gap(self, source: np.ndarray, chosen: np.ndarray, here: list[np.ndarray]) -> list[np.ndarray]:
         """Scores less what is expected of each class, each (n, q), in their standard deviations."""
         weights = np.stack([self.fitted[k].mean[: here[0].shape[1]] for k in chosen], axis=1)
-        return [source[:, chosen] / self.scale[chosen] - x @ weights for x in here]
+        return [source[:, chosen] / self.scale[chosen] - by_row(x, weights) for x in here]
 
     def class_probability(
         self,
@@ -233,7 +234,7 @@ class CurveMixedModel:
             )
         shift, shift_variance, aim, variance, surprise, expected = found
         steps = np.stack([one.mean[columns_of(self, "protocol")] for one in self.fitted], axis=1)
-        unsure = self.protocols.unsure(table) @ steps**2
+        unsure = by_row(self.protocols.unsure(table), steps**2)
         return Prediction(
             source,
             shift * self.scale,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tire_pipeline.row_products import by_row
 from tire_pipeline.translation.population.mixed_effects import Fitted
 
 
@@ -97,7 +98,7 @@ def _in_class(
     own, noise = (np.sqrt([one.variances[name] for one in fitted]) for name in ("tire", "noise"))
     of_weights = [one.covariance[:count, :count] for one in fitted]
     from_here, from_there, from_apart = (_times(x, of_weights) for x in (here, there, there - here))
-    at_source, at_target = here @ weights, there @ weights
+    at_source, at_target = by_row(here, weights), by_row(there, weights)
     tire_here, tire_there = reading.mine * own, reading.theirs * own
     alone = _outer(np.sqrt(reading.alone_here)) * reading.error_link
     together = tire_there[:, None] * tire_here[:, None, :] * reading.own_link
@@ -124,7 +125,7 @@ def _outer(values: np.ndarray) -> np.ndarray:
 
 def _times(design: np.ndarray, of_weights: list[np.ndarray]) -> list[np.ndarray]:
     """A design (n, m) times the covariance of each score's weights."""
-    return [design @ one for one in of_weights]
+    return [by_row(design, one) for one in of_weights]
 
 
 def _dot(left: list[np.ndarray], right: np.ndarray) -> np.ndarray:

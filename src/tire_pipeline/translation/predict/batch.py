@@ -22,6 +22,58 @@ TEACHING_PROBABILITY = 0.95
 
 
 @dataclass(frozen=True)
+class Taught:
+    """What the files of a batch have taught.
+
+    Attributes
+    ----------
+    tires : ndarray of str
+        Of the batch, sorted; their places say which part a tire is in.
+    models : tuple of CurveMixedModel or None
+        By part: what all other parts have taught; None if they hold nothing that teaches.
+    counts : tuple of int
+        By how many files.
+    """
+
+    tires: np.ndarray
+    models: tuple[CurveMixedModel | None, ...]
+    counts: tuple[int, ...]
+
+    def predict(
+        self, source: pd.DataFrame, target: str, *, before: Prediction, predictor: MixedPredictor
+    ) -> Prediction:
+        """Predict the target's scores of source files, by what the other tires of the batch taught.
+
+        Parameters
+        ----------
+        source : DataFrame
+            n files of the batch, of known categories, with ``tire_id``.
+        target : str
+        before : Prediction
+            Without learning; stands where no other tire teaches.
+        predictor : MixedPredictor
+            Predicts by the model that has learned on.
+        """
+        fold = _fold(self.tires, source)
+        found = {name: getattr(before, name).copy() for name in vars(before)}
+        for k in np.unique(fold):
+            learned, asked = self.models[k], np.flatnonzero(fold == k)
+            if learned is None:
+                continue
+            one = predictor.predict(learned, source.iloc[asked], target)
+            one = replace(one, taught=np.full(asked.size, float(self.counts[k])))
+            for name, values in found.items():
+                values[asked] = getattr(one, name)
+        return Prediction(**found)
+
+
+def _fold(tires: np.ndarray, source: pd.DataFrame) -> np.ndarray:
+    """The part of each file, (n,), by the place of its tire among those of the batch."""
+    names = source["tire_id"].to_numpy(dtype=str)
+    return np.asarray(np.searchsorted(tires, names) % BATCH_FOLDS)
+
+
+@dataclass(frozen=True)
 class BatchLearning:
     """What it takes to learn on from further files.
 
@@ -48,48 +100,31 @@ class BatchLearning:
             np.unique(training["tire_id"].to_numpy(dtype=str)),
         )
 
-    def predict(
-        self,
-        model: CurveMixedModel,
-        source: pd.DataFrame,
-        target: str,
-        *,
-        before: Prediction,
-        near: np.ndarray,
-        predictor: MixedPredictor,
-    ) -> Prediction:
-        """Predict the target's scores of every source file, by what the other tires of ``source`` taught.
+    def learn(self, model: CurveMixedModel, tires: np.ndarray, teachers: pd.DataFrame) -> Taught:
+        """Learn from a batch.
 
         Parameters
         ----------
         model : CurveMixedModel
-        source : DataFrame
-            n files of known categories, with ``tire_id``.
-        target : str
-        before : Prediction
-            Without learning; stands where no other tire teaches.
-        near : ndarray of bool, shape (n,)
-            Files near enough to the training data to teach.
-        predictor : MixedPredictor
-            Predicts by the model that has learned on.
+        tires : ndarray of str
+            Tires of all files of the batch that can be translated.
+        teachers : DataFrame
+            Those of the files that may teach: :meth:`sure_and_new`, and near the training data.
         """
-        teaches = near & self._sure_and_new(source)
-        names = source["tire_id"].to_numpy(dtype=str)
-        fold = np.unique(names, return_inverse=True)[1] % BATCH_FOLDS
-        found = {name: getattr(before, name).copy() for name in vars(before)}
-        for k in np.unique(fold):
-            asked, taught = np.flatnonzero(fold == k), np.flatnonzero((fold != k) & teaches)
-            if not taught.size:
+        names = np.unique(tires)
+        fold = _fold(names, teachers)
+        models, counts = list[CurveMixedModel | None](), list[int]()
+        for k in range(BATCH_FOLDS):
+            taught = np.flatnonzero(fold != k)
+            counts.append(taught.size)
+            if not taught.size or k >= names.size:
+                models.append(None)
                 continue
-            cells = TaughtCells.of_files(model, source.iloc[taught])
-            learned = learn_from(model, cells, self.training, self.repeats)
-            one = predictor.predict(learned, source.iloc[asked], target)
-            one = replace(one, taught=np.full(asked.size, float(taught.size)))
-            for name, values in found.items():
-                values[asked] = getattr(one, name)
-        return Prediction(**found)
+            cells = TaughtCells.of_files(model, teachers.iloc[taught])
+            models.append(learn_from(model, cells, self.training, self.repeats))
+        return Taught(names, tuple(models), tuple(counts))
 
-    def _sure_and_new(self, source: pd.DataFrame) -> np.ndarray:
+    def sure_and_new(self, source: pd.DataFrame) -> np.ndarray:
         """Tell whose category is sure, and whose tire is no training tire's, (n,)."""
         sure = np.ones(len(source), dtype=bool)
         if "category_probability" in source:

@@ -15,6 +15,7 @@ import pandas as pd
 import torch
 from torch import nn
 
+from tire_pipeline.row_products import by_row
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.likelihood_environment import Situation, situation_of
 
@@ -58,7 +59,8 @@ class CyclePredictor:
         situation = _situation(model, source, target)
         first, first_bias, last, last_bias = self.layers
         seen = np.concatenate([situation.scores, situation.context], axis=1)
-        moved = (np.maximum(seen @ first + first_bias, 0.0) @ last + last_bias) * situation.unit
+        hidden = np.maximum(by_row(seen, first) + first_bias, 0.0)
+        moved = (by_row(hidden, last) + last_bias) * situation.unit
         return replace(found, shift=moved, target=found.source + moved)
 
     def to_state(self) -> dict[str, Any]:

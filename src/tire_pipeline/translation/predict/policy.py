@@ -12,6 +12,7 @@ import torch
 from stable_baselines3 import PPO
 from torch import nn
 
+from tire_pipeline.row_products import by_row
 from tire_pipeline.training_progress import training_progress
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.curiosity import Curiosity
@@ -83,7 +84,8 @@ class PolicyPredictor:
     def act(self, seen: np.ndarray) -> np.ndarray:
         """Give the policy's mean action, (n, p), in [-1, 1]."""
         first, first_bias, last, last_bias = self.layers
-        return np.clip(np.tanh(seen @ first + first_bias) @ last + last_bias, -1.0, 1.0)
+        hidden = np.tanh(by_row(seen, first) + first_bias)
+        return np.clip(by_row(hidden, last) + last_bias, -1.0, 1.0)
 
     def predict(self, model: CurveMixedModel, source: pd.DataFrame, target: str) -> Prediction:
         """Let the agent move the scores."""

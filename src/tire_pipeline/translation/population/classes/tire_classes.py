@@ -17,6 +17,8 @@ import numpy as np
 from scipy.optimize import minimize
 from scipy.special import logsumexp
 
+from tire_pipeline.row_products import by_row
+
 _SHARE_PENALTY = 1.0
 
 
@@ -93,7 +95,7 @@ def _normalised(logs: np.ndarray) -> np.ndarray:
 
 def log_shares(metadata: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """Logarithms of the classes' shares, (n, k), for weights (1 + d, k) of metadata (n, d) after a 1."""
-    return _normalised(np.concatenate([np.ones((len(metadata), 1)), metadata], axis=1) @ weights)
+    return _normalised(by_row(np.concatenate([np.ones((len(metadata), 1)), metadata], axis=1), weights))
 
 
 def log_density(gap: np.ndarray, own: np.ndarray, alone: np.ndarray) -> np.ndarray:

@@ -1,0 +1,107 @@
+"""What the page of translated files draws of each file, small enough for many thousand files."""
+
+from __future__ import annotations
+
+import json
+import zlib
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from tire_pipeline.progress import track
+from tire_pipeline.reporting.embedded import packed_bytes, packed_json, quantised
+from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
+
+CURVES_TOGETHER = 40
+"""Files whose curves are compressed together, and opened together when one of them is clicked."""
+
+DIGITS = 5
+_NO_CURVES: dict[str, Any] = {"scales": [None] * len(DRAWN_OUTPUTS), "stiffness": None, "moved": []}
+
+
+class DrawnFiles:
+    """Curves and moved coefficients of files, compressed: about 1 kB a file."""
+
+    def __init__(self) -> None:
+        self.normal_load: list[float] = []
+        self.slip: list[float] = []
+        self._files: dict[str, tuple[bytes, bytes]] = {}
+
+    def add(self, curves: Mapping[str, Any], coefficients: pd.DataFrame) -> None:
+        """Add some files.
+
+        Parameters
+        ----------
+        curves : mapping
+            From :func:`tire_pipeline.translation.curves.of_files.file_curves`.
+        coefficients : DataFrame
+            ``file, coefficient, from, to``.
+        """
+        self.normal_load = [float(load) for load in curves["normal_load"]]
+        self.slip = [round(float(slip), 6) for slip in curves["slip"]]
+        by_file = dict(tuple(coefficients.groupby("file"))) if len(coefficients) else {}
+        for i, file in enumerate(map(str, curves["files"])):
+            forces, scales = _forces(curves, i)
+            moved = by_file.get(file)
+            numbers = {
+                "scales": scales,
+                "stiffness": _stiffness(curves, i),
+                "moved": _moved(moved) if moved is not None else [],
+            }
+            self._files[file] = zlib.compress(forces, 1), zlib.compress(json.dumps(numbers).encode(), 1)
+
+    def parts(self, files: Sequence[str]) -> list[list[str]]:
+        """Compressed curves, and numbers as JSON, of ``CURVES_TOGETHER`` files each, in their order."""
+        parts = []
+        for first in track(range(0, len(files), CURVES_TOGETHER), "drawing the translated files"):
+            forces, numbers = [], []
+            for file in files[first : first + CURVES_TOGETHER]:
+                if file in self._files:
+                    curves, rest = map(zlib.decompress, self._files[file])
+                    forces.append(curves)
+                    numbers.append(json.loads(rest))
+                else:
+                    numbers.append(_NO_CURVES)
+            parts.append([packed_bytes(b"".join(forces)), packed_json(numbers)])
+        return parts
+
+
+def _forces(curves: Mapping[str, Any], i: int) -> tuple[bytes, list[list[float | bool] | None]]:
+    """Source, middle and half width of each output, and [scale, has source, has band] of each."""
+    stacks: list[np.ndarray] = []
+    scales: list[np.ndarray] = []
+    found: list[list[float | bool] | None] = []
+    for name in DRAWN_OUTPUTS:
+        source, low, high = (np.asarray(curves[f"{name}_{k}"][i], float) for k in ("source", "low", "high"))
+        stack = np.stack([source, (high + low) / 2, (high - low) / 2])
+        has = np.isfinite(stack).all(axis=(1, 2))
+        if not has.any():
+            found.append(None)
+            continue
+        scale = _digits(float(np.abs(stack[has]).max()))
+        found.append([scale, bool(has[0]), bool(has[1])])
+        stacks.append(np.where(has[:, None, None], stack, 0.0))
+        scales.append(np.full(stack.shape[:2], scale))
+    if not stacks:
+        return b"", found
+    return quantised(np.stack(stacks), np.stack(scales)), found
+
+
+def _stiffness(curves: Mapping[str, Any], i: int) -> list[list[float | None]]:
+    return [
+        [_digits(value) if np.isfinite(value) else None for value in curves[f"stiffness_{part}"][i]]
+        for part in ("source", "middle", "low", "high")
+    ]
+
+
+def _moved(rows: pd.DataFrame) -> list[list[Any]]:
+    return [
+        [name, *(_digits(value) if np.isfinite(value) else None for value in pair)]
+        for name, *pair in rows[["coefficient", "from", "to"]].itertuples(index=False)
+    ]
+
+
+def _digits(value: float) -> float:
+    return float(f"{value:.{DIGITS}g}")
