@@ -126,7 +126,7 @@ def test_a_run_of_the_environment_cluster(raw, cluster):
     assert "A/bad0.tir is set aside" in " ".join((done.stdout + done.stderr).split())
 
 
-def test_a_killed_scheduler_costs_what_was_under_way_only(tmp_path, chosen, cluster):
+def test_a_killed_scheduler_costs_what_was_under_way_only(tmp_path, chosen, cluster, caplog):
     from dask_processes import Processes
 
     own = Processes(tmp_path)
@@ -152,6 +152,8 @@ def test_a_killed_scheduler_costs_what_was_under_way_only(tmp_path, chosen, clus
         killer.join()
         own.end()
     assert "run again" in str(found.value)
+    ClusterHooks().on_pipeline_error()
+    assert [each for each in caplog.records if each.name.startswith("distributed")] == []
     done = {path.name for path in (tmp_path / "out").glob("??")}
     assert 0 < len(done) < 40
     assert not dataset.exists()
