@@ -156,6 +156,7 @@ class TranslateBlock:
 
     files: Mapping[str, Load]
     given: Given
+    label = ""
 
     def __call__(self) -> TranslatedPart:
         """Translate them; one that cannot be read has its reason in the report."""
@@ -211,6 +212,7 @@ class LookForTeachers:
 
     files: Mapping[str, Load]
     given: Given
+    label = ""
 
     def __call__(self) -> tuple[np.ndarray, pd.DataFrame]:
         """Tires, and rows of the files that may teach (:meth:`.CurveTranslator.teaching`)."""
