@@ -39,7 +39,7 @@ from tire_pipeline.concealed.real import RealPlan, make_real_case
 from tire_pipeline.errors import DomainError, RecordingError
 from tire_pipeline.mismatch import Explainer, explain_mismatch
 from tire_pipeline.mismatch.proof.trial import put_in
-from tire_pipeline.mismatch.proof.visible import Sight, one_sided, sights
+from tire_pipeline.mismatch.proof.visible import Sight, sights
 from tire_pipeline.mismatch.report.assemble import Explained
 
 RECORDINGS = Path(__file__).resolve().parents[2] / "shared" / "recordings"
@@ -117,7 +117,7 @@ def drawn(source: str, seed: int) -> list[Sight]:
 def try_one(case: Case, it: Explained, sight: Sight, seed: int) -> dict[str, object]:
     """Put one effect in and explain."""
     rng = np.random.default_rng([seed, *sight.variant.name.encode(), *sight.parameter.name.encode()])
-    size = sight.seen * (1.0 if one_sided(sight.parameter) else float(rng.choice([-1.0, 1.0])))
+    size = sight.seen * (1.0 if sight.parameter.one_sided else float(rng.choice([-1.0, 1.0])))
     truth = sight.values(it.analysis.data, size)
     recording = put_in(case.tire, case.recording, sight.variant.name, truth)
     begun = time.process_time()

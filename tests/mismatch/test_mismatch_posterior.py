@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from scipy.stats import multivariate_normal
+from scipy.stats import multivariate_normal, norm
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.discrepancy.background import principal
@@ -15,6 +15,7 @@ from tire_pipeline.mismatch.inference.calibrate import START, Tuning, learn, log
 from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_posterior, log_prior
 from tire_pipeline.mismatch.inference.evidence.likelihood import Weights
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
+from tire_pipeline.mismatch.inference.one_sided import log_possible
 from tire_pipeline.mismatch.inference.priors import prior
 from tire_pipeline.mismatch.inference.sets.answer import answered
 from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets
@@ -46,6 +47,21 @@ def test_what_is_never_known_is_integrated_out():
     covariance = np.eye(40) * 40.0 / 25.0 + (columns * scale**2) @ columns.T
     told = multivariate_normal.logpdf(y, cov=covariance) - multivariate_normal.logpdf(0 * y, cov=covariance)
     assert -0.5 * found == pytest.approx(told, rel=1e-9)
+
+
+@pytest.mark.parametrize("mean", [(0.3, -0.8), (-3.0, 1.0), (-2.0, -3.0)])
+@pytest.mark.parametrize("correlation", [0.0, 0.6, -0.4])
+def test_what_physics_lets_lie_on_one_side_counts_on_this_side_alone(mean, correlation):
+    """Against the distribution function of a normal distribution; a third coefficient may be negative."""
+    spread = np.array([0.7, 1.5])
+    covariance = np.outer(spread, spread) * np.array([[1.0, correlation], [correlation, 1.0]])
+    whole = np.full((3, 3), 0.2)
+    whole[:2, :2] = covariance
+    found = log_possible(np.r_[mean, 4.0], whole, np.array([True, True, False]))
+    told = multivariate_normal.cdf(np.zeros(2), mean=-np.array(mean), cov=covariance)
+    assert found - 2.0 * np.log(2.0) == pytest.approx(np.log(told), abs=0.15)
+    one = log_possible(np.r_[mean, 4.0], whole, np.array([True, False, False]))
+    assert one == pytest.approx(np.log(2.0) + norm.logcdf(mean[0] / spread[0]), rel=1e-9)
 
 
 def test_directions_of_the_background_have_the_size_of_the_largest_force():

@@ -102,6 +102,17 @@ def test_axes_that_nobody_stated_are_the_finding_and_no_physics(cambered, turned
     assert not list(tmp_path.iterdir())
 
 
+def test_a_slip_angle_that_is_off_by_twice_the_ply_steer_is_no_sign(tire):
+    """Turned axes would show the model's ply steer on the other side: so does an offset of twice its size."""
+    steered = tire.replace(PHY1=-0.003, PVY1=0.0)
+    slip = 0.15 * np.sin(2.0 * np.pi * np.arange(0.0, 60.0, 0.02) / 7.5)
+    load = np.where(np.arange(slip.size) < slip.size // 2, 2500.0, 5000.0)
+    fy = steered.forces(slip_angle=slip, normal_load=load).fy
+    frame = pd.DataFrame({"time": np.arange(0.0, 60.0, 0.02), "normal_load": load})
+    fy = fy + 20.0 * np.random.default_rng(1).standard_normal(slip.size)
+    assert findings(steered, frame.assign(slip_angle=slip - 0.006, fy=fy)) == []
+
+
 def test_a_camber_of_another_size_is_no_sign(cambered):
     """The model's thrust is half of the true one: that has a size, and is physics."""
     tire, recording = cambered

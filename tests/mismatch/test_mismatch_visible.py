@@ -12,7 +12,7 @@ from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.explain import Explainer
 from tire_pipeline.mismatch.proof.trial import put_in
-from tire_pipeline.mismatch.proof.visible import one_sided, sights
+from tire_pipeline.mismatch.proof.visible import sights
 
 
 @pytest.fixture(scope="module")
@@ -76,7 +76,7 @@ def _named_at_their_sizes(tire, recording, seed):
     for (name, parameter), sight in found.items():
         if not np.isfinite(sight.seen):
             continue
-        sign = 1.0 if one_sided(sight.parameter) else rng.choice([-1.0, 1.0])
+        sign = 1.0 if sight.parameter.one_sided else rng.choice([-1.0, 1.0])
         values = sight.values(analysis.data, sign * sight.seen)
         report = explain_mismatch(tire, put_in(tire, recording, name, values))
         named[name, parameter] = any(name in (e.name, *e.alternatives) for e in report.effects)

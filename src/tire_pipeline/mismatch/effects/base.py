@@ -58,6 +58,11 @@ class Parameter:
     prior: float = 0.0
     prior_in: str = ""
 
+    @property
+    def one_sided(self) -> bool:
+        """Whether it is never smaller than where its effect is absent."""
+        return self.low == self.zero
+
 
 @dataclass
 class State:

@@ -1,13 +1,14 @@
 """How large an effect would have to be to be seen in a recording, and what size is ruled out.
 
 Each size of each parameter is put into what is left. The log evidence of the set with the effect is compared
-with that of the set without it, by the same likelihood and the same odds by which names are found.
+with that of the set without it, by the same likelihood and the same odds by which names are found. A size is
+said to be seen only if the effect's own equation then beats its rivals, too: ``rivals.py``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from statistics import NormalDist
 
 import numpy as np
@@ -27,11 +28,14 @@ from tire_pipeline.mismatch.model.candidates import Variant
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.measured import Visible
+from tire_pipeline.mismatch.proof.rivals import Rivals
 
 Array = np.ndarray
 _SEEN = NormalDist().inv_cdf(0.95)
 _RULED_OUT = NormalDist().inv_cdf(0.975)
 _ROUNDS = 7
+_FURTHER = 1.2
+"""Factor between the sizes that are tried beside an effect's rivals."""
 _MOST_FORMS = 3
 _SMALL, _SIZES, _HALVINGS = 1e-4, 97, 40
 FALSE = 0.02
@@ -74,7 +78,7 @@ class Sight:
     @property
     def ruled_out(self) -> float:
         """Size beyond which the 95% interval does not reach; infinite beyond the bounds."""
-        value = max(self.value, 0.0) if one_sided(self.parameter) else abs(self.value)
+        value = max(self.value, 0.0) if self.parameter.one_sided else abs(self.value)
         size = value + _RULED_OUT * self.error
         return size if size < largest(self.parameter) else np.inf
 
@@ -82,11 +86,6 @@ class Sight:
         """Return the effect's parameters where this one alone is off by some size."""
         zero = self.variant.effect.zeros(data)
         return {**zero, **self.form, self.parameter.name: zero[self.parameter.name] + size}
-
-
-def one_sided(parameter: Parameter) -> bool:
-    """Whether a parameter is never smaller than where its effect is absent."""
-    return parameter.low == parameter.zero
 
 
 def largest(parameter: Parameter) -> float:
@@ -140,6 +139,7 @@ class _Scene:
         self.tailed = named.tailed(own)
         self.odds = {True: -EXPECTED, False: -(learnt.further if named.names else learnt.effect)}
         self.likelihood = enumerated.likelihood.at(plain(enumerated.likelihood, named).weights)
+        self.rivals = Rivals(analysis, enumerated, named)
 
     def sight(self, variant: Variant, parameter: Parameter) -> Sight | None:
         """Return what shows of one parameter, or None if nothing does.
@@ -165,6 +165,8 @@ class _Scene:
             if not np.isfinite(seen) or seen > most:
                 break
             column = self._column(out, seen, before)
+        if np.isfinite(seen) and seen <= most:
+            seen = self._beyond_rivals(out, seen, error, before)
         told = (_SEEN - float(NormalDist().inv_cdf(0.5 * FALSE / max(self.count, 1)))) * error
         return Sight(variant, parameter, self._possible(out, seen), self._possible(out, told), value, error)
 
@@ -206,6 +208,21 @@ class _Scene:
             middle = 0.5 * (low + high)
             low, high = (low, middle) if gain(middle) > odds else (middle, high)
         return value, error, high + _SEEN * error
+
+    def _beyond_rivals(self, sight: Sight, seen: float, error: float, before: dict[str, Array]) -> float:
+        """Return the smallest size from one on at which the effect is named, or infinity.
+
+        What repetitions add to a size that is seen by itself they add to this one.
+        """
+        size = max(seen - _SEEN * error, 0.0)
+        while size <= largest(sight.parameter):
+            change = self._simulated(sight, size)
+            added = {o: change[o] - before[o] for o in change}
+            values = sight.values(self.data, size)
+            if self.rivals.named(replace(sight.variant, start=values), added):
+                return max(size + _SEEN * error, seen)
+            size = max(_FURTHER * size, 0.5 * error)
+        return float(np.inf)
 
     def _column(self, sight: Sight, size: float, before: dict[str, Array]) -> dict[str, Array]:
         there = self._simulated(sight, size)

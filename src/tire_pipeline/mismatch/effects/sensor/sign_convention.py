@@ -19,7 +19,8 @@ _GAINS = (1.0 / 3.0, 3.0)
 
 _EXPLAINED = 0.85
 _LEFT = 0.2
-"""Turned signs must explain so much of a force, and leave at most this part of what is left without."""
+"""Where the signs that were given explain less of a force, the model may have the other sign everywhere. Then
+turned ones must explain so much, and leave at most this part of what is left without."""
 
 _FORM = 0.15
 """How wrong the form of the model's answer to a channel may be, as a part of it."""
@@ -36,6 +37,9 @@ _ALIKE = 3.0
 _GAIN_OFF = 0.3
 _OFFSET = 0.03
 """How far the force's gain, and its offset over the largest force, may be off where nothing else is wrong."""
+
+_SLIP_OFF = 0.01
+"""rad, or 1: how far a slip may be off. In a model with ply steer an offset looks much like turned axes."""
 
 _STRETCHES = 20
 """What the model gets wrong is taken as independent from one of so many stretches of rows to the next."""
@@ -114,24 +118,26 @@ def convention(
     ok = np.isfinite(channels[force]) & np.all([np.isfinite(p) for p in turned.values()], axis=0)
     recorded = channels[force][ok]
     turned = {s: p[ok] for s, p in turned.items()}
+    beside = _off_by_slip(channels, simulate, force)[ok]
     if ok.sum() < _STRETCHES or float(np.var(recorded)) == 0.0:
         return (), []
     share = {s: _explained(recorded, p) for s, p in turned.items()}
     best = max(sets, key=lambda s: round(share[s], 6))  # the fewest turns of those that are the same
-    gross = share[best] > _EXPLAINED and 1.0 - share[best] < _LEFT * (1.0 - share[()])
-    base = best if gross else ()
-    if not gross and share[()] < _EXPLAINED:
-        return (), []
+    base: tuple[str, ...] = ()
+    if share[()] < _EXPLAINED:
+        if share[best] < _EXPLAINED or 1.0 - share[best] > _LEFT * (1.0 - share[()]):
+            return (), []
+        base = best
     chosen = base
     away = {s for s in sets if 1.0 - share[s] < (1.0 - _AWAY) * (1.0 - share[base])}
     log_evidence = {
-        s: _likelier(recorded, turned[base], turned[s]) for s in sets if s in away and share[s] > 0.5
+        s: _likelier(recorded, turned[base], turned[s], beside) for s in sets if s in away and share[s] > 0.5
     }
     if log_evidence and max(log_evidence.values()) > _SURE:
         chosen = max(log_evidence, key=lambda s: round(log_evidence[s], 3))
     if not chosen:
         return (), []
-    same = [s for s in sets if s and share[s] > 0.5 and _alike(recorded, turned[chosen], turned[s])]
+    same = [s for s in sets if s and share[s] > 0.5 and _alike(recorded, turned[chosen], turned[s], beside)]
     left = {s: float(np.sum((recorded - turned[s]) ** 2)) for s in same}
     same.sort(key=lambda s: round(left[s] / max(min(left.values()), 1e-300), 2))  # fewest turns of equal ones
     return same[0], same[1:]
@@ -155,7 +161,17 @@ def excludes_sae(channels: Mapping[str, Array], simulate: Simulate) -> bool:
     ok = np.isfinite(channels["fy"]) & np.isfinite(given) & np.isfinite(sae)
     if ok.sum() < _STRETCHES:
         return False
-    return _likelier(channels["fy"][ok], given[ok], sae[ok], sized=False) <= -_ALIKE
+    beside = _off_by_slip(channels, simulate, "fy")[ok]
+    return _likelier(channels["fy"][ok], given[ok], sae[ok], beside, sized=False) <= -_ALIKE
+
+
+def _off_by_slip(channels: Mapping[str, Array], simulate: Simulate, force: str) -> Array:
+    """What the force changes by where its slip is off as far as slips are, shape (n,)."""
+    slip = "slip_angle" if force == "fy" else "slip_ratio"
+    if slip not in channels:
+        return np.zeros_like(channels[force])
+    there = simulate({**channels, slip: channels[slip] + _SLIP_OFF})[force]
+    return there - simulate(channels)[force]
 
 
 def _turned(channels: Mapping[str, Array], simulate: Simulate, force: str, names: tuple[str, ...]) -> Array:
@@ -172,36 +188,39 @@ def _explained(recorded: Array, model: Array) -> float:
     return 1.0 - float(np.sum((r - gain * m) ** 2)) / float(r @ r)
 
 
-def _alike(recorded: Array, base: Array, other: Array) -> bool:
+def _alike(recorded: Array, base: Array, other: Array, beside: Array) -> bool:
     """Whether two conventions explain a force as well as each other."""
-    return other is base or abs(_likelier(recorded, base, other, sized=False)) < _ALIKE
+    return other is base or abs(_likelier(recorded, base, other, beside, sized=False)) < _ALIKE
 
 
-def _likelier(recorded: Array, base: Array, other: Array, *, sized: bool = True) -> float:
+def _likelier(recorded: Array, base: Array, other: Array, beside: Array, *, sized: bool = True) -> float:
     """Log evidence by which ``other`` is likelier than ``base``, by what is recorded of their difference.
 
-    ``recorded - base`` is fitted by a gain, an offset and b times the difference: b is 0 if ``base`` is right
-    and 1 if ``other`` is. Gain and offset are as far off as load cells are: with free ones the ply steer of
-    the other side would be an offset. b's error is the scatter of what is left over stretches of rows, and
-    the form error. With ``sized`` nothing is returned (-inf) where a b of any size is likelier than one of
-    exactly 1.
+    ``recorded - base`` is fitted by a gain, an offset, ``beside`` (what an offset of the slip changes) and b
+    times the difference: b is 0 if ``base`` is right and 1 if ``other`` is. Gain and offsets are as far off
+    as sensors are: with a free one the ply steer of the other side would be an offset. b's error is the
+    scatter of what is left over stretches of rows, what these may be off, and the form error. With ``sized``
+    nothing is returned (-inf) where a b of any size is likelier than one of exactly 1.
     """
     part = other - base
-    x = np.column_stack([base, np.ones(base.size), part])
+    x = np.column_stack([base, np.ones(base.size), part, beside])
     size = np.sqrt(np.mean(x**2, axis=0))
     if size[2] < 1e-4 * size[0]:
         return 0.0 if not sized else -np.inf
+    size[3] = size[3] or 1.0
     x, gap = x / size, recorded - base
-    off = np.array([_GAIN_OFF * size[0], _OFFSET * float(np.max(np.abs(base))), np.inf])
+    off = np.array([_GAIN_OFF * size[0], _OFFSET * float(np.max(np.abs(base))), np.inf, size[3]])
     square = x.T @ x
     left = gap - x @ (np.linalg.pinv(square, rcond=1e-10) @ (x.T @ gap))
-    prior = np.diag(float(np.mean(left**2)) * base.size / _STRETCHES / off**2)
+    spread = float(np.mean(left**2)) * base.size / _STRETCHES
+    prior = np.diag(spread / off**2)
     inverse = np.linalg.pinv(square + prior, rcond=1e-10)
     fit = inverse @ (x.T @ gap)
     left = gap - x @ fit
     stretch = np.arange(base.size) * _STRETCHES // base.size
-    score = np.array([np.bincount(stretch, x[:, k] * left, _STRETCHES) for k in range(3)])
-    error = np.sqrt(max((inverse @ (score @ score.T) @ inverse)[2, 2], 0.0)) / size[2]
+    score = np.array([np.bincount(stretch, x[:, k] * left, _STRETCHES) for k in range(4)])
+    scatter = score @ score.T + spread * prior
+    error = np.sqrt(max((inverse @ scatter @ inverse)[2, 2], 0.0)) / size[2]
     b = fit[2] / size[2]
     variance = error**2 + _FORM**2
     if sized and (b - 1.0) ** 2 / (2.0 * variance) > max(-0.5 * np.log(variance), 0.0):

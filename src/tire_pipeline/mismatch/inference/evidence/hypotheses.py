@@ -52,8 +52,13 @@ class Hypothesis:
         columns = self.effects.columns(wide=self.wide, form=self.form)
         own = scales(self.effects, likelihood.learnt)
         scale = np.r_[own, np.full(columns.size - own.size, likelihood.learnt.wide)]
-        tailed = self.effects.tailed(columns.size)
-        return likelihood.evidence(products.take(columns), scale, tailed=tailed, wide=self.wide).value
+        return likelihood.evidence(
+            products.take(columns),
+            scale,
+            tailed=self.effects.tailed(columns.size),
+            positive=self.effects.positive(columns.size),
+            wide=self.wide,
+        ).value
 
 
 def hypotheses(case: OfCase) -> list[Hypothesis]:
@@ -71,7 +76,8 @@ def scales(each: OfSet, learnt: LearntSizes) -> Array:
 def plain(likelihood: Likelihood, each: OfSet, *, wide: bool = False) -> Evidence:
     """Return the evidence of a set with nothing unnamed beside it, and an error of usual size or of any."""
     scale = scales(each, likelihood.learnt)
-    return likelihood.evidence(each.plain, scale, tailed=each.tailed(scale.size), wide=wide)
+    tailed, positive = each.tailed(scale.size), each.positive(scale.size)
+    return likelihood.evidence(each.plain, scale, tailed=tailed, positive=positive, wide=wide)
 
 
 def plain_evidence(likelihood: Likelihood, each: OfSet) -> float:

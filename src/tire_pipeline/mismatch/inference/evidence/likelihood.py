@@ -20,6 +20,7 @@ import numpy as np
 from tire_pipeline.mismatch.discrepancy.nuisance.columns import Sizes
 from tire_pipeline.mismatch.discrepancy.nuisance.sizes import nuisance_scale
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
+from tire_pipeline.mismatch.inference.one_sided import log_possible
 from tire_pipeline.mismatch.inference.tails import log_correction, widening
 
 Array = np.ndarray
@@ -191,14 +192,17 @@ class Likelihood:
         return other
 
     @cached_property
-    def count(self) -> Mapping[str, float]:
-        """How many independent samples each output of the recording counts for.
+    def part(self) -> float:
+        """Part that counts of the samples that the correlation leaves independent.
 
-        Of a run, the learnt part of those that the correlation leaves. Points of a test plan were measured
-        apart, and each counts.
+        Of a run, the learnt one. Points of a test plan were measured apart, and each counts.
         """
-        part = self.learnt.independent + (1.0 - self.learnt.independent) * self.unknown.apart
-        return {o: part * n for o, n in self.unknown.independent.items()}
+        return self.learnt.independent + (1.0 - self.learnt.independent) * self.unknown.apart
+
+    @cached_property
+    def count(self) -> Mapping[str, float]:
+        """How many independent samples each output of the recording counts for."""
+        return {o: self.part * n for o, n in self.unknown.independent.items()}
 
     def projected(self, products: ColumnProducts) -> Projected:
         """Return what :meth:`evidence` needs of some columns, for many choices among them."""
@@ -213,6 +217,7 @@ class Likelihood:
         scale: Array,
         *,
         tailed: Array | None = None,
+        positive: Array | None = None,
         wide: bool = False,
     ) -> Evidence:
         """Return the log evidence of columns, by Laplace's approximation.
@@ -224,6 +229,8 @@ class Likelihood:
             Spreads of the coefficients' priors.
         tailed : ndarray of bool, shape (m,), optional
             Coefficients whose priors have tails; the others' are normal. All have, if left out.
+        positive : ndarray of bool, shape (m,), optional
+            Coefficients that are never negative. None, if left out.
         wide : bool
             Whether the error may be of any size, as where something unnamed is; else it is of the
             size that is usual.
@@ -231,10 +238,14 @@ class Likelihood:
         known = products if isinstance(products, Projected) else self.projected(products)
         has_tails = np.ones(scale.size, bool) if tailed is None else tailed
         near, least_squares = self._climbed(known, scale, has_tails, 1.0, wide=wide)
-        if not has_tails.any() or np.all(widening(least_squares[has_tails]) == 1.0):
-            return near
-        far, _ = self._climbed(known, scale, has_tails, _FAR, wide=wide)
-        return max(near, far, key=lambda each: each.value)
+        found = near
+        if has_tails.any() and np.any(widening(least_squares[has_tails]) > 1.0):
+            far, _ = self._climbed(known, scale, has_tails, _FAR, wide=wide)
+            found = max(near, far, key=lambda each: each.value)
+        if positive is None or not positive.any():
+            return found
+        possible = log_possible(found.mode, found.covariance, positive)
+        return replace(found, value=found.value + possible)
 
     def _climbed(
         self, known: Projected, scale: Array, has_tails: Array, start: float, *, wide: bool

@@ -71,6 +71,16 @@ class OfSet:
         """Return which of the first columns have priors with tails: the parameters, no errors of form."""
         return np.arange(count) < self.parameters
 
+    def positive(self, count: int) -> Array:
+        """Return which of the first columns have coefficients that are never negative."""
+        never = [
+            p.one_sided and p.prior > 0.0
+            for (name, _), free in zip(self.changes, self.free, strict=True)
+            for p in catalogue()[name].parameters
+            if p.name in free
+        ]
+        return np.r_[never, np.zeros(count - self.parameters, bool)].astype(bool)
+
     def columns(self, *, wide: bool = False, form: int | None = None) -> Array:
         """Return the numbers of the set's columns, with all unnamed forms together or with one of them."""
         own = self.parameters + self.errors
@@ -160,10 +170,27 @@ class RecordingProducts:
             nuisance[o] = self.beside[o][rows].T @ scaled / len(scaled)
         return ColumnProducts(own, nuisance)
 
-    def of_set(self, changes: Sequence[Change], free: Free) -> OfSet:
-        """Return a set at given parameters, with columns for its form errors and for what has no name."""
+    @property
+    def unnamed_forms(self) -> tuple[dict[str, Array], ...]:
+        """The columns of each unnamed form by itself, N, each of shape (n, k)."""
+        return self._forms
+
+    def of_set(
+        self, changes: Sequence[Change], free: Free, added: Mapping[str, Array] | None = None
+    ) -> OfSet:
+        """Return a set at given parameters, with columns for its form errors and for what has no name.
+
+        Parameters
+        ----------
+        changes : sequence of (name, parameters)
+        free : sequence of tuple of str
+        added : mapping of ndarray, shape (n,), optional
+            What is recorded besides, N.
+        """
         labels, _ = columns_of(self.data, list(changes), list(free))
         every = self.columns_of_set(changes, free)
+        for o, more in (added or {}).items():
+            every[o][:, -1] += more
         count = next(iter(every.values())).shape[1] - 1 - len(labels)
         unnamed = next(iter(self._unnamed.values())).shape[1]
         copied = tuple((name, dict(values)) for name, values in changes)

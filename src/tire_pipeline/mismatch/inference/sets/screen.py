@@ -142,7 +142,7 @@ def _independent(
     count: Mapping[str, float] = guess.unknown.independent
     for _ in range(_ROUNDS):
         before = count
-        here = guess.counting({o: n / guess.learnt.independent for o, n in before.items()})
+        here = guess.counting({o: n / guess.part for o, n in before.items()})
         found = here.evidence(every, np.ones(chosen.size), wide=True)
         count = columns.recording.independent(looked_for, found)
         if all(abs(np.log(count[o] / before[o])) < _ALIKE for o in count):
