@@ -15,8 +15,8 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.concealed.brush_rig.constants import draw_constants
+from tire_pipeline.concealed.brush_rig.recorded_run import BrushRig
 from tire_pipeline.concealed.brush_rig.schedule import CHANNELS
-from tire_pipeline.concealed.brush_rig.simulate import BrushRig
 from tire_pipeline.recordings import read_recording
 
 SHARED = Path(__file__).resolve().parents[2] / "shared"

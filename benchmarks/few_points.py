@@ -18,8 +18,8 @@ import pandas as pd
 from real_recordings import error
 
 from tire_pipeline.concealed.brush_rig.constants import draw_constants
+from tire_pipeline.concealed.brush_rig.recorded_run import BrushRig
 from tire_pipeline.concealed.brush_rig.schedule import CHANNELS
-from tire_pipeline.concealed.brush_rig.simulate import BrushRig
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.magic_formula.fitting import fit_magic_formula, joint, stage_fit
 from tire_pipeline.magic_formula.fitting.setup.typical import SPREAD

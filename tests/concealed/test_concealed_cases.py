@@ -11,8 +11,8 @@ import pytest
 from tire_pipeline.concealed import Answer, case_plan, make_case, make_cases, seal, unseal
 from tire_pipeline.concealed.brush_rig.artefacts import ArtefactDetails, apply_artefact
 from tire_pipeline.concealed.brush_rig.constants import draw_constants, without_cooling
+from tire_pipeline.concealed.brush_rig.recorded_run import BrushRig, SensorNoise, add_noise
 from tire_pipeline.concealed.brush_rig.schedule import OPTIONAL_BLOCKS, draw_plan, make_schedule
-from tire_pipeline.concealed.brush_rig.simulate import BrushRig, SensorNoise, add_noise
 from tire_pipeline.concealed.brush_rig.unknown_effects import play
 from tire_pipeline.concealed.cases import effect_size
 from tire_pipeline.concealed.cases.clean_run import residual, rms

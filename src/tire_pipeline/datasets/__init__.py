@@ -6,8 +6,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from tire_pipeline.datasets.models.model_state import StateDataset
     from tire_pipeline.datasets.models.release import ReleaseDataset
-    from tire_pipeline.datasets.models.state import StateDataset
     from tire_pipeline.datasets.tables.csv_table import CsvTableDataset
     from tire_pipeline.datasets.tables.frame_parts import FramePartsDataset
     from tire_pipeline.datasets.tables.ingest_store import IngestStoreDataset
@@ -31,7 +31,7 @@ _MODULES = {
     "MadeFilesDataset": "texts.made_files",
     "RecordingFolderDataset": "users_files.recording_folder",
     "ReleaseDataset": "models.release",
-    "StateDataset": "models.state",
+    "StateDataset": "models.model_state",
     "TablePartsDataset": "tables.table_parts",
     "TextFolderDataset": "texts.text_folder",
     "TirDataset": "users_files.tir_file",

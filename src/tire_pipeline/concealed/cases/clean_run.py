@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.channels import SLIP_AND_LOAD
+from tire_pipeline.concealed.brush_rig.recorded_run import RIG_FORCES, BrushRig
 from tire_pipeline.concealed.brush_rig.schedule import CHANNELS, CasePlan
-from tire_pipeline.concealed.brush_rig.simulate import RIG_FORCES, BrushRig
 from tire_pipeline.magic_formula import DegreesWarning, TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 

@@ -10,14 +10,14 @@ import pandas as pd
 
 from tire_pipeline.concealed.brush_rig import artefacts
 from tire_pipeline.concealed.brush_rig.constants import draw_constants, without_cooling
-from tire_pipeline.concealed.brush_rig.schedule import CasePlan, draw_plan, make_schedule
-from tire_pipeline.concealed.brush_rig.simulate import (
+from tire_pipeline.concealed.brush_rig.recorded_run import (
     RIG_FORCES,
     BrushRig,
     SensorNoise,
     add_noise,
     draw_noise,
 )
+from tire_pipeline.concealed.brush_rig.schedule import CasePlan, draw_plan, make_schedule
 from tire_pipeline.concealed.cases import effect_size
 from tire_pipeline.concealed.cases.answers import Answer, EffectTruth
 from tire_pipeline.concealed.cases.clean_run import fit_clean, model_forces, residual, rms

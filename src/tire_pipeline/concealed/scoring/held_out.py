@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pandas as pd
 
-from tire_pipeline.concealed.brush_rig.simulate import RIG_FORCES
+from tire_pipeline.concealed.brush_rig.recorded_run import RIG_FORCES
 from tire_pipeline.concealed.cases.clean_run import model_forces, rms
 from tire_pipeline.concealed.cases.make import Case
 
