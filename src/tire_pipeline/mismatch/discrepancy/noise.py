@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 import scipy
 
+from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects.shared import njit
 from tire_pipeline.mismatch.model.data import Data
 
@@ -185,8 +186,7 @@ def _block_mean(values: Array, block: Array, count: int) -> Array:
 
 def _points(data: Data, r: Array, largest: float) -> Array:
     """Scatter between nearest neighbours of the operating space; at least 0.3% of the largest force."""
-    names = ("slip_angle", "slip_ratio", "camber", "normal_load")
-    x = np.column_stack([data.get(n) / max(float(np.ptp(data.get(n))), 1e-9) for n in names])
+    x = np.column_stack([data.get(n) / max(float(np.ptp(data.get(n))), 1e-9) for n in SLIP_AND_LOAD])
     distance = ((x[:, None, :] - x[None, :, :]) ** 2).sum(axis=2) if r.size <= 3000 else None
     if distance is None:
         return np.full(r.size, max(0.003 * largest, float(np.std(np.diff(r))) / np.sqrt(2.0)))

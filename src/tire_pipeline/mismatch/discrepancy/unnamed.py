@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.discrepancy.repeating import repeating_forms
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import first_order, play
@@ -63,7 +64,7 @@ def forms(data: Data, changes: list[Change]) -> Iterator[Columns]:
 
 def _with_play(data: Data, name: str, width: float) -> dict[str, Array]:
     """Return what play in an input does to the model's forces, N."""
-    at = {n: data.get(n) for n in ("slip_angle", "slip_ratio", "camber", "normal_load")}
+    at = {n: data.get(n) for n in SLIP_AND_LOAD}
     at[name] = play(at[name], width, data.start)
     moved = plain_forces(data.tire, speed=data.model_speed, pressure=data.model_pressure, **at)
     return {o: moved[o] - data.all_base[o] for o in data.outputs}

@@ -14,13 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import directions, jacobian, shifts
 from tire_pipeline.mismatch.discrepancy.nuisance.flexible import flexible_form
 from tire_pipeline.mismatch.discrepancy.nuisance.transients import fast_load, memory
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-_POINTS = ("slip_angle", "slip_ratio", "camber", "normal_load")
 _LEAST_ON_GRID = 1e-3
 """Columns smaller on the grid than so much of what they are on the recording are not known there: a slip that
 does not vary but for noise has no range to spread a grid over."""
@@ -94,7 +94,7 @@ def make_nuisance(data: Data) -> Nuisance:
     parts: tuple[dict[str, Array], ...] = ({}, {}, {}, {}, {})
     for name in data.outputs:
         largest = largest_force(data, name)
-        here = {n: data.get(n) for n in _POINTS}
+        here = {n: data.get(n) for n in SLIP_AND_LOAD}
         flexible, path = _misfit(data, name, here, grid)
         own = (directions(data, name, here) * largest, flexible * largest, path * largest)
         for part, columns in zip(parts, (*own, memory(data, name), fast_load(data, name)), strict=True):
@@ -147,7 +147,7 @@ def _grid(data: Data) -> dict[str, Array]:
     if data.has_combined:
         rows += [(s, x, 0.0, f) for f in loads for s in (-0.08, -0.04, 0.04, 0.08) for x in k[::2]]
     points = np.array(rows)
-    return dict(zip(_POINTS, points.T, strict=True))
+    return dict(zip(SLIP_AND_LOAD, points.T, strict=True))
 
 
 def _range(data: Data, name: str, count: int) -> Array:
