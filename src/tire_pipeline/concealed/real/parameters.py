@@ -24,7 +24,7 @@ class RealParameters(Parameters):
     """
 
     cases: int = Field(default=420, ge=1)
-    seed: int = Field(default=20261224, ge=10_000)
+    seed: int = Field(default=20261231, ge=10_000)
     recordings: str = "../shared/recordings"
     baselines: tuple[Literal["bic_stepwise", "pysindy", "gaussian_process", "refitted_formula"], ...] = (
         "bic_stepwise",

@@ -68,11 +68,12 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
     pairs = [*_likeliest_pairs(found), *(names for names in wanted if len(names) == 2)]
     pairs += [tuple(sorted((first, n))) for first in expected for n in found.forms if n != first]
     for name in dict.fromkeys([*found.kept, *(n for names in pairs + wanted for n in names)]):
-        fits[(name,)] = fitted(products, likelihood, [found.forms[name]], _STEPS)
+        choices = [fitted(products, likelihood, [form], _STEPS) for form in found.forms[name]]
+        fits[(name,)] = max(choices, key=lambda each: plain_evidence(likelihood, each))
     for pair in dict.fromkeys(pairs):
-        fits[pair] = fitted(products, likelihood, _from_singles(found, fits, pair), _STEPS)
+        fits[pair] = fitted(products, likelihood, _from_singles(fits, pair), _STEPS)
     for triple in _triples(likelihood, list(fits.values()), found):
-        fits[triple] = fitted(products, likelihood, _from_singles(found, fits, triple), _STEPS)
+        fits[triple] = fitted(products, likelihood, _from_singles(fits, triple), _STEPS)
     return Enumerated(products, likelihood, _with_forms(products, likelihood, fits))
 
 
@@ -90,9 +91,12 @@ def _likeliest_pairs(found: Screened) -> list[Names]:
     return sorted(pairs, key=lambda pair: -found.evidence[pair])[:PAIRS]
 
 
-def _from_singles(found: Screened, fits: dict[Names, OfSet], names: Names) -> list[Variant]:
+def _from_singles(fits: Mapping[Names, OfSet], names: Names) -> list[Variant]:
     """Return the forms of some effects, each where its own fit has ended."""
-    return [Variant(n, dict(fits[(n,)].changes[0][1]), found.forms[n].free) for n in names]
+    singles = [fits[(name,)] for name in names]
+    return [
+        Variant(n, dict(each.changes[0][1]), each.free[0]) for n, each in zip(names, singles, strict=True)
+    ]
 
 
 def _triples(likelihood: Likelihood, fits: Sequence[OfSet], found: Screened) -> list[Names]:

@@ -38,8 +38,9 @@ class Screened:
 
     Parameters
     ----------
-    forms : dict
-        Likeliest form of each effect.
+    forms : dict of tuple of Variant
+        Of each effect the likeliest form, and that of each other choice of parameters that float: which of
+        these is likelier shows only where they are fitted.
     evidence : dict
         Log evidence of each single effect and each pair, by names, above that of no effect.
     kept : tuple of str
@@ -48,7 +49,7 @@ class Screened:
         Output -> samples that are independent beside all effects together.
     """
 
-    forms: Mapping[str, Variant]
+    forms: Mapping[str, tuple[Variant, ...]]
     evidence: Mapping[Names, float]
     kept: Names
     independent: Mapping[str, float]
@@ -94,8 +95,7 @@ def screen(products: RecordingProducts, guess: Likelihood, forms: Sequence[Scree
     evidence: dict[Names, float] = {(name,): value - nothing for name, (value, _) in best.items()}
     for pair in combinations(sorted(best), 2):
         evidence[pair] = columns.score(likelihood, *(best[name][1] for name in pair)) - nothing
-    likeliest = {name: forms[k].variant for name, (_, k) in best.items()}
-    return Screened(likeliest, evidence, _kept(evidence), independent)
+    return Screened(columns.each_choice(likelihood), evidence, _kept(evidence), independent)
 
 
 class _Columns:
@@ -126,6 +126,15 @@ class _Columns:
             name = form.variant.name
             best[name] = max(best.get(name, (-np.inf, k)), (self.score(likelihood, k), k))
         return best
+
+    def each_choice(self, likelihood: Likelihood) -> dict[str, tuple[Variant, ...]]:
+        """Return the likeliest form of each effect for each choice of parameters that float, best first."""
+        found: dict[str, dict[tuple[str, ...], Variant]] = {}
+        value = [self.score(likelihood, k) for k in range(len(self.forms))]
+        for k in sorted(range(len(self.forms)), key=lambda k: -value[k]):
+            variant = self.forms[k].variant
+            found.setdefault(variant.name, {}).setdefault(variant.free, variant)
+        return {name: tuple(choices.values()) for name, choices in found.items()}
 
 
 def _independent(
