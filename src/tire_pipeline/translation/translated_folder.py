@@ -86,13 +86,7 @@ def translate_each(
     assert isinstance(fitted, CurveTranslator)  # the parameters allow no other
     suppliers = KnownSuppliers.learn(normalized_table, chosen, classify=parameters.classify, seed=seed)
     given = Given(fitted, suppliers, normalize.nominal_load, parameters.farthest)
-    common = [
-        state_digest(translator).encode(),
-        repr((normalize.nominal_load, parameters.farthest, suppliers.names)).encode(),
-    ]
-    if suppliers.classifier is not None:
-        hashes = pd.util.hash_pandas_object(normalized_table, index=False).to_numpy()
-        common += [hashes.tobytes(), str(seed).encode()]
+    common = [state_digest(translator).encode(), *_depends_on(given, normalized_table, seed)]
     blocks = divided(chosen, TRANSLATED_TOGETHER)
     digests = {number: digest_of(block) for number, block in blocks.items()}
     if fitted.learn_from_batch:
@@ -103,6 +97,16 @@ def translate_each(
         f"{code_hash('.')}/{salt}/{number:06d}-{digests[number]}.zip": TranslateBlock(block, given)
         for number, block in blocks.items()
     }
+
+
+def _depends_on(given: Given, normalized_table: pd.DataFrame, seed: int) -> list[bytes]:
+    """What every block depends on beside the translator and its own files."""
+    suppliers = given.suppliers
+    common = [repr((given.nominal_load, given.farthest, suppliers.names)).encode()]
+    if suppliers.classifier is not None:
+        hashes = pd.util.hash_pandas_object(normalized_table, index=False).to_numpy()
+        common += [hashes.tobytes(), str(seed).encode()]
+    return common
 
 
 def _taught(given: Given, blocks: Mapping[int, Files], work: Map) -> CurveTranslator:
@@ -182,6 +186,16 @@ def join_translated(
             read.append(load)
             reports.append(table_in(part, "report"))
             files |= {file: partial(last.text, load, file) for file in texts_in(part)}
+    report = _joined_report(reports, unreadable)
+    model = translator_from_state(translator).model  # type: ignore[attr-defined]
+    sources, coefficients, bands = (
+        [_table_of(load, name) for load in read] for name in ("sources", "coefficients", "bands")
+    )
+    return files, report, sources, coefficients, bands, protocol_changes(model)
+
+
+def _joined_report(reports: list[pd.DataFrame], unreadable: list[dict[str, str]]) -> pd.DataFrame:
+    """One row a file, those that could not be read last; an error if there are no others."""
     aside = pd.DataFrame(unreadable, columns=["file", "source", "supplier", "verdict", "reason"])
     aside = aside.sort_values("file", ignore_index=True)
     for file, reason in aside[["file", "reason"]].head(_SAID).itertuples(index=False):
@@ -193,12 +207,7 @@ def join_translated(
             todo="correct them, then run again",
         )
     report = pd.concat(reports, ignore_index=True).sort_values("file", ignore_index=True)
-    report = pd.concat([report, aside], ignore_index=True) if len(aside) else report
-    model = translator_from_state(translator).model  # type: ignore[attr-defined]
-    sources, coefficients, bands = (
-        [_table_of(load, name) for load in read] for name in ("sources", "coefficients", "bands")
-    )
-    return files, report, sources, coefficients, bands, protocol_changes(model)
+    return pd.concat([report, aside], ignore_index=True) if len(aside) else report
 
 
 def _table_of(load: Callable[[], bytes], name: str) -> Callable[[], pd.DataFrame]:

@@ -12,7 +12,7 @@ Biometrics 30, 41). For one parameter it is exact.
 from __future__ import annotations
 
 import numpy as np
-from scipy.special import log_ndtr
+import scipy
 
 Array = np.ndarray
 _LOG_ROOT = 0.5 * np.log(2.0 * np.pi)
@@ -33,7 +33,7 @@ def log_possible(mean: Array, covariance: Array, positive: Array) -> float:
     for k in range(picked.size):
         spread = np.sqrt(covariance[k, k])
         z = mean[k] / spread
-        inside = float(log_ndtr(z))
+        inside = float(scipy.special.log_ndtr(z))
         total += inside
         hazard = np.exp(-0.5 * z**2 - _LOG_ROOT - inside)
         along = covariance[:, k] / spread

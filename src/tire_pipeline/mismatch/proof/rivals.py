@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from functools import cache
 
 import numpy as np
-from scipy.special import logsumexp
+import scipy
 
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.evidence.hypotheses import Asked, plain, scales
@@ -78,10 +78,10 @@ class Rivals:
         own = truth.value + self._odds(variant.name)
         value = self._rivals({o: self.rest[o] + added[o] for o in self.rest}, truth, own - _NO_RIVAL)
         value[variant.name] = own
-        total = float(logsumexp(list(value.values())))
+        total = float(scipy.special.logsumexp(list(value.values())))
         effects = sorted((n for n in value if n), key=lambda n: -value[n])
         group = [n for n in effects[: 1 + MOST_ALTERNATIVES] if value[n] > value[effects[0]] + np.log(OPEN)]
-        sure = float(logsumexp([value[n] for n in group])) - total
+        sure = float(scipy.special.logsumexp([value[n] for n in group])) - total
         return variant.name in group and sure > np.log(LEVEL)
 
     def _truth(self, variant: Variant, added: Mapping[str, Array]) -> Evidence:

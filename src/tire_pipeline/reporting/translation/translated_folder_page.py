@@ -56,13 +56,7 @@ def translate_page(
     if len(protocols):
         shown = protocols.rename(columns=lambda name: name.replace("_", " "))
         tables.append(Table(shown, _PROTOCOLS, heading="Changes of protocol"))
-    drawn, tires = DrawnFiles(), dict[str, str]()
-    for load in track(parts.values(), "reading what was translated", total=len(parts)):
-        part = load()
-        if has_tables(part):
-            drawn.add(curves_in(part), table_in(part, "coefficients"))
-            names = table_in(part, "sources")[["file", "tire_id"]]
-            tires |= dict(names.itertuples(index=False, name=None))
+    drawn, tires = _drawn(parts)
     page = translated_page(
         f"Translated to {target}",
         [*outcome, *_explained(report, parameters)],
@@ -73,6 +67,18 @@ def translate_page(
         tables=tables,
     )
     return page, outcome
+
+
+def _drawn(parts: Mapping[str, Callable[[], bytes]]) -> tuple[DrawnFiles, dict[str, str]]:
+    """What is drawn of every file, and the tire of each, read one part after the other."""
+    drawn, tires = DrawnFiles(), dict[str, str]()
+    for load in track(parts.values(), "reading what was translated", total=len(parts)):
+        part = load()
+        if has_tables(part):
+            drawn.add(curves_in(part), table_in(part, "coefficients"))
+            names = table_in(part, "sources")[["file", "tire_id"]]
+            tires |= dict(names.itertuples(index=False, name=None))
+    return drawn, tires
 
 
 def _outcome(report: pd.DataFrame, own: set[str], target: str) -> list[str]:
