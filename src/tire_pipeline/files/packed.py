@@ -39,6 +39,12 @@ def member(content: bytes, name: str) -> bytes:
         return archive.read(name)
 
 
+def names_in(content: bytes) -> list[str]:
+    """Names of the files of one ZIP, none of which is read."""
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        return archive.namelist()
+
+
 def as_parquet(frame: pd.DataFrame) -> bytes:
     """A table as a Parquet file."""
     buffer = io.BytesIO()

@@ -14,7 +14,7 @@ from tire_pipeline.classifiers.suppliers import BY_FOLDER, UNKNOWN_SUPPLIER, Kno
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.file_names import printable
 from tire_pipeline.files.objects import UnreachableError
-from tire_pipeline.files.packed import as_parquet, from_parquet, member, pack, unpack
+from tire_pipeline.files.packed import as_parquet, from_parquet, member, names_in, pack, unpack
 from tire_pipeline.files.state_files import pack_state, unpack_state
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
@@ -62,6 +62,11 @@ def unreadable_in(part: bytes) -> list[dict[str, str]]:
     """Rows of the report of a part's files that cannot be read."""
     rows: list[dict[str, str]] = json.loads(member(part, "unreadable.json"))
     return rows
+
+
+def translated_in(part: bytes) -> list[str]:
+    """Names of the translated files of a part."""
+    return [name.removeprefix(_TEXT) for name in names_in(part) if name.startswith(_TEXT)]
 
 
 def texts_in(part: bytes) -> dict[str, bytes]:

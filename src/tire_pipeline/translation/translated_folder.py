@@ -32,6 +32,7 @@ from tire_pipeline.translation.translated_block import (
     has_tables,
     table_in,
     texts_in,
+    translated_in,
     unreadable_in,
 )
 from tire_pipeline.translation.translator import CurveTranslator
@@ -185,7 +186,7 @@ def join_translated(
         if has_tables(part):
             read.append(load)
             reports.append(table_in(part, "report"))
-            files |= {file: partial(last.text, load, file) for file in texts_in(part)}
+            files |= {file: partial(last.text, load, file) for file in translated_in(part)}
     report = _joined_report(reports, unreadable)
     model = translator_from_state(translator).model  # type: ignore[attr-defined]
     sources, coefficients, bands = (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -12,6 +12,7 @@ from threadpoolctl import threadpool_limits
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.translation.base import check_target
+from tire_pipeline.translation.composition import Parts
 from tire_pipeline.translation.curves.bands import curve_bands, stiffness_band
 from tire_pipeline.translation.decode.decoder import COEFFICIENTS, Decoder
 from tire_pipeline.translation.judge.effects import protocol_changes
@@ -19,58 +20,9 @@ from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE, VerdictRu
 from tire_pipeline.translation.population.fit import PreparedTraining, fit_curve_mixed_model, prepare
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.base import Predictor
-from tire_pipeline.translation.predict.batch import BatchLearning, Taught
+from tire_pipeline.translation.predict.batch import BatchLearning
 from tire_pipeline.translation.predict.mixed import MixedPredictor
 from tire_pipeline.translation.result import TRANSLATED, Band, TranslationResult, moved_coefficients
-
-
-@dataclass(frozen=True)
-class Parts:
-    """What a fitted translator is composed of.
-
-    Attributes
-    ----------
-    model : CurveMixedModel
-        The population: what each category would measure of which tire.
-    predictor : Predictor
-        Scores of the target's file.
-    batch : BatchLearning or None
-        Learns from the files to translate, if it is asked for.
-    taught : Taught or None
-        What a batch has taught already; None: the files that are predicted are the batch.
-    decoder : Decoder
-        Coefficients from scores.
-    verdict : VerdictRules
-        Which files are translated.
-    """
-
-    model: CurveMixedModel
-    predictor: Predictor
-    batch: BatchLearning | None
-    decoder: Decoder
-    verdict: VerdictRules
-    taught: Taught | None = None
-
-    def predict(self, source: pd.DataFrame) -> Prediction:
-        """Predict the target's scores of every source file."""
-        found = self.predictor.predict(self.model, source, self.verdict.target)
-        if self.batch is None or not isinstance(self.predictor, MixedPredictor):
-            return found
-        taught = self.taught
-        if taught is None:
-            teachers = source.iloc[np.flatnonzero(self._teach(self.batch, source, found))]
-            taught = self.batch.learn(self.model, source["tire_id"].to_numpy(dtype=str), teachers)
-        return taught.predict(source, self.verdict.target, before=found, predictor=self.predictor)
-
-    def teachers(self, source: pd.DataFrame) -> pd.DataFrame:
-        """The source files that may teach, none if nothing is learned from a batch."""
-        if self.batch is None:
-            return source.iloc[:0]
-        found = self.predictor.predict(self.model, source, self.verdict.target)
-        return source.iloc[np.flatnonzero(self._teach(self.batch, source, found))]
-
-    def _teach(self, batch: BatchLearning, source: pd.DataFrame, found: Prediction) -> np.ndarray:
-        return self.verdict.near(self.model, source, found) & batch.sure_and_new(source)
 
 
 class CurveTranslator:
@@ -185,10 +137,8 @@ class CurveTranslator:
         **changes
             Such as ``farthest=1.5`` or ``gate=False``; with another ``target`` it translates to that one.
         """
-        other = object.__new__(type(self))
-        other.__dict__.update(self.__dict__)
-        other._parts = replace(self.parts, verdict=replace(self.parts.verdict, **changes))
-        other.gate, other.farthest = other._parts.verdict.gate, other._parts.verdict.farthest
+        other = self._with(replace(self.parts, verdict=replace(self.parts.verdict, **changes)))
+        other.gate, other.farthest = other.parts.verdict.gate, other.parts.verdict.farthest
         return other
 
     def teaching(self, source: pd.DataFrame) -> tuple[np.ndarray, pd.DataFrame]:
@@ -221,10 +171,14 @@ class CurveTranslator:
         parts = self.parts
         if parts.batch is None:
             return self
+        with threadpool_limits(1):
+            return self._with(replace(parts, taught=parts.batch.learn(parts.model, tires, teachers)))
+
+    def _with(self, parts: Parts) -> Self:
+        """The same translator of other parts."""
         other = object.__new__(type(self))
         other.__dict__.update(self.__dict__)
-        with threadpool_limits(1):
-            other._parts = replace(parts, taught=parts.batch.learn(parts.model, tires, teachers))
+        other._parts = parts
         return other
 
     def translate(self, source: pd.DataFrame) -> pd.DataFrame:

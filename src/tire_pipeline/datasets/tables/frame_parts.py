@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Callable
-from functools import partial
 
 import pandas as pd
 
 from tire_pipeline.datasets.storage.versioned import VersionedDataset
-from tire_pipeline.datasets.tables.table_parts import RUN_AGAIN, read_part
-from tire_pipeline.files.packed import as_parquet
+from tire_pipeline.datasets.tables.indexed_frames import parts_of, write_parts
 
 Loads = list[Callable[[], pd.DataFrame]]
 
@@ -39,20 +35,8 @@ class FramePartsDataset(VersionedDataset[Loads]):
 
     def save(self, data: Loads) -> None:
         """Write the parts, then the index; a part without rows is left out."""
-        files, index = self._files(self._get_save_path())
-        parts = list[dict[str, str | int]]()
-        for load in data:
-            frame = load()
-            if len(frame):
-                name, content = f"part-{len(parts):06d}.parquet", as_parquet(frame)
-                files.write(name, content)
-                digest = hashlib.sha256(content).hexdigest()
-                parts.append({"name": name, "sha256": digest, "rows": len(frame)})
-        files.write(index, json.dumps({"parts": parts}).encode())
+        write_parts(*self._place(self._get_save_path()), (frame for load in data if len(frame := load())))
 
     def load(self) -> Loads:
         """A function a part, that reads it."""
-        files, index = self._files(self._get_load_path())
-        folder, _ = self._place(self._get_load_path())
-        parts = json.loads(files.read(index))["parts"]
-        return [partial(read_part, folder, part["name"], part["sha256"], RUN_AGAIN) for part in parts]
+        return [load for _, load in parts_of(*self._place(self._get_load_path()))]

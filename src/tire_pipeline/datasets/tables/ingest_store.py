@@ -12,7 +12,7 @@ from kedro.io.core import AbstractDataset
 
 from tire_pipeline.datasets.storage.files_at import Files, files_at
 from tire_pipeline.datasets.storage.one_at_a_time import held, refuse_other_revision, replace_unless_changed
-from tire_pipeline.datasets.tables.table_parts import read_part
+from tire_pipeline.datasets.tables.indexed_frames import read_part
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import Objects
 from tire_pipeline.files.packed import as_parquet

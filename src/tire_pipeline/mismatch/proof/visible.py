@@ -17,7 +17,6 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount
 from tire_pipeline.mismatch.effects.base import Parameter
 from tire_pipeline.mismatch.inference.analysis import Analysis
-from tire_pipeline.mismatch.inference.evidence.hypotheses import plain, scales
 from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts
 from tire_pipeline.mismatch.inference.evidence.products import OfSet
 from tire_pipeline.mismatch.inference.fit import Fit
@@ -26,7 +25,7 @@ from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.inference.sets.screen import screened_forms
 from tire_pipeline.mismatch.model.candidates import Variant
 from tire_pipeline.mismatch.model.forces import Change, simulate
-from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.proof.beside import Beside
 from tire_pipeline.mismatch.proof.measured import Visible
 from tire_pipeline.mismatch.proof.rivals import Rivals
 
@@ -127,19 +126,14 @@ class _Scene:
     """One recording beside the set that is named."""
 
     def __init__(self, analysis: Analysis, enumerated: Enumerated, named: OfSet) -> None:
-        self.data, self.changes = analysis.data, list(named.changes)
-        self.products = enumerated.products
-        self.rest = residual(self.data, self.changes)
+        beside = Beside.of(enumerated, named)
+        self.data, self.changes, self.products = analysis.data, list(named.changes), enumerated.products
+        self.rest, self.own, self.likelihood = beside.rest, beside.columns, beside.likelihood
+        self.scale, self.tailed = beside.scale, beside.tailed
         self.count = len({v.name for v in analysis.variants})
-        own = named.parameters + named.errors
-        columns = enumerated.products.columns_of_set(named.changes, named.free)
-        self.own = {o: x[:, :own] for o, x in columns.items()}
         learnt = enumerated.likelihood.learnt
-        self.scale = scales(named, learnt)[:own]
-        self.tailed = named.tailed(own)
         self.odds = {True: -EXPECTED, False: -(learnt.further if named.names else learnt.effect)}
-        self.likelihood = enumerated.likelihood.at(plain(enumerated.likelihood, named).weights)
-        self.rivals = Rivals(analysis, enumerated, named)
+        self.rivals = Rivals(analysis, enumerated.products, beside)
 
     def sight(self, variant: Variant, parameter: Parameter) -> Sight | None:
         """Return what shows of one parameter, or None if nothing does.

@@ -88,14 +88,15 @@ def screen(products: RecordingProducts, guess: Likelihood, forms: Sequence[Scree
     forms : sequence of ScreenedForm
     """
     columns = _Columns(products, forms)
-    independent = _independent(columns, guess, columns.likeliest(guess))
+    independent = _independent(columns, guess, columns.likeliest(columns.scores(guess)))
     likelihood = guess.counting(independent)
-    best = columns.likeliest(likelihood)
+    scores = columns.scores(likelihood)
+    best = columns.likeliest(scores)
     nothing = columns.score(likelihood)
-    evidence: dict[Names, float] = {(name,): value - nothing for name, (value, _) in best.items()}
+    evidence: dict[Names, float] = {(name,): scores[k] - nothing for name, k in best.items()}
     for pair in combinations(sorted(best), 2):
-        evidence[pair] = columns.score(likelihood, *(best[name][1] for name in pair)) - nothing
-    return Screened(columns.each_choice(likelihood), evidence, _kept(evidence), independent)
+        evidence[pair] = columns.score(likelihood, *(best[name] for name in pair)) - nothing
+    return Screened(columns.each_choice(scores), evidence, _kept(evidence), independent)
 
 
 class _Columns:
@@ -119,33 +120,34 @@ class _Columns:
         picked = self.of(which)
         return likelihood.evidence(self.products.take(picked), np.ones(picked.size), wide=True).value
 
-    def likeliest(self, likelihood: Likelihood) -> dict[str, tuple[float, int]]:
-        """Return for each effect the log evidence and the number of its likeliest form."""
-        best: dict[str, tuple[float, int]] = {}
+    def scores(self, likelihood: Likelihood) -> list[float]:
+        """Return the log evidence of each form by itself."""
+        return [self.score(likelihood, k) for k in range(len(self.forms))]
+
+    def likeliest(self, scores: Sequence[float]) -> dict[str, int]:
+        """Return for each effect the number of its likeliest form, the last of equal ones."""
+        best: dict[str, int] = {}
         for k, form in enumerate(self.forms):
             name = form.variant.name
-            best[name] = max(best.get(name, (-np.inf, k)), (self.score(likelihood, k), k))
+            best[name] = max(best.get(name, k), k, key=lambda j: (scores[j], j))
         return best
 
-    def each_choice(self, likelihood: Likelihood) -> dict[str, tuple[Variant, ...]]:
+    def each_choice(self, scores: Sequence[float]) -> dict[str, tuple[Variant, ...]]:
         """Return the likeliest form of each effect for each choice of parameters that float, best first."""
         found: dict[str, dict[tuple[str, ...], Variant]] = {}
-        value = [self.score(likelihood, k) for k in range(len(self.forms))]
-        for k in sorted(range(len(self.forms)), key=lambda k: -value[k]):
+        for k in sorted(range(len(self.forms)), key=lambda k: -scores[k]):
             variant = self.forms[k].variant
             found.setdefault(variant.name, {}).setdefault(variant.free, variant)
         return {name: tuple(choices.values()) for name, choices in found.items()}
 
 
-def _independent(
-    columns: _Columns, guess: Likelihood, best: Mapping[str, tuple[float, int]]
-) -> Mapping[str, float]:
+def _independent(columns: _Columns, guess: Likelihood, best: Mapping[str, int]) -> Mapping[str, float]:
     """Samples of each output that are independent beside all that is looked for.
 
     What is left beside coefficients and misfit says how many there are, and how many there are says how much
     of these the recording resolves. So both are sought together, from few samples on.
     """
-    chosen = columns.of(k for _, k in best.values())
+    chosen = columns.of(best.values())
     every = columns.products.take(chosen)
     looked_for = {o: x[:, np.r_[chosen, -1]] for o, x in columns.columns.items()}
     count: Mapping[str, float] = guess.unknown.independent

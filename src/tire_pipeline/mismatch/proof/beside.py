@@ -1,0 +1,58 @@
+"""The set that is named, as everything else in a recording is weighed beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from tire_pipeline.mismatch.inference.evidence.hypotheses import plain, scales
+from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
+from tire_pipeline.mismatch.inference.evidence.products import OfSet
+from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
+from tire_pipeline.mismatch.model.residual import residual
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Beside:
+    """The named set in one recording.
+
+    Parameters
+    ----------
+    named : OfSet
+    rest : dict of ndarray, shape (n,)
+        What it leaves of each output, N.
+    columns : dict of ndarray, shape (n, m)
+        Of its parameters and of what its forms get wrong, N.
+    scale : ndarray, shape (m,)
+        Spreads of these columns' coefficients.
+    tailed : ndarray of bool, shape (m,)
+        Which of them have priors with tails.
+    likelihood : Likelihood
+        With the misfit at its likeliest size beside the set.
+    """
+
+    named: OfSet
+    rest: Mapping[str, Array]
+    columns: Mapping[str, Array]
+    scale: Array
+    tailed: Array
+    likelihood: Likelihood
+
+    @classmethod
+    def of(cls, enumerated: Enumerated, named: OfSet) -> Beside:
+        """Return a set that was enumerated, as others are weighed beside it."""
+        products, likelihood = enumerated.products, enumerated.likelihood
+        scale = scales(named, likelihood.learnt)
+        columns = products.columns_of_set(named.changes, named.free)
+        return cls(
+            named,
+            residual(products.data, named.changes),
+            {o: x[:, : scale.size] for o, x in columns.items()},
+            scale,
+            named.tailed(scale.size),
+            likelihood.at(plain(likelihood, named).weights),
+        )
