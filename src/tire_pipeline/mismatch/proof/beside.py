@@ -31,6 +31,8 @@ class Beside:
         Spreads of these columns' coefficients.
     tailed : ndarray of bool, shape (m,)
         Which of them have priors with tails.
+    positive : ndarray of bool, shape (m,)
+        Which of them are never negative.
     likelihood : Likelihood
         With the misfit at its likeliest size beside the set.
     """
@@ -40,6 +42,7 @@ class Beside:
     columns: Mapping[str, Array]
     scale: Array
     tailed: Array
+    positive: Array
     likelihood: Likelihood
 
     @classmethod
@@ -54,5 +57,6 @@ class Beside:
             {o: x[:, : scale.size] for o, x in columns.items()},
             scale,
             named.tailed(scale.size),
+            named.positive(scale.size),
             likelihood.at(plain(likelihood, named).weights),
         )

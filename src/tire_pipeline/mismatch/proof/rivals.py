@@ -85,9 +85,11 @@ class Rivals:
         Of an effect the form counts whose columns take most from what is left, as precisely as the truth
         leaves it. Rivals are left out that stay below ``least`` even so.
         """
-        likelihood, scale, tailed = self.beside.likelihood, self.beside.scale, self.beside.tailed
+        beside = self.beside
+        likelihood, scale, tailed, positive = beside.likelihood, beside.scale, beside.tailed, beside.positive
         moved = likelihood.projected(self._with_residual(rest))
-        nothing = likelihood.evidence(moved.take(range(scale.size)), scale, tailed=tailed).value
+        own = moved.take(range(scale.size))
+        nothing = likelihood.evidence(own, scale, tailed=tailed, positive=positive).value
         value: dict[str, float] = {"": nothing}
         each = [truth.weights[o].shrunk(own, moved.parts[o][0]) for o, own in moved.own.items()]
         reduced = np.sum(each, axis=0)
@@ -106,6 +108,7 @@ class Rivals:
                 moved.take(pick),
                 np.r_[scale, np.full(more, spread)],
                 tailed=np.r_[tailed, np.full(more, bool(name))],
+                positive=np.r_[positive, np.zeros(more, bool)],
             ).value
             value[name] = found + odds if name else float(np.logaddexp(value[""], found + odds))
         return value
