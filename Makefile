@@ -41,7 +41,7 @@ long: install
 	$(BIN)/python -m pytest -m long
 
 lint: install
-	$(BIN)/ruff check .
+	$(BIN)/ruff check --no-cache .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports

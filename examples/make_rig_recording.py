@@ -16,8 +16,8 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.concealed.brush_rig.constants import draw_constants
+from tire_pipeline.concealed.brush_rig.recorded_run import BrushRig, add_noise, draw_noise
 from tire_pipeline.concealed.brush_rig.schedule import CHANNELS, CasePlan
-from tire_pipeline.concealed.brush_rig.simulate import BrushRig, add_noise, draw_noise
 from tire_pipeline.concealed.cases.clean_run import fit_clean
 from tire_pipeline.tir import write_tir
 
