@@ -14,7 +14,7 @@ SCRIPTS = sorted(path for folder in _FOLDERS for path in (ROOT / folder).rglob("
 
 
 def imported(text: str) -> list[tuple[str, str]]:
-    """Module and name of each import of the package; the name is empty where the module itself is imported."""
+    """Module and name of each import of the package; the name is empty for the module itself."""
     found = []
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "tire_pipeline":
