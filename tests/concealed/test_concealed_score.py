@@ -258,6 +258,20 @@ def test_a_goal_needs_cases_enough_to_be_shown(target, n, met, said):
     assert outcome({"target": target, "n": n, "met": met}) == said
 
 
+@pytest.mark.parametrize(
+    ("target", "low", "high", "said"),
+    [
+        (">= 0.95", 0.246, 0.663, "missed"),
+        (">= 0.95", 0.246, 0.96, "too few cases"),
+        ("<= 0.02", 0.03, 0.2, "missed"),
+        ("<= 0.02", 0.01, 0.2, "too few cases"),
+        (">= 0.95", float("nan"), float("nan"), "too few cases"),
+    ],
+)
+def test_a_goal_beyond_the_interval_is_missed_by_few_cases_too(target, low, high, said):
+    assert outcome({"target": target, "n": 18, "met": False, "low": low, "high": high}) == said
+
+
 def test_every_score_has_a_name_in_the_fields_words():
     result = score([], [])
     assert [row["name"] for row in result["scores"] if in_words(row["name"]) == row["name"]] == []

@@ -50,12 +50,13 @@ def outcome(row: dict[str, Any]) -> str:
     """Say whether a goal is met; nothing where there is no goal.
 
     With too few cases not even a perfect score would show that the goal is met: the lower end of its 95%
-    interval (Wilson), ``n / (n + 1.96**2)``, lies below the goal.
+    interval (Wilson), ``n / (n + 1.96**2)``, lies below the goal. A goal that lies outside of the score's own
+    interval, on the far side, is missed by any number of cases.
 
     Parameters
     ----------
     row : dict
-        ``target`` (such as ``">= 0.95"``), ``n``, ``met``.
+        ``target`` (such as ``">= 0.95"``), ``n``, ``met``, and the interval ``low`` to ``high`` if there is one.
 
     Returns
     -------
@@ -67,10 +68,15 @@ def outcome(row: dict[str, Any]) -> str:
     'too few cases'
     >>> outcome({"target": ">= 0.95", "n": 80, "met": True})
     'met'
+    >>> outcome({"target": ">= 0.95", "n": 18, "met": False, "low": 0.246, "high": 0.663})
+    'missed'
     """
     if not isinstance(row["target"], str):
         return ""
     side, bound = row["target"].split()
+    beyond = row.get("high", 1.0) < float(bound) if side == ">=" else row.get("low", 0.0) > float(bound)
+    if row["n"] and beyond:
+        return "missed"
     share = float(bound) if side == ">=" else 1.0 - float(bound)
     n = 0.0 if math.isnan(float(row["n"])) else float(row["n"])
     enough = n / (n + _Z**2) >= share if 0.0 < share < 1.0 else n >= _LEAST
