@@ -103,7 +103,8 @@ def _outcome(report: pd.DataFrame, own: set[str], target: str) -> list[str]:
 def _counted(report: pd.DataFrame, target: str) -> str:
     counts = report["verdict"].value_counts().to_dict()
     first = [f"{counts.pop(TRANSLATED, 0):,} translated to {target}", f"{counts.pop(REFUSED, 0):,} refused"]
-    first.append(f"{counts.pop(UNKNOWN, 0):,} of an unknown supplier")
+    if unknown := counts.pop(UNKNOWN, 0):
+        first.append(f"{unknown:,} of an unknown supplier")
     others = [f"{count:,} {verdict}" for verdict, count in counts.items()]
     return f"{len(report):,} files: {', '.join([*first, *others])}."
 
