@@ -56,7 +56,7 @@ def outcome(row: dict[str, Any]) -> str:
     Parameters
     ----------
     row : dict
-        ``target`` (such as ``">= 0.95"``), ``n``, ``met``, and the interval ``low`` to ``high`` if there is one.
+        ``target`` (such as ``">= 0.95"``), ``n``, ``met``; the interval ``low`` to ``high`` if there is one.
 
     Returns
     -------
