@@ -74,11 +74,11 @@ def outcome(row: dict[str, Any]) -> str:
     if not isinstance(row["target"], str):
         return ""
     side, bound = row["target"].split()
-    beyond = row.get("high", 1.0) < float(bound) if side == ">=" else row.get("low", 0.0) > float(bound)
-    if row["n"] and beyond:
+    n = 0.0 if math.isnan(float(row["n"])) else float(row["n"])
+    low, high = row.get("low", math.nan), row.get("high", math.nan)
+    if n and (high < float(bound) if side == ">=" else low > float(bound)):
         return "missed"
     share = float(bound) if side == ">=" else 1.0 - float(bound)
-    n = 0.0 if math.isnan(float(row["n"])) else float(row["n"])
     enough = n / (n + _Z**2) >= share if 0.0 < share < 1.0 else n >= _LEAST
     if not enough:
         return "too few cases"
