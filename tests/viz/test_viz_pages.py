@@ -53,7 +53,7 @@ def reports(tmp_path_factory):
     (folder / "mismatch.html").write_text(overview)
     scores, misses = (pd.read_csv(RESULTS / f"proof_{name}.csv") for name in ("scores", "misses"))
     details = {"sha256": "0", "explain_mismatch": {"n": 800}}
-    real = scores.assign(source="all", n=1)
+    real = scores.assign(source="all", n=1, low=0.0, high=1.0)  # one case tells nothing
     made = {"cases": 1, "by_source": {"dart": 1}, "seed": 1, "code": "0", "date": "today", "sha256": "0"}
     made |= {"sealed_sweeps": 1, "development_sweeps": 1}
     page = proof_page(scores, misses, details, real, misses.head(0), {"published": False, "made": made})

@@ -116,7 +116,7 @@ def count(driver) -> str:
 
 def reset(driver) -> None:
     driver.find_element("css selector", "#controls button[type=reset]").click()
-    wait(driver, lambda: count(driver).startswith("302 files"))
+    wait(driver, lambda: count(driver) == "302 files: 1 to 100")  # the page clears its search a moment later
 
 
 def choose(driver, name: str, value: str) -> None:
