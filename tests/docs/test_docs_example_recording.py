@@ -1,0 +1,53 @@
+"""The script beside the example recording makes what the project ships."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tire_pipeline.tir import read_tir
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+SHARE = 0.002
+"""Of the largest force: another processor's last digits may end the fit a step elsewhere."""
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    spec = importlib.util.spec_from_file_location("make_rig_recording", EXAMPLES / "make_rig_recording.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    folder = tmp_path_factory.mktemp("example")
+    module.main(folder)
+    return folder
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["rig_run.csv", "rig_check.csv"])
+def test_the_recordings_are_made_to_the_byte(made, name):
+    assert (made / name).read_bytes() == (EXAMPLES / name).read_bytes()
+
+
+@pytest.mark.slow
+def test_the_tire_file_is_made_anew_with_the_same_forces(made):
+    slip, load = (each.ravel() for each in np.meshgrid(np.linspace(-0.2, 0.2, 41), (2000.0, 4000.0, 6000.0)))
+    inputs = {"slip_angle": slip, "normal_load": load, "camber": 0.02}
+    shipped, again = (read_tir(folder / "tire.tir").forces(**inputs) for folder in (EXAMPLES, made))
+    for name in ("fx", "fy", "mz"):
+        expected = getattr(shipped, name)
+        assert np.abs(getattr(again, name) - expected).max() <= SHARE * np.abs(expected).max(), name
+    pure = {"slip_ratio": np.linspace(-0.2, 0.2, 41), "normal_load": 4000.0}
+    before, after = (read_tir(folder / "tire.tir").forces(**pure).fx for folder in (EXAMPLES, made))
+    assert np.abs(after - before).max() <= SHARE * np.abs(before).max()
+
+
+@pytest.mark.slow
+def test_comments_of_the_tire_file_are_those_that_are_written_today(made):
+    def words(folder):
+        text = (folder / "tire.tir").read_text(encoding="ascii")
+        return [line.partition("$")[2] for line in text.splitlines()]
+
+    assert words(made) == words(EXAMPLES)
