@@ -166,7 +166,7 @@ def test_a_wheel_turns_on_in_the_pauses_of_a_recording(tire, record):
     for first, last in ((0.0, 31.3), (40.0, 71.7), (84.1, 115.0), (121.9, 150.0)):
         shown |= (time >= first) & (time < last)
     shown_part = recording.assign(fy=recording["fy"] + wave)[shown]
-    (radius,) = prepare(tire, shown_part).data.rolling_radii()
+    radius = prepare(tire, shown_part).data.rolling_radius()
     assert radius == pytest.approx(0.97 * data.radius, rel=1e-3)
     assert [e.name for e in explain_mismatch(tire, shown_part).effects] == ["nonuniformity"]
 

@@ -110,19 +110,40 @@ class States(Simulated):
         way[1:] = np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(self.time))
         return way
 
-    def rolling_radii(self) -> list[float]:
+    def rolling_radius(self, wobbling: tuple[str, ...] = ()) -> float:
         """Return the rolling radius (m) at which the residual has most power once a turn.
 
         First by the power of each piece of the recording by itself, then by all of it in one phase, near the
         radius so found: the wheel rolls on in the pauses, and a long recording tells radii apart that no
         single piece does.
+
+        Parameters
+        ----------
+        wobbling : tuple of str
+            Channels that wobble once a turn. The force follows by its slope there, which changes with the
+            slip, so that the power of the force itself lies beside the wheel's frequency. None: the force
+            has a harmonic of its own.
         """
-        if "radius" in self.fixed:
-            return [self.fixed["radius"]]
-        residual = self.recorded[self.outputs[-1]] - self.base[self.outputs[-1]]
+        key = " ".join(("radius", *wobbling))
+        if key not in self.fixed:
+            self.fixed[key] = self._radius_of(self._once_a_turn(wobbling))
+        return float(self.fixed[key])
+
+    def _once_a_turn(self, wobbling: tuple[str, ...]) -> list[Array]:
+        """Return the fast part of the residual, times what each channel that wobbles would do to the force."""
+        output = self.outputs[-1]
+        residual = self.recorded[output] - self.base[output]
         residual = residual - self.running_mean(residual, 0.4)
         turns = np.abs(self.get("speed")) * self.step / (2.0 * np.pi * self.radius)
         residual = np.where(turns < 0.4, residual, 0.0)
+        if not wobbling:
+            return [residual]
+        steps = {"slip_angle": 2e-3, "normal_load": 0.01 * self.load_nominal}
+        slopes = [self.slope(name, steps[name])[output] for name in wobbling]
+        return [residual * slope / max(float(np.sqrt(np.mean(slope**2))), 1e-12) for slope in slopes]
+
+    def _radius_of(self, signals: list[Array]) -> float:
+        """Return the radius at which some signals together have most power once a turn."""
         way, firsts = self.wheel_way, np.flatnonzero(self.start)
         ends = np.append(firsts[1:], self.size)
         span = max(float(way[-1] - way[0]), 1e-9)
@@ -132,14 +153,13 @@ class States(Simulated):
         step = (high - low) / (count - 1)
         power = np.zeros(count)
         for first, end in zip(firsts, ends, strict=True):
-            power += harmonic_power(residual[first:end], way[first:end], low, step, count) ** 2
+            power += _power([signal[first:end] for signal in signals], way[first:end], low, step, count)
         best = low + int(np.argmax(power)) * step
         half = int(np.clip(np.ceil(step * span / 0.8), 1, _MOST_WAVES // 2))
         for width, points in ((step, half), (step / half, 20)):
-            power = harmonic_power(residual, way, best - width, width / points, 2 * points + 1)
+            power = _power(signals, way, best - width, width / points, 2 * points + 1)
             best += (int(np.argmax(power)) - points) * width / points
-        self.fixed["radius"] = float(1.0 / best)
-        return [self.fixed["radius"]]
+        return 1.0 / best
 
     def relax(self, state: State, names: set[str]) -> None:
         """Lag the slips by the relaxation that the file itself states (PTY1, PTX1), if it does."""
@@ -152,3 +172,8 @@ class States(Simulated):
         for slip, length in own.items():
             gain = 1.0 - np.exp(-self.step * speed / max(length, 1e-3))
             setattr(state, slip, first_order(getattr(state, slip), gain, self.start))
+
+
+def _power(signals: list[Array], way: Array, first: float, step: float, count: int) -> Array:
+    """Return the power of some signals together at the wave numbers ``first, first + step, ...``."""
+    return np.sum([harmonic_power(signal, way, first, step, count) ** 2 for signal in signals], axis=0)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tire_pipeline.mismatch.inference.evidence.hypotheses import plain, scales
+from tire_pipeline.mismatch.inference.evidence.hypotheses import scales
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfSet
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
@@ -34,7 +34,7 @@ class Beside:
     positive : ndarray of bool, shape (m,)
         Which of them are never negative.
     likelihood : Likelihood
-        With the misfit at its likeliest size beside the set.
+        Over every size of the misfit: with a larger one, nothing need be missing.
     """
 
     named: OfSet
@@ -58,5 +58,5 @@ class Beside:
             scale,
             named.tailed(scale.size),
             named.positive(scale.size),
-            likelihood.at(plain(likelihood, named).weights),
+            likelihood,
         )

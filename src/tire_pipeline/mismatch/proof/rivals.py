@@ -15,7 +15,7 @@ import scipy
 
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.evidence.hypotheses import plain
-from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Evidence
+from tire_pipeline.mismatch.inference.evidence.likelihood import Evidence, Projected
 from tire_pipeline.mismatch.inference.evidence.products import RecordingProducts
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL, MOST_ALTERNATIVES, OPEN
 from tire_pipeline.mismatch.inference.sets.screen import screened_forms
@@ -50,7 +50,8 @@ class Rivals:
         rows = np.split(np.arange(own, own + sum(counts)), np.cumsum(counts)[:-1])
         self.picks = [np.r_[np.arange(own), added] for added in rows]
         self.columns = {o: np.hstack([x, *(p[o] for p in parts)]) for o, x in beside.columns.items()}
-        self.base = products.of({o: np.column_stack([x, self.rest[o]]) for o, x in self.columns.items()})
+        base = products.of({o: np.column_stack([x, self.rest[o]]) for o, x in self.columns.items()})
+        self.base = beside.likelihood.projected(base)
         self.odds = self._odds()
 
     def named(self, variant: Variant, added: Mapping[str, Array]) -> bool:
@@ -87,11 +88,14 @@ class Rivals:
         """
         beside = self.beside
         likelihood, scale, tailed, positive = beside.likelihood, beside.scale, beside.tailed, beside.positive
-        moved = likelihood.projected(self._with_residual(rest))
+        moved = self._with_residual(rest)
         own = moved.take(range(scale.size))
         nothing = likelihood.evidence(own, scale, tailed=tailed, positive=positive).value
         value: dict[str, float] = {"": nothing}
-        each = [truth.weights[o].shrunk(own, moved.parts[o][0]) for o, own in moved.own.items()]
+        each = [
+            truth.weights[o].shrunk(own, moved.parts[o][truth.weights[o].cell])
+            for o, own in moved.own.items()
+        ]
         reduced = np.sum(each, axis=0)
         most = {k: _most(reduced, pick) for k, pick in enumerate(self.picks)}
         forms: dict[str, list[int]] = {}
@@ -127,17 +131,20 @@ class Rivals:
         odds = {name: float((sure if name in expected else effect) - nothing) for name in self.names if name}
         return {**odds, "": float(form - nothing)}
 
-    def _with_residual(self, rest: Mapping[str, Array]) -> ColumnProducts:
+    def _with_residual(self, rest: Mapping[str, Array]) -> Projected:
         """Return the products of all columns with another residual, N."""
-        own, nuisance = {}, {}
+        alone = self.products.of({o: y[:, None] for o, y in rest.items()})
+        residual = self.beside.likelihood.projected(alone)
+        own, parts = {}, {}
         for o, y in rest.items():
-            one = self.products.of({o: y[:, None]})
-            cross = self.columns[o].T @ y / (y.size * self.products.largest[o] ** 2)
-            own[o], nuisance[o] = self.base.own[o].copy(), self.base.nuisance[o].copy()
-            own[o][:-1, -1] = own[o][-1, :-1] = cross
-            own[o][-1, -1] = one.own[o][0, 0]
-            nuisance[o][:, -1] = one.nuisance[o][:, 0]
-        return ColumnProducts(own, nuisance)
+            own[o] = self.base.own[o].copy()
+            own[o][:-1, -1] = own[o][-1, :-1] = (
+                self.columns[o].T @ y / (y.size * self.products.largest[o] ** 2)
+            )
+            own[o][-1, -1] = residual.own[o][0, 0]
+            both = zip(self.base.parts[o], residual.parts[o], strict=True)
+            parts[o] = tuple(np.column_stack([columns[:, :-1], last]) for columns, last in both)
+        return Projected(own, parts)
 
 
 def _most(reduced: Array, pick: Array) -> float:

@@ -17,7 +17,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount
 from tire_pipeline.mismatch.effects.base import Parameter
 from tire_pipeline.mismatch.inference.analysis import Analysis
-from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts
+from tire_pipeline.mismatch.inference.evidence.likelihood import Projected
 from tire_pipeline.mismatch.inference.evidence.products import OfSet
 from tire_pipeline.mismatch.inference.fit import Fit
 from tire_pipeline.mismatch.inference.learnt.sizes import EXPECTED
@@ -168,9 +168,10 @@ class _Scene:
         self, column: Mapping[str, Array], form: Mapping[str, Array], most: float, odds: float
     ) -> tuple[float, float, float]:
         """Return estimate and standard error of a size, and the size that is named in 95% of repetitions."""
-        one = self.products.of(
+        products = self.products.of(
             {o: np.column_stack([self.own[o], form[o], column[o], self.rest[o]]) for o in self.rest}
         )
+        one = self.likelihood.projected(products)
         count, inner = self.scale.size, form[self.data.outputs[0]].shape[1]
         alone = one.take([*range(count), count + inner])
         wide = max(most, 1e-300)
@@ -248,14 +249,14 @@ class _Scene:
         return sight.variant.effect.outside(self.data, sight.values(self.data, size))
 
 
-def _moved(products: ColumnProducts, size: float) -> ColumnProducts:
+def _moved(products: Projected, size: float) -> Projected:
     """Return products with a size of the last column but one put into the residual, which comes last."""
     count = next(iter(products.own.values())).shape[0]
     turn = np.delete(np.eye(count), count - 2, axis=1)
     turn[count - 2, -1] = size
-    return ColumnProducts(
+    return Projected(
         {o: turn.T @ a @ turn for o, a in products.own.items()},
-        {o: a @ turn for o, a in products.nuisance.items()},
+        {o: tuple(part @ turn for part in parts) for o, parts in products.parts.items()},
     )
 
 

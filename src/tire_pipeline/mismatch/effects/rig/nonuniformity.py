@@ -51,12 +51,11 @@ class Nonuniformity(Effect):
         return missing
 
     def starts(self, data: object) -> list[dict[str, float]]:
-        """From the rolling radius at which the residual has most power, in both forms."""
-        out = []
-        for radius in data.rolling_radii():  # type: ignore[attr-defined]
-            base = {**self.zeros(data), "radius": radius}
-            out += [base, {**base, "angle_cosine": 1e-9}]
-        return out
+        """In both forms, from the rolling radius at which the residual has most power of that form."""
+        force = data.rolling_radius()  # type: ignore[attr-defined]
+        wobble = data.rolling_radius(("slip_angle", "normal_load"))  # type: ignore[attr-defined]
+        zero = self.zeros(data)
+        return [{**zero, "radius": force}, {**zero, "radius": wobble, "angle_cosine": 1e-9}]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """Return one form's parameters; the radius is found by the scan."""

@@ -129,6 +129,8 @@ class Weights:
     precision: float
     values: Array
     vectors: Array
+    cell: int = 0
+    """Number of the size of the misfit, among those of the likelihood."""
 
     def reduced(self, own: Array, nuisance: Array) -> Array:
         """Return products given what is never known, shape as ``own``."""
@@ -267,7 +269,7 @@ class Likelihood:
                 u = np.r_[-z * scale, 1.0]
                 values = self._values(o, float(u @ own @ u), [r @ u for r in known.parts[o]], wide=wide)
                 k, j = np.unravel_index(int(np.argmax(values)), values.shape)
-                weights[o] = Weights(self.count[o] / ERRORS[j] ** 2, *self._cells[o][k])
+                weights[o] = Weights(self.count[o] / ERRORS[j] ** 2, *self._cells[o][k], int(k))
                 errors[o] = float(ERRORS[j])
                 reduced = weights[o].shrunk(own, known.parts[o][k])
                 inner += reduced[:-1, :-1] * spread[:, None] * spread[None, :]
