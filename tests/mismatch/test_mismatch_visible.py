@@ -90,9 +90,6 @@ def test_what_is_said_to_be_seen_is_named(tire, record):
     assert np.mean(list(named.values())) >= 0.9, [k for k, ok in named.items() if not ok]
 
 
-@pytest.mark.xfail(
-    reason="13 of 16: the size leaves out what held-out sweeps ask for, here four", strict=True
-)
 def test_what_is_said_to_be_seen_in_real_points_is_named():
     """A slice of ``benchmarks/visible_sizes.py``: points of the TYDEX file, the formula fitted to them."""
     plan = RealPlan(seed=62_700, source="tydex", kind="nothing")

@@ -130,7 +130,7 @@ class States(Simulated):
         return float(self.fixed[key])
 
     def _once_a_turn(self, wobbling: tuple[str, ...]) -> list[Array]:
-        """Return the fast part of the residual, times what each channel that wobbles would do to the force."""
+        """Return the fast part of the residual, times what each wobbling channel would do to the force."""
         output = self.outputs[-1]
         residual = self.recorded[output] - self.base[output]
         residual = residual - self.running_mean(residual, 0.4)
