@@ -210,14 +210,18 @@ class _Scene:
         What repetitions add to a size that is seen by itself they add to this one.
         """
         size = max(seen - _SEEN * error, 0.0)
+        signs = (1.0,) if sight.parameter.one_sided else (1.0, -1.0)
         while size <= largest(sight.parameter):
-            change = self._simulated(sight, size)
-            added = {o: change[o] - before[o] for o in change}
-            values = sight.values(self.data, size)
-            if self.rivals.named(replace(sight.variant, start=values), added):
+            if all(self._named(sight, sign * size, before) for sign in signs):
                 return max(size + _SEEN * error, seen)
             size = max(_FURTHER * size, 0.5 * error)
         return float(np.inf)
+
+    def _named(self, sight: Sight, size: float, before: dict[str, Array]) -> bool:
+        """Whether an effect of some size, of either sign, is named beside its rivals."""
+        change = self._simulated(sight, size)
+        there = replace(sight.variant, start=sight.values(self.data, size))
+        return self.rivals.named(there, {o: change[o] - before[o] for o in change})
 
     def _column(self, sight: Sight, size: float, before: dict[str, Array]) -> dict[str, Array]:
         there = self._simulated(sight, size)
