@@ -10,6 +10,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import harmonic_power
 from tire_pipeline.mismatch.inference.analysis import analyse
 from tire_pipeline.mismatch.model.forces import simulate
+from tire_pipeline.mismatch.proof.trial import put_in
 from tire_pipeline.mismatch.recording.checks import prepare
 
 
@@ -169,6 +170,19 @@ def test_a_wheel_turns_on_in_the_pauses_of_a_recording(tire, record):
     radius = prepare(tire, shown_part).data.rolling_radius()
     assert radius == pytest.approx(0.97 * data.radius, rel=1e-3)
     assert [e.name for e in explain_mismatch(tire, shown_part).effects] == ["nonuniformity"]
+
+
+def test_a_load_that_varies_once_a_turn_is_found_in_sweeps_to_both_sides(tire, record):
+    """It changes a force of either sign the other way, so the force has hardly any power once a turn."""
+    recording = record(6)
+    radius = 0.97 * prepare(tire, recording).data.radius
+    wobbling = put_in(tire, recording, "nonuniformity", {"load_sine": 0.06, "radius": radius})
+    data = prepare(tire, wobbling).data
+    assert data.rolling_radius(("slip_angle", "normal_load")) == pytest.approx(radius, rel=1e-3)
+    (effect,) = explain_mismatch(tire, wobbling).effects
+    value, error, _ = effect.parameters["load_sine"]
+    assert effect.name == "nonuniformity"
+    assert value == pytest.approx(0.06, abs=3.0 * error)
 
 
 def test_what_shakes_is_no_longer_noise_once_it_is_modelled(tire, record):
