@@ -135,7 +135,7 @@ def test_what_differs_to_both_sides_is_not_said_by_a_small_mean(pressed, when, m
     text = summary("explained", [effect], pressed.fit, [at], pressed.remainder, "", {"time": (0.0, 100.0)})
     said = "Fy differs most between 10 and 20 s, to both sides" in text
     assert said == (when == [(10.0, 20.0)] and mean < 0.2)
-    assert ("is up to" in text) != said
+    assert ("is on average" in text) != said
 
 
 def test_points_without_time_are_steady(tire, record):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import lru_cache
 from typing import Any
 
@@ -95,6 +95,20 @@ class TireForces:
     slip_stiffness: Any = None
     relaxation_lateral: Any = None
     relaxation_longitudinal: Any = None
+
+    def __repr__(self) -> str:
+        asked = {f.name: getattr(self, f.name) for f in fields(self) if getattr(self, f.name) is not None}
+        return f"TireForces({', '.join(f'{name}={_in_short(value)}' for name, value in asked.items())})"
+
+
+def _in_short(value: Any) -> str:
+    """A number with five digits; of many, their shape and range."""
+    numbers = np.asarray(value, float)
+    if numbers.size == 1:
+        return f"{numbers.item():.5g}"
+    seen = numbers[np.isfinite(numbers)]
+    ends = f", {seen.min():.5g} to {seen.max():.5g}" if seen.size else ""
+    return f"<{' x '.join(map(str, numbers.shape))}{ends}>"
 
 
 def tire_forces(

@@ -11,6 +11,10 @@ from tire_pipeline.reporting import HOME, Links, Table, Text, render_page
 from tire_pipeline.reporting.page import without_empty_columns
 
 _ALWAYS = ("recording", "verdict", "effects")
+_KEPT = (
+    "This page lists the recordings of the last run. Pages of earlier runs stay in the folder "
+    "data/08_reporting/mismatch until you delete them; corrected files are those of the last run."
+)
 _FEW = 5
 """Of so many recordings a run says what was found in each."""
 
@@ -43,8 +47,10 @@ def draw_overview(overview: pd.DataFrame, pages: dict[str, str]) -> tuple[str, l
         outcome += [f"{recording}: {text}" for _, recording, text in links]
     parts: list[Text | Table | Links] = [
         Text(outcome[:1], emphasis=True),
+        Text([_KEPT]),
         Links(links, heading="Recordings"),
         _in_one_table(shown),
+        Links([("tables/mismatch_overview.csv", "The table as a file", "with the summaries")]),
     ]
     return render_page("Recordings against their simulations", parts, pages=HOME), outcome
 

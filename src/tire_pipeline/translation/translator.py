@@ -90,6 +90,9 @@ class CurveTranslator:
         """The category that it translates to."""
         return self.parts.verdict.target
 
+    def __repr__(self) -> str:
+        return f"<translator: {self.method}>"
+
     @property
     def method(self) -> str:
         """Name and options, as they stand in translated files."""

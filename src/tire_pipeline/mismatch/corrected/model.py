@@ -95,6 +95,11 @@ class CorrectedModel:
     cleaned: Mapping[str, float] = field(default_factory=dict)
     unnamed: UnnamedPhysics | None = None
 
+    def __repr__(self) -> str:
+        put_in = [name for name, _ in self.changes]
+        put_in += ["an empirical equation of the residual"] if self.unnamed is not None else []
+        return f"CorrectedModel({' and '.join(self.outputs)}, with {', '.join(put_in) or 'nothing put in'})"
+
     @property
     def _changed(self) -> bool:
         """Whether anything is put in."""
@@ -263,7 +268,10 @@ class CorrectedModel:
         faults = [name for name in names if name not in physics]
         said = ["corrected by tire_pipeline.mismatch"]
         said += [f"physics in these coefficients: {', '.join(inside) or 'none'}"]
-        said += [f"physics in the sidecar beside this file: {', '.join(sidecar)}"] if sidecar else []
+        beside = [name for name in sidecar if name != "unnamed"]
+        said += [f"physics in the sidecar beside this file: {', '.join(beside)}"] if beside else []
+        if self.unnamed is not None:
+            said.append("unexplained residual, by an empirical equation: in the sidecar beside this file")
         said += [f"faults of the recording, not in this file: {', '.join(faults)}"] if faults else []
         return said
 

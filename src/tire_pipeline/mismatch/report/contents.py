@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
+from tire_pipeline.mismatch.effects.amounts import amount_with_error
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder, Visible
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
@@ -65,6 +66,13 @@ class EffectReport:
     source: str
     parameters: dict[str, tuple[float, float, str]]
     evidence: dict[str, float | str] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        pairs = ((n, amount_with_error(v, e, unit)) for n, (v, e, unit) in self.parameters.items())
+        sizes = ", ".join(f"{name} {value} ± {error}" for name, (value, error) in pairs)
+        instead = f", or {' or '.join(self.alternatives)}" if self.alternatives else ""
+        named = f"{self.name}{instead}, confidence {self.confidence:.2g}"
+        return f"EffectReport({named}: {sizes or 'no parameters'})"
 
 
 @dataclass(frozen=True)

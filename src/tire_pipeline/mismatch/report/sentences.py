@@ -327,7 +327,7 @@ def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, float]
     much = _of_the_force(best.share)
     if best.along_force:
         word = "lower" if best.mean < 0.0 else "higher"
-        return f"{where}, {name} is up to {newtons(abs(best.mean))} N ({much}) {word} than the model"
+        return f"{where}, {name} is on average {newtons(abs(best.mean))} N ({much}) {word} than the model"
     return f"{where}, {name} differs from the model by {best.mean:+,.3g} N on average ({much})"
 
 

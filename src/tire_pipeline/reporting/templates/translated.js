@@ -251,7 +251,7 @@
     });
     const figure = element("figure");
     figure.dataset.panel = panel.name;
-    figure.append(svg);
+    figure.append(svg, caption(middle));
     return figure;
   }
   function stiffnessPanel([source, middle, lows, highs]) {
@@ -270,8 +270,14 @@
     if (moved) svg.append(drawn("path", {d: path(xs, moved, x, y), class: "middle l0"}));
     const figure = element("figure");
     figure.dataset.panel = "stiffness";
-    figure.append(svg);
+    figure.append(svg, caption(moved));
     return figure;
+  }
+  function caption(translated) {
+    const text = translated
+      ? "Where the band leaves the source, the supplier's bias shows; where it holds the source, the two cannot be told apart."
+      : "The file as it is. It was not translated.";
+    return element("figcaption", text);
   }
   function legend(bands) {
     const list = element("ul", undefined, "legend");
