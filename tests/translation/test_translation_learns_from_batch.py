@@ -256,3 +256,8 @@ def test_the_page_says_that_the_files_taught():
         report = pd.DataFrame({"file": ["E/a.tir"], "verdict": ["refused"], "taught": taught})
         page, _ = translate_page(report, {}, pd.DataFrame(), [], parameters, "D")
         assert ("Among other files the result would differ a little" in page) is said
+
+
+def test_a_translator_that_cannot_learn_from_the_batch_says_so():
+    with pytest.raises(ValueError, match="likelihood_agent cannot learn from the files to translate"):
+        TranslateParameters(translator="likelihood_agent", learn_from_batch=True)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
-from pydantic import Field, field_validator
+from pydantic import Field, field_validator, model_validator
 
 from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.translation.base import RENAMED
@@ -22,7 +22,7 @@ class TranslateParameters(Parameters):
     pairs : bool
         Whether to use tires measured by more than one organisation; the agent never does.
     learn_from_batch : bool
-        Whether the mixed model learns from the files to translate as well.
+        Whether the mixed model learns from the files to translate as well; the agent cannot.
     classify : bool
         Classify files whose folder is no known category. Otherwise, and where the classification is not
         sure, their supplier is unknown, and they are not translated.
@@ -52,6 +52,16 @@ class TranslateParameters(Parameters):
             options = " ".join(f"translate.{k}={str(v).lower()}" for k, v in RENAMED[str(value)].items())
             raise ValueError(f"{value!r} is now: translate.translator=mixed_model {options}")
         return value
+
+    @model_validator(mode="after")
+    def _known_to_the_translator(self) -> Self:
+        """Refuse an option that would do nothing."""
+        if self.learn_from_batch and self.translator != "mixed_model":
+            raise ValueError(
+                f"learn_from_batch: {self.translator} cannot learn from the files to translate; leave it "
+                "out, or take translate.translator=mixed_model"
+            )
+        return self
 
     @property
     def options(self) -> dict[str, Any]:
