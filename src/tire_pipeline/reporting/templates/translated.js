@@ -3,9 +3,12 @@
   const AT_ONCE = 100; // A click lays the whole table out again, so its time grows with the rows that are shown.
   const SVG = "http://www.w3.org/2000/svg";
   const PANELS = [
-    {name: "fy", title: "Lateral force", x: "slip angle / deg", y: "Fy / kN", across: 180 / Math.PI, scale: 1e-3},
-    {name: "fx", title: "Longitudinal force", x: "slip ratio", y: "Fx / kN", across: 1, scale: 1e-3},
-    {name: "mz", title: "Aligning moment", x: "slip angle / deg", y: "Mz / N m", across: 180 / Math.PI, scale: 1},
+    {name: "fy", title: "Lateral force", x: "slip angle / deg", y: "Fy / kN", across: 180 / Math.PI, scale: 1e-3,
+     see: "The slope at zero is the cornering stiffness, the height the friction."},
+    {name: "fx", title: "Longitudinal force", x: "slip ratio", y: "Fx / kN", across: 1, scale: 1e-3,
+     see: "The slope at zero is the slip stiffness, the height the friction."},
+    {name: "mz", title: "Aligning moment", x: "slip angle / deg", y: "Mz / N m", across: 180 / Math.PI, scale: 1,
+     see: "The slope at zero is the cornering stiffness times the pneumatic trail."},
   ];
   const data = JSON.parse(document.getElementById("data").textContent);
   const at = Object.fromEntries(data.columns.map((name, i) => [name, i]));
@@ -154,7 +157,9 @@
       cell.append(element("p", "No curve of this file can be drawn."));
       return;
     }
-    cell.append(legend(bands), panels);
+    cell.append(legend(bands));
+    if (bands) cell.append(element("p", "Where the band leaves the dashed line, the supplier's bias shows. Where it holds the line, the two cannot be told apart."));
+    cell.append(panels);
     if (own.moved.length) {
       cell.append(element("p", own.moved.length + " coefficients moved (at the translator's nominal load):"));
       const list = element("ul", undefined, "moved");
@@ -251,7 +256,7 @@
     });
     const figure = element("figure");
     figure.dataset.panel = panel.name;
-    figure.append(svg, caption(middle));
+    figure.append(svg, element("figcaption", panel.see));
     return figure;
   }
   function stiffnessPanel([source, middle, lows, highs]) {
@@ -270,14 +275,8 @@
     if (moved) svg.append(drawn("path", {d: path(xs, moved, x, y), class: "middle l0"}));
     const figure = element("figure");
     figure.dataset.panel = "stiffness";
-    figure.append(svg, caption(moved));
+    figure.append(svg, element("figcaption", "How the slope of the lateral force at zero grows with the load."));
     return figure;
-  }
-  function caption(translated) {
-    const text = translated
-      ? "Where the band leaves the source, the supplier's bias shows; where it holds the source, the two cannot be told apart."
-      : "The file as it is. It was not translated.";
-    return element("figcaption", text);
   }
   function legend(bands) {
     const list = element("ul", undefined, "legend");
