@@ -101,6 +101,9 @@ def test_show_says_version_ranges_and_what_is_missing(folder):
     write_tir(model, "b.tir")
     text = run("show", "b.tir").stdout
     assert "There is no combined slip" in text
+    assert "There is no aligning moment" in text
+    assert "No ranges are stated" not in text
+    assert "No ranges are stated" in run("show", "a.tir", "--no-page").stdout
     assert re.search(r"normal load +500 +9,000 +N", text)
     found = told("show", "b.tir", "--no-page")
     assert found["version"] == "5.2"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
+import runpy
 from pathlib import Path
 
 import numpy as np
@@ -17,11 +17,8 @@ SHARE = 0.002
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    spec = importlib.util.spec_from_file_location("make_rig_recording", EXAMPLES / "make_rig_recording.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
     folder = tmp_path_factory.mktemp("example")
-    module.main(folder)
+    runpy.run_path(str(EXAMPLES / "make_rig_recording.py"))["main"](folder)
     return folder
 
 

@@ -14,8 +14,8 @@ PAGES = [
     *(page for page in sorted((ROOT / "docs").rglob("*.md")) if "history" not in page.parts),
 ]
 NAMED = re.compile(r"`(?:python )?([\w./-]+/[\w.-]+\.(?:py|json|csv|yml|txt))(?:::\w+)?[^`]*`")
-OF_A_RUN = ("data/", "my_", "~")
-"""What a run or a user makes is not in the repository."""
+OF_A_RUN = "data/"
+"""What a run makes is not in the repository."""
 
 
 @pytest.fixture(scope="module")

@@ -23,8 +23,8 @@ _UNITS = {
     "pressure": (1e-3, "kPa"),
 }
 _FEW = 12
-_MOMENT = ("QDZ1", "QDZ2", "QDZ6", "QDZ7")
-"""Pneumatic trail and residual moment: without them there is no aligning moment."""
+_MOMENT = ("QDZ", "SSZ")
+"""Beginnings of the coefficients without which there is no trail, residual moment or arm of Fx."""
 
 
 @click.command(help="Show what FILE.tir holds: version, ranges, key figures, what is missing, curves.")
@@ -90,8 +90,8 @@ def _gaps(model: TireModel, figures: dict[str, float]) -> list[str]:
         gaps.append("There are no relaxation lengths: forces follow the slip at once.")
     if all(model.value(name) == 0.0 for name in ("RBX1", "RBY1")):
         gaps.append("There is no combined slip: braking and cornering do not weaken each other.")
-    if all(model.value(name) == 0.0 for name in _MOMENT):
-        gaps.append("There is no aligning moment: Mz is 0.")
+    if not any(value for name, value in model.coefficients.items() if name.startswith(_MOMENT)):
+        gaps.append("There is no aligning moment.")
     if not model.ranges:
         gaps.append("No ranges are stated: the file does not say for which slips and loads it is valid.")
     return gaps

@@ -12,8 +12,8 @@ from tire_pipeline.reporting.page import without_empty_columns
 
 _ALWAYS = ("recording", "verdict", "effects")
 _KEPT = (
-    "This page lists the recordings of the last run. Pages of earlier runs stay in the folder "
-    "data/08_reporting/mismatch until you delete them; corrected files are those of the last run."
+    "This page lists the recordings of the last run. Pages of earlier runs stay in the folder mismatch "
+    "beside it until you delete them; corrected files are those of the last run."
 )
 _FEW = 5
 """Of so many recordings a run says what was found in each."""
