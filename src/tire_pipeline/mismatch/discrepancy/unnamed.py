@@ -2,7 +2,8 @@
 
 An effect of the catalogue may resemble a cause that is not in it. Every input of the tire can act on
 friction and stiffness through how fast it changes and through what it was some seconds ago, and can
-reach the tire through a joint with play; and what the tire rolls on may repeat every few metres.
+reach the tire through a joint with play; what the tire rolls on may repeat every few metres; and the rig may
+ring.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 
 from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.discrepancy.repeating import repeating_forms
+from tire_pipeline.mismatch.discrepancy.ringing import ringing_forms
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import first_order, play
 from tire_pipeline.mismatch.model.data import Data
@@ -54,6 +56,7 @@ def forms(data: Data, changes: list[Change]) -> Iterator[Columns]:
     for driver in _drivers(data):
         yield {o: ways[o] * driver[:, None] for o in data.outputs}
     yield from repeating_forms(data, changes)
+    yield from ringing_forms(data, changes)
     for name, output in _SLIPS.items():
         if not data.varies(name) or output not in data.outputs:
             continue

@@ -1,0 +1,63 @@
+"""Unnamed forms of a rig that rings: the load cell carries a mass on a spring.
+
+What the cell measures of a force F is (w^2 + 2 z w s) / (s^2 + 2 z w s + w^2) F, with the rig's own frequency
+w and its damping z. What it adds is -s^2 / (s^2 + 2 z w s + w^2) F: nothing where the force is slow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import scipy
+
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.forces import Change, simulate
+
+Array = np.ndarray
+_FREQUENCIES = (3.0, 4.2, 6.0, 8.5, 12.0, 17.0)
+"""Of the first bending of rigs and their load cells, Hz; half an octave apart, as wide as the damping."""
+_DAMPING = 0.1
+_SAMPLES = 5.0
+"""A cycle has at least so many, or sampling does not show it."""
+
+
+def ringing_forms(data: Data, changes: list[Change]) -> Iterator[dict[str, Array]]:
+    """Yield for each frequency that sampling shows what a rig that rings adds to each force, N."""
+    if data.time is None:
+        return
+    forces = simulate(data, changes)
+    step = float(np.median(data.step))
+    pieces = np.split(np.arange(data.size), np.flatnonzero(data.start)[1:])
+    for frequency in _FREQUENCIES:
+        if _SAMPLES * frequency * step > 1.0:
+            return
+        added = {o: np.zeros(data.size) for o in data.outputs}
+        for piece in pieces:
+            for o in data.outputs:
+                added[o][piece] = rung(forces[o][piece], frequency, step)
+        if any(np.any(a) for a in added.values()):
+            yield {o: a[:, None] for o, a in added.items()}
+
+
+def rung(force: Array, frequency: float, step: float) -> Array:
+    """Return what a rig adds that rings at a frequency, from rest at the first sample.
+
+    Parameters
+    ----------
+    force : ndarray, shape (n,)
+        N, at even steps.
+    frequency : float
+        Hz.
+    step : float
+        s.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        N.
+    """
+    w = 2.0 * np.pi * frequency
+    system = ([-1.0, 0.0, 0.0], [1.0, 2.0 * _DAMPING * w, w * w])
+    above, below, _ = scipy.signal.cont2discrete(system, step, method="bilinear")
+    return np.asarray(scipy.signal.lfilter(np.ravel(above), below, force - force[0]))
