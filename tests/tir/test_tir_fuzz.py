@@ -9,7 +9,7 @@ import tracemalloc
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from tir_samples import PUBLIC, tir_text
+from tir_samples import WHOLE_FILES, tir_text
 
 from tire_pipeline.errors import TirError
 from tire_pipeline.tir import TirFile, parse_tir, read_tir, tir_bytes
@@ -55,7 +55,7 @@ PIECES = [
     b"1 2 3\n",
     "é輪\u2028".encode(),
 ]
-SEEDS = [path.read_bytes() for path in PUBLIC] or [tir_text().encode()]
+SEEDS = [path.read_bytes() for path in WHOLE_FILES]
 
 
 def check(data: bytes) -> None:

@@ -1,4 +1,4 @@
-"""The 16 public files: read, evaluated, written back to the byte."""
+"""Whole files, those that ship and the 16 public ones: read, evaluated, written back to the byte."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tir_samples import PUBLIC, SHARED, need_shared
+from tir_samples import PUBLIC, SHARED, WHOLE_FILES, need_shared
 
 from tire_pipeline.tir import parse_tir, read_tir, write_tir
 
@@ -46,7 +46,7 @@ def test_versions_are_those_of_the_provenance():
     assert {path.name: read_tir(path).version for path in PUBLIC} == wanted
 
 
-@pytest.mark.parametrize("path", PUBLIC, ids=lambda p: p.name)
+@pytest.mark.parametrize("path", WHOLE_FILES, ids=lambda p: p.name)
 def test_forces_are_sensible(path: Path):
     tire = read_tir(path, unloaded_radius=0.3)  # one file states none
     load = tire.coefficients["FNOMIN"]
@@ -63,13 +63,13 @@ def test_forces_are_sensible(path: Path):
     assert longitudinal.fx[0] < 0 < longitudinal.fx[-1]
 
 
-@pytest.mark.parametrize("path", PUBLIC, ids=lambda p: p.name)
+@pytest.mark.parametrize("path", WHOLE_FILES, ids=lambda p: p.name)
 def test_written_back_to_the_byte(path: Path, tmp_path: Path):
     target = write_tir(read_tir(path), tmp_path / path.name)
     assert target.read_bytes() == path.read_bytes()
 
 
-@pytest.mark.parametrize("path", PUBLIC, ids=lambda p: p.name)
+@pytest.mark.parametrize("path", WHOLE_FILES, ids=lambda p: p.name)
 def test_one_changed_value_changes_one_line(path: Path, tmp_path: Path):
     tire = read_tir(path)
     target = write_tir(tire.replace(PDY1=0.987654321), tmp_path / path.name)

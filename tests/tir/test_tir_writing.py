@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tir_samples import LATERAL, PUBLIC, tir_text
+from tir_samples import LATERAL, WHOLE_FILES, tir_text
 
 from tire_pipeline.errors import TirError, TirVersionError
 from tire_pipeline.magic_formula import TireModel
@@ -105,10 +105,8 @@ def test_hypothesis_read_write_read(changes: dict[str, float]):
 
 @settings(max_examples=60, deadline=None)
 @given(st.data())
-def test_hypothesis_read_write_read_of_public_files(data):
-    if not PUBLIC:
-        pytest.skip("the public data is not there")
-    tire = read_tir(data.draw(st.sampled_from(PUBLIC)))
+def test_hypothesis_read_write_read_of_whole_files(data):
+    tire = read_tir(data.draw(st.sampled_from(WHOLE_FILES)))
     printed = {entry.key for entry in tire.source.entries}  # aliases are printed by their other name
     divisors = {"LFZO", "LCX", "LCY", "LMUX", "LMUY", "FNOMIN", "UNLOADED_RADIUS"}
     names = sorted(set(tire.coefficients) & printed - divisors)
@@ -178,7 +176,7 @@ def test_another_version_of_the_family(given: str, version: str, tmp_path):
     assert again.coefficients == tire.coefficients
 
 
-@pytest.mark.parametrize("path", PUBLIC, ids=lambda p: p.name)
+@pytest.mark.parametrize("path", WHOLE_FILES, ids=lambda p: p.name)
 @pytest.mark.parametrize("with_source", [True, False])
 def test_an_older_model_written_as_61_has_the_same_forces(path, with_source: bool, tmp_path):
     tire = read_tir(path, unloaded_radius=0.3)

@@ -9,6 +9,13 @@ import pytest
 
 SHARED = Path(__file__).resolve().parents[3] / "shared"
 PUBLIC = sorted((SHARED / "tir").glob("*.tir"))
+TESTS = Path(__file__).resolve().parents[1]
+SHIPPED = [
+    TESTS.parent / "examples" / "tire.tir",
+    *sorted((TESTS / "data_of_0_1" / "07_model_output" / "translated").rglob("*.tir")),
+]
+"""Whole files that come with the project: one that it fitted, and two in a laboratory's own style."""
+WHOLE_FILES = [*SHIPPED, *PUBLIC]
 
 
 def need_shared() -> None:
