@@ -19,6 +19,7 @@ from tire_pipeline.files.packed import Passing, pack
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch import Explainer, MismatchReport, explain_recordings
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes, learnt
+from tire_pipeline.tir.sidecar import sidecar_path
 
 COLUMNS = ("recording", "verdict", "summary", "effects", "alternatives", "held_out", "problem")
 PAGE = "page.html"
@@ -94,6 +95,13 @@ class ExplainTask:
         return Passing(pack({"row.json": json.dumps(row).encode(), "report.json": b"null"}))
 
 
+def corrected_files(recording: str) -> tuple[str, str]:
+    """The corrected ``.tir`` file of a recording, and the sidecar beside it, relative to their folder."""
+    place = PurePosixPath(recording)
+    tir = str(place.parent / f"{place.stem}_corrected.tir")
+    return tir, sidecar_path(tir).as_posix()
+
+
 def _read(
     loaders: Mapping[str, Callable[[], tuple[TireModel | None, pd.DataFrame]]],
 ) -> tuple[TireModel | None, dict[str, pd.DataFrame]]:
@@ -122,7 +130,7 @@ def _files(
         files: dict[str, bytes] = {}
         physics = [effect for effect in report.effects if effect.kind == "physics"]
         if tire is not None and physics and report.corrected.question is None:
-            target = Path(folder) / "tir" / f"{place.stem}_corrected.tir"
+            target = Path(folder) / "tir" / PurePosixPath(corrected_files(str(place))[0]).name
             target.parent.mkdir()
             report.corrected.to_tir(target)
             files = {str(place.parent / p.name): p.read_bytes() for p in target.parent.iterdir()}

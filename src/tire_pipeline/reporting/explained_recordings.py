@@ -21,9 +21,10 @@ from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.progress import track
 from tire_pipeline.recordings.groups import by_folder, matching
-from tire_pipeline.reporting.explain_task import COLUMNS, PAGE, ExplainTask, Load
+from tire_pipeline.reporting.explain_task import COLUMNS, PAGE, ExplainTask, Load, corrected_files
 
 Pairs = Mapping[str, Load]
+Read = Callable[[], bytes]
 _LOG = logging.getLogger(__name__)
 
 
@@ -131,8 +132,8 @@ def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, 
 
 
 def collect_explained(
-    explained: Mapping[str, Callable[[], bytes]],
-) -> tuple[dict[str, Any], pd.DataFrame, dict[str, Callable[[], bytes]], dict[str, Callable[[], bytes]]]:
+    explained: Mapping[str, Read],
+) -> tuple[dict[str, Any], pd.DataFrame, dict[str, Read], dict[str, Read | None]]:
     """Put together what was explained.
 
     Parameters
@@ -150,7 +151,8 @@ def collect_explained(
         One HTML page a report, by the function that reads it: they are never in memory together.
     corrected : dict
         In the same way, ``.tir`` files with the missing physics put in, and sidecars for what the format
-        cannot hold. None for a recording that leaves a question open on which all of it rests (its axes).
+        cannot hold. None in place of a file that a recording no longer has, because no physics is missing or
+        a question is open on which all of it rests (its axes): that of an earlier run would be wrong.
 
     Raises
     ------
@@ -158,7 +160,7 @@ def collect_explained(
         If not one recording could be explained.
     """
     reports, rows = dict[str, Any](), list[dict[str, str]]()
-    pages, corrected = dict[str, Callable[[], bytes]](), dict[str, Callable[[], bytes]]()
+    pages, corrected = dict[str, Read](), dict[str, Read | None]()
     for read in track(explained.values(), "collecting reports", total=len(explained)):
         members = unpack(read())
         row, report = json.loads(members.pop("row.json")), json.loads(members.pop("report.json"))
@@ -169,6 +171,7 @@ def collect_explained(
         reports[row["recording"]] = report
         del members[PAGE]
         pages[str(PurePosixPath(row["recording"]).with_suffix(".html"))] = partial(_member, read, PAGE)
+        corrected |= dict.fromkeys(corrected_files(row["recording"]))
         corrected |= {name: partial(_member, read, name) for name in members}
     _check_any(reports, rows)
     return reports, pd.DataFrame(rows, columns=list(COLUMNS)), pages, corrected
@@ -182,7 +185,7 @@ def _check_any(reports: Mapping[str, Any], rows: list[dict[str, str]]) -> None:
         )
 
 
-def _member(read: Callable[[], bytes], name: str) -> bytes:
+def _member(read: Read, name: str) -> bytes:
     return unpack(read())[name]
 
 

@@ -52,7 +52,7 @@ REPORTS = (
         (
             (
                 "mismatch.html",
-                "All recordings of the last run",
+                "All recordings",
                 "kedro run --pipeline explain_mismatch",
             ),
             (

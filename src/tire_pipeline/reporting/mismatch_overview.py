@@ -1,7 +1,10 @@
-"""All recordings on one page, and what a run says last."""
+"""All recordings that have a report on one page, and what a run says last."""
 
 from __future__ import annotations
 
+import datetime
+import json
+from collections.abc import Iterable, Mapping
 from pathlib import PurePosixPath
 
 import pandas as pd
@@ -10,24 +13,59 @@ from tire_pipeline.mismatch.report.words import in_words
 from tire_pipeline.reporting import HOME, Links, Table, Text, render_page
 from tire_pipeline.reporting.page import without_empty_columns
 
-_ALWAYS = ("recording", "verdict", "effects")
+_HEADS = {
+    "recording": "Recording",
+    "run": "Run",
+    "verdict": "Verdict",
+    "effects": "Effects",
+    "alternatives": "Alternatives",
+    "held_out": "Held out",
+    "problem": "Problem",
+}
+_ALWAYS = ("recording", "run", "verdict", "effects")
 _KEPT = (
-    "This page lists the recordings of the last run. Pages of earlier runs stay in the folder mismatch "
-    "beside it until you delete them; corrected files are those of the last run."
+    "Reports of earlier runs stay in the folder mismatch beside this page until you delete them, and so do "
+    "the corrected files that belong to them."
 )
+_NO_ROW = "Open it to see what was found."
 _FEW = 5
 """Of so many recordings a run says what was found in each."""
 
 
-def draw_overview(overview: pd.DataFrame, pages: dict[str, str]) -> tuple[str, list[str]]:
-    """Sum up all recordings of a run on one page.
+def rows_to_keep(overview: pd.DataFrame) -> dict[str, str]:
+    """Note what each report of a run says, for the overview of later runs.
 
     Parameters
     ----------
     overview : DataFrame
-        ``recording, verdict, summary, effects, alternatives, held_out, problem``.
-    pages : dict of str to str
-        The recordings' pages by path.
+        As :func:`draw_overview` takes it.
+
+    Returns
+    -------
+    dict of str to str
+        JSON by path: the report's path with another ending. ``run`` is the time of the run.
+    """
+    now = f"{datetime.datetime.now():%Y-%m-%d %H:%M}"
+    return {
+        _place(row["recording"], ".json"): json.dumps({**row, "run": now})
+        for row in _texts(overview)
+        if row["verdict"]
+    }
+
+
+def draw_overview(
+    overview: pd.DataFrame, pages: Iterable[str], rows: Mapping[str, bytes | str]
+) -> tuple[str, list[str]]:
+    """Sum up all recordings that have a report on one page.
+
+    Parameters
+    ----------
+    overview : DataFrame
+        ``recording, verdict, summary, effects, alternatives, held_out, problem`` of the last run.
+    pages : iterable of str
+        Paths of the recordings' pages that are there, those of earlier runs among them.
+    rows : mapping
+        What :func:`rows_to_keep` has given, of this run and of earlier ones.
 
     Returns
     -------
@@ -36,45 +74,78 @@ def draw_overview(overview: pd.DataFrame, pages: dict[str, str]) -> tuple[str, l
     outcome : list of str
         The last lines of a run.
     """
-    shown = overview.astype(object).fillna("").astype(str)
-    links = []
-    for row in shown.to_dict("records"):
-        path = str(PurePosixPath(row["recording"]).with_suffix(".html"))
-        text = row["summary"] or row["problem"]
-        links.append((f"mismatch/{path}" if path in pages else "", row["recording"], text))
-    outcome = [_counted(shown)]
-    if len(shown) <= _FEW:
-        outcome += [f"{recording}: {text}" for _, recording, text in links]
+    last = [{**row, "run": "last"} for row in _texts(overview)]
+    earlier = _earlier(last, pages, rows)
+    outcome = [_counted(overview)]
+    if len(last) <= _FEW:
+        outcome += [f"{row['recording']}: {_said(row)}" for row in last]
+    here = [_link(row, linked=bool(row["verdict"])) for row in last]
     parts: list[Text | Table | Links] = [
         Text(outcome[:1], emphasis=True),
         Text([_KEPT]),
-        Links(links, heading="Recordings"),
-        _in_one_table(shown),
-        Links([("tables/mismatch_overview.csv", "The table as a file", "with the summaries")]),
+        Links(here, heading="Recordings of the last run"),
+    ]
+    if earlier:
+        links = [_link(row, linked=True) for row in earlier]
+        parts.append(Links(links, heading="Reports of earlier runs"))
+    parts += [
+        _in_one_table([*last, *earlier]),
+        Links([("tables/mismatch_overview.csv", "The last run's rows as a file", "with the summaries")]),
     ]
     return render_page("Recordings against their simulations", parts, pages=HOME), outcome
 
 
-def _counted(shown: pd.DataFrame) -> str:
-    counts = shown.loc[shown["verdict"] != "", "verdict"].value_counts()
+def _texts(overview: pd.DataFrame) -> list[dict[str, str]]:
+    return overview.astype(object).fillna("").astype(str).to_dict("records")
+
+
+def _place(recording: str, suffix: str) -> str:
+    return str(PurePosixPath(recording).with_suffix(suffix))
+
+
+def _earlier(
+    last: list[dict[str, str]], pages: Iterable[str], rows: Mapping[str, bytes | str]
+) -> list[dict[str, str]]:
+    """What the pages say that the last run has not made, the newest first."""
+    made = {_place(row["recording"], ".html") for row in last if row["verdict"]}
+    found = []
+    for page in sorted(set(pages) - made):
+        unknown = {"recording": page.removesuffix(".html"), "run": "earlier", "summary": _NO_ROW}
+        kept = rows.get(_place(page, ".json"))
+        found.append(dict.fromkeys(_HEADS, "") | (unknown if kept is None else json.loads(kept)))
+    return sorted(found, key=lambda row: (row["run"][:1].isdigit(), row["run"]), reverse=True)
+
+
+def _link(row: Mapping[str, str], *, linked: bool) -> tuple[str, str, str]:
+    page = _place(row["recording"], ".html") if row["verdict"] else f"{row['recording']}.html"
+    dated = f"{row['run']}. " if row["run"][:1].isdigit() else ""
+    return f"mismatch/{page}" if linked else "", row["recording"], f"{dated}{_said(row)}"
+
+
+def _said(row: Mapping[str, str]) -> str:
+    return row["summary"] or row["problem"]
+
+
+def _counted(overview: pd.DataFrame) -> str:
+    verdicts = overview["verdict"].fillna("").astype(str)
+    counts = verdicts[verdicts != ""].value_counts()
     said = [f"{count} {verdict}" for verdict, count in counts.items()]
-    failed = int((shown["verdict"] == "").sum())
+    failed = int((verdicts == "").sum())
     if failed:
         said.append(f"{failed} could not be used")
-    recordings = "recording" if len(shown) == 1 else "recordings"
-    return f"{len(shown)} {recordings}: {', '.join(said)}."
+    recordings = "recording" if len(verdicts) == 1 else "recordings"
+    return f"{len(verdicts)} {recordings}: {', '.join(said)}."
 
 
-def _in_one_table(shown: pd.DataFrame) -> Table:
-    table = shown[["recording", "verdict", "effects", "alternatives", "held_out", "problem"]]
-    table = without_empty_columns(table, _ALWAYS)
+def _in_one_table(rows: list[dict[str, str]]) -> Table:
+    table = without_empty_columns(pd.DataFrame(rows, columns=list(_HEADS)), _ALWAYS)
     table = table.assign(
         **{name: table[name].map(in_words) for name in ("effects", "alternatives") if name in table}
     )
     return Table(
-        table.rename(columns={"held_out": "held out"}),
-        "Effects are what the model left out, by their names; alternatives cannot be told from them by "
-        "these recordings.",
+        table.rename(columns=_HEADS),
+        "Run: when the report was made, for earlier runs. Effects are what the model left out, by their "
+        "names; alternatives cannot be told from them by these recordings.",
         heading="In one table",
         most_rows=1000,
     )

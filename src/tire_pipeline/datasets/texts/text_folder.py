@@ -11,7 +11,7 @@ from typing import Any
 from kedro.io.core import AbstractDataset
 
 from tire_pipeline.datasets.texts import text_objects
-from tire_pipeline.datasets.texts.text_objects import HEAD, MARKER, NEVER_DELETED, Content, as_bytes
+from tire_pipeline.datasets.texts.text_objects import HEAD, MARKER, NEVER_DELETED, Content, as_bytes, parted
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import replaced_folder
 from tire_pipeline.files.objects import Objects, is_remote
@@ -20,11 +20,12 @@ from tire_pipeline.progress import track
 _LONGEST = 255
 
 
-class TextFolderDataset(AbstractDataset[Mapping[str, Content], dict[str, bytes]]):
+class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], dict[str, bytes]]):
     """Saves ``{relative path: text, or a function that gives it}`` as files; loads them back as bytes.
 
-    The folder is replaced whole, or, with ``keep``, what earlier runs made stays beside what is new. A folder
-    that holds anything this project did not make is never touched.
+    The folder is replaced whole, or, with ``keep``, what earlier runs made stays beside what is new; ``None``
+    instead of a text then takes the file of an earlier run away. A folder that holds anything this project
+    did not make is never touched.
 
     Parameters
     ----------
@@ -49,7 +50,7 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content], dict[str, bytes]]
     def load(self) -> dict[str, bytes]:
         """Read every file; an absent folder is an empty dictionary."""
         if is_remote(self._path):
-            return text_objects.load(Objects(self._path), self._suffix)
+            return text_objects.load(Objects(self._path), self._suffix, keep=self._keep)
         folder = Path(self._path)
         files = sorted(p for p in folder.rglob(f"*{self._suffix}") if p.is_file())
         return {str(p.relative_to(folder).as_posix()): p.read_bytes() for p in files if p.name != MARKER}
@@ -74,26 +75,28 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content], dict[str, bytes]]
                 todo="move them elsewhere (or set another folder); they are never overwritten",
             )
 
-    def save(self, data: Mapping[str, Content]) -> None:
+    def save(self, data: Mapping[str, Content | None]) -> None:
         """Write all files, or none."""
         self.check()
+        texts, gone = parted({str(inside(name)): text for name, text in data.items()}, keep=self._keep)
         if is_remote(self._path):
-            content = {str(inside(name)): text for name, text in data.items()}
-            text_objects.save(Objects(self._path), content, keep=self._keep)
+            text_objects.save(Objects(self._path), texts, gone=gone, keep=self._keep)
             return
         folder = Path(self._path)
+        earlier = made_here(folder) if self._keep else set()
         with replaced_folder(folder) as temporary:
             if self._keep and folder.exists():
                 shutil.copytree(folder, temporary, dirs_exist_ok=True)
-            for name, text in track(data.items(), f"writing {folder.name}", total=len(data)):
-                target = temporary / inside(name)
+            for name in earlier & gone:
+                (temporary / name).unlink(missing_ok=True)
+            for name, text in track(texts.items(), f"writing {folder.name}", total=len(texts)):
+                target = temporary / name
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_bytes(as_bytes(text))
             for name in NEVER_DELETED:
                 if (folder / name).exists():
                     shutil.copy2(folder / name, temporary / name)
-            earlier = made_here(folder) if self._keep else set()
-            made = sorted({str(inside(name)) for name in data} | earlier)
+            made = sorted({*texts, *(earlier - gone)})
             (temporary / MARKER).write_text("\n".join([HEAD, *made, ""]), encoding="utf-8")
 
     def _exists(self) -> bool:

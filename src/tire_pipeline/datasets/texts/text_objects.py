@@ -28,6 +28,20 @@ def as_bytes(content: Content) -> bytes:
     return content if isinstance(content, bytes) else content.encode("utf-8")
 
 
+def parted(data: Mapping[str, Content | None], *, keep: bool) -> tuple[dict[str, Content], set[str]]:
+    """Texts to write, and names of those to take away.
+
+    Raises
+    ------
+    TypeError
+        A text is None, and none is kept that it could take away.
+    """
+    gone = {name for name, text in data.items() if text is None}
+    if gone and not keep:
+        raise TypeError(f"there is nothing to encode for {min(gone)!r}")
+    return {name: text for name, text in data.items() if text is not None}, gone
+
+
 def belongs_to_user(folder: Objects) -> bool:
     """Whether anything lies there that this project did not make."""
     if folder.exists(MARKER):
@@ -40,8 +54,10 @@ def made_there(folder: Objects) -> set[str]:
     return set(_marker(folder)[1])
 
 
-def load(folder: Objects, suffix: str) -> dict[str, bytes]:
+def load(folder: Objects, suffix: str, *, keep: bool = False) -> dict[str, bytes]:
     """Every text with this ending; an absent folder is an empty dictionary.
+
+    With ``keep`` a text may be absent: the user removes those of earlier runs.
 
     Raises
     ------
@@ -55,7 +71,8 @@ def load(folder: Objects, suffix: str) -> dict[str, bytes]:
             where=str(folder),
             todo="run it again; what lies there is not used",
         )
-    found = {name: folder.read(name) for name in sorted(made) if name.endswith(suffix)}
+    there = set(made) & set(folder.names()) if keep else set(made)
+    found = {name: folder.read(name) for name in sorted(there) if name.endswith(suffix)}
     for name, content in found.items():
         if made[name] and hashlib.sha256(content).hexdigest() != made[name]:
             raise DomainError(
@@ -64,12 +81,13 @@ def load(folder: Objects, suffix: str) -> dict[str, bytes]:
     return found
 
 
-def save(folder: Objects, data: Mapping[str, Content], *, keep: bool) -> None:
-    """Write all texts; with ``keep`` those of earlier runs stay."""
+def save(folder: Objects, data: Mapping[str, Content], *, gone: set[str], keep: bool) -> None:
+    """Write all texts; with ``keep`` those of earlier runs stay, but for what is ``gone``."""
     broken, before = _marker(folder)
     known = {**before, **dict.fromkeys(data, "")}
     folder.write(MARKER, _marker_text(_BROKEN, known))
-    made = dict(before) if keep and not broken else {}
+    kept = before if keep and not broken else {}
+    made = {name: digest for name, digest in kept.items() if name not in gone}
     names = list(data)
     some = [names[start : start + _TOGETHER] for start in range(0, len(names), _TOGETHER)]
     for part in track(some, f"writing {folder.root.rsplit('/', 1)[-1]}", total=len(some)):

@@ -3,7 +3,7 @@
 from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline.reporting.explained_recordings import collect_explained, explain_each
-from tire_pipeline.reporting.mismatch_overview import draw_overview
+from tire_pipeline.reporting.mismatch_overview import draw_overview, rows_to_keep
 
 
 def create_pipeline(**_: object) -> Pipeline:
@@ -23,8 +23,14 @@ def create_pipeline(**_: object) -> Pipeline:
                 name="collect_reports",
             ),
             Node(
+                rows_to_keep,
+                inputs="mismatch_overview",
+                outputs="mismatch_rows",
+                name="note_reports",
+            ),
+            Node(
                 draw_overview,
-                inputs=["mismatch_overview", "mismatch_pages"],
+                inputs=["mismatch_overview", "mismatch_pages", "mismatch_rows"],
                 outputs=["mismatch_overview_page", "mismatch_outcome"],
                 name="draw_overview",
             ),
