@@ -74,20 +74,21 @@ def draw_overview(
     outcome : list of str
         The last lines of a run.
     """
-    last = [{**row, "run": "last"} for row in _texts(overview)]
+    last = [
+        {**row, "run": "last", "page": _place(row["recording"], ".html") if row["verdict"] else ""}
+        for row in _texts(overview)
+    ]
     earlier = _earlier(last, pages, rows)
     outcome = [_counted(overview)]
     if len(last) <= _FEW:
         outcome += [f"{row['recording']}: {_said(row)}" for row in last]
-    here = [_link(row, linked=bool(row["verdict"])) for row in last]
     parts: list[Text | Table | Links] = [
         Text(outcome[:1], emphasis=True),
         Text([_KEPT]),
-        Links(here, heading="Recordings of the last run"),
+        Links([_link(row) for row in last], heading="Recordings of the last run"),
     ]
     if earlier:
-        links = [_link(row, linked=True) for row in earlier]
-        parts.append(Links(links, heading="Reports of earlier runs"))
+        parts.append(Links([_link(row) for row in earlier], heading="Reports of earlier runs"))
     parts += [
         _in_one_table([*last, *earlier]),
         Links([("tables/mismatch_overview.csv", "The last run's rows as a file", "with the summaries")]),
@@ -107,19 +108,24 @@ def _earlier(
     last: list[dict[str, str]], pages: Iterable[str], rows: Mapping[str, bytes | str]
 ) -> list[dict[str, str]]:
     """What the pages say that the last run has not made, the newest first."""
-    made = {_place(row["recording"], ".html") for row in last if row["verdict"]}
     found = []
-    for page in sorted(set(pages) - made):
+    for page in sorted(set(pages) - {row["page"] for row in last}):
         unknown = {"recording": page.removesuffix(".html"), "run": "earlier", "summary": _NO_ROW}
         kept = rows.get(_place(page, ".json"))
-        found.append(dict.fromkeys(_HEADS, "") | (unknown if kept is None else json.loads(kept)))
-    return sorted(found, key=lambda row: (row["run"][:1].isdigit(), row["run"]), reverse=True)
+        row = unknown if kept is None else json.loads(kept)
+        found.append({**dict.fromkeys(_HEADS, ""), **row, "page": page})
+    return sorted(found, key=_date, reverse=True)
 
 
-def _link(row: Mapping[str, str], *, linked: bool) -> tuple[str, str, str]:
-    page = _place(row["recording"], ".html") if row["verdict"] else f"{row['recording']}.html"
-    dated = f"{row['run']}. " if row["run"][:1].isdigit() else ""
-    return f"mismatch/{page}" if linked else "", row["recording"], f"{dated}{_said(row)}"
+def _link(row: Mapping[str, str]) -> tuple[str, str, str]:
+    date = _date(row)
+    path = f"mismatch/{row['page']}" if row["page"] else ""
+    return path, row["recording"], f"{date}. {_said(row)}" if date else _said(row)
+
+
+def _date(row: Mapping[str, str]) -> str:
+    """When an earlier run made a report; empty for the last run, and where it was not noted."""
+    return row["run"] if row["run"][:1].isdigit() else ""
 
 
 def _said(row: Mapping[str, str]) -> str:

@@ -24,18 +24,13 @@ _SAMPLES = 5.0
 
 def ringing_forms(data: Data, changes: list[Change]) -> Iterator[dict[str, Array]]:
     """Yield for each frequency that sampling shows what a rig that rings adds to each force, N."""
-    if data.time is None:
-        return
-    forces = simulate(data, changes)
     step = float(np.median(data.step))
-    pieces = np.split(np.arange(data.size), np.flatnonzero(data.start)[1:])
+    firsts = np.flatnonzero(data.start)[1:]
+    pieces = {o: np.split(force, firsts) for o, force in simulate(data, changes).items() if o in data.outputs}
     for frequency in _FREQUENCIES:
         if _SAMPLES * frequency * step > 1.0:
             return
-        added = {o: np.zeros(data.size) for o in data.outputs}
-        for piece in pieces:
-            for o in data.outputs:
-                added[o][piece] = rung(forces[o][piece], frequency, step)
+        added = {o: np.concatenate([rung(piece, frequency, step) for piece in pieces[o]]) for o in pieces}
         if any(np.any(a) for a in added.values()):
             yield {o: a[:, None] for o, a in added.items()}
 
