@@ -10,7 +10,7 @@ import pytest
 
 from tire_pipeline.mismatch.proof.measured import Remainder
 from tire_pipeline.mismatch.report.figures import drawings, time_line
-from tire_pipeline.mismatch.report.sentences import summary
+from tire_pipeline.mismatch.report.sentences import head
 
 
 def report(changes: list[str], *, gap: float) -> SimpleNamespace:
@@ -51,7 +51,7 @@ def test_captions_speak_of_what_is_drawn():
 def test_no_residual_of_nothing_is_told():
     """A noise as large as what is left ended in "Fy 0 N RMS above noise"."""
     left = Remainder(size={"fy": 0.0, "fx": 30.0}, located=[], form="", significant=True)
-    told = summary("unexplained", [], {}, [], left, "")
+    told = head("unexplained", [], {}, [], left, "").text
     assert "difference (Fx 30 N RMS above noise)." in told
-    none = summary("unexplained", [], {}, [], replace(left, size={"fy": 0.0}), "")
+    none = head("unexplained", [], {}, [], replace(left, size={"fy": 0.0}), "").text
     assert none == "I can't tell: no effect of the catalogue explains the difference."

@@ -16,7 +16,7 @@ from tire_pipeline.mismatch.model.blocks import sweeps
 from tire_pipeline.mismatch.proof.locate import locate
 from tire_pipeline.mismatch.proof.measured import Remainder
 from tire_pipeline.mismatch.recording.checks import prepare
-from tire_pipeline.mismatch.report.sentences import summary
+from tire_pipeline.mismatch.report.sentences import head
 from tire_pipeline.recordings import DART_CAR, axle_recording, read_dart, read_recording
 from tire_pipeline.tir import read_tir
 
@@ -68,7 +68,7 @@ def told(tire, recording):
     rest = {o: data.recorded[o] - data.base[o] for o in data.outputs}
     found = locate(data, rest, estimate_noise(data, rest), sweeps(data))
     nothing = Remainder(size={}, located=[], form="", significant=False)
-    return found, summary("unexplained", [], {}, found, nothing, "").partition(". ")[2]
+    return found, head("unexplained", [], {}, found, nothing, "").text.partition(". ")[2]
 
 
 def test_a_force_to_one_side_where_it_goes_through_zero_is_neither_lower_nor_higher(sweeps_of_slip):

@@ -10,7 +10,7 @@ from tire_pipeline.mismatch.model.blocks import sweeps
 from tire_pipeline.mismatch.proof.locate import everywhere, locate
 from tire_pipeline.mismatch.proof.measured import Remainder
 from tire_pipeline.mismatch.recording.checks import prepare
-from tire_pipeline.mismatch.report.sentences import summary
+from tire_pipeline.mismatch.report.sentences import head
 
 
 def located(tire, recording):
@@ -20,7 +20,7 @@ def located(tire, recording):
     found = locate(data, rest, estimate_noise(data, rest), sweeps(data))
     even = everywhere(data, rest, found)
     nothing = Remainder(size={}, located=[], form="", significant=False)
-    said = summary("unexplained", [], {}, found, nothing, "", {}, even)
+    said = head("unexplained", [], {}, found, nothing, "", {}, even).text
     return found, even, said.partition(". ")[2]
 
 

@@ -27,7 +27,7 @@ def test_what_two_recordings_share_is_found_and_predicts_the_third(together):
     assert error.rms_after == pytest.approx(np.sqrt(np.mean((runs["b"]["fy"] - predicted) ** 2)))
     assert error.rms_after < 0.3 * error.rms_before
     assert error.ratio_low < error.rms_after / error.rms_before < error.ratio_high < 0.5
-    assert "In b, which was held out, the RMS error of Fy falls from" in report.summary
+    assert "in b, which was held out, the RMS error of Fy falls from" in report.summary
     assert report.summary.endswith(
         "Next, use the corrected model within the ranges of the explained recordings."
     )

@@ -243,7 +243,7 @@ def test_an_equation_is_in_the_corrected_model_and_makes_it_better(swinging):
     left = {n: np.std(recording["fy"] - f["fy"]) for n, f in (("named", named), ("all", with_it))}
     assert left["all"] < 0.7 * left["named"]
     assert report.fit["fy"].rms_after < report.fit["fy"].rms_before
-    assert "Of what was recorded, it follows path best" in report.summary
+    assert any("Of what was recorded, it follows path best" in remark for remark in report.head.remarks)
 
 
 def test_the_sidecar_holds_the_equation_and_reads_back(swinging, tmp_path):

@@ -154,4 +154,6 @@ def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Command
 
     data = {"file": file, **report.to_dict()}
     title = f"{file} and {', '.join(report.recordings)}: {report.verdict}"
-    return CommandOutcome(title, [report.summary], data, page, grids, report.notes, written)
+    return CommandOutcome(
+        title, [report.summary, *report.head.remarks], data, page, grids, report.notes, written
+    )

@@ -10,13 +10,14 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch.corrected.as_recorded import without_unnamed
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.explain import Explainer
 from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.recording.checks import INPUTS
 from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError
 from tire_pipeline.mismatch.report.result import MismatchReport
-from tire_pipeline.mismatch.report.sentences import with_held_out
+from tire_pipeline.mismatch.report.sentences import with_held_out, without_equation
 from tire_pipeline.recordings.join import join_recordings
 
 Array = np.ndarray
@@ -107,19 +108,29 @@ def explain_recordings(
     report = replace(report, recordings=tuple(explained), notes=[*notes, *report.notes])
     if held_out is None:
         return report
+    report = _equation_held(report, recordings[held_out], held_out)
     tried = predict_held_out(report.corrected, recordings[held_out], held_out)
+    return replace(report, held_out=tried, head=with_held_out(report.head, tried, report.effects))
+
+
+def _equation_held(report: MismatchReport, recording: pd.DataFrame, name: str) -> MismatchReport:
+    """Return the report, without its equation where that predicts a held-out recording no better."""
+    found, equation = report.unnamed, report.corrected.unnamed
+    if found is None or equation is None:
+        return report
     named = replace(report.corrected, unnamed=None)
-    if report.unnamed is not None and report.corrected.unnamed is not None:
-        plain = predict_held_out(named, recordings[held_out], held_out)
-        if any(
-            tried.errors[o].rms_after >= e.rms_after
-            for o, e in plain.errors.items()
-            if o in report.fit and o in report.corrected.unnamed.equations
-        ):
-            why = f"it predicts {held_out}, which was held out, no better"
-            unnamed = replace(report.unnamed, physics=None, why_not=why)
-            report, tried = replace(report, corrected=named, unnamed=unnamed), plain
-    return replace(report, held_out=tried, summary=with_held_out(report.summary, tried, report.effects))
+    with_it, plain = (predict_held_out(m, recording, name).errors for m in (report.corrected, named))
+    outputs = [o for o in equation.equations if o in with_it]
+    if all(with_it[o].rms_after < plain[o].rms_after for o in outputs):
+        return report
+    fit = without_unnamed(report.fit, found)
+    return replace(
+        report,
+        corrected=named,
+        fit=fit,
+        unnamed=replace(found, physics=None, why_not=f"it predicts {name}, which was held out, no better"),
+        head=without_equation(report.head, found, report.verdict, report.effects, fit),
+    )
 
 
 def predict_held_out(corrected: CorrectedModel, recording: pd.DataFrame, name: str) -> HeldOutFit:

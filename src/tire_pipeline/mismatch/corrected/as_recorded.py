@@ -103,20 +103,25 @@ def _inside(condition: str, recording: pd.DataFrame) -> Array | None:
 
 def with_unnamed(fit: dict[str, OutputFit], found: UnnamedReport) -> dict[str, OutputFit]:
     """Return the errors with an unnamed equation put in, by what it does on sweeps it has not seen."""
-    if found.physics is None:
-        return fit
-    out = dict(fit)
-    for o in found.physics.equations:
-        before, after, _ = found.unseen[o]
-        ratio = after / max(before, 1e-300)
-        f = fit[o]
-        out[o] = replace(
-            f,
-            rms_after=f.rms_after * ratio,
-            rms_after_low=f.rms_after_low * ratio,
-            rms_after_high=f.rms_after_high * ratio,
-        )
-    return out
+    return _times(fit, {o: after / max(before, 1e-300) for o, (before, after) in _unseen(found).items()})
+
+
+def without_unnamed(fit: dict[str, OutputFit], found: UnnamedReport) -> dict[str, OutputFit]:
+    """Return the errors that stood there before :func:`with_unnamed`."""
+    return _times(fit, {o: before / max(after, 1e-300) for o, (before, after) in _unseen(found).items()})
+
+
+def _unseen(found: UnnamedReport) -> dict[str, tuple[float, float]]:
+    """RMS error of each output with an equation, without and with it, N."""
+    return {} if found.physics is None else {o: found.unseen[o][:2] for o in found.physics.equations}
+
+
+def _times(fit: dict[str, OutputFit], ratios: dict[str, float]) -> dict[str, OutputFit]:
+    errors = ("rms_after", "rms_after_low", "rms_after_high")
+    changed = {
+        o: replace(fit[o], **{name: getattr(fit[o], name) * r for name in errors}) for o, r in ratios.items()
+    }
+    return {**fit, **changed}
 
 
 def never_worse(

@@ -35,11 +35,3 @@ class Question:
     def answered(self, removed: float) -> bool:
         """Whether one cause that removes this share of the squared mismatch leaves as little."""
         return self.removed is not None and 1.0 - removed <= AS_WELL * (1.0 - self.removed)
-
-    @property
-    def in_words(self) -> str:
-        """The question in sentences."""
-        lead = "Open: " if not self.verdict else ""
-        text = f"{self.why[:1].upper()}{self.why[1:]}" if not lead else self.why
-        todo = f"{self.todo[:1].upper()}{self.todo[1:]}"
-        return f"{lead}{text}. {todo}. No corrected file is written until then."

@@ -33,7 +33,7 @@ from tire_pipeline.mismatch.recording.checks import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.result import MismatchReport
-from tire_pipeline.mismatch.report.sentences import on_expected, on_unnamed, on_withheld, summary
+from tire_pipeline.mismatch.report.sentences import head, on_expected, on_question, on_withheld
 from tire_pipeline.mismatch.report.words import not_looked_for
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.search import more_than_usual, unnamed_physics
@@ -97,22 +97,17 @@ def assembled(it: Explained) -> MismatchReport:
     located = [] if silent else locate(data, before, analysis.noise, analysis.block)
     following = _following(it, verdict, plain)
     ranges, all_over = _ranges(analysis), everywhere(data, before, located)
-    parts = [
-        "" if prepared.question is None else prepared.question.in_words,
-        ""
-        if prepared.stopped
-        else summary(verdict, effects, fit, located, left, following, ranges, all_over),
-        on_withheld(withheld),
-        "" if prepared.stopped else on_expected(_unseen(it, effects)),
-        on_unnamed(unnamed, verdict),
-    ]
+    told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed)
+    told = told.beside(on_withheld(withheld), on_expected(_unseen(it, effects)))
+    if prepared.question is not None:
+        told = on_question(prepared.question, told)
     return MismatchReport(
         verdict=verdict,
         effects=effects,
         fit=fit,
         next_experiment=following,
         corrected=model,
-        summary=" ".join(filter(None, parts)),
+        head=told,
         unnamed=unnamed,
         located=located,
         remainder=left,

@@ -9,6 +9,7 @@ from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.effects.amounts import amount_with_error
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder, Visible
+from tire_pipeline.mismatch.report.head import Head
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
 VERDICTS = (
@@ -121,7 +122,7 @@ class ReportContents:
     fit: dict[str, OutputFit]
     next_experiment: str
     corrected: CorrectedModel
-    summary: str
+    head: Head
     located: list[Located]
     remainder: Remainder
     notes: list[str]
@@ -134,3 +135,8 @@ class ReportContents:
     unnamed: UnnamedReport | None = None
     withheld: tuple[str, ...] = ()
     probabilities: list[tuple[tuple[str, ...], float]] = field(default_factory=list)
+
+    @property
+    def summary(self) -> str:
+        """Verdict and names, where and how much, and what to do next, in three sentences."""
+        return self.head.text

@@ -33,8 +33,8 @@ class MismatchReport(ReportContents):
         What to record next, in words.
     corrected : CorrectedModel
         The model with what was found put in.
-    summary : str
-        Verdict, causes and errors in a few sentences.
+    head : Head
+        What is said first: ``head.text``, or ``summary``, is three sentences; ``head.remarks`` are beside it.
     located : list of Located
         Stretches of time and of channels (SI) in which recorded and simulated force differ.
     remainder : Remainder
@@ -126,6 +126,7 @@ class MismatchReport(ReportContents):
         raw = {
             "verdict": self.verdict,
             "summary": self.summary,
+            "remarks": list(self.head.remarks),
             "effects": [asdict(e) for e in self.effects],
             "sets": [{"names": list(names), "confidence": p} for names, p in self.sets],
             "fit": {o: asdict(f) for o, f in self.fit.items()},

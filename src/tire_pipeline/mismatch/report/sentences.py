@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,7 +11,9 @@ from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
+from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit
+from tire_pipeline.mismatch.report.head import Head
 from tire_pipeline.mismatch.report.words import figure, in_words, newtons, place
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
@@ -24,12 +27,16 @@ anything of it."""
 
 _TRY_IT = "Next, test the corrected model on a recording that took no part before you use it."
 _RECORD_ANEW = "Next, correct the recording at its source and explain it again."
+_UNDECIDED = (
+    "undecided: no cause stands out, and I can't tell a coarse fit or rig from a cause that this recording "
+    "does not show"
+)
 _NOTHING_TO_DO = "There is nothing to correct; the page lists the effects that this recording rules out."
 
 Ranges = Mapping[str, tuple[float, float]]
 
 
-def summary(
+def head(
     verdict: str,
     effects: Sequence[EffectReport],
     fit: dict[str, OutputFit],
@@ -38,51 +45,96 @@ def summary(
     next_experiment: str,
     ranges: Ranges | None = None,
     even: Mapping[str, float] | None = None,
-) -> str:
-    """Return the report in a few sentences.
+    unnamed: UnnamedReport | None = None,
+) -> Head:
+    """Return the head of a report.
 
     Parameters
     ----------
-    verdict, effects, fit, located, remainder, next_experiment
+    verdict, effects, fit, located, remainder, next_experiment, unnamed
         Of the report.
     ranges : mapping, optional
         Axis -> (lowest, highest) recorded, SI, to say "above" and "below" where a stretch ends there.
     even : mapping, optional
         Output -> share of the force by which it is off throughout.
     """
-    fit = {o: f for o, f in fit.items() if o in TANGENTIAL_FORCES}
+    fit = _forces(fit)
     if verdict == "agrees":
         return _agreement(fit)
     ranges = ranges or {}
-    place_and_size = [_spot(effects, fit, located, remainder, ranges, even or {}), _size(effects, fit)]
-    middle = "; ".join(part for part in place_and_size if part)
-    first = (
-        _undecided(fit, remainder) if verdict == "undecided" else _causes(verdict, effects, remainder, ranges)
+    if verdict == "undecided":
+        causes, size = _UNDECIDED, _undecided(fit, remainder)
+    else:
+        causes = _causes(verdict, effects, remainder, ranges)
+        size = _size(effects, fit) or _of_equation(unnamed)
+    return Head(
+        causes=causes,
+        spot=_spot(effects, fit, located, remainder, ranges, even or {}),
+        size=size,
+        todo=_next(effects, next_experiment),
+        remarks=tuple(
+            filter(None, [_more_left(remainder) if effects else "", _on_unnamed(unnamed, verdict)])
+        ),
     )
-    parts = [
-        f"{first}.",
-        f"{middle[:1].upper()}{middle[1:]}." if middle else "",
-        _more_left(remainder) if effects else "",
-        _next(effects, next_experiment),
-    ]
-    return " ".join(part for part in parts if part)
 
 
-def with_held_out(told: str, fit: HeldOutFit, effects: Sequence[EffectReport]) -> str:
-    """Return a summary with what the held-out recording says, and what to do next in view of it.
+def on_question(question: Question, told: Head) -> Head:
+    """Return a head that puts an open question first.
 
     Parameters
     ----------
-    told : str
-        The summary without it.
+    question : Question
+        If nothing can be explained before it is settled, it is all that is said.
+    told : Head
+        What was found all the same.
+    """
+    todo = f"Next, {question.todo[:1].lower()}{question.todo[1:]}; no corrected file is written until then."
+    if question.verdict:
+        return Head(question.why, todo=todo)
+    return replace(told, causes=f"open: {question.why}; as it was read: {told.causes}", todo=todo)
+
+
+def with_held_out(told: Head, fit: HeldOutFit, effects: Sequence[EffectReport]) -> Head:
+    """Return a head with what the held-out recording says, and what to do next in view of it.
+
+    Parameters
+    ----------
+    told : Head
+        Without it.
     fit : HeldOutFit
     effects : sequence of EffectReport
     """
-    told = " ".join(told.replace(_TRY_IT, "").split())
-    parts = [told, _on_held_out(fit)]
-    if effects and "Next, " not in told:
-        parts.append(_next_after(fit))
-    return " ".join(parts)
+    size = "; ".join(filter(None, [told.size, _on_held_out(fit)]))
+    open_still = told.todo not in ("", _TRY_IT)
+    return replace(told, size=size, todo=told.todo if open_still or not effects else _next_after(fit))
+
+
+def without_equation(
+    told: Head,
+    found: UnnamedReport,
+    verdict: str,
+    effects: Sequence[EffectReport],
+    fit: Mapping[str, OutputFit],
+) -> Head:
+    """Return a head without an equation that did not hold.
+
+    Parameters
+    ----------
+    told : Head
+    found : UnnamedReport
+        With the equation.
+    verdict, effects
+        Of the report.
+    fit : mapping of str to OutputFit
+        Errors without the equation.
+    """
+    remarks = tuple(remark for remark in told.remarks if remark != _on_unnamed(found, verdict))
+    size = told.size if verdict == "undecided" else _size(effects, _forces(fit))
+    return replace(told, size=size, remarks=remarks)
+
+
+def _forces(fit: Mapping[str, OutputFit]) -> dict[str, OutputFit]:
+    return {o: f for o, f in fit.items() if o in TANGENTIAL_FORCES}
 
 
 def _next_after(fit: HeldOutFit) -> str:
@@ -109,7 +161,7 @@ def _on_held_out(fit: HeldOutFit) -> str:
             parts.append(f"{output.capitalize()} rises {sizes}: what was found does not hold there")
         else:
             parts.append(f"{output.capitalize()} is about the same as before ({sizes})")
-    return f"In {fit.recording}, which was held out, the RMS error of {', that of '.join(parts)}."
+    return f"in {fit.recording}, which was held out, the RMS error of {', that of '.join(parts)}"
 
 
 def on_withheld(names: Sequence[str]) -> str:
@@ -137,50 +189,67 @@ def on_expected(names: Sequence[str]) -> str:
     )
 
 
-def on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
+def _on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
     """Return what is known of the part without a name, in a sentence or two; empty where nothing is."""
     if found is None or found.physics is None:
         return ""
-    drivers = ", ".join(found.physics.depends_on) or "the force itself"
     first = verdict in ("unexplained", "partly explained")
     what = "The unexplained residual" if first else "The remaining residual"
+    text = (
+        f"{what} is of no effect of the catalogue. Of what was recorded, it follows {_drivers(found)} best. "
+        "An equation of it is in the corrected model"
+    )
+    if verdict in ("unexplained", "undecided"):
+        return f"{text}."
+    shares = " and ".join(
+        f"{100.0 * (1.0 - after / before):.0f}% of that of {o.capitalize()}"
+        for o, (before, after, _) in _unseen(found).items()
+    )
     return (
-        f"{what} is of no effect of the catalogue. Of what was recorded, it follows {drivers} best. An "
-        f"equation of it is in the corrected model. On sweeps that neither its choice nor its fit has seen, "
-        f"{_gain(found, beside_names=verdict not in ('unexplained', 'undecided'))}."
+        f"{text}: on sweeps that neither its choice nor its fit has seen, it removes of the remaining RMS "
+        f"error {shares}; the errors above include that."
     )
 
 
-def _gain(found: UnnamedReport, *, beside_names: bool) -> str:
-    """What an equation does on unseen sweeps. Beside names, the summary has given the errors with it."""
+def _of_equation(found: UnnamedReport | None) -> str:
+    """What an equation does on unseen sweeps where no name stands beside it."""
+    if found is None or found.physics is None:
+        return ""
+    errors = ", that of ".join(
+        f"{o.capitalize()} from {newtons(before)} N to {newtons(after)} N"
+        for o, (before, after, _) in _unseen(found).items()
+    )
+    return f"an equation in {_drivers(found)} takes the RMS error of {errors} on held-out sweeps"
+
+
+def _drivers(found: UnnamedReport) -> str:
     assert found.physics is not None
-    seen = {o.capitalize(): found.unseen[o][:2] for o in found.physics.equations}
-    if beside_names:
-        shares = [
-            f"{100.0 * (1.0 - after / before):.0f}% of that of {o}" for o, (before, after) in seen.items()
-        ]
-        return f"of the remaining RMS error it removes {' and '.join(shares)}; the figures above include that"
-    errors = [f"{o} from {newtons(before)} N to {newtons(after)} N" for o, (before, after) in seen.items()]
-    return f"it takes the RMS error of {', that of '.join(errors)}"
+    return ", ".join(found.physics.depends_on) or "the force itself"
 
 
-def _agreement(fit: Mapping[str, OutputFit]) -> str:
+def _unseen(found: UnnamedReport) -> dict[str, tuple[float, float, float]]:
+    assert found.physics is not None
+    return {o: found.unseen[o] for o in found.physics.equations}
+
+
+def _agreement(fit: Mapping[str, OutputFit]) -> Head:
     sizes = ", ".join(
         f"{o.capitalize()} {newtons(f.rms_before)} N (noise {newtons(f.noise_floor)} N)"
         for o, f in fit.items()
     )
-    return (
-        "Simulation and recording agree: what differs is no larger than noise and the misfit that a "
-        f"fitted tire model always has. The RMS difference is {sizes}. {_NOTHING_TO_DO}"
+    return Head(
+        "simulation and recording agree: what differs is no larger than noise and the misfit that a fitted "
+        "tire model always has",
+        size=f"the RMS difference is {sizes}",
+        todo=_NOTHING_TO_DO,
     )
 
 
 def _undecided(fit: Mapping[str, OutputFit], left: Remainder) -> str:
     sizes = ", ".join(f"{o.capitalize()} {newtons(f.rms_before)} N" for o, f in fit.items())
     return (
-        f"Undecided: no cause stands out. The RMS difference is {sizes}. What neither noise nor a smooth "
-        f"misfit of the formula accounts for {_than_usual(left)}: I can't tell a coarse fit or rig from a "
-        "cause that this recording does not show"
+        f"the RMS difference is {sizes}, and what neither noise nor a smooth misfit of the formula accounts "
+        f"for {_than_usual(left)}"
     )
 
 
@@ -212,7 +281,7 @@ def _causes(verdict: str, effects: Sequence[EffectReport], remainder: Remainder,
     if faults:
         fault = "a fault" if len(faults) == 1 else "faults"
         parts.append(f"from {' and '.join(faults)}, {fault} of the recording")
-    text = f"{verdict.capitalize()}: the difference comes {', and '.join(parts)}"
+    text = f"{verdict}: the difference comes {', and '.join(parts)}"
     return f"{text}; an unexplained residual remains{left}" if remainder.significant else text
 
 

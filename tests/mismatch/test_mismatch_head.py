@@ -1,0 +1,95 @@
+"""The head of a report is three sentences, whatever was found: verdict, size and place, what to do next."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import pytest
+
+from tire_pipeline.mismatch.corrected.as_recorded import with_unnamed, without_unnamed
+from tire_pipeline.mismatch.proof.locate import Located
+from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
+from tire_pipeline.mismatch.recording.open_questions import Question
+from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit, PredictionError
+from tire_pipeline.mismatch.report.sentences import head, on_question, with_held_out, without_equation
+from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, UnnamedReport
+from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues
+
+NOMINAL = NominalValues(4000.0, 0.3, 16.0, 2e5, 60.0)
+EQUATION = UnnamedPhysics({"fy": "0.1*Fz*v"}, ("speed",), "force", {"v": (0.8, 1.2)}, NOMINAL)
+FOUND = UnnamedReport(EQUATION, unseen={"fy": (300.0, 120.0, 100.0)})
+FIT = {"fy": OutputFit(20.0, 300.0, 120.0, 110.0, 130.0)}
+LEFT = Remainder(size={"fy": 280.0}, located=[], form="", significant=True)
+NONE = Remainder(size={}, located=[], form="", significant=False)
+PLACE = Located("fy", "slip_angle", 0.1, 0.15, -250.0, -0.1, 0.01, True)
+EFFECT = EffectReport(
+    "friction_scale", "physics", "friction of the track", (), 0.99, "fy", {}, [], 0.8, "", "", {}
+)
+OPEN = "the recording agrees with the model only in other axes: fy has the other sign"
+
+
+def said(verdict, effects=(), left=NONE, unnamed=None):
+    return head(verdict, list(effects), FIT, [PLACE], left, "Record again.", unnamed=unnamed)
+
+
+def sentences(text):
+    return re.split(r"(?<=\.) (?=[A-Z])", text)
+
+
+HEADS = {
+    "agrees": said("agrees"),
+    "undecided": said("undecided", left=replace(NONE, unusual={"fy": 0.05}, usual=(0.01, 0.02))),
+    "explained": said("explained", [EFFECT]),
+    "partly explained, with an equation": said("partly explained", [EFFECT], LEFT, FOUND),
+    "unexplained": said("unexplained", left=LEFT),
+    "unexplained, with an equation": said("unexplained", left=LEFT, unnamed=FOUND),
+    "open": on_question(Question(OPEN, "Read it in other axes"), said("explained", [EFFECT])),
+    "unusable": on_question(Question("it carries no answer", "Look at it", "unusable"), said("unexplained")),
+}
+
+
+@pytest.mark.parametrize("case", HEADS)
+def test_three_sentences_of_which_the_last_says_what_to_do(case):
+    told = sentences(HEADS[case].text)
+    assert 2 <= len(told) <= 3, told
+    assert told[-1].startswith(("Next, ", "There is nothing to correct"))
+    assert all(sentence[0].isupper() and sentence.endswith(".") for sentence in told)
+
+
+def test_an_equation_is_in_the_middle_and_its_drivers_beside_it():
+    told = HEADS["unexplained, with an equation"]
+    assert "an equation in speed takes the RMS error of Fy from 300 N to 120 N" in sentences(told.text)[1]
+    assert any("it follows speed best" in remark for remark in told.remarks)
+    assert any(
+        "removes of the remaining RMS error 60%" in r
+        for r in HEADS["partly explained, with an equation"].remarks
+    )
+
+
+def test_an_open_question_comes_before_what_was_found_and_says_what_to_do():
+    told = HEADS["open"].text
+    assert told.startswith(f"Open: {OPEN}; as it was read: explained: the difference comes from")
+    assert told.endswith("Next, read it in other axes; no corrected file is written until then.")
+
+
+@pytest.mark.parametrize("case", HEADS)
+def test_a_held_out_recording_adds_no_sentence(case):
+    errors = {"fy": PredictionError(310.0, 130.0, 0.4, 0.5)}
+    told = with_held_out(HEADS[case], HeldOutFit("b", 900, errors), [])
+    assert len(sentences(told.text)) <= 3
+    assert "in b, which was held out, the RMS error of Fy falls from 310 N to 130 N" in told.text.replace(
+        "In b", "in b"
+    )
+
+
+def test_an_equation_that_did_not_hold_is_gone_from_head_and_errors():
+    for verdict, effects in (("unexplained", []), ("partly explained", [EFFECT])):
+        plain, put_in = FIT, with_unnamed(FIT, FOUND)
+        told = head(verdict, effects, put_in, [PLACE], LEFT, "", unnamed=FOUND)
+        again = without_unnamed(put_in, FOUND)
+        assert again["fy"].rms_after == pytest.approx(plain["fy"].rms_after)
+        assert put_in["fy"].rms_after == pytest.approx(0.4 * plain["fy"].rms_after)
+        left = without_equation(told, FOUND, verdict, effects, again)
+        assert left.text == head(verdict, effects, again, [PLACE], LEFT, "").text
+        assert "equation" not in " ".join([left.text, *left.remarks])
