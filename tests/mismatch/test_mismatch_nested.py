@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
 from tire_pipeline.mismatch.proof.measured import OutputFit
-from tire_pipeline.mismatch.proof.nested import REPEATS, RepeatedChoice
+from tire_pipeline.mismatch.proof.nested import REPEATS, RepeatedChoice, _ByFold
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
 
@@ -35,6 +35,18 @@ def test_a_clear_cause_is_chosen_without_any_fold_and_leaves_as_little(softer):
     assert rms(found.left) == pytest.approx(
         rms(each_left_out(softer.analysis, softer.analysis.fit)), rel=0.05
     )
+
+
+def test_a_fit_that_ended_off_its_optimum_is_not_said_to_be_there(softer):
+    """A real drive was said to fall from 1.1 N to 0.12 N, where the corrected model left 0.81 N."""
+    (best,) = (each for each in softer.sets.sets if each.names == ("friction_scale",))
+    ((name, values),) = best.changes
+    elsewhere = [(name, {key: 0.5 * (1.0 + value) for key, value in values.items()})]
+    off = softer.sets.products.of_set(elsewhere, best.free)
+    by_fold = _ByFold(softer.sets, off, softer.analysis.block % REPEATS)
+    there = rms(residual(softer.analysis.data, elsewhere))
+    assert there > 1.5 * rms(residual(softer.analysis.data, best.changes))
+    assert rms(by_fold.predicted(softer.sets.likelihood, off)) == pytest.approx(there)
 
 
 def test_a_choice_that_rests_on_one_fold_removes_nothing_there(tire, record):

@@ -104,6 +104,7 @@ class _ByFold:
 
     def __init__(self, sets: Enumerated, each: OfSet, fold: Array) -> None:
         self.products, self.each = sets.products, replace(each, forms=())
+        self.likelihood = sets.likelihood
         self.count = np.bincount(fold)
         columns = self.products.columns_of_set(each.changes, each.free)
         self.sums = [self.products.of(columns, fold == k) for k in range(self.count.size)]
@@ -123,15 +124,21 @@ class _ByFold:
     def predicted(self, likelihood: Likelihood, seen: OfSet) -> dict[str, Array]:
         """Return what is left of all rows, N, with parameters by the rows that were seen.
 
-        They are weighed as in the fit of a set: without errors of form, the error of any size. Those that one
-        sweep determines stay where they are.
+        From where the fit to all rows ended, they go as far as the likeliest parameters go when rows are left
+        out. The linear step is asked for that change only: where a fit ended elsewhere than a linear model
+        has its optimum, no such optimum is promised. They are weighed as in the fit of a set: without errors
+        of form, the error of any size. Those that one sweep determines stay where they are.
         """
         data, each = self.products.data, self.each
         labels, _ = columns_of(data, list(each.changes), list(each.free))
         off, wide = prior(data, each.changes, labels)
-        own = seen.products.take(np.arange(each.parameters))
-        at = likelihood.evidence(own, np.ones(each.parameters), wide=True).mode
+        change = self._likeliest(likelihood, seen) - self._likeliest(self.likelihood, each)
         locked = np.array([name in LOCKED for _, name in labels], bool)
-        at = np.where(locked, off / wide, at)
+        at = off / wide + np.where(locked, 0.0, change)
         columns = self.products.columns_of_set(each.changes, each.free)
         return {o: x[:, -1] - x[:, : each.parameters] @ at for o, x in columns.items()}
+
+    def _likeliest(self, likelihood: Likelihood, seen: OfSet) -> Array:
+        """Parameters by some rows, in widths of their priors."""
+        own = seen.products.take(np.arange(self.each.parameters))
+        return likelihood.evidence(own, np.ones(self.each.parameters), wide=True).mode

@@ -39,16 +39,20 @@ def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, d
     Fit
         What is put in.
     dict of ndarray, shape (n,)
-        Output -> what is left, N, of sweeps that neither the choice of what is put in nor its fit has seen.
+        Output -> what is left, N, of sweeps that neither the choice of what is put in nor its fit has seen;
+        by what is put in, fitted without them, if that leaves more: a repeated choice can be another one.
     """
     fit = analysis.fit
     if not fit.names:
         return fit, residual(analysis.data, [])
     repeated = RepeatedChoice(sets, analysis.block, level)
     while fit.names:
-        left = repeated.unseen(set(analysis.fit.names) - set(fit.names)).left
-        if _surely_less(analysis, left) and _surely_less(analysis, each_left_out(analysis, fit)):
-            return fit, left
+        both = (
+            repeated.unseen(set(analysis.fit.names) - set(fit.names)).left,
+            each_left_out(analysis, fit),
+        )
+        if all(_surely_less(analysis, left) for left in both):
+            return fit, max(both, key=lambda left: _size(analysis, left))
         numbers = range(len(fit.names))
         others = [fit.part([j for j in numbers if j != i], analysis.system) for i in numbers]
         fit = min(others, key=lambda other: _size(analysis, residual(analysis.data, other.changes)))
