@@ -50,7 +50,7 @@ KEY_WORDS = tuple(enumerate(("cornering stiffness", "lateral grip", "slip stiffn
 """Places of ``KEY_PARTS`` and what the sentences call them."""
 NO_NUMBERS = ("source_probability", "distance", "expected_rms_ratio", "harm_probability")
 NO_WORDS = ("bias_band", "changes")
-WITHOUT_FIT = ("translate_each", "join_translated", "draw_translated_files")
+WITHOUT_FIT = ("choose_files", "translate_each", "join_translated", "draw_translated_files")
 """Nodes of ``translate`` that a stored translator suffices for."""
 
 

@@ -124,9 +124,11 @@ def test_the_tires_that_choose_a_translator_are_judged_nowhere(catalog):
     assert "tuning" not in config["parameters"]["evaluate"]["sets"]
 
 
-def test_translate_fits_translates_joins_and_draws():
-    steps = {node.short_name for node in pipelines["translate"].nodes}
-    assert steps == {"fit_translator", "translate_each", "join_translated", "draw_translated_files"}
+def test_translate_reads_fits_translates_joins_and_draws():
+    steps = [node.short_name for node in pipelines["translate"].nodes]
+    first, *_, last = steps  # what was asked for is looked up before anything is fitted
+    assert (first, last) == ("choose_files", "draw_translated_files")
+    assert {*steps} == {first, "fit_translator", "translate_each", "join_translated", last}
     fitted = next(node for node in pipelines["translate"].nodes if node.short_name == "fit_translator")
     assert fitted.outputs == ["translator"]
     assert fitted in pipelines["__default__"].nodes

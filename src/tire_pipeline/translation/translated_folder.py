@@ -6,7 +6,6 @@ import hashlib
 import logging
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from fnmatch import fnmatch
 from functools import partial
 from typing import Any
 
@@ -15,7 +14,7 @@ import pandas as pd
 
 from tire_pipeline.classifiers.suppliers import KnownSuppliers
 from tire_pipeline.code_hash import code_hash
-from tire_pipeline.errors import DomainError, did_you_mean
+from tire_pipeline.errors import DomainError
 from tire_pipeline.files.state_files import state_digest
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
@@ -47,7 +46,7 @@ TRANSLATED_TOGETHER = 500
 
 def translate_each(
     translator: dict[str, Any],
-    files_to_translate: Files,
+    chosen_files: Files,
     normalized_table: pd.DataFrame,
     parameters: TranslateParameters,
     normalize: NormalizeParameters,
@@ -61,8 +60,8 @@ def translate_each(
     ----------
     translator : dict
         State of a fitted translator.
-    files_to_translate : mapping
-        ``category/.../name.tir`` to the function that reads it.
+    chosen_files : mapping
+        ``category/.../name.tir`` to the function that reads it: :func:`.chosen_files.choose_files`.
     normalized_table : DataFrame
         The training files. Their categories are the known ones.
     parameters : TranslateParameters
@@ -75,20 +74,13 @@ def translate_each(
     -------
     dict
         A name that says all that the block's part depends on -> the block.
-
-    Raises
-    ------
-    DomainError
-        If none of the files is of those that were asked for.
     """
-    chosen = chosen_files(files_to_translate, parameters.only)
-    chosen = dict(list(chosen.items())[: parameters.trials or None])
     fitted = translator_from_state(translator)
     assert isinstance(fitted, CurveTranslator)  # the parameters allow no other
-    suppliers = KnownSuppliers.learn(normalized_table, chosen, classify=parameters.classify, seed=seed)
+    suppliers = KnownSuppliers.learn(normalized_table, chosen_files, classify=parameters.classify, seed=seed)
     given = Given(fitted, suppliers, normalize.nominal_load, parameters.farthest)
     common = [state_digest(translator).encode(), *_depends_on(given, normalized_table, seed)]
-    blocks = divided(chosen, TRANSLATED_TOGETHER)
+    blocks = divided(chosen_files, TRANSLATED_TOGETHER)
     digests = {number: digest_of(block) for number, block in blocks.items()}
     if fitted.learn_from_batch:
         given = replace(given, translator=_taught(given, blocks, work))
@@ -117,26 +109,6 @@ def _taught(given: Given, blocks: Mapping[int, Files], work: Map) -> CurveTransl
     teachers = pd.concat([rows for _, rows in found], ignore_index=True)
     teachers = teachers.sort_values("file", ignore_index=True)
     return given.translator.taught(np.unique(np.concatenate([tires for tires, _ in found])), teachers)
-
-
-def chosen_files(files: Files, only: list[str]) -> dict[str, Callable[[], TireModel]]:
-    """Choose files by their path, one of its folders, or a pattern; one that matches none is an error."""
-    if not only:
-        return dict(files)
-
-    def matches(file: str, pattern: str) -> bool:
-        *folders, name = file.split("/")
-        return pattern in folders or fnmatch(file, pattern) or fnmatch(name, pattern)
-
-    for pattern in only:
-        if not any(matches(file, pattern) for file in files):
-            folders = sorted({file.rpartition("/")[0] for file in files if "/" in file})
-            raise DomainError(
-                f"only = {pattern!r} matches none of {len(files)} files",
-                where="translate",
-                todo=did_you_mean(pattern, [*folders, *files], f"suppliers are {', '.join(folders[:20])}"),
-            )
-    return {file: load for file, load in files.items() if any(matches(file, pattern) for pattern in only)}
 
 
 def join_translated(

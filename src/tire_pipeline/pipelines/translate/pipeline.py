@@ -4,20 +4,27 @@ from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline.cluster import given_map
 from tire_pipeline.reporting.translation.translated_folder_page import translate_page
+from tire_pipeline.translation.chosen_files import choose_files
 from tire_pipeline.translation.fitted import fit_translator
 from tire_pipeline.translation.translated_folder import join_translated, translate_each
 
 
 def create_pipeline(**_: object) -> Pipeline:
-    """Translate the user's files to the target category: fit, translate, join, draw."""
+    """Translate the user's files to the target category: read, fit, translate, join, draw."""
     return Pipeline(
         [
+            Node(
+                choose_files,
+                inputs=["files_to_translate", "params:translate"],
+                outputs="chosen_files",
+                name="choose_files",
+            ),
             fit_node(),
             Node(
                 given_map(translate_each),
                 inputs=[
                     "translator",
-                    "files_to_translate",
+                    "chosen_files",
                     "normalized_table",
                     "params:translate",
                     "params:normalize",
