@@ -22,3 +22,15 @@ def test_a_file_without_radius_has_its_forces_and_no_second_warning():
         curves = file_curves(["a.tir"], {"a.tir": tire}, LEFT_ALONE)
     assert np.isfinite(curves["fy_source"]).all()
     assert np.isnan(curves["mz_source"]).any()
+
+
+def test_a_curve_that_would_rest_on_a_value_the_file_does_not_state_is_not_drawn():
+    """A refused file without PKY2 had a cornering stiffness all the same."""
+    tire = TireModel.from_coefficients(
+        {"FNOMIN": 4000, "UNLOADED_RADIUS": 0.3, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20}
+        | {"PCX1": 1.6, "PDX1": 1.1, "PKX1": 22.0}
+    )
+    curves = file_curves(["a.tir"], {"a.tir": tire}, LEFT_ALONE)
+    for name in ("fy", "mz", "stiffness"):
+        assert np.isnan(curves[f"{name}_source"]).all(), name
+    assert np.isfinite(curves["fx_source"]).all()

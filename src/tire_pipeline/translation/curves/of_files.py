@@ -16,6 +16,14 @@ from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.result import Band, TranslationResult
 
 DRAWN_OUTPUTS = ("fy", "fx", "mz")
+_LATERAL = ("PCY1", "PDY1", "PKY1", "PKY2")
+_STATED = {
+    "fy": _LATERAL,
+    "fx": ("PCX1", "PDX1", "PKX1"),
+    "mz": (*_LATERAL, "QBZ1", "QDZ1"),
+    "stiffness": _LATERAL,
+}
+"""Without one of these a curve would be that of a value which stands in for what the file does not state."""
 
 
 def file_curves(
@@ -36,7 +44,8 @@ def file_curves(
     dict
         ``files``; ``normal_load`` (l, N); ``slip`` (s, rad or 1); ``<output>_source``, ``_middle``, ``_low``,
         ``_high`` for fy, fx (N), mz (N m), each (n, l, s), and for stiffness (N/rad), each (n, l). NaN where
-        a file was not translated, or its curve cannot be evaluated.
+        a file was not translated, or its curve cannot be evaluated, or rests on a level that it does not
+        state.
     """
     bands: dict[str, Band | None] = {name: result.bands.get(name) for name in DRAWN_OUTPUTS}
     shape = (len(files), LOADS.size, BAND_SLIP_RATIOS.size)
@@ -62,7 +71,7 @@ def _part(band: Band | None, part: str, shape: tuple[int, ...]) -> np.ndarray:
 
 
 def _own_curves(model: TireModel) -> dict[str, np.ndarray]:
-    """Curves of one model; those that cannot be evaluated are left out."""
+    """Curves of one model; none that cannot be evaluated, or whose levels it does not state."""
     load = LOADS[:, None]
     found = {}
     asked: dict[str, dict[str, Any]] = {
@@ -72,6 +81,8 @@ def _own_curves(model: TireModel) -> dict[str, np.ndarray]:
         "stiffness": {"normal_load": LOADS},
     }
     for name, points in asked.items():
+        if not model.coefficients.keys() >= set(_STATED[name]):
+            continue
         output = "cornering_stiffness" if name == "stiffness" else name
         try:
             with warnings.catch_warnings():  # the reading reports a missing radius; its moments are not drawn
