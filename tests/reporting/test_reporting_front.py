@@ -61,15 +61,17 @@ def test_a_recording_is_called_by_its_name_also_where_there_is_but_one(tmp_path)
     assert ">Where recording and simulation differ: rig/run 1</a>" in front_page(tmp_path)
 
 
-def test_it_begins_with_the_first_sentence_of_each_report_and_the_curves(tmp_path):
+def test_it_begins_with_the_first_sentence_of_each_report_and_its_pictures(tmp_path):
     lead = '<title>x</title><div class="main"><p>From 297 N to 69 N &lt;&amp;.</p><p>More.</p></div>'
     (tmp_path / "report.html").write_text(lead)
     (tmp_path / "mismatch.html").write_text("<title>x</title><p>no main message</p>")
-    newest = tmp_path / "force_curves.png" / "2026-01-02"
-    newest.mkdir(parents=True)
-    (newest / "force_curves.png").write_bytes(b"")
+    for name in ("force_curves.png", "confusion_matrix.png"):
+        newest = tmp_path / name / "2026-01-02"
+        newest.mkdir(parents=True)
+        (newest / name).write_bytes(b"")
     page = front_page(tmp_path)
     assert page.index("From 297 N to 69 N &lt;&amp;.") < page.index("Tables (CSV)")
     assert "More." not in page
     assert "no main message" not in page
-    assert '<img src="force_curves.png/2026-01-02/force_curves.png"' in page
+    for name in ("force_curves.png", "confusion_matrix.png"):
+        assert page.index(f'<img src="{name}/2026-01-02/{name}"') < page.index("Tables (CSV)")

@@ -81,6 +81,21 @@ REPORTS = (
     ),
 )
 
+PICTURES = (
+    (
+        "force_curves.png",
+        "Lateral force over slip angle: solid as each source measured, dashed as translated. Where the target "
+        "measured the tires, too: thick as it measured, and in a second row the differences from it, where "
+        "dashed lines should lie near zero.",
+    ),
+    (
+        "confusion_matrix.png",
+        "Share of the files of each organisation (rows) for which the classifier predicts each (columns), files "
+        "that it has not seen: the diagonal is right. Left, another organisation's file of the same tire may be "
+        "among those it learned from; right, none is.",
+    ),
+)
+
 
 def front_page(folder: Path) -> str:
     """Link all reports in a folder.
@@ -111,20 +126,16 @@ def front_page(folder: Path) -> str:
 
 
 def _what_matters(folder: Path) -> list[Text | Links | Picture]:
-    """The first sentence of each report, and how the curves were moved."""
+    """The first sentence of each report, and the pictures that go with them."""
     said = [(name, text) for name, _ in LEADS if (text := _lead(folder / name))]
     parts: list[Text | Links | Picture] = []
     if said:
         links = [(name, dict(LEADS)[name], text) for name, text in said]
         parts.append(Links(links, heading="What came out"))
-    curves = _newest(folder / "force_curves.png")
-    if curves is not None:
-        caption = (
-            "Lateral force over slip angle: solid as each source measured, dashed as translated. Where "
-            "the target measured the tires, too: thick as it measured, and in a second row the differences "
-            "from it, where dashed lines should lie near zero."
-        )
-        parts.append(Picture(curves.relative_to(folder).as_posix(), caption))
+    for name, caption in PICTURES:
+        found = _newest(folder / name)
+        if found is not None:
+            parts.append(Picture(found.relative_to(folder).as_posix(), caption))
     return parts
 
 
