@@ -84,15 +84,15 @@ REPORTS = (
 PICTURES = (
     (
         "force_curves.png",
-        "Lateral force over slip angle: solid as each source measured, dashed as translated. Where the target "
-        "measured the tires, too: thick as it measured, and in a second row the differences from it, where "
-        "dashed lines should lie near zero.",
+        "Lateral force over slip angle: solid as each source measured, dashed as translated. Where the "
+        "target measured the tires, too: thick as it measured, and in a second row the differences from it, "
+        "where dashed lines should lie near zero.",
     ),
     (
         "confusion_matrix.png",
-        "Share of the files of each organisation (rows) for which the classifier predicts each (columns), files "
-        "that it has not seen: the diagonal is right. Left, another organisation's file of the same tire may be "
-        "among those it learned from; right, none is.",
+        "Share of the files of each organisation (rows) for which the classifier predicts each (columns); it "
+        "has not seen these files, and the diagonal is right. Left, another organisation's file of the same "
+        "tire may be among those it learned from; right, none is.",
     ),
 )
 
