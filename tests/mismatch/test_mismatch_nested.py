@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
 from tire_pipeline.mismatch.proof.measured import OutputFit
-from tire_pipeline.mismatch.proof.nested import REPEATS, RepeatedChoice, _ByFold
+from tire_pipeline.mismatch.proof.nested import REPEATS, RepeatedChoice, ByFold
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
 
@@ -43,7 +43,7 @@ def test_a_fit_that_ended_off_its_optimum_is_not_said_to_be_there(softer):
     ((name, values),) = best.changes
     elsewhere = [(name, {key: 0.5 * (1.0 + value) for key, value in values.items()})]
     off = softer.sets.products.of_set(elsewhere, best.free)
-    by_fold = _ByFold(softer.sets, off, softer.analysis.block % REPEATS)
+    by_fold = ByFold(softer.sets, off, softer.analysis.block % REPEATS)
     there = rms(residual(softer.analysis.data, elsewhere))
     assert there > 1.5 * rms(residual(softer.analysis.data, best.changes))
     assert rms(by_fold.predicted(softer.sets.likelihood, off)) == pytest.approx(there)

@@ -56,11 +56,11 @@ class RepeatedChoice:
     def __init__(self, sets: Enumerated, block: Array, level: float) -> None:
         self._data = sets.products.data
         folds, self._fold = np.unique(block % REPEATS, return_inverse=True)
-        self._every: list[_ByFold] = []
+        self._every: list[ByFold] = []
         self._answers: list[tuple[Likelihood, OfCase, Names]] = []
         if folds.size < 2:
             return
-        self._every = [_ByFold(sets, each, self._fold) for each in sets.sets]
+        self._every = [ByFold(sets, each, self._fold) for each in sets.sets]
         for number in range(folds.size):
             likelihood = _without(sets, self._fold != number)
             case = OfCase(likelihood.unknown, tuple(each.without(number) for each in self._every))
@@ -99,7 +99,7 @@ def _without(sets: Enumerated, kept: Array) -> Likelihood:
     return Likelihood(fewer, sets.likelihood.learnt)
 
 
-class _ByFold:
+class ByFold:
     """One set of effects with the sums of its columns in each fold."""
 
     def __init__(self, sets: Enumerated, each: OfSet, fold: Array) -> None:
