@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
 from tire_pipeline.mismatch.proof.measured import OutputFit
-from tire_pipeline.mismatch.proof.nested import REPEATS, RepeatedChoice, ByFold
+from tire_pipeline.mismatch.proof.nested import REPEATS, ByFold, RepeatedChoice
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
 
