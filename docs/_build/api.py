@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections import Counter
 from pathlib import Path
 
 PACKAGES = ("tir", "magic_formula", "recordings", "mismatch", "translation")
@@ -24,6 +25,17 @@ def page(package: Path) -> str:
             for each in exported(package / name / "__init__.py")
         ]
     return "\n\n".join(parts) + "\n"
+
+
+def public_names(package: Path) -> dict[str, str]:
+    """Return each public name with its full name; those that two packages export are left out."""
+    found = [
+        (each, f"tire_pipeline.{name}.{each}")
+        for name in PACKAGES
+        for each in exported(package / name / "__init__.py")
+    ]
+    once = Counter(name for name, _ in found)
+    return {name: full for name, full in found if once[name] == 1}
 
 
 def exported(path: Path) -> list[str]:

@@ -14,6 +14,7 @@ os.environ.setdefault("MPLBACKEND", "Agg")
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 from mkdocs.config.defaults import MkDocsConfig  # noqa: E402
+from mkdocs.exceptions import PluginError  # noqa: E402
 from mkdocs.structure.files import File, Files  # noqa: E402
 from mkdocs.structure.pages import Page  # noqa: E402
 
@@ -58,6 +59,22 @@ def on_config(config: MkDocsConfig, **_: Any) -> MkDocsConfig:
         if "Gallery" in part:
             part["Gallery"] = ["gallery/README.md", *gallery.navigation(ROOT)]
     return config
+
+
+def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
+    """Make links of public names, and stop at a name that the code no longer has. History keeps its names."""
+    if page.file.src_uri.startswith("history/") or page.file.src_uri == "reference/api.md":
+        return markdown
+    _reach()
+    import api
+    import code_names
+
+    from tire_pipeline.mismatch.effects import GROUP
+
+    named = code_names.stale(markdown, frozenset({GROUP}))
+    if named:
+        raise PluginError(f"{page.file.src_uri}: the code has no {', '.join(named)}")
+    return code_names.linked(markdown, api.public_names(ROOT / "src" / "tire_pipeline"))
 
 
 def on_page_content(html: str, page: Page, **_: Any) -> str:

@@ -56,6 +56,14 @@ def test_names_in_docstrings_are_links(site):
     assert re.findall(r":(?:func|class|meth|mod):", api) == []
 
 
+def test_public_names_on_pages_lead_to_the_reference(site):
+    api = (site / "reference" / "api.html").read_text("utf-8")
+    page = (site / "explanation" / "mismatch.html").read_text("utf-8")
+    anchors = re.findall(r'href="../reference/api.html#([^"]+)"[^>]*><code>', page)
+    assert "tire_pipeline.mismatch.explain_mismatch" in anchors
+    assert all(f'id="{anchor}"' in api for anchor in anchors)
+
+
 def test_every_script_of_the_gallery_has_its_picture(site):
     scripts = sorted((ROOT / "docs/gallery").glob("*.py"))
     assert len(scripts) >= 12
