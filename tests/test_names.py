@@ -26,8 +26,18 @@ def _modules() -> dict[str, ast.Module]:
         for path in sorted(ROOT.rglob("*.py"))
         if path.parent.name != "__pycache__"  # derivatives that are generated at first use
     }
-    written = (name for name in every if "__pycache__" not in name and not name.startswith(SEALED))
-    return {name: every[name] for name in written}
+    return {name: module for name, module in every.items() if "__pycache__" not in name}
+
+
+def _written() -> dict[str, ast.Module]:
+    """All but the sealed simulators."""
+    return {name: module for name, module in _modules().items() if not name.startswith(SEALED)}
+
+
+def _classes(module: ast.Module) -> list[str]:
+    return [
+        each.name for each in module.body if isinstance(each, ast.ClassDef) and not each.name.startswith("_")
+    ]
 
 
 def _constants(module: ast.Module) -> list[str]:
@@ -53,27 +63,15 @@ def _a_letter_apart(first: str, second: str) -> bool:
     return len(long) - len(short) == 1 and any(long[:i] + long[i + 1 :] == short for i in range(len(long)))
 
 
-def test_no_two_classes_of_one_name():
-    classes = {
-        name: [each.name for each in module.body if isinstance(each, ast.ClassDef)]
-        for name, module in _modules().items()
-    }
-    assert _twice(classes) == set()
-
-
-def test_no_class_of_concealed_is_taken_for_one_of_a_sealed_simulator():
-    sealed, others = set(), set()
-    for path in (ROOT / "concealed").rglob("*.py"):
-        name = ".".join(path.relative_to(ROOT).with_suffix("").parts)
-        body = ast.parse(path.read_text("utf-8")).body
-        found = {each.name.lstrip("_") for each in body if isinstance(each, ast.ClassDef)}
-        (sealed if name.startswith(SEALED) else others).update(found)
+def test_no_two_classes_of_one_name_nor_one_of_a_sealed_simulator():
+    sealed = [each for name in _modules() if name.startswith(SEALED) for each in _classes(_modules()[name])]
     assert sealed
-    assert sealed & others == set()
+    written = {name: _classes(module) for name, module in _written().items()}
+    assert _twice({**written, "sealed": sealed}) == set()
 
 
 def test_no_two_constants_of_one_name():
-    assert _twice({name: _constants(module) for name, module in _modules().items()}) == set()
+    assert _twice({name: _constants(module) for name, module in _written().items()}) == set()
 
 
 def test_no_two_modules_of_a_folder_a_letter_apart():
@@ -94,7 +92,7 @@ def test_no_two_modules_of_a_folder_a_letter_apart():
 
 def test_no_metaphors():
     found = set()
-    for module in _modules().values():
+    for module in _written().values():
         named = {each.name for each in ast.walk(module) if isinstance(each, ast.FunctionDef | ast.ClassDef)}
         named |= {each.id for each in ast.walk(module) if isinstance(each, ast.Name)}
         found |= {name for name in named if set(name.lower().split("_")) & METAPHORS}
@@ -150,7 +148,7 @@ def _written_out(module: ast.Module, names: set[str]) -> bool:
 
 
 def test_channels_of_an_operating_point_are_listed_once():
-    found = [name for name, module in _modules().items() if _written_out(module, set(SLIP_AND_LOAD))]
+    found = [name for name, module in _written().items() if _written_out(module, set(SLIP_AND_LOAD))]
     assert found == ["channels"]
 
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from tire_pipeline.recordings.conventions.channels import CANONICAL, FURTHER
-from tire_pipeline.recordings.conventions.units import UNITS, find_unit
+from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "recordings.md"
 MARK = "<!-- {}: made by tests/recordings/test_recordings_docs.py -->"
@@ -24,8 +24,8 @@ def names_table() -> str:
 
 def units_table() -> str:
     lines = ["| of | spellings (without blanks, dots and case) |", "| --- | --- |"]
-    for dimension in dict.fromkeys(u.dimension for u in UNITS.values()):
-        spellings = ", ".join(f"`{n}`" for n, u in UNITS.items() if u.dimension == dimension)
+    for dimension in dict.fromkeys(u.dimension for u in UNITS_BY_NAME.values()):
+        spellings = ", ".join(f"`{n}`" for n, u in UNITS_BY_NAME.items() if u.dimension == dimension)
         lines.append(f"| {dimension} | {spellings} |")
     return "\n".join(lines)
 
@@ -44,7 +44,7 @@ def test_the_page_says_what_the_code_knows():
 
 
 def test_every_spelling_is_found():
-    for spelling in UNITS:
+    for spelling in UNITS_BY_NAME:
         assert find_unit(spelling) is not None, spelling
 
 

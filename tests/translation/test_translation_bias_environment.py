@@ -5,7 +5,7 @@ from gymnasium.utils.env_checker import check_env
 
 from tire_pipeline.translation.predict.curiosity import Curiosity
 from tire_pipeline.translation.predict.likelihood_environment import (
-    REACH,
+    LONGEST_MOVE,
     STEPS,
     BatchLikelihoodEnvironment,
     LikelihoodEnvironment,
@@ -58,7 +58,7 @@ def test_the_batch_plays_by_the_same_rules():
         np.testing.assert_allclose(reward, rewards[step][2], rtol=1e-4, atol=1e-5)
     assert over
     np.testing.assert_allclose(last, infos[2]["terminal_observation"], rtol=1e-6)
-    assert REACH > 0
+    assert LONGEST_MOVE > 0
     assert seen.shape == (6, situation.observation_size)
 
 

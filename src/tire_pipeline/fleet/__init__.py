@@ -3,7 +3,7 @@
 from tire_pipeline.fleet.make import Fleet, make_fleet
 from tire_pipeline.fleet.plan import FEATURES
 from tire_pipeline.fleet.settings import MANUFACTURERS, FleetSettings
-from tire_pipeline.fleet.truth import Truth, true_curves
+from tire_pipeline.fleet.truth import FleetTruth, true_curves
 from tire_pipeline.fleet.write import read_truth_tables, write_fleet
 
 __all__ = [
@@ -11,7 +11,7 @@ __all__ = [
     "MANUFACTURERS",
     "Fleet",
     "FleetSettings",
-    "Truth",
+    "FleetTruth",
     "make_fleet",
     "read_truth_tables",
     "true_curves",

@@ -13,7 +13,7 @@ from tire_pipeline.fleet.files.tir_text import Template, style_of
 from tire_pipeline.fleet.measure import measure_all, regimes_of
 from tire_pipeline.fleet.plan import EVALUATION_SETS, Plan, make_plan
 from tire_pipeline.fleet.settings import FleetSettings
-from tire_pipeline.fleet.truth import Truth, true_curves
+from tire_pipeline.fleet.truth import FleetTruth, true_curves
 
 _FIRST_DAY = dt.date(2011, 1, 10)
 _DAYS = 4200
@@ -32,14 +32,14 @@ class Fleet:
     evaluation : dict of str to str
         Inputs of translators: ``<four|tuning|hidden>/<category>/<tire>.tir``; the target's own
         files are not among them.
-    truth : Truth
+    truth : FleetTruth
         Sealed; only the evaluation may read it.
     """
 
     settings: FleetSettings
     files: dict[str, str]
     evaluation: dict[str, str]
-    truth: Truth
+    truth: FleetTruth
 
 
 def make_fleet(settings: FleetSettings | None = None) -> Fleet:
@@ -61,7 +61,7 @@ def make_fleet(settings: FleetSettings | None = None) -> Fleet:
     writer = _Writer(plan, values, settings)
     files, origin = _training_files(plan, writer, np.random.default_rng(streams[3]))
     evaluation, first, second = _evaluation_files(plan, writer, settings)
-    truth = Truth(
+    truth = FleetTruth(
         first=first,
         second=second,
         tires=plan.tires,

@@ -31,7 +31,7 @@ FEATURES: tuple[str, ...] = (
     "PVY2",
 )
 MISSING_FEATURES: tuple[str, ...] = ("PEY2", "PHY2", "PVY2", "PVY1", "PHY1", "PKY2")
-PRESSURES = (0.94, 0.97, 1.03, 1.06)
+PRESSURE_RATIOS = (0.94, 0.97, 1.03, 1.06)
 WEARS = (0.1, 0.2, 0.3)
 EVALUATION_SETS: tuple[str, ...] = ("four", "tuning", "hidden")
 
@@ -160,7 +160,7 @@ def _variants(
         else:
             sort = rng.random()
             if sort < 0.35:
-                row["pressure"] = float(rng.choice(PRESSURES))
+                row["pressure"] = float(rng.choice(PRESSURE_RATIOS))
             elif sort < 0.5:
                 row["wear"] = float(rng.choice(WEARS))
             elif sort < 0.76:

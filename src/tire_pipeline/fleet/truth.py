@@ -14,7 +14,7 @@ TRUTH_LOADS = (4000.0, 6000.0, 8000.0)
 
 
 @dataclass(frozen=True)
-class Truth:
+class FleetTruth:
     """Sealed truth.
 
     Attributes
@@ -58,7 +58,7 @@ def true_curves(tires: pd.DataFrame) -> dict[str, np.ndarray]:
     Returns
     -------
     dict of str to ndarray
-        As :attr:`Truth.curves` says.
+        As :attr:`FleetTruth.curves` says.
     """
     slip_angle = np.linspace(-0.25, 0.25, 100)
     loads = np.array(TRUTH_LOADS)

@@ -33,7 +33,7 @@ from tire_pipeline.magic_formula import TireModel, fit_magic_formula
 
 _PRESSURES = 0.2
 """Either way, where a mechanism needs the pressure to change."""
-HELD_OUT = 0.25
+HELD_OUT_SHARE = 0.25
 """Rows that follow the recording and that nobody is shown, over those of the recording."""
 _OF_FIT = (*SLIP_AND_LOAD, "speed")
 _EVERY = 20
@@ -114,7 +114,9 @@ def _drawn(
 ) -> OpenCase:
     rng = np.random.default_rng(seed)
     tire, rig = draw_tire(rng), draw_rig(rng)
-    sections = schedule.drawn_sections(rng, tire, rows + round(rows * HELD_OUT), quick=False, speeds=True)
+    sections = schedule.drawn_sections(
+        rng, tire, rows + round(rows * HELD_OUT_SHARE), quick=False, speeds=True
+    )
     course = driven(schedule.played(sections, tire), rig, tire, rng)
     levels = schedule.pattern(sections, rng)
     if pressures:

@@ -24,7 +24,7 @@ from tire_pipeline.magic_formula.equations.equations_61 import (
 from tire_pipeline.magic_formula.equations.jit import checksum_with_equations, compiled
 from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS, SATURATION
 
-BLOCK = 256
+SAMPLES_TOGETHER = 256
 """Points in a block."""
 
 
@@ -70,11 +70,11 @@ def _take_in(w, t, start, m, alpha, kappa, gamma, fz, speed, pressure, signs):
     """Copy one block of inputs, ISO signs applied and magnitudes held below ``SATURATION``."""
     for i in range(m):
         w[i] = min(max(alpha[t, start + i] * signs[0], -SATURATION), SATURATION)
-        w[BLOCK + i] = min(max(kappa[t, start + i], -SATURATION), SATURATION)
-        w[2 * BLOCK + i] = min(max(gamma[t, start + i] * signs[1], -SATURATION), SATURATION)
-        w[3 * BLOCK + i] = min(fz[t, start + i], SATURATION)
-        w[4 * BLOCK + i] = min(max(speed[t, start + i], -SATURATION), SATURATION)
-        w[5 * BLOCK + i] = min(max(pressure[t, start + i], -SATURATION), SATURATION)
+        w[SAMPLES_TOGETHER + i] = min(max(kappa[t, start + i], -SATURATION), SATURATION)
+        w[2 * SAMPLES_TOGETHER + i] = min(max(gamma[t, start + i] * signs[1], -SATURATION), SATURATION)
+        w[3 * SAMPLES_TOGETHER + i] = min(fz[t, start + i], SATURATION)
+        w[4 * SAMPLES_TOGETHER + i] = min(max(speed[t, start + i], -SATURATION), SATURATION)
+        w[5 * SAMPLES_TOGETHER + i] = min(max(pressure[t, start + i], -SATURATION), SATURATION)
 
 
 @njit(error_model="numpy")
@@ -84,44 +84,51 @@ def _give_out(w, t, start, m, signs, rows, out):
         row = rows[k]
         if row >= 0:
             for i in range(m):
-                out[t, row, start + i] = w[(7 + k) * BLOCK + i] * signs[2 + k]
+                out[t, row, start + i] = w[(7 + k) * SAMPLES_TOGETHER + i] * signs[2 + k]
 
 
 @njit(error_model="numpy", forceinline=True)
 def _keep(w, i, loaded, values, moments, others):
     """Store the outputs of one point, 0 where there is no load."""
-    w[7 * BLOCK + i] = values[0] if loaded else 0.0
-    w[8 * BLOCK + i] = values[1] if loaded else 0.0
+    w[7 * SAMPLES_TOGETHER + i] = values[0] if loaded else 0.0
+    w[8 * SAMPLES_TOGETHER + i] = values[1] if loaded else 0.0
     if moments:
-        w[11 * BLOCK + i] = values[4] if loaded else 0.0
+        w[11 * SAMPLES_TOGETHER + i] = values[4] if loaded else 0.0
     if others:
-        w[9 * BLOCK + i] = values[2] if loaded else 0.0
-        w[10 * BLOCK + i] = values[3] if loaded else 0.0
-        w[12 * BLOCK + i] = values[5] if loaded else 0.0
-        w[13 * BLOCK + i] = values[6] if loaded else 0.0
-        w[14 * BLOCK + i] = values[7] if loaded else 0.0
-        w[15 * BLOCK + i] = values[8] if loaded else 0.0
-        w[16 * BLOCK + i] = values[9] if loaded else 0.0
-        w[17 * BLOCK + i] = values[10] if loaded else 0.0
-        w[18 * BLOCK + i] = values[11] if loaded else 0.0
+        w[9 * SAMPLES_TOGETHER + i] = values[2] if loaded else 0.0
+        w[10 * SAMPLES_TOGETHER + i] = values[3] if loaded else 0.0
+        w[12 * SAMPLES_TOGETHER + i] = values[5] if loaded else 0.0
+        w[13 * SAMPLES_TOGETHER + i] = values[6] if loaded else 0.0
+        w[14 * SAMPLES_TOGETHER + i] = values[7] if loaded else 0.0
+        w[15 * SAMPLES_TOGETHER + i] = values[8] if loaded else 0.0
+        w[16 * SAMPLES_TOGETHER + i] = values[9] if loaded else 0.0
+        w[17 * SAMPLES_TOGETHER + i] = values[10] if loaded else 0.0
+        w[18 * SAMPLES_TOGETHER + i] = values[11] if loaded else 0.0
 
 
 def _build_52(stamp: int, moments: bool, others: bool) -> Callable[..., Any]:
     def forces_52(matrix, alpha, kappa, gamma, fz, speed, pressure, signs, rows, out):
         if stamp < 0:
             return
-        w = np.empty(19 * BLOCK)
+        w = np.empty(19 * SAMPLES_TOGETHER)
         n = out.shape[2]
         for t in range(out.shape[0]):
             p = unpack(matrix[t])
-            for start in range(0, n, BLOCK):
-                m = min(BLOCK, n - start)
+            for start in range(0, n, SAMPLES_TOGETHER):
+                m = min(SAMPLES_TOGETHER, n - start)
                 _take_in(w, t, start, m, alpha, kappa, gamma, fz, speed, pressure, signs)
                 for i in range(m):
-                    load = w[3 * BLOCK + i]
+                    load = w[3 * SAMPLES_TOGETHER + i]
                     loaded = not load <= 0.0
                     load = load if loaded else p.FNOMIN
-                    values = evaluate_52(p, w[i], w[BLOCK + i], w[2 * BLOCK + i], load, w[4 * BLOCK + i])
+                    values = evaluate_52(
+                        p,
+                        w[i],
+                        w[SAMPLES_TOGETHER + i],
+                        w[2 * SAMPLES_TOGETHER + i],
+                        load,
+                        w[4 * SAMPLES_TOGETHER + i],
+                    )
                     _keep(w, i, loaded, values, moments, others)
                 _give_out(w, t, start, m, signs, rows, out)
 
@@ -132,34 +139,36 @@ def _build_61(stamp: int, moments: bool, others: bool) -> Callable[..., Any]:
     def forces_61(matrix, alpha, kappa, gamma, fz, speed, pressure, signs, rows, out):
         if stamp < 0:
             return
-        w = np.empty(19 * BLOCK)
+        w = np.empty(19 * SAMPLES_TOGETHER)
         n = out.shape[2]
         for t in range(out.shape[0]):
             p = unpack(matrix[t])
             per_pascal = 1.0 / p.NOMPRES if p.NOMPRES > 0.0 else 0.0
-            for start in range(0, n, BLOCK):
-                m = min(BLOCK, n - start)
+            for start in range(0, n, SAMPLES_TOGETHER):
+                m = min(SAMPLES_TOGETHER, n - start)
                 _take_in(w, t, start, m, alpha, kappa, gamma, fz, speed, pressure, signs)
                 for i in range(m):
-                    w[5 * BLOCK + i] = (w[5 * BLOCK + i] - p.NOMPRES) * per_pascal
+                    w[5 * SAMPLES_TOGETHER + i] = (w[5 * SAMPLES_TOGETHER + i] - p.NOMPRES) * per_pascal
                 if others:
                     for i in range(m):
-                        load = w[3 * BLOCK + i]
+                        load = w[3 * SAMPLES_TOGETHER + i]
                         load = p.FNOMIN if load <= 0.0 else load
-                        w[6 * BLOCK + i] = rolling_load_factor(p, load, w[5 * BLOCK + i])
+                        w[6 * SAMPLES_TOGETHER + i] = rolling_load_factor(
+                            p, load, w[5 * SAMPLES_TOGETHER + i]
+                        )
                 for i in range(m):
-                    load = w[3 * BLOCK + i]
+                    load = w[3 * SAMPLES_TOGETHER + i]
                     loaded = not load <= 0.0
                     load = load if loaded else p.FNOMIN
                     values = evaluate_61(
                         p,
                         w[i],
-                        w[BLOCK + i],
-                        w[2 * BLOCK + i],
+                        w[SAMPLES_TOGETHER + i],
+                        w[2 * SAMPLES_TOGETHER + i],
                         load,
-                        w[4 * BLOCK + i],
-                        w[5 * BLOCK + i],
-                        w[6 * BLOCK + i] if others else 1.0,
+                        w[4 * SAMPLES_TOGETHER + i],
+                        w[5 * SAMPLES_TOGETHER + i],
+                        w[6 * SAMPLES_TOGETHER + i] if others else 1.0,
                         NO_TURN_SLIP,
                     )
                     _keep(w, i, loaded, values, moments, others)

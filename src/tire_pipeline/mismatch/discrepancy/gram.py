@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import scipy
 
-from tire_pipeline.mismatch.discrepancy.noise import Noise
+from tire_pipeline.mismatch.discrepancy.noise import ForceNoise
 from tire_pipeline.mismatch.effects.shared import njit
 from tire_pipeline.mismatch.model.data import Data
 
@@ -71,7 +71,7 @@ class System:
     Parameters
     ----------
     data : Data
-    noise : dict of Noise
+    noise : dict of ForceNoise
     block : ndarray of int, shape (n,)
         Sweep of each sample.
     columns : dict of ndarray, shape (n, q)
@@ -83,7 +83,7 @@ class System:
     def __init__(
         self,
         data: Data,
-        noise: dict[str, Noise],
+        noise: dict[str, ForceNoise],
         block: Array,
         columns: dict[str, Array],
         scale: dict[str, Array],

@@ -25,7 +25,7 @@ def white_noise(x: Array) -> float:
 
 
 @dataclass(frozen=True)
-class Noise:
+class ForceNoise:
     """Noise of one output: white and coloured part, with a size that changes with the slopes.
 
     Parameters
@@ -85,7 +85,7 @@ def _filtered(x: Array, taps: Array) -> Array:
     return out
 
 
-def estimate_noise(data: Data, residual: dict[str, Array]) -> dict[str, Noise]:
+def estimate_noise(data: Data, residual: dict[str, Array]) -> dict[str, ForceNoise]:
     """Estimate the noise of each output from second differences of what the model leaves.
 
     Parameters
@@ -96,7 +96,7 @@ def estimate_noise(data: Data, residual: dict[str, Array]) -> dict[str, Noise]:
 
     Returns
     -------
-    dict of Noise
+    dict of ForceNoise
         The variance is ``s0^2 + (dF/d slip angle)^2 sa^2 + (dF/d slip ratio)^2 sk^2``: noise of the
         slip channels comes through the slopes of the model. Known standard deviations
         (``fy_std``, ``slip_angle_std``) are added.
@@ -112,7 +112,7 @@ def estimate_noise(data: Data, residual: dict[str, Array]) -> dict[str, Noise]:
             sigma, share, rho = _series(data, r, parts)
         sigma = np.maximum(sigma, 1e-4 * largest + 1e-9)
         known = _known(data, name, slopes["slip_angle"][name])
-        out[name] = Noise(np.sqrt(sigma**2 + known**2), share, rho)
+        out[name] = ForceNoise(np.sqrt(sigma**2 + known**2), share, rho)
     return out
 
 
@@ -210,13 +210,13 @@ def _known(data: Data, name: str, slope: Array) -> Array:
     return np.sqrt(variance)
 
 
-def refined(data: Data, noise: Noise, calm: Array) -> Noise:
+def refined(data: Data, noise: ForceNoise, calm: Array) -> ForceNoise:
     """Take size and colour from the correlations of a residual that holds nothing but noise.
 
     Parameters
     ----------
     data : Data
-    noise : Noise
+    noise : ForceNoise
         The first estimate, whose dependence on the slopes is kept.
     calm : ndarray, shape (n,)
         A residual without what any model explains, N. What stays correlated over 40 samples is no noise, and
@@ -244,4 +244,4 @@ def refined(data: Data, noise: Noise, calm: Array) -> Noise:
     _, share, rho, slow = best
     share, variance = share / max(1.0 - slow, 1e-6), variance * (1.0 - slow)
     scale = float(np.clip(np.sqrt(variance), 0.6, 1.7))
-    return Noise(noise.sigma * scale, min(share, 1.0), rho)
+    return ForceNoise(noise.sigma * scale, min(share, 1.0), rho)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.gram import System
-from tire_pipeline.mismatch.discrepancy.noise import Noise, estimate_noise, refined
+from tire_pipeline.mismatch.discrepancy.noise import ForceNoise, estimate_noise, refined
 from tire_pipeline.mismatch.discrepancy.nuisance.columns import Sizes, largest_force, make_nuisance
 from tire_pipeline.mismatch.discrepancy.nuisance.sizes import PATH_SHARES, SHARES, nuisance_scale
 from tire_pipeline.mismatch.inference.fit import Fit
@@ -27,7 +27,7 @@ class Analysis:
     Parameters
     ----------
     data : Data
-    noise : dict of Noise
+    noise : dict of ForceNoise
     block : ndarray of int, shape (n,)
         Sweep of each sample.
     columns : dict of ndarray, shape (n, q)
@@ -51,7 +51,7 @@ class Analysis:
     """
 
     data: Data
-    noise: dict[str, Noise]
+    noise: dict[str, ForceNoise]
     block: Array
     columns: dict[str, Array]
     sizes: dict[str, Sizes]

@@ -12,7 +12,7 @@ from tire_pipeline.mismatch.model.forces import plain_forces
 Array = np.ndarray
 
 
-class Nominal(RecordedChannels):
+class NominalConditions(RecordedChannels):
     """Nominal values of the model beside a recording; a part of `Data`."""
 
     @cached_property

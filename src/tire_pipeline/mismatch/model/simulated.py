@@ -8,12 +8,12 @@ import numpy as np
 
 from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.model.forces import plain_forces, simulate
-from tire_pipeline.mismatch.model.nominal import Nominal
+from tire_pipeline.mismatch.model.nominal import NominalConditions
 
 Array = np.ndarray
 
 
-class Simulated(Nominal):
+class Simulated(NominalConditions):
     """Forces of the model at the recorded points."""
 
     @cached_property

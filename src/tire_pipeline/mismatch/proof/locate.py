@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 
 from tire_pipeline.channels import OPERATING_CHANNELS
-from tire_pipeline.mismatch.discrepancy.noise import Noise
+from tire_pipeline.mismatch.discrepancy.noise import ForceNoise
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
@@ -56,7 +56,7 @@ class Located:
 def locate(
     data: Data,
     residual: dict[str, Array],
-    noise: dict[str, Noise],
+    noise: dict[str, ForceNoise],
     block: Array,
     *,
     flips: int = 199,
@@ -69,7 +69,7 @@ def locate(
     data : Data
     residual : dict of ndarray
         Recorded minus simulated, N.
-    noise : dict of Noise
+    noise : dict of ForceNoise
     block : ndarray of int
         Sweep of each sample; signs are flipped by whole sweeps.
     flips : int
@@ -93,7 +93,7 @@ def locate(
 
 
 def _axes(
-    data: Data, output: str, rest: Array, noise: Noise, block: Array, signs: Array, along: bool
+    data: Data, output: str, rest: Array, noise: ForceNoise, block: Array, signs: Array, along: bool
 ) -> list[Located]:
     """Test all stretches of all axes; the largest statistic of each flip gives the p-values."""
     plain = rest * _direction(data.base[output]) if along else rest

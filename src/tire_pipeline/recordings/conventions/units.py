@@ -24,7 +24,7 @@ def _same(dimension: str, factor: float, *names: str) -> dict[str, Unit]:
 
 
 # Spellings after `_plain`: lower case, no blanks, no middle dots or carets.
-UNITS: dict[str, Unit] = {
+UNITS_BY_NAME: dict[str, Unit] = {
     **_same("time", 1, "s", "sec", "secs", "second", "seconds"),
     **_same("time", 1e-3, "ms", "msec", "millisecond", "milliseconds"),
     **_same("time", 1e-6, "us", "µs", "microsecond", "microseconds"),
@@ -106,6 +106,6 @@ def find_unit(name: str | None) -> Unit | None:
     plain = _plain(name)
     if not plain:
         return None
-    if plain in UNITS:
-        return UNITS[plain]
-    return UNITS.get(plain.replace("*", ""))
+    if plain in UNITS_BY_NAME:
+        return UNITS_BY_NAME[plain]
+    return UNITS_BY_NAME.get(plain.replace("*", ""))

@@ -58,7 +58,7 @@ class Entry(NamedTuple):
     """Where it ends."""
 
 
-class Section(NamedTuple):
+class TirSection(NamedTuple):
     """One ``[SECTION]`` line."""
 
     name: str
@@ -83,7 +83,7 @@ class Scan:
     """What the lines of a file are."""
 
     entries: list[Entry] = field(default_factory=list)
-    sections: list[Section] = field(default_factory=list)
+    sections: list[TirSection] = field(default_factory=list)
     tables: list[DocumentTable] = field(default_factory=list)
     unread: list[int] = field(default_factory=list)
     """First lines that are nothing known (at most 20)."""
@@ -261,7 +261,7 @@ def _scan(text: str, path: str | None) -> Scan:
             continue
         if kind == "section" and not (in_comments and not _ends_after(text, match)):
             section, header, in_comments, in_table = section_name(match["section"]), "", False, False
-            result.sections.append(Section(section, line, match.start()))
+            result.sections.append(TirSection(section, line, match.start()))
             _check_count(result.sections, MAX_SECTIONS, "sections", path, line)
         elif kind == "block":
             header = match["block"].strip()

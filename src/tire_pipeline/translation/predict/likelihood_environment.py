@@ -22,7 +22,7 @@ from tire_pipeline.translation.population.model import CurveMixedModel
 STEPS = 3
 """Moves in an episode."""
 
-REACH = 3.0
+LONGEST_MOVE = 3.0
 """Largest move of one score in one step, in standard deviations of a tire about its expectation."""
 
 
@@ -99,7 +99,7 @@ class LikelihoodEnvironment(gym.Env):
     """One tire at a time.
 
     Observation: scores now, what was moved so far, source category and metadata. Action: a move of every
-    score in [-1, 1], times :data:`REACH`. An episode has :data:`STEPS` moves.
+    score in [-1, 1], times :data:`LONGEST_MOVE`. An episode has :data:`STEPS` moves.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ class LikelihoodEnvironment(gym.Env):
     def step(self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
         """Move the tire."""
         before = potential(self.moved, self.situation, self.row)
-        self.moved = self.moved + REACH * np.clip(action, -1.0, 1.0)[None, :]
+        self.moved = self.moved + LONGEST_MOVE * np.clip(action, -1.0, 1.0)[None, :]
         reward = potential(self.moved, self.situation, self.row) - before
         self.left -= 1
         return observe(self.moved, self.situation, self.row)[0], float(reward[0]), self.left == 0, False, {}
@@ -169,7 +169,7 @@ class BatchLikelihoodEnvironment(VecEnv):
     def step_wait(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[dict[str, Any]]]:
         """Move all tires."""
         before = potential(self.moved, self.situation, self.rows)
-        self.moved = self.moved + REACH * np.clip(self.actions, -1.0, 1.0)
+        self.moved = self.moved + LONGEST_MOVE * np.clip(self.actions, -1.0, 1.0)
         reward = potential(self.moved, self.situation, self.rows) - before
         seen = observe(self.moved, self.situation, self.rows)
         self.gained += reward

@@ -17,7 +17,7 @@ from tire_pipeline.training_progress import training_progress
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.curiosity import Curiosity
 from tire_pipeline.translation.predict.likelihood_environment import (
-    REACH,
+    LONGEST_MOVE,
     STEPS,
     BatchLikelihoodEnvironment,
     observe,
@@ -25,7 +25,7 @@ from tire_pipeline.translation.predict.likelihood_environment import (
 )
 from tire_pipeline.translation.predict.shrinkage import without_failed_fits
 
-TIRES = 64
+TIRES_TOGETHER = 64
 ROLL_OUT = 48
 UPDATES = 100
 
@@ -59,7 +59,7 @@ class PolicyPredictor:
         threads = torch.get_num_threads()
         torch.set_num_threads(1)
         try:
-            environment = BatchLikelihoodEnvironment(situation, TIRES, seed, curiosity)
+            environment = BatchLikelihoodEnvironment(situation, TIRES_TOGETHER, seed, curiosity)
             agent = PPO(
                 "MlpPolicy",
                 environment,
@@ -74,8 +74,8 @@ class PolicyPredictor:
                 seed=seed,
                 device="cpu",
             )
-            steps = self.updates * TIRES * ROLL_OUT
-            agent.learn(steps, training_progress(steps, TIRES * ROLL_OUT, "training our agent"))
+            steps = self.updates * TIRES_TOGETHER * ROLL_OUT
+            agent.learn(steps, training_progress(steps, TIRES_TOGETHER * ROLL_OUT, "training our agent"))
         finally:
             torch.set_num_threads(threads)
         learning = tuple(float(info["r"]) for info in agent.ep_info_buffer or [])
@@ -94,7 +94,7 @@ class PolicyPredictor:
         rows = np.arange(len(source))
         moved = np.zeros_like(situation.scores)
         for _ in range(STEPS):
-            moved = moved + REACH * self.act(observe(moved, situation, rows))
+            moved = moved + LONGEST_MOVE * self.act(observe(moved, situation, rows))
         moved = moved * situation.unit
         return without_failed_fits(model, replace(found, shift=moved, target=found.source + moved))
 
