@@ -21,6 +21,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.magic_formula.equations.shapes import sine_curve
 from tire_pipeline.representations.base import CURVE_LOADS, CURVE_SLIP_ANGLES
 from tire_pipeline.representations.curve_fit import fit_lateral
 from tire_pipeline.representations.lateral_curve import (
@@ -79,9 +80,8 @@ class PowerSeries:
         An imaginary solution gives NaN in the published form; the stable one has none.
         """
         factor, shape, curvature, peak = self._solve(features, source)
-        argument = factor[..., None] * CURVE_SLIP_ANGLES
-        bent = argument - curvature[..., None] * (argument - np.arctan(argument))
-        return peak[..., None] * np.sin(shape[..., None] * np.arctan(bent))
+        b, c, d, e = (each[..., None] for each in (factor, shape, peak, curvature))
+        return np.asarray(sine_curve(b, c, d, e, CURVE_SLIP_ANGLES))
 
     def decode(self, features: np.ndarray, source: pd.DataFrame) -> pd.DataFrame:
         """Give the source tires with coefficients fitted to the decoded curves.

@@ -12,7 +12,6 @@ from tire_pipeline.translation.judge.verdict import VerdictRules
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.base import Predictor
 from tire_pipeline.translation.predict.batch import BatchLearning, Taught
-from tire_pipeline.translation.predict.mixed import MixedPredictor
 
 
 @dataclass(frozen=True)
@@ -45,7 +44,7 @@ class Parts:
     def predict(self, source: pd.DataFrame) -> Prediction:
         """Predict the target's scores of every source file."""
         found = self.predictor.predict(self.model, source, self.verdict.target)
-        if self.batch is None or not isinstance(self.predictor, MixedPredictor):
+        if self.batch is None:
             return found
         taught = self.taught
         if taught is None:

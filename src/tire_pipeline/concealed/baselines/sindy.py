@@ -11,6 +11,7 @@ import warnings
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.concealed.baselines.regressors import Scene, look_at
 from tire_pipeline.concealed.baselines.report import (
     BaselineReport,
@@ -36,7 +37,7 @@ _NAME_OF = {
     "force_rate": "time_delay",
     "time": "sensor_drift",
 }
-_CHANNELS = ("normal_load", "camber", "slip_ratio", "speed", "pressure", "tread_temperature")
+_CHANNELS = tuple(channel for channel in OPERATING_CHANNELS if channel in _NAME_OF)
 
 
 def explain_sindy(tire: TireModel, recording: pd.DataFrame, *, threshold: float = 0.15) -> BaselineReport:

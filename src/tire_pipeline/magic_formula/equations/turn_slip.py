@@ -17,7 +17,7 @@ from tire_pipeline.magic_formula.equations.equations_61 import (
     lateral_friction,
     lateral_weight,
 )
-from tire_pipeline.magic_formula.equations.shapes import cos_arctan, divide
+from tire_pipeline.magic_formula.equations.shapes import cos_arctan, divide, sine_curve
 
 
 def zetas_of(p, alpha, kappa, gamma, fz, speed, dpi, turn_slip):
@@ -68,8 +68,7 @@ def _side_shift(p, spin, fz, dfz, dpi, epsilon, ky0, direction):
     # camber does, hence the sign that the ISO W axes give
     per_spin = -divide(camber_stiffness(p, fz, dfz, dpi), 1.0 - epsilon)
     b = divide(per_spin, c * d * ky0)
-    bx = b * spin
-    return d * np.sin(c * np.arctan((1.0 - e) * bx + e * np.arctan(bx))) * direction
+    return sine_curve(b, c, d, e, spin) * direction
 
 
 def _torque_factors(p, alpha, kappa, gamma, fz, dfz, dpi, fz0, spin, epsilon):

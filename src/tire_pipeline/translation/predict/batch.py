@@ -12,7 +12,7 @@ import pandas as pd
 from tire_pipeline.translation.population.fit import PreparedTraining
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.population.update import TaughtCells, learn_from
-from tire_pipeline.translation.predict.mixed import MixedPredictor
+from tire_pipeline.translation.predict.base import Predictor
 
 BATCH_FOLDS = 5
 """Parts into which the tires of a batch are laid; a part is translated by what the others taught."""
@@ -40,7 +40,7 @@ class Taught:
     counts: tuple[int, ...]
 
     def predict(
-        self, source: pd.DataFrame, target: str, *, before: Prediction, predictor: MixedPredictor
+        self, source: pd.DataFrame, target: str, *, before: Prediction, predictor: Predictor
     ) -> Prediction:
         """Predict the target's scores of source files, by what the other tires of the batch taught.
 
@@ -51,7 +51,7 @@ class Taught:
         target : str
         before : Prediction
             Without learning; stands where no other tire teaches.
-        predictor : MixedPredictor
+        predictor : Predictor
             Predicts by the model that has learned on.
         """
         fold = _fold(self.tires, source)
