@@ -2,7 +2,7 @@
 
 from .curves import Curves, EvaluationGrid, curves_of
 from .metrics import ALL_METRICS, THESIS_METRICS, curve_errors
-from .translations import Evaluation, evaluate_translations, floor_evaluation
+from .translation_errors import Evaluation, evaluate_translations, floor_evaluation
 
 __all__ = [
     "ALL_METRICS",
