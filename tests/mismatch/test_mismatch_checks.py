@@ -8,7 +8,7 @@ from tire_pipeline.concealed import make_case
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch, explain_recordings
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.recording.checks import prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.words import interval, place
 
 

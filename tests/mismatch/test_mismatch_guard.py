@@ -11,7 +11,7 @@ from tire_pipeline.mismatch.inference.fit import linearised
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.never_worse import harmless
-from tire_pipeline.mismatch.recording.checks import prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 
 

@@ -9,7 +9,7 @@ from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.model.blocks import sweeps
 from tire_pipeline.mismatch.proof.locate import everywhere, locate
 from tire_pipeline.mismatch.proof.measured import Remainder
-from tire_pipeline.mismatch.recording.checks import prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.sentences import head
 
 

@@ -29,7 +29,7 @@ from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.proof.noise_floor import noise_floors
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
-from tire_pipeline.mismatch.recording.checks import Prepared
+from tire_pipeline.mismatch.recording.prepare import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.result import MismatchReport
