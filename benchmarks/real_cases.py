@@ -21,7 +21,7 @@ from joblib import Parallel, delayed
 
 from tire_pipeline.concealed import held_out_errors
 from tire_pipeline.concealed.real import RealAnswer, RealPlan, make_real_case, real_plan
-from tire_pipeline.concealed.real.score import (
+from tire_pipeline.concealed.real.score_sets import (
     answered,
     found_among,
     found_first,

@@ -25,7 +25,7 @@ from tire_pipeline.concealed.proof.simulated import (
 )
 from tire_pipeline.concealed.real import RealAnswer, real_plan
 from tire_pipeline.concealed.real.published import published
-from tire_pipeline.concealed.real.score import score_real
+from tire_pipeline.concealed.real.score_sets import score_real
 from tire_pipeline.concealed.real.sources import available, development_list, fingerprint
 
 Work = dict[str, Callable[[], bytes]]
