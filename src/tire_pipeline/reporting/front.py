@@ -7,7 +7,7 @@ import html
 import re
 from pathlib import Path
 
-from tire_pipeline.reporting.page import Links, Picture, Text, render_page
+from tire_pipeline.reporting.page_parts import Links, Picture, Text, render_page
 
 FRONT = "index.html"
 _LEAD = re.compile(r'<div class="main">\s*<p[^>]*>(.*?)</p>', re.S)

@@ -11,7 +11,7 @@ import pandas as pd
 
 from tire_pipeline.mismatch.report.words import in_words
 from tire_pipeline.reporting import HOME, Links, Table, Text, render_page
-from tire_pipeline.reporting.page import without_empty_columns
+from tire_pipeline.reporting.page_parts import without_empty_columns
 
 _HEADS = {
     "recording": "Recording",

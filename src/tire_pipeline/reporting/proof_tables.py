@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from tire_pipeline.reporting.page import Table, without_empty_columns
+from tire_pipeline.reporting.page_parts import Table, without_empty_columns
 
 METHODS = {
     "bic_stepwise": "stepwise by BIC",

@@ -11,7 +11,7 @@ from markupsafe import Markup
 from tire_pipeline.pages.drawing import page_style
 from tire_pipeline.pages.safe_page import page_environment, policy, visible
 from tire_pipeline.reporting.embedded import LEVELS, data_element, packed_json
-from tire_pipeline.reporting.page import HOME, Table
+from tire_pipeline.reporting.page_parts import HOME, Table
 from tire_pipeline.reporting.translation.drawn_files import CURVES_TOGETHER, DrawnFiles
 from tire_pipeline.reporting.translation.translated_rows import ROW_COLUMNS, by_supplier, rows_of
 

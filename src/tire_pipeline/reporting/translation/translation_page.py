@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.pages.drawing import MARKERS, colour_of, new_figure
-from tire_pipeline.reporting.page import HOME, Figure, Table, Text, render_page
+from tire_pipeline.reporting.page_parts import HOME, Figure, Table, Text, render_page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as MplFigure
