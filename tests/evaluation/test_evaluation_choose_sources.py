@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from tire_pipeline.evaluation.parameters import EvaluateParameters
 from tire_pipeline.evaluation.all_translators import choose_sources
+from tire_pipeline.evaluation.parameters import EvaluateParameters
 
 FLEET = {"hidden/A/one.tir": None, "four/B/two.tir": None}
 SPLITS = pd.DataFrame({"file": ["mine/one.tir", "lab/two.tir"], "random": "test", "by_tire": "test"})
