@@ -46,6 +46,32 @@ class Explainer:
         Probability from which a name, with its alternatives, is said.
     learnt : LearntSizes, optional
         What the posterior has learnt; as it ships with the package if left out.
+
+    See Also
+    --------
+    explain_mismatch : The same with defaults.
+    explain_recordings : Several recordings of one tire together.
+
+    Notes
+    -----
+    The method is described in docs/explanation/mismatch.md; :meth:`explain` follows it step by step.
+
+    Examples
+    --------
+    What a catalogue without the right effect says:
+
+    >>> import numpy as np
+    >>> import pandas as pd
+    >>> from tire_pipeline.mismatch import Explainer
+    >>> from tire_pipeline.tir import read_tir
+    >>> tire = read_tir("tire.tir")
+    >>> slip_angle = np.tile(np.linspace(-0.15, 0.15, 100), 2)
+    >>> rig = pd.DataFrame({"slip_angle": slip_angle, "normal_load": np.repeat([3000.0, 5000.0], 100)})
+    >>> rig["fy"] = tire.replace(LKY=0.9).forces(slip_angle=slip_angle, normal_load=rig["normal_load"]).fy
+    >>> rig["fy"] += np.random.default_rng(0).normal(0.0, 20.0, len(rig))
+    >>> report = Explainer(without=["stiffness_scale"]).explain(tire, rig)
+    >>> "stiffness_scale" in [name for names, _ in report.sets for name in names]
+    False
     """
 
     without: Collection[str] = ()

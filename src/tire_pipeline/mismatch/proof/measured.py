@@ -29,6 +29,22 @@ class OutputFit:
         is none.
     rms_condition_before, rms_condition_after : float
         RMS in that condition; NaN without one.
+
+    See Also
+    --------
+    MismatchReport : Holds one for each output, as ``fit``.
+    HeldOutFit : The same of a whole recording that was held out.
+
+    Notes
+    -----
+    Neither the choice nor the fit has seen the sweeps: both are repeated without them
+    (docs/explanation/mismatch.md).
+
+    Examples
+    --------
+    >>> fit = OutputFit(10.0, 50.0, 11.0, 10.5, 11.5)
+    >>> round(fit.recovered, 3)
+    0.991
     """
 
     noise_floor: float

@@ -52,6 +52,32 @@ class EffectReport:
         Name -> (value, standard error, unit).
     evidence : dict
         ``log_evidence``: how much the best set with it has above the best one without.
+
+    See Also
+    --------
+    MismatchReport : Holds them, largest first, and gives names with confidence as ``sets``.
+
+    Notes
+    -----
+    Confidence, parameters and their errors are of the posterior over sets of effects:
+    docs/explanation/mismatch.md. What each effect does: the catalogue in the reference.
+
+    Examples
+    --------
+    A rig on which the tire has 10% less cornering stiffness than its file says:
+
+    >>> import numpy as np
+    >>> import pandas as pd
+    >>> from tire_pipeline.mismatch import explain_mismatch
+    >>> from tire_pipeline.tir import read_tir
+    >>> tire = read_tir("tire.tir")
+    >>> slip_angle = np.tile(np.linspace(-0.15, 0.15, 100), 2)
+    >>> rig = pd.DataFrame({"slip_angle": slip_angle, "normal_load": np.repeat([3000.0, 5000.0], 100)})
+    >>> rig["fy"] = tire.replace(LKY=0.9).forces(slip_angle=slip_angle, normal_load=rig["normal_load"]).fy
+    >>> rig["fy"] += np.random.default_rng(0).normal(0.0, 20.0, len(rig))
+    >>> effect = explain_mismatch(tire, rig).effects[0]
+    >>> sorted({effect.name, *effect.alternatives} & {"stiffness_scale"}), effect.output
+    (['stiffness_scale'], 'fy')
     """
 
     name: str
@@ -106,6 +132,32 @@ class HeldOutFit:
         How many had numbers in all channels.
     errors : dict of str to PredictionError
         By output.
+
+    See Also
+    --------
+    explain_recordings : Holds one of several recordings out.
+    OutputFit : Errors on sweeps of the recordings that were explained.
+
+    Notes
+    -----
+    The held-out recording takes no part in choosing or fitting. Only what a whole rig shares, such as the
+    unit of a channel, is taken from the others.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import pandas as pd
+    >>> from tire_pipeline.mismatch import explain_recordings
+    >>> from tire_pipeline.tir import read_tir
+    >>> tire = read_tir("tire.tir")
+    >>> slip_angle = np.tile(np.linspace(-0.15, 0.15, 100), 2)
+    >>> rig = pd.DataFrame({"slip_angle": slip_angle, "normal_load": np.repeat([3000.0, 5000.0], 100)})
+    >>> rig["fy"] = tire.replace(LKY=0.9).forces(slip_angle=slip_angle, normal_load=rig["normal_load"]).fy
+    >>> rig["fy"] += np.random.default_rng(0).normal(0.0, 20.0, len(rig))
+    >>> report = explain_recordings(tire, {"first": rig, "second": rig}, held_out="second")
+    >>> error = report.held_out.errors["fy"]
+    >>> report.held_out.recording, error.rms_after < error.rms_before
+    ('second', True)
     """
 
     recording: str
