@@ -43,7 +43,7 @@ def measure(size: float, seed: int, names: list[str]) -> pd.DataFrame:
         for k, part in enumerate(KEY_PARTS):
             place = model.space.slices[part]
             along = model.space.back[part].mean(axis=1) * UNIT[PARTS[part].group]
-            true = np.expm1((theirs - source)[:, place] @ along)
+            true = np.expm1((source - theirs)[:, place] @ along)
             for organisation in np.unique(organisations):
                 own = organisations == organisation
                 low, high = band.low[own, k], band.high[own, k]

@@ -160,6 +160,10 @@ def test_a_killed_run_is_taken_back_by_the_next(tmp_path, small_fleet):
     ("asked", "said"),
     [
         ("tir_foldr=/x", "there is no parameter 'tir_foldr' -> did you mean 'tir_folder'?"),
+        (
+            "only=B",
+            "there is no parameter 'only' -> did you mean 'explain_mismatch.only' or 'translate.only'?",
+        ),
         ("translate.onli=B", "error: translate: there is no parameter 'onli': did you mean 'only'? ->"),
         ("translate.farthest=-1", "error: translate.farthest: Input should be greater than 0 (given: -1) ->"),
     ],

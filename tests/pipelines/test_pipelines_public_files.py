@@ -214,7 +214,7 @@ def test_what_is_said_of_the_fleets_files(together):
     assert set(report.index[~known].str[0]) == {"G", "H", "I", "J", "K"}
     assert (report.loc[report["source"] == "D", "reason"] == "it is the target's own").all()
     unbiased = (report["verdict"] == "already unbiased") & (report["source"] != "D")
-    assert report.loc[unbiased, "reason"].str.contains("holds zero").all()
+    assert report.loc[unbiased, "reason"].str.contains("contains zero").all()
     judged = report[report["distance"].notna()]
     assert judged["bias_band"].str.fullmatch(BAND).all()
     far = judged["distance"] > 1.0
@@ -237,7 +237,7 @@ def test_what_is_said_of_a_translated_file_agrees_everywhere(together):
         assert header["verdict"] == f"translated: {row['reason']}"
         assert header["source category"] == f"{row['source']} (by its folder)"
         assert header["distance to the training data"] == f"{row['distance']:.2f} (1 is its edge)"
-        assert header[f"bias, D less {row['source']} (90% band)"] == row["bias_band"]
+        assert header[f"bias of {row['source']} against D (90% band)"] == row["bias_band"]
         cells = together.page.rows[file]
         assert (cells["supplier"], cells["known"]) == (row["source"], "by its folder")
         assert cells["verdict"] == "translated"
@@ -247,14 +247,15 @@ def test_what_is_said_of_a_translated_file_agrees_everywhere(together):
         assert cells["bias"] == row["bias_band"]
 
 
-def test_the_bias_in_words_lies_within_its_band(together):
+def test_what_a_translation_takes_off_lies_within_the_band_of_the_bias(together):
     checked = 0
     for _, row in together.report[together.report["verdict"] == "translated"].iterrows():
         bands = row["bias_band"].split(", ")
         ends = {part: [float(n) for n in re.findall(r"([+-]\d+\.\d)%", bands[k])] for k, part in KEY_WORDS}
         for size, way, part in SAID.findall(row["changes"]):
             low, high = ends[part]
-            assert low <= float(size) * (1 if way == "more" else -1) <= high, row["changes"]
+            change = float(size) / 100.0 * (1 if way == "more" else -1)
+            assert low <= 100.0 * (1.0 / (1.0 + change) - 1.0) <= high, row["changes"]
             checked += 1
     assert checked > 400
 

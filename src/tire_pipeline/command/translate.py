@@ -121,7 +121,7 @@ def _outcome(
         f"{said['verdict']}.",
         *([f"{str(said['reason'])[:1].upper()}{str(said['reason'])[1:]}."] if said["reason"] else []),
         *([f"{said['changes']}."] if said["changes"] else []),
-        *([f"Bias, {said['target']} less {said['source']} (90% bands): {bands}."] if bands else []),
+        *([f"Bias of {said['source']} against {said['target']} (90% bands): {bands}."] if bands else []),
     ]
     moved = [(r["coefficient"], r["from"], r["to"]) for r in result.coefficients.to_dict("records")]
     grid = Grid(("coefficient", "from", "to"), moved, "At the translator's nominal load")

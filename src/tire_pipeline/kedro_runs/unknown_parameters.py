@@ -24,11 +24,14 @@ class UnknownParameterHooks:
         """Refuse a name that neither the parameters nor the catalog know."""
         asked = dict(context.config_loader.runtime_params or {})
         if asked:
-            check_names(asked, known_names(context.config_loader))
+            check_names(asked, *known_names(context.config_loader))
 
 
-def known_names(loader: OmegaConfigLoader) -> set[str]:
-    """Top-level names of all parameters, and those that the catalog asks for at run time."""
+def known_names(loader: OmegaConfigLoader) -> tuple[set[str], set[str]]:
+    """Top-level names of all parameters and those that the catalog asks for at run time; names below them.
+
+    Names below are dotted, such as ``translate.only``.
+    """
     plain = OmegaConfigLoader(
         conf_source=loader.conf_source,
         env=loader.env,
@@ -38,14 +41,26 @@ def known_names(loader: OmegaConfigLoader) -> set[str]:
         merge_strategy=loader.merge_strategy,
         custom_resolvers={"oc.env": oc.env},
     )
-    names = {str(name) for name in plain["parameters"]}
+    parameters = plain["parameters"]
+    names = {str(name) for name in parameters}
     for file in Path(loader.conf_source).rglob("*.yml"):
         names |= set(_RUNTIME.findall(file.read_text(encoding="utf-8")))
-    return names
+    below = {
+        f"{top}.{name}" for top, values in parameters.items() if isinstance(values, dict) for name in values
+    }
+    return names, below
 
 
-def check_names(asked: Iterable[str], known: set[str]) -> None:
-    """Check names of parameters.
+def check_names(asked: Iterable[str], known: set[str], below: Iterable[str] = ()) -> None:
+    """Check names of parameters at the top level.
+
+    Parameters
+    ----------
+    asked : iterable of str
+    known : set of str
+        At the top level.
+    below : iterable of str
+        Dotted names below them, to be suggested.
 
     Raises
     ------
@@ -54,10 +69,13 @@ def check_names(asked: Iterable[str], known: set[str]) -> None:
     """
     for name in asked:
         if str(name) not in known:
+            same = sorted(each for each in below if each.rpartition(".")[2] == str(name))
             raise DomainError(
                 f"there is no parameter {name!r}",
                 where="--params",
-                todo=did_you_mean(
+                todo=f"did you mean {' or '.join(map(repr, same))}?"
+                if same
+                else did_you_mean(
                     str(name), sorted(known), f"use one of {', '.join(sorted(known))}", cutoff=0.5
                 ),
             )

@@ -64,10 +64,10 @@ def _judged(
     return [
         f"{_subject(str(best['name']))}, the best translator, brings the RMS error of lateral force from "
         f"{before:,.0f} N to {rms[best['name']]:,.0f} N ({rms[best['name']] / before:.0%}) on the "
-        f"{tires} tires of set {name}, which no translator has seen. The floor is "
+        f"{tires} tires of the set '{name}', which no translator has seen. The floor is "
         f"{rms[FLOOR]:,.0f} N ({rms[FLOOR] / before:.0%}): {target} measuring the same tires again."
         f"{uncertain}",
-        f"In set {name}, it translated {acted} of {len(part)} files{unchanged}.",
+        f"In the set '{name}', it translated {acted} of {len(part)} files{unchanged}.",
         *(
             f"{_subject(who)} leaves {rms[who]:,.0f} N ({rms[who] / before:.0%} of doing nothing)."
             for who in others

@@ -19,7 +19,7 @@ translators that learn from the batch."""
 
 TRANSLATED = "translated"
 UNBIASED = "already unbiased"
-"""The target's own file, or one for whose tire the 90% band of the supplier's bias holds zero."""
+"""The target's own file, or one for whose tire the 90% band of the supplier's bias contains zero."""
 LEFT_ALONE = "left alone"
 """There may be a bias, but too little would be gained, or it cannot be told from chance."""
 REFUSED = "refused"
@@ -63,9 +63,9 @@ class TranslationResult:
         One row a file, same index: ``file``, ``source``, ``source_probability`` (1 if the category was
         given), ``target``, ``verdict``, ``reason``, ``distance`` (1: at the edge of the training data),
         ``expected_rms_ratio`` (expected RMS error of the curves over that of the unchanged file),
-        ``harm_probability``, ``bias_band`` (of the supplier's bias for this tire, 90%, in words),
-        ``taught`` (by how many files of other tires that were translated with it, see
-        :mod:`.predict.batch`), ``protocol`` (under which of its category's protocols the file was
+        ``harm_probability``, ``bias_band`` (what the supplier measures more than the target of this
+        tire, 90%, in words), ``taught`` (by how many files of other tires that were translated with it,
+        see :mod:`.predict.batch`), ``protocol`` (under which of its category's protocols the file was
         measured, if that changed) and ``changes`` (what the target measures differently of such a tire, in
         words, and what that usually comes from).
     bands : dict of str to Band
@@ -201,7 +201,7 @@ def comment_lines(result: TranslationResult, row: int, names: tuple[str, ...]) -
         f"method: {result.method}, version {VERSION}",
         f"verdict: {said['verdict']}: {said['reason']}",
         *(
-            f"bias, {said['target']} less {said['source']} (90% band): {band}"
+            f"bias of {said['source']} against {said['target']} (90% band): {band}"
             for band in str(said["bias_band"]).split(", ")
         ),
         f"distance to the training data: {said['distance']:.2f} "

@@ -4,9 +4,9 @@
   const SVG = "http://www.w3.org/2000/svg";
   const PANELS = [
     {name: "fy", title: "Lateral force", x: "slip angle / deg", y: "Fy / kN", across: 180 / Math.PI, scale: 1e-3,
-     see: "The slope at zero is the cornering stiffness, the height the friction."},
+     see: "The slope at zero is the cornering stiffness, the largest force over the load is the friction."},
     {name: "fx", title: "Longitudinal force", x: "slip ratio", y: "Fx / kN", across: 1, scale: 1e-3,
-     see: "The slope at zero is the slip stiffness, the height the friction."},
+     see: "The slope at zero is the slip stiffness, the largest force over the load is the friction."},
     {name: "mz", title: "Aligning moment", x: "slip angle / deg", y: "Mz / N m", across: 180 / Math.PI, scale: 1,
      see: "The slope at zero is the cornering stiffness times the pneumatic trail."},
   ];
@@ -142,7 +142,7 @@
     said.push("Supplier: " + cells[at.supplier] + (cells[at.known] && cells[at.known] !== cells[at.supplier] ? " (" + cells[at.known] + ")" : ""));
     if (cells[at.protocol]) said.push("Protocol: " + cells[at.protocol]);
     if (cells[at.changes]) said.push(cells[at.changes]);
-    if (cells[at.bias]) said.push("Bias, target less its supplier (90% bands): " + cells[at.bias]);
+    if (cells[at.bias]) said.push("The supplier's bias against the target (90% bands): " + cells[at.bias]);
     for (const each of said) {
       const paragraph = element("p");
       paragraph.append(element("bdi", each));
@@ -158,7 +158,7 @@
       return;
     }
     cell.append(legend(bands));
-    if (bands) cell.append(element("p", "Where the band leaves the dashed line, the supplier's bias shows. Where it holds the line, the two cannot be told apart."));
+    if (bands) cell.append(element("p", "Where the band leaves the dashed line, the supplier's bias shows. Where the band contains the line, the two cannot be told apart."));
     cell.append(panels);
     if (own.moved.length) {
       cell.append(element("p", own.moved.length + " coefficients moved (at the translator's nominal load):"));
@@ -273,9 +273,10 @@
     }
     if (own) svg.append(drawn("path", {d: path(xs, own, x, y), class: "source l0"}));
     if (moved) svg.append(drawn("path", {d: path(xs, moved, x, y), class: "middle l0"}));
+    xs.forEach((load, l) => svg.append(drawn("circle", {cx: x(load).toFixed(1), cy: y((moved || own)[l]).toFixed(1), r: 2.5, class: "dot l0"})));
     const figure = element("figure");
     figure.dataset.panel = "stiffness";
-    figure.append(svg, element("figcaption", "How the slope of the lateral force at zero grows with the load."));
+    figure.append(svg, element("figcaption", "How the slope of the lateral force at zero grows with the load: computed at the loads with a dot."));
     return figure;
   }
   function legend(bands) {

@@ -51,7 +51,7 @@ def translate_page(
         The last lines of a run.
     """
     own = set(report["file"].astype(str)) - set(demonstration_files)
-    outcome = _outcome(report, own, target)
+    outcome = _outcome(report, own, target, parameters)
     tables = []
     if len(protocols):
         shown = protocols.rename(columns=lambda name: name.replace("_", " "))
@@ -81,15 +81,19 @@ def _drawn(parts: Mapping[str, Callable[[], bytes]]) -> tuple[DrawnFiles, dict[s
     return drawn, tires
 
 
-def _outcome(report: pd.DataFrame, own: set[str], target: str) -> list[str]:
+def _outcome(report: pd.DataFrame, own: set[str], target: str, parameters: TranslateParameters) -> list[str]:
+    asked = _asked_for(parameters)
     lines = []
     mine = report["file"].isin(own)
-    if mine.any() and not mine.all():
-        lines.append(f"Your own {_counted(report[mine], target)}")
-        lines.append(f"The demonstration fleet's {_counted(report[~mine], target)}")
-    else:
-        said = _counted(report, target)
-        lines.append(f"{'Your ' if mine.all() else 'The demonstration fleet has '}{said}")
+    for rows, whose in ((mine, "Your own"), (~mine, "The demonstration fleet's")):
+        if rows.any():
+            files = f"{rows.sum():,} {'file' if rows.sum() == 1 else 'files'}{' asked for' if asked else ''}"
+            lines.append(f"{whose} {files}: {_counted(report[rows], target)}.")
+    if asked:
+        lines.append(
+            f"Asked for were {asked}. This page and 07_model_output/translated hold these files alone; a run "
+            "without it translates all."
+        )
     translated = report[report["verdict"] == TRANSLATED]
     if len(translated):
         middle = translated["expected_rms_ratio"].median()
@@ -100,13 +104,21 @@ def _outcome(report: pd.DataFrame, own: set[str], target: str) -> list[str]:
     return lines
 
 
+def _asked_for(parameters: TranslateParameters) -> str:
+    """What the run was restricted to, in words; "" for all files."""
+    said = [f"only {', '.join(parameters.only)}"] if parameters.only else []
+    if parameters.trials:
+        said.append(f"at most {parameters.trials:,} files (trials)")
+    return ", ".join(said)
+
+
 def _counted(report: pd.DataFrame, target: str) -> str:
     counts = report["verdict"].value_counts().to_dict()
     first = [f"{counts.pop(TRANSLATED, 0):,} translated to {target}", f"{counts.pop(REFUSED, 0):,} refused"]
     if unknown := counts.pop(UNKNOWN, 0):
         first.append(f"{unknown:,} of an unknown supplier")
     others = [f"{count:,} {verdict}" for verdict, count in counts.items()]
-    return f"{len(report):,} files: {', '.join([*first, *others])}."
+    return ", ".join([*first, *others])
 
 
 def _explained(report: pd.DataFrame, parameters: TranslateParameters) -> list[str]:
@@ -115,7 +127,7 @@ def _explained(report: pd.DataFrame, parameters: TranslateParameters) -> list[st
         reach = f"distance {parameters.farthest:g}, as asked for (1 is the edge of the training data)"
     lines = [
         "Translated: the error is expected to shrink. Already unbiased: the target's own, or the 90% bands "
-        "of the supplier's bias hold zero and nothing beyond 5%. Left alone: too little would be gained, "
+        "of the supplier's bias contain zero and nothing beyond 5%. Left alone: too little would be gained, "
         "or the bias cannot be told from chance, as with few training files. Unknown "
         "supplier: its folder is no known category, so nothing can be said of its "
         "bias. Refused: it cannot be read or translated, or lies beyond what was learned from.",

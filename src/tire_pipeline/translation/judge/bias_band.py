@@ -13,7 +13,7 @@ from tire_pipeline.translation.judge.effects import EFFECT_QUANTILE, KEY_PARTS
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 
 CERTAINTY = 0.90
-"""With which a band holds the bias: that of ``EFFECT_QUANTILE``."""
+"""With which a band contains the bias: that of ``EFFECT_QUANTILE``."""
 
 NEGLIGIBLE = 0.05
 """Largest bias in stiffness or friction that may be left in a file that is called unbiased. By hand: a tire
@@ -22,7 +22,7 @@ model is not known any better. On a fleet of six organisations the bands reach 1
 
 @dataclass(frozen=True)
 class BiasBand:
-    """What the target measures more than the supplier, of ``KEY_PARTS``; means over the loads.
+    """What the supplier measures more than the target, of ``KEY_PARTS``; means over the loads.
 
     Attributes
     ----------
@@ -34,15 +34,15 @@ class BiasBand:
     high: np.ndarray
 
     @property
-    def holds_zero(self) -> np.ndarray:
-        """Whether the bands of all parts hold zero, (n,)."""
+    def contains_zero(self) -> np.ndarray:
+        """Whether the bands of all parts contain zero, (n,)."""
         return np.all((self.low <= 0.0) & (self.high >= 0.0), axis=1)
 
     @property
     def negligible(self) -> np.ndarray:
-        """Whether all bands hold zero, and nothing that is not negligible, (n,)."""
+        """Whether all bands contain zero, and nothing that is not negligible, (n,)."""
         widest = np.maximum(-self.low, self.high).max(axis=1)
-        return self.holds_zero & (widest <= NEGLIGIBLE)
+        return self.contains_zero & (widest <= NEGLIGIBLE)
 
     def in_words(self, row: int) -> str:
         """Give the bands of one file, such as ``"cornering stiffness +1.0% to +3.2%, ..."``."""
@@ -53,7 +53,7 @@ class BiasBand:
 
 
 def bias_band(model: CurveMixedModel, found: Prediction) -> BiasBand:
-    """Give the bands from the difference of the two effects and its variance.
+    """Give the bands from the difference of the two effects, which a shift undoes, and its variance.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def bias_band(model: CurveMixedModel, found: Prediction) -> BiasBand:
         middle[:, k] = by_row(found.shift[:, place], along[:, None])[:, 0]
         variance = by_row(found.shift_variance[:, place], along[:, None] ** 2)[:, 0]
         half[:, k] = EFFECT_QUANTILE * np.sqrt(variance)
-    return BiasBand(np.expm1(middle - half), np.expm1(middle + half))
+    return BiasBand(np.expm1(-middle - half), np.expm1(-middle + half))
 
 
 def measured_by_both(

@@ -215,12 +215,12 @@ def _why_alone(
     bias = f"the band of {organisation}'s bias against {target}"
     if band.negligible[row]:
         return (
-            f"{bias} holds zero for such a tire in stiffness and friction, and no more than {NEGLIGIBLE:.0%} "
-            f"({CERTAINTY:.0%} each)"
+            f"{bias} contains zero for such a tire in stiffness and friction, and no more than "
+            f"{NEGLIGIBLE:.0%} ({CERTAINTY:.0%} each)"
         )
-    if band.holds_zero[row]:
+    if band.contains_zero[row]:
         return (
-            f"{bias} holds zero, but also more than {NEGLIGIBLE:.0%} ({band.in_words(row)}): I can't tell "
+            f"{bias} contains zero, but also more than {NEGLIGIBLE:.0%} ({band.in_words(row)}): I can't tell "
             f"whether there is one; give more training files of {organisation}"
         )
     if uncertain:
