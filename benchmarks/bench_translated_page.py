@@ -68,7 +68,7 @@ def made_up(count: int) -> str:
             "verdict": "translated",
             "distance": generator.uniform(0.2, 1.0, count),
             "expected_rms_ratio": generator.uniform(0.1, 0.6, count),
-            "supplier": "by its folder",
+            "supplier_known": "by its folder",
             "reason": "",
             "changes": "PDY1 +3%, PKY1 -5%",
             "bias_band": "",

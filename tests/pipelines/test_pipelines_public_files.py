@@ -148,7 +148,11 @@ def asked(tmp_path_factory, together, small_fleet) -> Outputs:
 def says_nothing_of(found: Outputs, file: str) -> None:
     """Supplier, verdict, error, distance and band of a file of an unknown supplier, in all places."""
     row = found.report.loc[file]
-    assert (row["source"], row["supplier"], row["verdict"]) == ("unknown", "unknown", "unknown supplier")
+    assert (row["source"], row["supplier_known"], row["verdict"]) == (
+        "unknown",
+        "unknown",
+        "unknown supplier",
+    )
     assert row[list(NO_NUMBERS)].isna().all()
     assert row[list(NO_WORDS)].isna().all()
     assert file not in set(found.bands["file"])
@@ -185,16 +189,16 @@ def test_a_public_file_is_given_to_no_category_when_asked(asked, file):
 
 def test_files_of_a_known_supplier_are_given_to_it_when_asked(asked):
     own = asked.report[asked.report.index.str.startswith("new/")]
-    given = own[own["supplier"] != "unknown"]
+    given = own[own["supplier_known"] != "unknown"]
     assert len(given) >= 0.8 * len(own)
     assert set(given["source"]) == {"B"}
     assert (
-        given["supplier"]
+        given["supplier_known"]
         .str.fullmatch(r"classified \(probability (above 0\.99|0\.9\d), typicality [01]\.\d\d\)")
         .all()
     )
     for file, row in given[given["verdict"] == "translated"].iterrows():
-        assert asked.header(file)["source category"] == f"B ({row['supplier']})"
+        assert asked.header(file)["source category"] == f"B ({row['supplier_known']})"
     assert "A laboratory that copies" in asked.page.text
 
 
@@ -209,8 +213,10 @@ def test_what_is_said_of_the_fleets_files(together):
     report = together.report.drop(index=list(FILES))
     assert set(report["verdict"]) <= VERDICTS
     known = report["source"].isin(KNOWN)
-    assert (report.loc[known, "supplier"] == "by its folder").all()
-    assert (report.loc[~known, ["supplier", "verdict"]] == ["unknown", "unknown supplier"]).all(axis=None)
+    assert (report.loc[known, "supplier_known"] == "by its folder").all()
+    assert (report.loc[~known, ["supplier_known", "verdict"]] == ["unknown", "unknown supplier"]).all(
+        axis=None
+    )
     assert set(report.index[~known].str[0]) == {"G", "H", "I", "J", "K"}
     assert (report.loc[report["source"] == "D", "reason"] == "it is the target's own").all()
     unbiased = (report["verdict"] == "already unbiased") & (report["source"] != "D")

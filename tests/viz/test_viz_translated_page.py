@@ -34,7 +34,11 @@ def _report() -> pd.DataFrame:
     ]
     table = pd.DataFrame(rows, columns=["file", "source", "verdict", "distance", "expected_rms_ratio"])
     return table.assign(
-        supplier="by its folder", reason='because of "<b>this</b>"', changes="", bias_band="", protocol=""
+        supplier_known="by its folder",
+        reason='because of "<b>this</b>"',
+        changes="",
+        bias_band="",
+        protocol="",
     )
 
 

@@ -84,13 +84,13 @@ class KnownSuppliers:
         Returns
         -------
         DataFrame
-            ``source`` with ``category`` as it is known now, ``category_probability``, ``supplier`` (how the
-            supplier is known, in words; "unknown") and ``supplier_note`` (of unknown suppliers: why and what
-            to do).
+            ``source`` with ``category`` as it is known now, ``category_probability``, ``supplier_known`` (how
+            the supplier is known, in words; "unknown") and ``supplier_note`` (of unknown suppliers: why and
+            what to do).
         """
         unknown = ~source["category"].isin(self.names)
-        found = source.copy().assign(category_probability=1.0, supplier=BY_FOLDER, supplier_note="")
-        found.loc[unknown, "supplier"] = UNKNOWN_SUPPLIER
+        found = source.copy().assign(category_probability=1.0, supplier_known=BY_FOLDER, supplier_note="")
+        found.loc[unknown, "supplier_known"] = UNKNOWN_SUPPLIER
         found.loc[unknown, "category_probability"] = float("nan")
         found.loc[unknown, "supplier_note"] = [
             f"{_place(file)} is no known category ({', '.join(self.names)}): {WHAT_TO_DO}"
@@ -112,7 +112,7 @@ def _classify(found: pd.DataFrame, unknown: pd.Series, model: OpenSetClassifier)
         if told.given[i]:
             found.loc[row, "category"] = told.category[i]
             found.loc[row, "category_probability"] = told.probability[i]
-            found.loc[row, "supplier"] = (
+            found.loc[row, "supplier_known"] = (
                 f"classified (probability {_shown(told.probability[i])}, typicality {told.typicality[i]:.2f})"
             )
             found.loc[row, "supplier_note"] = ""

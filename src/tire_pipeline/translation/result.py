@@ -220,8 +220,8 @@ def comment_lines(result: TranslationResult, row: int, names: tuple[str, ...]) -
 
 
 def _how_known(said: pd.Series) -> str:
-    if said.get("supplier"):
-        return str(said["supplier"])
+    if said.get("supplier_known"):
+        return str(said["supplier_known"])
     probability = said["source_probability"]
     return "as given" if probability == 1.0 else f"probability {probability:.2f}"
 

@@ -142,7 +142,7 @@ def unreadable_row(file: str, suppliers: KnownSuppliers, reason: str) -> dict[st
     return {
         "file": file,
         "source": source or UNKNOWN_SUPPLIER,
-        "supplier": BY_FOLDER if source else UNKNOWN_SUPPLIER,
+        "supplier_known": BY_FOLDER if source else UNKNOWN_SUPPLIER,
         "verdict": REFUSED,
         "reason": printable(reason),
     }
@@ -259,11 +259,11 @@ def _joined_curves(every: list[dict[str, Any]]) -> dict[str, Any]:
 def _named_suppliers(result: TranslationResult, source: pd.DataFrame) -> TranslationResult:
     """The result with how each supplier is known, and what to do where it is not."""
     report = result.report.copy()
-    report.insert(1, "supplier", source["supplier"].to_numpy())
+    report.insert(1, "supplier_known", source["supplier_known"].to_numpy())
     unknown = (report["verdict"] == UNKNOWN).to_numpy()
     report.loc[unknown, "source"] = UNKNOWN_SUPPLIER
     report.loc[unknown, "reason"] = source["supplier_note"].to_numpy()[unknown]
-    targets = (report["supplier"] != BY_FOLDER) & (report["source"] == report["target"])
+    targets = (report["supplier_known"] != BY_FOLDER) & (report["source"] == report["target"])
     report.loc[targets, "reason"] = "classified as the target's own"
     return replace(result, report=report)
 

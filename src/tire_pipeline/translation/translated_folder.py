@@ -169,7 +169,7 @@ def join_translated(
 
 def _joined_report(reports: list[pd.DataFrame], unreadable: list[dict[str, str]]) -> pd.DataFrame:
     """One row a file, those that could not be read last; an error if there are no others."""
-    aside = pd.DataFrame(unreadable, columns=["file", "source", "supplier", "verdict", "reason"])
+    aside = pd.DataFrame(unreadable, columns=["file", "source", "supplier_known", "verdict", "reason"])
     aside = aside.sort_values("file", ignore_index=True)
     for file, reason in aside[["file", "reason"]].head(_SAID).itertuples(index=False):
         _LOG.warning("%s is refused: %s", file, reason)

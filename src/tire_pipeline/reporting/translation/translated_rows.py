@@ -34,7 +34,7 @@ def rows_of(report: pd.DataFrame, own: set[str], tires: Mapping[str, str]) -> li
     then by file.
     """
     texts = report.reindex(
-        columns=["file", "source", "supplier", "verdict", "reason", "changes", "bias_band", "protocol"]
+        columns=["file", "source", "supplier_known", "verdict", "reason", "changes", "bias_band", "protocol"]
     )
     texts = texts.astype(object).where(texts.notna(), "")
     numbers = report.reindex(columns=["distance", "expected_rms_ratio"]).astype(float)
@@ -46,7 +46,7 @@ def rows_of(report: pd.DataFrame, own: set[str], tires: Mapping[str, str]) -> li
                 file,
                 file in own,
                 said["source"],
-                said["supplier"],
+                said["supplier_known"],
                 tires.get(file, ""),
                 said["verdict"],
                 _distance(distance),

@@ -96,7 +96,7 @@ def _table(results: Results, table: str) -> list[Part]:
         ),
         Table(
             _side_by_side(rows, {".tir": ("tire", "tire_std"), "hidden": ("hidden", "hidden_std")}),
-            "The same agents decoded to a tire model: the 16 translations (.tir), and those of the set 'hidden'.",
+            "The same agents decoded to a tire model: the 16 translations (.tir) and the set 'hidden'.",
         ),
     ]
 
