@@ -60,7 +60,7 @@ def test_a_recording_needs_one_tire(tmp_path):
     )
     dataset = RecordingFolderDataset(path=str(tmp_path))
     load = dataset.load()["case/recording.csv"]
-    with pytest.raises(Exception, match=r"0 \.tir files could belong"):
+    with pytest.raises(Exception, match=r"no \.tir file lies beside"):
         load()
 
 

@@ -102,5 +102,5 @@ def _missing(text: str) -> str:
     name, path = found.groups()
     return (
         f"{name}{path} is not there yet -> run first what makes it: `kedro run` runs the eight pipelines in "
-        "their order (with the same --env)"
+        "their order (with the same --env and --params)"
     )

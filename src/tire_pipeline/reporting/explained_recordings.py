@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import logging
 from collections.abc import Callable, Iterable, Mapping
 from fnmatch import fnmatch
 from functools import partial
@@ -25,7 +24,6 @@ from tire_pipeline.reporting.explain_task import COLUMNS, PAGE, ExplainTask, Loa
 
 Pairs = Mapping[str, Load]
 Read = Callable[[], bytes]
-_LOG = logging.getLogger(__name__)
 
 
 class RecordingRule(Parameters):
@@ -166,7 +164,6 @@ def collect_explained(
         row, report = json.loads(members.pop("row.json")), json.loads(members.pop("report.json"))
         rows.append(row)
         if report is None:
-            _LOG.warning("%s could not be explained: %s", row["recording"], row["problem"])
             continue
         reports[row["recording"]] = report
         del members[PAGE]

@@ -126,7 +126,7 @@ def _flip_load(frame: pd.DataFrame, axes: str, notes: list[str], conversions: li
     if axes == "ISO":
         notes.append(
             "Fz is negative throughout, as in SAE axes; only Fz was mirrored. If the file is in "
-            'SAE axes, read it with axes="SAE"'
+            'SAE axes, read it with axes="SAE" (on the command line --axes SAE)'
         )
     return True
 
