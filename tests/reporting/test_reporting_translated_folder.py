@@ -1,0 +1,39 @@
+"""What a run of ``translate`` says last."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from tire_pipeline.reporting.translation.translated_folder_page import translate_page
+from tire_pipeline.translation.parameters import TranslateParameters
+
+REPORT = pd.DataFrame(
+    {
+        "file": ["A/a.tir", "A/b.tir", "mine/c.tir"],
+        "verdict": ["translated", "refused", "translated"],
+        "expected_rms_ratio": [0.1, float("nan"), 0.3],
+    }
+)
+
+
+def outcome(**parameters):
+    demonstration = ["A/a.tir", "A/b.tir", "B/d.tir"]
+    return translate_page(REPORT, {}, pd.DataFrame(), demonstration, TranslateParameters(**parameters), "D")[
+        1
+    ]
+
+
+def test_the_users_own_files_come_first():
+    assert outcome()[:2] == [
+        "Your own 1 file: 1 translated to D, 0 refused.",
+        "The demonstration fleet's 2 files: 1 translated to D, 1 refused.",
+    ]
+
+
+def test_files_that_were_asked_for_are_not_called_all():
+    own, demonstration, asked = outcome(only=["A", "mine"])[:3]
+    assert "1 file asked for" in own
+    assert "2 files asked for" in demonstration
+    assert "only A, mine" in asked
+    assert "these files alone" in asked
+    assert "at most 3 files" in outcome(trials=3)[2]
