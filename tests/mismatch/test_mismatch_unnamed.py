@@ -15,6 +15,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, from_sidecar
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
+from tire_pipeline.mismatch.unnamed_physics.library import memory_factors
 from tire_pipeline.mismatch.unnamed_physics.problem import Unexplained
 from tire_pipeline.mismatch.unnamed_physics.search import find
 from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues, table_from
@@ -284,3 +285,14 @@ def test_an_effect_can_be_taken_out_of_the_catalogue(tire, record):
     assert "force_offset" not in [e.name for e in report.effects]
     rows = {row["name"]: row["why"] for row in report.candidates}
     assert rows["force_offset"] == "it was taken out of the catalogue"
+
+
+def test_without_speed_no_equation_remembers_the_way_rolled():
+    """One that did could not be put into the recording that it was found in."""
+    without = [factor.text for factor in memory_factors(frozenset({"time", "slip_angle", "normal_load"}))]
+    known = [
+        factor.text for factor in memory_factors(frozenset({"time", "way", "slip_angle", "normal_load"}))
+    ]
+    assert without
+    assert not any("lagway(" in text for text in without)
+    assert any("lagway(" in text for text in known)

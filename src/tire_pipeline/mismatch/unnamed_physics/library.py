@@ -182,7 +182,7 @@ def time_factors(first: float, last: float) -> list[Factor]:
 
 
 def memory_factors(moves: frozenset[str]) -> Iterator[Factor]:
-    """Factors of what channels and forces were."""
+    """Factors of what channels and forces were; a memory of the way rolled where that is known."""
     if "time" not in moves:
         return
     of = [
@@ -206,7 +206,7 @@ def memory_factors(moves: frozenset[str]) -> Iterator[Factor]:
             yield _one(f"lag({text}, {{}}) - {text}", *drivers, odd=odd, value=value, kind="memory")
             if value > 0.2 and len(text) > 4:
                 yield _one(f"lag({text}, {{}})", *drivers, odd=odd, value=value, kind="memory")
-        if "speed" in moves or text in ("s", "k", "L", "g"):
+        if "way" in moves and ("speed" in moves or text in ("s", "k", "L", "g")):
             for value in WAYS if len(text) < 4 else ():
                 yield _one(f"lagway({text}, {{}}) - {text}", *drivers, odd=odd, value=value, kind="memory")
         if text.startswith("abs("):

@@ -38,7 +38,7 @@ class Unexplained:
         Symbols that an equation may use.
     nominal : NominalValues
     moves : frozenset of str
-        Channels that vary, and ``time`` if there is a time line.
+        Channels that vary, ``time`` if there is a time line, and ``way`` if with it the way rolled is known.
     rest : mapping of ndarray, shape (n,)
         Output -> recorded force without what the model and the named effects give, N.
     largest : mapping of float
@@ -88,7 +88,9 @@ def problem_of(analysis: Analysis) -> Unexplained:
         scale = nuisance_scale(analysis.sizes, share, path)
         sizes.append({o: np.concatenate([s, known[o]]) for o, s in scale.items()})
     table, nominal = table_of(data, fit.changes)
-    moves = {n for n in data.present if data.varies(n)} | ({"time"} if data.time is not None else set())
+    moves = {n for n in data.present if data.varies(n)}
+    if data.time is not None:
+        moves |= {"time", "way"} if "speed" in data.present else {"time"}
     return Unexplained(
         table=table,
         nominal=nominal,
