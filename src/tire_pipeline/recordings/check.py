@@ -306,11 +306,11 @@ def _force_and_load(frame: pd.DataFrame) -> list[Issue]:
         issues.append(
             Issue("no_positive_load", "error", "normal_load", "no wheel stood on the ground: record the load")
         )
-    against = frame.attrs.get("axes_doubt", "")
+    against = frame.attrs.get("axes_unclear", "")
     if against:
         issues.append(
             Issue(
-                "axes_in_doubt",
+                "axes_unclear",
                 "warning",
                 str(against),
                 'read the file with axes="SAE" or axes="ISO" (--axes), whichever holds: unless the forces '

@@ -225,7 +225,7 @@ def _laid_end_to_end(
     if converted:
         result.attrs["conversions"] = list(converted)
     assumed = dict.fromkeys(text for frame in frames for text in frame.attrs.get("assumed", []))
-    against = dict.fromkeys(str(frame.attrs.get("axes_doubt", "")) for frame in frames)
+    against = dict.fromkeys(str(frame.attrs.get("axes_unclear", "")) for frame in frames)
     if assumed:
-        result.attrs |= {"assumed": list(assumed), "axes_doubt": "; ".join(filter(None, against))}
+        result.attrs |= {"assumed": list(assumed), "axes_unclear": "; ".join(filter(None, against))}
     return result

@@ -73,7 +73,7 @@ def read_recording(
         `mz` N m those that the file has, then its further channels. `attrs`: `source`, `format`,
         `steady_points`, `channels` (the file's names), `units`, `conversions`, `repeats`,
         `constants`, `comments`, `notes`, `assumed` (axes and units that nobody has stated),
-        `axes_doubt` (what speaks against the axes that were assumed).
+        `axes_unclear` (what speaks against the axes that were assumed).
 
     Raises
     ------

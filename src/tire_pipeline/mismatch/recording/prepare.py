@@ -133,7 +133,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     question, driven = judge(tire, arrays, time, notes)
     if question is None and beside is None:
         question = another_tire(tire, arrays, driven) or open_axes(
-            tire, arrays, findings, str(recording.attrs.get("axes_doubt", ""))
+            tire, arrays, findings, str(recording.attrs.get("axes_unclear", ""))
         )
     assumed = _assumed(recording, factors)
     present = {n for n in INPUTS if n in recording.columns and n in arrays}

@@ -105,7 +105,7 @@ def canonical_frame(
         "comments": raw.comments,
         "notes": notes,
         "assumed": assumed,
-        "axes_doubt": against,
+        "axes_unclear": against,
     }
     return frame
 

@@ -55,7 +55,9 @@ def shared_cells(tire: np.ndarray, category: np.ndarray, categories: int) -> np.
     return place
 
 
-def own_spread(found: Residuals, own: float, alone: float, width: float) -> tuple[np.ndarray, np.ndarray]:
+def category_spreads(
+    found: Residuals, own: float, alone: float, width: float
+) -> tuple[np.ndarray, np.ndarray]:
     """Find spread and variance alone of every category, each (categories,), by their posterior's mode.
 
     Parameters

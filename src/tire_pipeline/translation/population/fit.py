@@ -13,7 +13,7 @@ from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.population.category_spread import (
     FEWEST_SHARED,
     Residuals,
-    own_spread,
+    category_spreads,
     shared_cells,
 )
 from tire_pipeline.translation.population.classes.search import find_classes, with_classes
@@ -350,7 +350,7 @@ def own_and_links(
     for k, one in enumerate(fitted):
         residuals = Residuals(gaps[:, k], category, one.variances["noise"] / files, place)
         width = _of_part(space, k, SPREAD_WIDTH, _OTHER_WIDTH)
-        spread[:, k], alone[:, k] = own_spread(
+        spread[:, k], alone[:, k] = category_spreads(
             residuals, one.variances["tire"], one.variances["tire_category"], width
         )
     own, once, noise = (

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tire_pipeline.translation.population.category_spread import Residuals, own_spread, shared_cells
+from tire_pipeline.translation.population.category_spread import Residuals, category_spreads, shared_cells
 from tire_pipeline.translation.population.kinds import TireKinds, with_kinds
 
 SPREAD = np.array([1.0, 0.7, 1.3])
@@ -23,36 +23,36 @@ def _measured(rng, shared, single):
 
 
 def test_spread_and_what_is_alone_are_told_apart_by_tires_that_several_measured(rng):
-    spread, alone = own_spread(_measured(rng, 60, 60), OWN, 0.2, WIDTH)
+    spread, alone = category_spreads(_measured(rng, 60, 60), OWN, 0.2, WIDTH)
     np.testing.assert_allclose(spread / spread[0], SPREAD, rtol=0.12)
     assert alone[2] == pytest.approx(1.0, rel=0.5)
     assert (alone[:2] < 0.2).all()
 
 
 def test_without_such_tires_only_the_sum_is_known_and_what_is_alone_stays_as_expected(rng):
-    spread, alone = own_spread(_measured(rng, 0, 400), OWN, 0.2, WIDTH)
+    spread, alone = category_spreads(_measured(rng, 0, 400), OWN, 0.2, WIDTH)
     np.testing.assert_allclose(alone, 0.2, rtol=0.05)
     np.testing.assert_allclose(OWN * spread**2 + alone, OWN * SPREAD**2 + ALONE, rtol=0.25)
 
 
 def test_three_such_tires_do_not_tell_what_is_alone(rng):
     found = _measured(rng, 3, 100)
-    alone = own_spread(found, OWN, 0.2, WIDTH)[1]
+    alone = category_spreads(found, OWN, 0.2, WIDTH)[1]
     np.testing.assert_allclose(alone, 0.2, rtol=0.05)
 
 
 def test_a_fit_that_went_astray_hardly_counts(rng):
     found = _measured(rng, 30, 60)
-    spread, alone = own_spread(found, OWN, 0.2, WIDTH)
+    spread, alone = category_spreads(found, OWN, 0.2, WIDTH)
     found.gap[found.shared[0, 0]] += 30.0
-    again = own_spread(found, OWN, 0.2, WIDTH)
+    again = category_spreads(found, OWN, 0.2, WIDTH)
     np.testing.assert_allclose(again[0], spread, rtol=0.1)
     assert again[1][0] < alone[0] + 0.3
 
 
 def test_the_narrower_the_width_the_more_alike_categories_spread(rng):
     found = _measured(rng, 8, 20)
-    free, held = (own_spread(found, OWN, 0.2, width)[0] for width in (WIDTH, 0.02))
+    free, held = (category_spreads(found, OWN, 0.2, width)[0] for width in (WIDTH, 0.02))
     assert np.log(held).std() < 0.25 * np.log(free).std()
     assert np.log(held).std() > 0.0
 
