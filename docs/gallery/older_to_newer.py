@@ -1,6 +1,7 @@
 """A 5.2 tire as version 6.1.
 
-`to_version` keeps the forces. `conversion_notes` says what other software will see differently.
+`to_version` keeps the forces: the dots lie on the line. `conversion_notes` says what other
+software will see differently.
 """
 
 import numpy as np
@@ -16,10 +17,10 @@ for note in conversion_notes(tire, "6.1"):
 
 slip_angle = np.linspace(-0.2, 0.2, 101)
 figure, axes = new_figure(width=6.0, height=3.4)
-for number, model in enumerate((tire, newer)):
+for number, (model, line, step) in enumerate(((tire, "-", 1), (newer, "o", 5))):
     fy = model.forces(slip_angle=slip_angle, normal_load=4000.0).fy
     axes.plot(
-        np.degrees(slip_angle), fy / 1e3, ("-", "--")[number], color=colour_of(number), label=model.version
+        np.degrees(slip_angle)[::step], fy[::step] / 1e3, line, color=colour_of(number), label=model.version
     )
 axes.set_xlabel("slip angle / degrees")
 axes.set_ylabel("lateral force / kN")

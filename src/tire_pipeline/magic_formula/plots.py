@@ -90,6 +90,8 @@ def _stiffness(
 def _say_if_empty(panel: Any) -> None:
     if not any(len(line.get_xdata()) > 2 for line in panel.lines):
         panel.text(0.5, 0.5, "the file does not give it", ha="center", va="center", transform=panel.transAxes)
+        panel.set_xticks([])
+        panel.set_yticks([])
 
 
 def _legends(panels: Any, models: Mapping[str, TireParameters], loads: Sequence[float]) -> None:
