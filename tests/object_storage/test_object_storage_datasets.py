@@ -213,7 +213,7 @@ def test_a_recording_of_a_bucket_finds_its_tire(folder):
     tire, recording = loaders["rig/run.csv"]()
     assert tire.path == f"{folder}/rig/model.tir"
     assert len(recording) > 100
-    with pytest.raises(Exception, match=f"{folder}/alone/run.csv: 0 .tir files"):
+    with pytest.raises(Exception, match=f"{folder}/alone/run.csv: no .tir file"):
         loaders["alone/run.csv"]()
 
 

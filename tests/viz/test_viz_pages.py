@@ -123,7 +123,8 @@ def test_the_proof_says_too_few_cases_and_the_translators_page_begins_with_a_sen
     scores = pd.read_csv(RESULTS / "proof_scores.csv")
     told = [outcome(row) for row in scores[scores["method"] == "explain_mismatch"].to_dict("records")]
     met, few = told.count("met"), told.count("too few cases")
-    assert f"{met} of {met + told.count('missed') + few} goals are met; {few} have too few cases" in text
+    said = f"{met} of {met + told.count('missed') + few} goals are met; {few} {'has' if few == 1 else 'have'}"
+    assert f"{said} too few cases" in text
     assert "10 have too few cases to tell" in text
     assert "IoU" not in text
     assert driver.find_element("css selector", "svg").location["y"] < 400  # the picture comes first
