@@ -22,8 +22,7 @@ for number, (label, model, line) in enumerate(
     (("as it is", tire, "-"), ("rewritten", other, "o"), ("FNOMIN alone replaced", only_the_number, "--"))
 ):
     fy = np.abs(model.forces(slip_angle=0.06, normal_load=loads).fy) / 1e3
-    step = 5 if line == "o" else 1
-    axes.plot(loads[::step] / 1e3, fy[::step], line, color=colour_of(number), label=label)
+    axes.plot(loads / 1e3, fy, line, markevery=5, color=colour_of(number), label=label)
 axes.set_xlabel("normal load / kN")
 axes.set_ylabel("side force at 3.4 degrees / kN")
 axes.legend()

@@ -17,10 +17,10 @@ for note in conversion_notes(tire, "6.1"):
 
 slip_angle = np.linspace(-0.2, 0.2, 101)
 figure, axes = new_figure(width=6.0, height=3.4)
-for number, (model, line, step) in enumerate(((tire, "-", 1), (newer, "o", 5))):
+for number, (model, line) in enumerate(((tire, "-"), (newer, "o"))):
     fy = model.forces(slip_angle=slip_angle, normal_load=4000.0).fy
     axes.plot(
-        np.degrees(slip_angle)[::step], fy[::step] / 1e3, line, color=colour_of(number), label=model.version
+        np.degrees(slip_angle), fy / 1e3, line, markevery=5, color=colour_of(number), label=model.version
     )
 axes.set_xlabel("slip angle / degrees")
 axes.set_ylabel("lateral force / kN")

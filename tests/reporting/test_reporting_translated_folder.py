@@ -18,9 +18,9 @@ REPORT = pd.DataFrame(
 
 def outcome(**parameters):
     demonstration = ["A/a.tir", "A/b.tir", "B/d.tir"]
-    return translate_page(REPORT, {}, pd.DataFrame(), demonstration, TranslateParameters(**parameters), "D")[
-        1
-    ]
+    asked = TranslateParameters(**parameters)
+    _, said = translate_page(REPORT, {}, pd.DataFrame(), demonstration, asked, "D")
+    return said
 
 
 def test_the_users_own_files_come_first():

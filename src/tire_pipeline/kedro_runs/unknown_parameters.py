@@ -51,7 +51,7 @@ def known_names(loader: OmegaConfigLoader) -> tuple[set[str], set[str]]:
     return names, below
 
 
-def check_names(asked: Iterable[str], known: set[str], below: Iterable[str] = ()) -> None:
+def check_names(asked: Iterable[str], known: set[str], below: Iterable[str]) -> None:
     """Check names of parameters at the top level.
 
     Parameters

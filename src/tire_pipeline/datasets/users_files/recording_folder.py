@@ -228,7 +228,7 @@ def read_pair(
     if not chosen and {"simulated_fx", "simulated_fy"} & set(recording.columns):
         return None, recording
     raise RecordingError(
-        f"{len(chosen)} .tir files lie beside this recording, and none has its name"
+        f"{len(chosen)} .tir files could belong to this recording"
         if chosen
         else "no .tir file lies beside this recording",
         where=str(path),

@@ -76,8 +76,8 @@ class EffectReport:
     >>> rig["fy"] = tire.replace(LKY=0.9).forces(slip_angle=slip_angle, normal_load=rig["normal_load"]).fy
     >>> rig["fy"] += np.random.default_rng(0).normal(0.0, 20.0, len(rig))
     >>> effect = explain_mismatch(tire, rig).effects[0]
-    >>> sorted({effect.name, *effect.alternatives} & {"stiffness_scale"}), effect.output
-    (['stiffness_scale'], 'fy')
+    >>> "stiffness_scale" in (effect.name, *effect.alternatives), effect.output
+    (True, 'fy')
     """
 
     name: str

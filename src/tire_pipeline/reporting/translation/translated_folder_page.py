@@ -86,13 +86,13 @@ def _outcome(report: pd.DataFrame, own: set[str], target: str, parameters: Trans
     lines = []
     mine = report["file"].isin(own)
     for rows, whose in ((mine, "Your own"), (~mine, "The demonstration fleet's")):
-        if rows.any():
-            files = f"{rows.sum():,} {'file' if rows.sum() == 1 else 'files'}{' asked for' if asked else ''}"
+        if count := int(rows.sum()):
+            files = f"{count:,} {'file' if count == 1 else 'files'}{' asked for' if asked else ''}"
             lines.append(f"{whose} {files}: {_counted(report[rows], target)}.")
     if asked:
         lines.append(
-            f"Asked for were {asked}. This page and 07_model_output/translated hold these files alone; a run "
-            "without it translates all."
+            f"This run was restricted: {asked}. This page and 07_model_output/translated hold these files "
+            "alone; a run without the restriction translates all."
         )
     translated = report[report["verdict"] == TRANSLATED]
     if len(translated):
