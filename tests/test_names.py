@@ -9,7 +9,15 @@ from itertools import combinations
 from pathlib import Path
 
 import tire_pipeline
-from tire_pipeline.channels import SLIP_AND_LOAD
+from tire_pipeline.channels import (
+    FORCE_CHANNELS,
+    FORCE_OF_SLIP,
+    MOMENT_CHANNELS,
+    PLANE_FORCES,
+    SLIP_AND_LOAD,
+    SLIP_OF_FORCE,
+    TANGENTIAL_FORCES,
+)
 
 ROOT = Path(tire_pipeline.__file__).parent
 
@@ -150,6 +158,61 @@ def _written_out(module: ast.Module, names: set[str]) -> bool:
 def test_channels_of_an_operating_point_are_listed_once():
     found = [name for name, module in _written().items() if _written_out(module, set(SLIP_AND_LOAD))]
     assert found == ["channels"]
+
+
+FORCE_LISTS = [set(names) for names in (FORCE_CHANNELS, MOMENT_CHANNELS, PLANE_FORCES, TANGENTIAL_FORCES)]
+
+
+def _list_of_forces(node: ast.AST) -> bool:
+    """Whether this is one of the lists of forces, in whatever order."""
+    if not isinstance(node, ast.Tuple | ast.List | ast.Set):
+        return False
+    names = [each.value for each in node.elts if isinstance(each, ast.Constant)]
+    return len(names) == len(node.elts) and set(names) in FORCE_LISTS
+
+
+def _force_beside_slip(pair: list[ast.expr | None]) -> bool:
+    names = [each.value for each in pair if isinstance(each, ast.Constant)]
+    return all(sum(name in known for name in names) == 1 for known in (SLIP_OF_FORCE, FORCE_OF_SLIP))
+
+
+def _map_of_force_and_slip(node: ast.AST) -> bool:
+    """Whether this says of two forces or more which slip they belong to, or chooses the slip by the force."""
+    if isinstance(node, ast.Dict):
+        pairs = [list(pair) for pair in zip(node.keys, node.values, strict=True)]
+        panels = [(key, value) for key, value in pairs if isinstance(value, ast.Tuple | ast.List)]
+        pairs += [[key, *value.elts] for key, value in panels if ast.unparse(key).strip("'") in SLIP_OF_FORCE]
+    elif isinstance(node, ast.Tuple | ast.List):
+        pairs = [list(each.elts) for each in node.elts if isinstance(each, ast.Tuple | ast.List)]
+    elif isinstance(node, ast.IfExp):
+        chosen = {each.value for each in (node.body, node.orelse) if isinstance(each, ast.Constant)}
+        asked = {each.value for each in ast.walk(node.test) if isinstance(each, ast.Constant)}
+        return chosen == set(FORCE_OF_SLIP) and bool(asked & set(FORCE_CHANNELS))
+    else:
+        return False
+    return sum(map(_force_beside_slip, pairs)) > 1
+
+
+SEALED_RIG = "concealed.brush_rig."
+
+
+def test_forces_and_their_slips_are_listed_once():
+    modules = {name: each for name, each in _written().items() if not name.startswith(SEALED_RIG)}
+    lists = [name for name, each in modules.items() if any(map(_list_of_forces, ast.walk(each)))]
+    maps = [name for name, each in modules.items() if any(map(_map_of_force_and_slip, ast.walk(each)))]
+    assert set(lists) == {"channels"}
+    assert maps == ["channels"] * len(maps)
+
+
+def test_a_second_map_of_forces_would_be_found():
+    seconds = [
+        "{'fy': 'slip_angle', 'fx': 'slip_ratio'}",
+        "{'fy': ('slip_angle', 'deg'), 'fx': ('slip_ratio', '')}",
+        "(('slip_angle', 'fy'), ('slip_ratio', 'fx'))",
+        "'slip_angle' if name == 'fy' else 'slip_ratio'",
+    ]
+    found = [any(map(_map_of_force_and_slip, ast.walk(ast.parse(second)))) for second in seconds]
+    assert found == [True] * len(seconds)
 
 
 TOPICS = {"docs", "notebooks", "object_storage", "supply_chain", "viz"}

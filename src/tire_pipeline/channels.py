@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 SLIP_AND_LOAD = ("slip_angle", "slip_ratio", "camber", "normal_load")
 """What every force depends on: rad, -, rad, N."""
 
@@ -14,11 +16,83 @@ ANGLE_CHANNELS = ("slip_angle", "camber")
 OPERATING_CHANNELS = (*POINT_CHANNELS, "tread_temperature")
 """What a recording may be looked at over: an operating point, and degC."""
 
-FORCE_CHANNELS = ("fx", "fy", "mx", "my", "mz")
+TANGENTIAL_FORCES = ("fx", "fy")
+"""Forces in the plane of the road, N."""
+
+PLANE_FORCES = (*TANGENTIAL_FORCES, "mz")
+"""What acts in the plane of the road: its forces (N) and the moment about its normal (N m)."""
+
+MOMENT_CHANNELS = ("mx", "my", "mz")
+"""Moments, N m."""
+
+FORCE_CHANNELS = (*TANGENTIAL_FORCES, *MOMENT_CHANNELS)
 """Forces (N) and moments (N m) in ISO W axes."""
 
 RECORDED_CHANNELS = ("time", *OPERATING_CHANNELS, "turn_slip", *FORCE_CHANNELS)
 """Columns of a recording that have a meaning: s, an operating point, 1/m, forces and moments."""
 
-TANGENTIAL_FORCES = ("fx", "fy")
-"""Forces in the plane of the road, N."""
+SLIP_OF_FORCE = {"fy": "slip_angle", "fx": "slip_ratio", "mz": "slip_angle"}
+"""The slip that each curve at pure slip runs over, in the order in which curves are shown."""
+
+FORCE_OF_SLIP = {"slip_angle": "fy", "slip_ratio": "fx"}
+"""The tangential force that each slip makes."""
+
+
+class ShownUnit(NamedTuple):
+    """How a channel is written for readers: a value in SI times ``factor`` is in ``unit``.
+
+    Parameters
+    ----------
+    factor : float
+    unit : str
+        Empty for ratios.
+    label : str
+        The channel in words.
+    """
+
+    factor: float
+    unit: str
+    label: str
+
+
+_DEGREES_PER_RADIAN = 57.29577951308232
+
+SHOWN_UNITS = {
+    "time": ShownUnit(1.0, "s", "time"),
+    "slip_angle": ShownUnit(_DEGREES_PER_RADIAN, "deg", "slip angle"),
+    "slip_ratio": ShownUnit(1.0, "", "slip ratio"),
+    "camber": ShownUnit(_DEGREES_PER_RADIAN, "deg", "camber"),
+    "normal_load": ShownUnit(1e-3, "kN", "load"),
+    "speed": ShownUnit(1.0, "m/s", "speed"),
+    "pressure": ShownUnit(1e-3, "kPa", "pressure"),
+    "tread_temperature": ShownUnit(1.0, "degC", "tread temperature"),
+    "turn_slip": ShownUnit(1.0, "1/m", "path curvature"),
+    "fx": ShownUnit(1e-3, "kN", "longitudinal force Fx"),
+    "fy": ShownUnit(1e-3, "kN", "lateral force Fy"),
+    "mz": ShownUnit(1.0, "N m", "aligning moment Mz"),
+}
+"""The units that engineers use, by channel."""
+
+_LARGEST_LOAD_IN_NEWTONS = 100.0
+
+
+def shown_unit(channel: str, size: float) -> ShownUnit:
+    """Return how values of some size (SI) are written: a load below 100 N, a model car's, in N.
+
+    Examples
+    --------
+    >>> shown_unit("pressure", 2.2e5)
+    ShownUnit(factor=0.001, unit='kPa', label='pressure')
+    >>> shown_unit("normal_load", 40.0).unit
+    'N'
+    """
+    known = SHOWN_UNITS.get(channel, ShownUnit(1.0, "", channel.replace("_", " ")))
+    if channel == "normal_load" and abs(size) < _LARGEST_LOAD_IN_NEWTONS:
+        return known._replace(factor=1.0, unit="N")
+    return known
+
+
+def axis_label(channel: str) -> str:
+    """Return what stands beside a figure's axis, such as ``slip angle (deg)``."""
+    _, unit, label = SHOWN_UNITS[channel]
+    return f"{label} ({unit})" if unit else label

@@ -8,20 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tire_pipeline.channels import shown_unit
 from tire_pipeline.command.options import FILE, output_options, radius_option
 from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 
 if TYPE_CHECKING:
     from tire_pipeline.magic_formula import TireModel
 
-_UNITS = {
-    "slip_angle": (57.29577951308232, "deg"),
-    "slip_ratio": (1.0, ""),
-    "camber": (57.29577951308232, "deg"),
-    "normal_load": (1.0, "N"),
-    "speed": (1.0, "m/s"),
-    "pressure": (1e-3, "kPa"),
-}
 _FEW = 12
 _MOMENT = ("QDZ", "SSZ")
 """Beginnings of the coefficients without which there is no trail, residual moment or arm of Fx."""
@@ -109,7 +102,7 @@ def _missing(missing: dict[str, float]) -> str:
 
 
 def _range(name: str, low: float, high: float) -> tuple[str, float, float, str]:
-    factor, unit = _UNITS[name]
+    factor, unit, _ = shown_unit(name, max(abs(low), abs(high)))
     return name.replace("_", " "), low * factor, high * factor, unit
 
 

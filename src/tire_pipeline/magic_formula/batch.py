@@ -7,7 +7,7 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from tire_pipeline.channels import ANGLE_CHANNELS, POINT_CHANNELS
+from tire_pipeline.channels import ANGLE_CHANNELS, PLANE_FORCES, POINT_CHANNELS
 from tire_pipeline.errors import TirShapeError, TirValueError
 from tire_pipeline.magic_formula.compiled import engine
 from tire_pipeline.magic_formula.forces import checked_outputs
@@ -132,7 +132,7 @@ def forces_batch(
     points: OperatingPoints | None = None,
     *,
     version: str = "5.2",
-    outputs: Sequence[str] = ("fx", "fy", "mz"),
+    outputs: Sequence[str] = PLANE_FORCES,
     **channels: Unpack[PointFields],
 ) -> dict[str, np.ndarray]:
     """Evaluate many tires, each at the same points or each at its own.

@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.magic_formula.key_figures import slip_range, usual_loads
 from tire_pipeline.magic_formula.model import TireModel
-
-_OVER = {"fy": "slip_angle", "fx": "slip_ratio", "mz": "slip_angle"}
 
 
 @dataclass(frozen=True)
@@ -65,7 +64,7 @@ def compare_models(
     'fy'
     """
     loads = usual_loads([first, second]) if loads is None else list(loads)
-    return [_difference(first, second, output, slip, loads, camber) for output, slip in _OVER.items()]
+    return [_difference(first, second, output, slip, loads, camber) for output, slip in SLIP_OF_FORCE.items()]
 
 
 def changed_values(first: TireModel, second: TireModel) -> list[tuple[str, float, float]]:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.channels import PLANE_FORCES
 from tire_pipeline.magic_formula.forces import tire_forces
 from tire_pipeline.magic_formula.parameters.points import OperatingPoints
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
@@ -101,7 +102,7 @@ def forces_over(model: TireParameters, slip: str, normal_load: float, **more: An
     """
     x = slip_range(model, slip)
     fields: dict[str, Any] = {slip: x, "normal_load": normal_load, **more}
-    found = tire_forces(model, OperatingPoints(**fields), limits="ignore", outputs=("fx", "fy", "mz"))
+    found = tire_forces(model, OperatingPoints(**fields), limits="ignore", outputs=PLANE_FORCES)
     return {"slip": x, "fx": found.fx, "fy": found.fy, "mz": found.mz}
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
+from tire_pipeline.channels import PLANE_FORCES
 from tire_pipeline.magic_formula.changes.convert import to_version
 from tire_pipeline.magic_formula.changes.nominal_load import nominal_load_changed
 from tire_pipeline.magic_formula.derivatives.jacobian import jacobian
@@ -194,7 +195,7 @@ class TireModel(TireParameters):
         names: Sequence[str],
         points: OperatingPoints | None = None,
         *,
-        outputs: Sequence[str] = ("fx", "fy", "mz"),
+        outputs: Sequence[str] = PLANE_FORCES,
         out: Mapping[str, np.ndarray] | None = None,
         **channels: Unpack[PointFields],
     ) -> dict[str, np.ndarray]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from tire_pipeline.channels import SHOWN_UNITS, SLIP_OF_FORCE, axis_label
 from tire_pipeline.magic_formula.forces import tire_forces
 from tire_pipeline.magic_formula.key_figures import forces_over, usual_loads
 from tire_pipeline.magic_formula.parameters.points import OperatingPoints
@@ -18,11 +19,6 @@ if TYPE_CHECKING:
 
 _LINES = ("-", "--", ":", "-.")
 _LINE_WORDS = ("solid", "dashed", "dotted", "dash-dotted")
-_PANELS = (
-    ("fy", "slip_angle", "slip angle (deg)", "lateral force Fy (kN)"),
-    ("fx", "slip_ratio", "slip ratio", "longitudinal force Fx (kN)"),
-    ("mz", "slip_angle", "slip angle (deg)", "aligning moment Mz (N m)"),
-)
 
 
 def draw_models(
@@ -47,11 +43,11 @@ def draw_models(
     loads = usual_loads(list(models.values())) if loads is None else [float(load) for load in loads]
     figure, axes = new_figure(2, 2, width=9.0, height=6.2)
     panels = np.asarray(axes).ravel()
-    for panel, (force, slip, below, beside) in zip(panels, _PANELS, strict=False):
+    for panel, (force, slip) in zip(panels, SLIP_OF_FORCE.items(), strict=False):
         for line, model in zip(_LINES, models.values(), strict=False):
             _forces(panel, model, force, slip, loads, camber, line)
-        panel.set_xlabel(below)
-        panel.set_ylabel(beside)
+        panel.set_xlabel(axis_label(slip))
+        panel.set_ylabel(axis_label(force))
         _say_if_empty(panel)
     _stiffness(panels[3], models, loads, camber)
     _legends(panels, models, loads)
@@ -63,8 +59,7 @@ def _forces(
 ) -> None:
     for i, load in enumerate(loads):
         found = forces_over(model, slip, load, camber=camber)
-        x = np.degrees(found["slip"]) if slip == "slip_angle" else found["slip"]
-        y = found[force] if force == "mz" else found[force] / 1e3
+        x, y = found["slip"] * SHOWN_UNITS[slip].factor, found[force] * SHOWN_UNITS[force].factor
         if np.isfinite(y).any() and np.ptp(y) > 0.0:
             panel.plot(x, y, line, color=colour_of(i), lw=1.4)
 

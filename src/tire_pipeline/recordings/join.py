@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import FORCE_CHANNELS, TANGENTIAL_FORCES
+from tire_pipeline.channels import FORCE_CHANNELS, FORCE_OF_SLIP, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.channels import CANONICAL, FURTHER
 
@@ -129,7 +129,7 @@ def _moves(frame: pd.DataFrame, channel: str) -> bool:
 
 def _one_axis_system(recordings: Mapping[str, pd.DataFrame]) -> None:
     """Refuse recordings in which a positive slip makes forces of different signs: their axes differ."""
-    for slip, force in (("slip_angle", "fy"), ("slip_ratio", "fx")):
+    for slip, force in FORCE_OF_SLIP.items():
         signs: dict[float, str] = {}
         for name, frame in recordings.items():
             if slip not in frame or force not in frame or not _moves(frame, slip):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import FORCE_OF_SLIP
 from tire_pipeline.concealed.baselines.report import BaselineReport, fit_entry
 from tire_pipeline.concealed.cases.clean_run import model_forces, residual
 from tire_pipeline.magic_formula import TireModel
@@ -29,7 +30,7 @@ def explain_by_refit(tire: TireModel, recording: pd.DataFrame) -> BaselineReport
     """
     rows = recording.iloc[:: max(len(recording) // MOST_FITTED_ROWS, 1)]
     moving = [c for c, least in _LEAST_SPREAD.items() if c in rows and np.ptp(rows[c]) > least]
-    forces = ["fy", "fx"] if "slip_ratio" in moving else ["fy"]
+    forces = [force for slip, force in FORCE_OF_SLIP.items() if slip == "slip_angle" or slip in moving]
     version = "6.1" if "pressure" in moving else "5.2"
     fitted = fit_magic_formula(rows[["slip_angle", "normal_load", *moving, *forces]], version).model
 

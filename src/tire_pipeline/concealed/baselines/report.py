@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.concealed.cases.clean_run import model_forces, rms
 from tire_pipeline.concealed.cases.windows_and_regimes import regimes, windows
 from tire_pipeline.concealed.effect_names import PHYSICS
@@ -37,7 +38,7 @@ class BaselineReport:
     def predict(self, recording: pd.DataFrame) -> pd.DataFrame:
         """Return fx and fy, N, of the corrected model."""
         forces = model_forces(self.tire, recording) + self.correction(recording)
-        return pd.DataFrame(forces, columns=["fx", "fy"], index=recording.index)
+        return pd.DataFrame(forces, columns=list(TANGENTIAL_FORCES), index=recording.index)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the report as plain JSON types."""
@@ -74,7 +75,7 @@ def effect_entry(
         "kind": "physics" if name in PHYSICS else "artefact",
         "alternatives": [],
         "confidence": float(confidence),
-        "output": ("fx", "fy")[output],
+        "output": TANGENTIAL_FORCES[output],
         "where": {k: list(v) for k, v in regimes(part, recording).items()},
         "when": [list(pair) for pair in when],
         "share": None,
@@ -92,7 +93,7 @@ def fit_entry(before: np.ndarray, after: np.ndarray) -> dict[str, dict[str, floa
     """Return the report's ``fit`` from residuals of shape (n, 2), N."""
     floor = noise_floor(before)
     out = {}
-    for i, force in enumerate(("fx", "fy")):
+    for i, force in enumerate(TANGENTIAL_FORCES):
         first, last = rms(before[:, i]), rms(after[:, i])
         room = first**2 - floor[i] ** 2
         share = (first**2 - last**2) / room if room > 0 else 0.0

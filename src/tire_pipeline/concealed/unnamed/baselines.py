@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from sklearn.ensemble import HistGradientBoostingRegressor
 
-from tire_pipeline.channels import OPERATING_CHANNELS
+from tire_pipeline.channels import OPERATING_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.concealed.baselines import explain_gaussian_process, explain_sindy
 from tire_pipeline.concealed.cases.clean_run import model_forces, residual
 from tire_pipeline.magic_formula import TireModel
@@ -27,7 +27,9 @@ def boosted(tire: TireModel, recording: pd.DataFrame) -> Predict:
 
     def predict(frame: pd.DataFrame) -> pd.DataFrame:
         added = np.column_stack([tree.predict(frame[channels].to_numpy()) for tree in trees])
-        return pd.DataFrame(model_forces(tire, frame) + added, columns=["fx", "fy"], index=frame.index)
+        return pd.DataFrame(
+            model_forces(tire, frame) + added, columns=list(TANGENTIAL_FORCES), index=frame.index
+        )
 
     return predict
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numba import njit, types
 
+from tire_pipeline.channels import PLANE_FORCES, TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.compiled import fast_math as fast_math  # teaches numba the operations
 from tire_pipeline.magic_formula.compiled.unpacking import unpack
 from tire_pipeline.magic_formula.equations.equations_52 import evaluate_52
@@ -28,7 +29,7 @@ SAMPLES_TOGETHER = 256
 """Points in a block."""
 
 
-SETS: tuple[tuple[str, ...], ...] = (("fx", "fy"), ("fx", "fy", "mz"), OUTPUTS)
+SETS: tuple[tuple[str, ...], ...] = (TANGENTIAL_FORCES, PLANE_FORCES, OUTPUTS)
 """The sets of outputs that kernels exist for, from the cheapest to the whole."""
 
 _POINTS = types.Array(types.float64, 2, "A", readonly=True)

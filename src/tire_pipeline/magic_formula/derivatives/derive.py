@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.channels import FORCE_CHANNELS
 from tire_pipeline.magic_formula.equations.equations_52 import evaluate_52
 from tire_pipeline.magic_formula.equations.equations_61 import NO_TURN_SLIP, evaluate_61, rolling_load_factor
 from tire_pipeline.magic_formula.equations.jit import checksum_with_equations
@@ -22,9 +23,6 @@ from tire_pipeline.magic_formula.parameters.coefficients import (
     NAMES_BY_FAMILY,
     Coefficients,
 )
-
-DERIVED = ("fx", "fy", "mx", "my", "mz")
-"""The outputs that have gradients, in the order in which the equations return them."""
 
 _UFUNCS = {
     np.add: "+",
@@ -300,7 +298,7 @@ def module_source(family: int) -> str:
     """Return the source of a gradients module."""
     outputs = traced(family)
     parts, lists = [], []
-    for name, output in zip(DERIVED, outputs, strict=True):
+    for name, output in zip(FORCE_CHANNELS, outputs, strict=True):
         source, over = function_source(name, output)
         parts.append(f"{source}\n{kernel_source(name, len(over))}\n")
         lists.append(f'    "{name}": (\n' + "".join(f'        "{n}",\n' for n in over) + "    ),\n")

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.channels import POINT_CHANNELS
+from tire_pipeline.channels import PLANE_FORCES, POINT_CHANNELS
 from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula.derivatives.gradients import gradients_of
 from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA, compiled
@@ -27,7 +27,7 @@ def jacobian(
     names: Sequence[str],
     points: OperatingPoints,
     *,
-    outputs: Sequence[str] = ("fx", "fy", "mz"),
+    outputs: Sequence[str] = PLANE_FORCES,
     out: Mapping[str, np.ndarray] | None = None,
 ) -> dict[str, np.ndarray]:
     """Return d(output) / d(coefficient) at operating points.

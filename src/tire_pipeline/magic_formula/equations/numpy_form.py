@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.channels import FORCE_CHANNELS
 from tire_pipeline.magic_formula.equations.equations_52 import evaluate_52
 from tire_pipeline.magic_formula.equations.equations_61 import NO_TURN_SLIP, evaluate_61, rolling_load_factor
 from tire_pipeline.magic_formula.equations.shapes import clamp
@@ -11,11 +12,7 @@ from tire_pipeline.magic_formula.equations.turn_slip import zetas_of
 from tire_pipeline.magic_formula.parameters.coefficients import Coefficients
 
 OUTPUTS = (
-    "fx",
-    "fy",
-    "mx",
-    "my",
-    "mz",
+    *FORCE_CHANNELS,
     "trail",
     "friction_x",
     "friction_y",

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
@@ -43,7 +44,7 @@ def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str
     out = {}
     for o in data.outputs:
         part = whole[o] - without[o]
-        slip = np.abs(data.get("slip_angle" if o == "fy" else "slip_ratio"))
+        slip = np.abs(data.get(SLIP_OF_FORCE[o]))
         use = slip / (slip + max(float(np.quantile(slip, 0.9)) / 3.0, 1e-6))
         use = 2.0 * use / max(float(use.max()), 1e-9) - 1.0
         columns = [part * use, part * load, part * (2.0 * use**2 - 1.0), part * use * load, part]

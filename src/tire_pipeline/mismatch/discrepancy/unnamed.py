@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tire_pipeline.channels import SLIP_AND_LOAD
+from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD
 from tire_pipeline.mismatch.discrepancy.repeating import repeating_forms
 from tire_pipeline.mismatch.discrepancy.ringing import ringing_forms
 from tire_pipeline.mismatch.effects import catalogue
@@ -22,7 +22,6 @@ from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
 
 Array = np.ndarray
 Columns = dict[str, Array]
-_SLIPS = {"slip_angle": "fy", "slip_ratio": "fx"}
 _LAGS = (1.0, 4.0)
 _PLAYS = {"slip_angle": (0.001, 0.003, 0.008), "slip_ratio": (0.008,)}
 """Half widths that are tried, rad and 1: well above the noise of the channels."""
@@ -57,7 +56,7 @@ def forms(data: Data, changes: list[Change]) -> Iterator[Columns]:
         yield {o: ways[o] * driver[:, None] for o in data.outputs}
     yield from repeating_forms(data, changes)
     yield from ringing_forms(data, changes)
-    for name, output in _SLIPS.items():
+    for name, output in FORCE_OF_SLIP.items():
         if not data.varies(name) or output not in data.outputs:
             continue
         for width in _PLAYS[name]:
@@ -80,7 +79,7 @@ def _drivers(data: Data) -> Iterator[Array]:
             continue
         x = data.get(name)
         rate = _rate(data, x)
-        if name in _SLIPS:
+        if name in FORCE_OF_SLIP:
             size = _unit(np.abs(rate))
             yield _beyond_place(data, size, name)
             yield size
@@ -94,7 +93,7 @@ def _drivers(data: Data) -> Iterator[Array]:
             gain = 1.0 - np.exp(-data.step / lag)
             memory = _unit(first_order(level, gain, data.start) - level)
             yield memory
-            if name in _SLIPS:
+            if name in FORCE_OF_SLIP:
                 yield _from_rest(level, gain)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from tire_pipeline.channels import MOMENT_CHANNELS
 from tire_pipeline.mismatch.discrepancy.noise import white_noise
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.data import Data
@@ -101,9 +102,7 @@ def prove_moments(analysis: Analysis, *, resamples: int = 400, seed: int = 0) ->
 
 def recorded_moments(data: Data) -> tuple[str, ...]:
     """Moments that are recorded without holes and that the model gives."""
-    names = [
-        n for n in ("mx", "my", "mz") if n in data.channels and bool(np.isfinite(data.channels[n]).all())
-    ]
+    names = [n for n in MOMENT_CHANNELS if n in data.channels and bool(np.isfinite(data.channels[n]).all())]
     if not names or data.beside is not None:
         return ()
     plain = simulate_moments(data, [], names)

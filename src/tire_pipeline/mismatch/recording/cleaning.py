@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.channels import POINT_CHANNELS, SLIP_AND_LOAD
+from tire_pipeline.channels import POINT_CHANNELS, SLIP_AND_LOAD, shown_unit
 from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.recording.smoothing import denoise
@@ -21,9 +21,6 @@ from tire_pipeline.mismatch.recording.smoothing import denoise
 Array = np.ndarray
 _SURE = float(np.log(20.0))
 """Log evidence from which the smooth channel is taken: 20 to 1. Without it a channel stays as recorded."""
-
-
-_UNITS = {"slip_angle": "rad", "camber": "rad", "normal_load": "N", "speed": "m/s", "pressure": "Pa"}
 
 
 @dataclass(frozen=True)
@@ -56,8 +53,8 @@ class Cleaning:
             "the force does not tell" if np.isnan(self.felt) else f"the force follows {self.felt:.0%} of it"
         )
         done = "sensor noise was removed" if self.smoothed else "used as recorded"
-        unit = _UNITS.get(self.channel, "")
-        size = f"{self.removed:.2g} {unit}".strip()
+        factor, unit, _ = shown_unit(self.channel, self.removed)
+        size = f"{self.removed * factor:.2g} {unit}".strip()
         return f"{self.channel}: {done} (fluctuation {size} RMS, {share})"
 
 

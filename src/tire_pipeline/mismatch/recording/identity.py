@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.channels import SLIP_AND_LOAD
+from tire_pipeline.channels import SLIP_AND_LOAD, SLIP_OF_FORCE
 from tire_pipeline.mismatch.model.channels import moves
 from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
-from tire_pipeline.mismatch.recording.usable import SLIPS, Drive
+from tire_pipeline.mismatch.recording.usable import Drive
 
 Array = np.ndarray
 
@@ -138,7 +138,7 @@ class _Similar:
     """The file's force with other basic figures, at the recorded points."""
 
     def __init__(self, tire: Any, a: Mapping[str, Array], output: str) -> None:
-        self.tire, self.output, self.slip = tire, output, SLIPS[output]
+        self.tire, self.output, self.slip = tire, output, SLIP_OF_FORCE[output]
         zero = np.zeros(a["normal_load"].size)
         self.points = {n: a.get(n, zero) for n in SLIP_AND_LOAD}
         load = self.points["normal_load"]

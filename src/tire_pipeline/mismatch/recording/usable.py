@@ -8,14 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.channels import SLIP_AND_LOAD
+from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, moves
 from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
 
 Array = np.ndarray
-SLIPS = {"fy": "slip_angle", "fx": "slip_ratio"}
 
 LEAST = 0.5
 """Less than half: most of the force comes from something else than the slip that was recorded. In the real
@@ -84,7 +83,7 @@ def drives(tire: Any, arrays: Mapping[str, Array], time: Array | None) -> list[D
     """
     model = _model(tire, arrays)
     out = []
-    for output, slip in SLIPS.items():
+    for slip, output in FORCE_OF_SLIP.items():
         simulated = f"_beside_{output}" in arrays or not any(n.startswith("_beside_") for n in arrays)
         if output not in arrays or not simulated or np.ptp(arrays[output]) == 0.0:
             continue

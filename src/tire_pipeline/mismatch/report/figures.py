@@ -11,6 +11,7 @@ import numpy as np
 from markupsafe import Markup
 from matplotlib.figure import Figure, FigureBase
 
+from tire_pipeline.channels import SHOWN_UNITS, SLIP_OF_FORCE, axis_label
 from tire_pipeline.mismatch.report.contents import ReportContents
 from tire_pipeline.pages.drawing import captioned, svg_element
 
@@ -84,7 +85,8 @@ def operating_map(report: ReportContents, output: str, figure: FigureBase | None
     """Draw the mean difference over slip and load, before and after, on one colour scale."""
     s = report.series
     slip = _slip(report, output)
-    factor, unit = (57.29578, "slip angle (deg)") if output == "fy" else (1.0, "slip ratio")
+    name = SLIP_OF_FORCE[output]
+    factor = SHOWN_UNITS[name].factor
     small = float(np.max(s["normal_load"])) < 100.0
     load = s["normal_load"] if small else s["normal_load"] / 1e3
     kinds = ["before"] + (["after"] if report.corrected.changes else [])
@@ -110,7 +112,7 @@ def operating_map(report: ReportContents, output: str, figure: FigureBase | None
             else:
                 mesh = ax.pcolormesh(*edges, values.T, **colours)
             ax.set_title(kind)
-            ax.set_xlabel(unit)
+            ax.set_xlabel(axis_label(name))
             ax.grid(False)
         axes[0].set_ylabel("normal load (N)" if small else "normal load (kN)")
         figure.colorbar(mesh, ax=axes, label=f"{output.capitalize()} recorded - simulated (N)")
@@ -118,7 +120,7 @@ def operating_map(report: ReportContents, output: str, figure: FigureBase | None
 
 
 def _slip(report: ReportContents, output: str) -> Any:
-    return report.series["slip_angle" if output == "fy" else "slip_ratio"]
+    return report.series[SLIP_OF_FORCE[output]]
 
 
 def _means(x: Any, y: Any, values: Any, edges: tuple[Any, Any]) -> Any:

@@ -7,53 +7,34 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from tire_pipeline.channels import shown_unit
 from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm
 from tire_pipeline.mismatch.effects import Effect, catalogue
-
-_UNITS = {
-    "slip_angle": (57.29578, "deg", "slip angle"),
-    "camber": (57.29578, "deg", "camber"),
-    "normal_load": (1e-3, "kN", "load"),
-    "speed": (1.0, "m/s", "speed"),
-    "pressure": (1e-5, "bar", "pressure"),
-    "tread_temperature": (1.0, "degC", "tread temperature"),
-    "slip_ratio": (1.0, "", "slip ratio"),
-    "turn_slip": (1.0, "1/m", "path curvature"),
-    "time": (1.0, "s", "time"),
-}
-
 
 _FINEST = {"slip_angle": 5e-5, "camber": 5e-5, "slip_ratio": 1e-4}
 """What is smaller is written as 0, SI: no rig holds it."""
 
 
-def unit_of(axis: str, size: float) -> tuple[float, str, str]:
-    """Return factor, unit and name of an axis; loads below 100 N (model cars) are shown in N."""
-    if axis == "normal_load" and abs(size) < 100.0:
-        return 1.0, "N", "load"
-    return _UNITS.get(axis, (1.0, "", axis.replace("_", " ")))
-
-
 def shown(axis: str, value: float) -> str:
     """Return a value of an axis in the unit that engineers use."""
-    return f"{figure(axis, value)} {unit_of(axis, value)[1]}".strip()
+    return f"{figure(axis, value)} {shown_unit(axis, value)[1]}".strip()
 
 
 def figure(axis: str, value: float, size: float | None = None) -> str:
     """Return a value of an axis without its unit, which is that for values of some size."""
-    factor = unit_of(axis, value if size is None else size)[0]
+    factor = shown_unit(axis, value if size is None else size)[0]
     return "0" if abs(value) < _FINEST.get(axis, 0.0) else f"{value * factor:.3g}"
 
 
 def label(axis: str) -> str:
     """Return the name of an axis in words."""
-    return _UNITS.get(axis, (1.0, "", axis))[2]
+    return shown_unit(axis, 0.0).label
 
 
 def interval(axis: str, low: float, high: float) -> str:
     """Return ``load 2.1 to 4.3 kN``, or ``speed 22.2 m/s`` where both ends are written alike."""
     size = max(abs(low), abs(high))
-    _, unit, name = unit_of(axis, size)
+    _, unit, name = shown_unit(axis, size)
     a, b = figure(axis, low, size), figure(axis, high, size)
     return f"{name} {a if a == b else f'{a} to {b}'} {unit}".strip()
 
@@ -63,7 +44,7 @@ def gaussian(form: GaussianForm) -> str:
     lengths = []
     for name, length in form.lengths.items():
         channel = name.removeprefix("rate of ")
-        factor, unit, text = unit_of(channel, length)
+        factor, unit, text = shown_unit(channel, length)
         per = "/s" if name != channel else ""
         lead = f"rate of {text}" if per else text
         lengths.append(f"{lead} ({length * factor:.2g} {unit}{per})".replace(" )", ")").replace("( ", "("))
@@ -119,7 +100,7 @@ def not_looked_for(absent: Mapping[str, str]) -> str:
 def place(axis: str, low: float, high: float, ranges: Mapping[str, tuple[float, float]]) -> str:
     """Return ``between 41 and 96 s``, ``at load above 4 kN``, ``at slip angle below -2 deg``."""
     size = max(abs(low), abs(high))
-    _, unit, name = unit_of(axis, size)
+    _, unit, name = shown_unit(axis, size)
     a, b = figure(axis, low, size), figure(axis, high, size)
     lowest, highest = ranges.get(axis, (-np.inf, np.inf))
     near = 0.03 * (highest - lowest) if np.isfinite(highest - lowest) else 0.0

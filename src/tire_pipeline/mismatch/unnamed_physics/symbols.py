@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.channels import SLIP_AND_LOAD, TANGENTIAL_FORCES
+from tire_pipeline.channels import SLIP_AND_LOAD, SLIP_OF_FORCE, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
 from tire_pipeline.mismatch.unnamed_physics.grammar import SymbolTable
 
@@ -135,7 +135,8 @@ def _slopes(data: Any) -> dict[str, Array]:
         return plain_forces(data.tire, **{**{n: data.get(n) for n in names}, **moved}, **more)
 
     out = {}
-    for force, slip in (("fx", "slip_ratio"), ("fy", "slip_angle")):
+    for force in TANGENTIAL_FORCES:
+        slip = SLIP_OF_FORCE[force]
         up, down = (at(**{slip: data.get(slip) + sign * _STEP})[force] for sign in (1.0, -1.0))
         out[f"{force}_slip"] = (up - down) / (2.0 * _STEP)
     load = data.get("normal_load")

@@ -16,6 +16,7 @@ import math
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import MOMENT_CHANNELS
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.units import find_unit
 
@@ -70,7 +71,7 @@ def to_iso_w(
     if "C" in systems.values():
         _c_to_h(frame, systems, notes, conversions)
     mirrored = _flip_load(frame, axes, notes, conversions)
-    if {"H", "C"} & {s for c, s in systems.items() if c in ("mx", "my", "mz")}:
+    if {"H", "C"} & {s for c, s in systems.items() if c in MOMENT_CHANNELS}:
         _moments_to_contact(frame, systems, constants, notes, conversions)
     bare = [origin[c] for c in systems if systems[c] == "?" and origin[c] not in _COMPONENT]
     if bare and axes == "ISO" and not told:

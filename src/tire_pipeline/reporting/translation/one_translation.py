@@ -7,17 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from tire_pipeline.channels import SHOWN_UNITS, SLIP_OF_FORCE, axis_label
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.pages.drawing import colour_of, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-_PANELS = {
-    "fy": ("slip_angle", "slip angle (deg)", "lateral force Fy (kN)"),
-    "fx": ("slip_ratio", "slip ratio", "longitudinal force Fx (kN)"),
-    "mz": ("slip_angle", "slip angle (deg)", "aligning moment Mz (N m)"),
-}
 
 
 def draw_translation(
@@ -38,7 +33,7 @@ def draw_translation(
     figure : matplotlib.figure.Figure
     caption : str
     """
-    shown = [name for name in _PANELS if name in bands] or ["fy"]
+    shown = [name for name in SLIP_OF_FORCE if name in bands] or ["fy"]
     figure, axes = new_figure(1, len(shown), width=3.6 * len(shown) + 0.6, height=3.6, squeeze=False)
     for panel, output in zip(np.asarray(axes).ravel(), shown, strict=True):
         _draw(panel, output, source, translated, bands.get(output))
@@ -52,11 +47,10 @@ def draw_translation(
 
 
 def _draw(panel: Any, output: str, source: TireModel, translated: TireModel | None, band: Any) -> None:
-    slip, below, beside = _PANELS[output]
+    slip, scale = SLIP_OF_FORCE[output], SHOWN_UNITS[output].factor
     loads = [source.value("FNOMIN")] if band is None else band.normal_load
     x = np.linspace(-0.2, 0.2, 81) if band is None else band.slip
-    across = np.degrees(x) if slip == "slip_angle" else x
-    scale = 1.0 if output == "mz" else 1e-3
+    across = x * SHOWN_UNITS[slip].factor
     for i, load in enumerate(loads):
         colour = colour_of(i)
         for model, line in ((source, "--"), (translated, "-")):
@@ -70,5 +64,5 @@ def _draw(panel: Any, output: str, source: TireModel, translated: TireModel | No
             panel.fill_between(
                 across, band.low[0, i] * scale, band.high[0, i] * scale, color=colour, alpha=0.25, lw=0
             )
-    panel.set_xlabel(below)
-    panel.set_ylabel(beside)
+    panel.set_xlabel(axis_label(slip))
+    panel.set_ylabel(axis_label(output))

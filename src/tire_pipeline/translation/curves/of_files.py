@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.magic_formula import MissingRadiusWarning, TireModel
 from tire_pipeline.progress import track
@@ -15,7 +16,7 @@ from tire_pipeline.translation.curves.bands import BAND_SLIP_RATIOS
 from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.result import Band, TranslationResult
 
-DRAWN_OUTPUTS = ("fy", "fx", "mz")
+DRAWN_OUTPUTS = tuple(SLIP_OF_FORCE)
 _LATERAL = ("PCY1", "PDY1", "PKY1", "PKY2")
 _STATED = {
     "fy": _LATERAL,
@@ -75,9 +76,7 @@ def _own_curves(model: TireModel) -> dict[str, np.ndarray]:
     load = LOADS[:, None]
     found = {}
     asked: dict[str, dict[str, Any]] = {
-        "fy": {"slip_angle": BAND_SLIP_RATIOS, "normal_load": load},
-        "fx": {"slip_ratio": BAND_SLIP_RATIOS, "normal_load": load},
-        "mz": {"slip_angle": BAND_SLIP_RATIOS, "normal_load": load},
+        **{o: {slip: BAND_SLIP_RATIOS, "normal_load": load} for o, slip in SLIP_OF_FORCE.items()},
         "stiffness": {"normal_load": LOADS},
     }
     for name, points in asked.items():

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import MOMENT_CHANNELS, SHOWN_UNITS, SLIP_OF_FORCE, axis_label
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula.fitting.setup.stages import PURE_SLIP_ANGLE, PURE_SLIP_RATIO
 from tire_pipeline.magic_formula.model import TireModel
@@ -16,11 +17,6 @@ from tire_pipeline.pages.drawing import colour_of, new_figure
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_PANELS = {
-    "fy": ("slip_angle", "slip angle (deg)", "Fy", "N"),
-    "fx": ("slip_ratio", "slip ratio", "Fx", "N"),
-    "mz": ("slip_angle", "slip angle (deg)", "Mz", "N m"),
-}
 _LOAD_STEP = 0.25
 _MOST_LOADS = 5
 _MOST_POINTS = 3000
@@ -46,8 +42,8 @@ def draw_fit(model: TireModel, measured: pd.DataFrame | None) -> tuple[Figure, s
     DomainError
         The points are not there, or none of them is at pure slip.
     """
-    parts = {} if measured is None else {o: _pure(measured, o) for o in _PANELS if o in measured}
-    parts = {o: part for o, part in parts.items() if len(part) >= _FEWEST and _spread(part, _PANELS[o][0])}
+    parts = {} if measured is None else {o: _pure(measured, o) for o in SLIP_OF_FORCE if o in measured}
+    parts = {o: part for o, part in parts.items() if len(part) >= _FEWEST and _spread(part, SLIP_OF_FORCE[o])}
     if not parts:
         raise DomainError("there are no points at pure slip to draw", todo="draw result.model.plot() instead")
     figure, axes = new_figure(len(parts), 2, width=9.5, height=2.9 * len(parts), squeeze=False)
@@ -73,11 +69,11 @@ def _spread(part: pd.DataFrame, slip: str) -> bool:
 
 
 def _draw(row: Any, model: TireModel, output: str, part: pd.DataFrame) -> None:
-    slip, below, name, unit = _PANELS[output]
+    slip, name = SLIP_OF_FORCE[output], output.capitalize()
+    factor, unit = SHOWN_UNITS[slip].factor, "N m" if output in MOMENT_CHANNELS else "N"
     step = _LOAD_STEP * model.value("FNOMIN")
     group = np.round(part["normal_load"] / step)
     largest = group.value_counts().index[:_MOST_LOADS]
-    factor = 180.0 / np.pi if slip == "slip_angle" else 1.0
     for i, number in enumerate(sorted(largest)):
         own = part[group == number]
         alike = own[_most_frequent(np.round(np.degrees(own["camber"])))]
@@ -95,7 +91,7 @@ def _draw(row: Any, model: TireModel, output: str, part: pd.DataFrame) -> None:
     row[0].legend(title="load, camber", fontsize=7, title_fontsize=7)
     row[1].axhline(0.0, color="black", lw=0.8)
     for panel, text in zip(row, (f"{name} ({unit})", f"{name}, model - measured ({unit})"), strict=True):
-        panel.set_xlabel(below)
+        panel.set_xlabel(axis_label(slip))
         panel.set_ylabel(text)
 
 

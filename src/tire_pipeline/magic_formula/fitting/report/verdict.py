@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.channels import ANGLE_CHANNELS, TANGENTIAL_FORCES
+from tire_pipeline.channels import ANGLE_CHANNELS, SLIP_OF_FORCE, TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.inputs import LOOKS_LIKE_DEGREES
 
@@ -23,7 +23,6 @@ _BINS = 20
 _SMALL = 0.4
 """Share of the largest slips below which the slope of the force is looked at."""
 _FEWEST = 10
-SLIP_OF = {"fx": "slip_ratio", "fy": "slip_angle", "mz": "slip_angle"}
 
 
 class PoorFitWarning(UserWarning):
@@ -66,7 +65,7 @@ def poor_outputs(
         if units and not wrong:
             wrong.append("no tire is like that")
         if output in TANGENTIAL_FORCES and _falls(model, output, points, start):
-            wrong.append(f"the force falls with {SLIP_OF[output]} in the tire's own convention")
+            wrong.append(f"the force falls with {SLIP_OF_FORCE[output]} in the tire's own convention")
         if wrong:
             found[output] = f"{'; '.join(wrong)}. {units or _reason(output, points, forces[output], start)}"
     return found
@@ -107,7 +106,7 @@ def _reason(
     output: str, points: Mapping[str, np.ndarray], measured: np.ndarray, start: TireModel | None
 ) -> str:
     """Return the likely reason in a sentence that says what to look at."""
-    name = SLIP_OF.get(output, "slip_angle")
+    name = SLIP_OF_FORCE.get(output, "slip_angle")
     good = np.isfinite(measured)
     slip, load, force = points[name][good], points["normal_load"][good], measured[good]
     slopes = _slopes(slip, force, load, points["camber"][good])

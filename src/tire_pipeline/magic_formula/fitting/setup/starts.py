@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.random import Generator
 
-from tire_pipeline.channels import TANGENTIAL_FORCES
+from tire_pipeline.channels import SLIP_OF_FORCE, TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.fitting.setup.stages import BOUNDS, PRESSURE_BOUNDS, Stage
 from tire_pipeline.magic_formula.model import TireModel
 
@@ -48,7 +48,7 @@ def first_values(
     """Return where to start without a model: typical values, and what the data show at a glance."""
     first = dict(typical)
     load = here["normal_load"]
-    slip = here["slip_ratio" if stage.output == "fx" else "slip_angle"]
+    slip = here[SLIP_OF_FORCE.get(stage.output, "slip_angle")]
     if stage.title.endswith("pure slip") and stage.output in TANGENTIAL_FORCES:
         friction = float(np.quantile(np.abs(measured) / load, 0.98))
         letter = stage.output[1].upper()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import plain_forces
 
@@ -58,7 +59,7 @@ def jacobian(data: Data, name: str, at: At) -> Array:
 
 def shifts(data: Data, name: str, at: At) -> Array:
     """Constant, load and slope: a fit would have found a shift of the curve even if the file has none."""
-    slip, h = ("slip_angle", 2e-3) if name == "fy" else ("slip_ratio", 2e-3)
+    slip, h = SLIP_OF_FORCE[name], 2e-3
     up, down = (plain_forces(data.tire, **{**at, slip: at[slip] + s * h})[name] for s in (1.0, -1.0))
     load = at["normal_load"]
     return np.column_stack([np.full(load.size, data.load_nominal), load, up - down])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_OF_FORCE
 from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import ASYMMETRY_SHARE
 from tire_pipeline.mismatch.discrepancy.nuisance.transients import rate
 from tire_pipeline.mismatch.model.data import Data
@@ -38,7 +39,7 @@ def flexible_form(
     if mirror.min() < 0.0:
         kernels.append(_Mirrored(points, mirror, -sign, _FAR, ASYMMETRY_SHARE))
     top = np.quantile(data.get("normal_load"), 0.99)
-    slip, half = ("slip_angle" if name == "fy" else "slip_ratio"), _slip_at_half(data, name)
+    slip, half = SLIP_OF_FORCE[name], _slip_at_half(data, name)
     lean = max(float(np.quantile(np.abs(data.get("camber")), 0.99)), 0.01)
 
     def amplitude(point: dict[str, Array]) -> Array:
@@ -75,7 +76,7 @@ def _coordinates(data: Data, at: dict[str, Array]) -> tuple[Array, Array]:
     In a mirror that stands along the wheel plane, slip angle and camber change their sign.
     """
     parts, mirror = [], []
-    for slip, force in (("slip_angle", "fy"), ("slip_ratio", "fx")):
+    for slip, force in FORCE_OF_SLIP.items():
         if data.varies(slip):
             half = _slip_at_half(data, force)
             parts.append(2.0 / np.pi * np.arctan(at[slip] / half) / _LENGTHS["slip"])
@@ -97,11 +98,7 @@ def _slip_at_half(data: Data, force: str) -> float:
     """Slip at which the linear force would be the largest force: where the curve bends."""
     slip = np.linspace(1e-3, 0.35, 200)
     zero = np.zeros(200)
-    args = (
-        {"slip_angle": slip, "slip_ratio": zero}
-        if force == "fy"
-        else {"slip_angle": zero, "slip_ratio": slip}
-    )
+    args = {**dict.fromkeys(FORCE_OF_SLIP, zero), SLIP_OF_FORCE[force]: slip}
     f = np.abs(
         plain_forces(data.tire, camber=zero, normal_load=np.full(200, data.load_nominal), **args)[force]
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects.shared import first_order
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.residual import rms
@@ -21,7 +22,7 @@ def memory(data: Data, name: str) -> Array:
 
     Tread and belt warm and cool within a sweep. Where the power has been the same for long, this is nothing.
     """
-    slip = "slip_angle" if name == "fy" else "slip_ratio"
+    slip = SLIP_OF_FORCE[name]
     if data.time is None or not data.varies(slip):
         return np.zeros((data.size, 0))
     speed = np.abs(data.get("speed")) if data.has("speed") else np.ones(data.size)
@@ -46,7 +47,7 @@ def fast_load(data: Data, name: str) -> Array:
         return np.zeros((data.size, 0))
     rates = [rate(data, data.running_mean(change, seconds)) for seconds in _BANDS]
     drivers = [change, *(each * (rms(change) / max(rms(each), 1e-12)) for each in rates)]
-    slip = "slip_angle" if name == "fy" else "slip_ratio"
+    slip = SLIP_OF_FORCE[name]
     steeper = data.slope(slip, _SLIP_STEP)[name] * data.get(slip)
     return np.column_stack([way * driver for way in (data.base[name], steeper) for driver in drivers])
 

@@ -54,7 +54,8 @@ class SensorDrift(Effect):
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """Return the drifts, and the lag of a drift that settles."""
-        return ("fy", "fx", "lag") if start["lag"] else ("fy", "fx")
+        drifts = tuple(p.name for p in self.parameters if not p.form)
+        return (*drifts, "lag") if start["lag"] else drifts
 
     def outside(self, data: object, p: Parameters) -> bool:
         """Whether no device warms up so fast or so slowly."""

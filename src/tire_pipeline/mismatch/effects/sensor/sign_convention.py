@@ -8,6 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
+from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.repairs import Simulate
 
@@ -167,7 +168,7 @@ def excludes_sae(channels: Mapping[str, Array], simulate: Simulate) -> bool:
 
 def _off_by_slip(channels: Mapping[str, Array], simulate: Simulate, force: str) -> Array:
     """What the force changes by where its slip is off as far as slips are, shape (n,)."""
-    slip = "slip_angle" if force == "fy" else "slip_ratio"
+    slip = SLIP_OF_FORCE[force]
     if slip not in channels:
         return np.zeros_like(channels[force])
     there = simulate({**channels, slip: channels[slip] + _SLIP_OFF})[force]
