@@ -24,6 +24,9 @@ ROOT = Path(tire_pipeline.__file__).parent
 SEALED = ("concealed.second.", "concealed.open_world.")
 """Simulators that are sealed by the hash of their source: their names stay as they are."""
 
+USUAL = {"T", "LOG"}
+"""Names that each module gives to its own type variable and to its own logger."""
+
 METAPHORS = {"wish", "caution", "cautious", "doubt", "doubts", "doubtful", "bury", "shelf", "hand", "hands"}
 
 
@@ -43,9 +46,7 @@ def _written() -> dict[str, ast.Module]:
 
 
 def _classes(module: ast.Module) -> list[str]:
-    return [
-        each.name for each in module.body if isinstance(each, ast.ClassDef) and not each.name.startswith("_")
-    ]
+    return [each.name.lstrip("_") for each in module.body if isinstance(each, ast.ClassDef)]
 
 
 def _constants(module: ast.Module) -> list[str]:
@@ -53,7 +54,12 @@ def _constants(module: ast.Module) -> list[str]:
     annotated = [each for each in module.body if isinstance(each, ast.AnnAssign) and each.value]
     targets = [target for each in assigned for target in each.targets] + [each.target for each in annotated]
     names = [each.id for target in targets for each in ast.walk(target) if isinstance(each, ast.Name)]
-    return [name for name in names if name.isupper() and not name.startswith("_")]
+    return [name for name in names if name.isupper() and name.lstrip("_") not in USUAL]
+
+
+def _of_package(module: str, constants: list[str]) -> list[str]:
+    """Constants as the modules of a package may confuse them: an underscore makes no other name."""
+    return [f"{module.partition('.')[0]}.{name.lstrip('_')}" for name in constants]
 
 
 def _twice(names: dict[str, list[str]]) -> set[str]:
@@ -79,7 +85,10 @@ def test_no_two_classes_of_one_name_nor_one_of_a_sealed_simulator():
 
 
 def test_no_two_constants_of_one_name():
-    assert _twice({name: _constants(module) for name, module in _written().items()}) == set()
+    every = {name: _constants(module) for name, module in _written().items()}
+    public = {name: [each for each in found if not each.startswith("_")] for name, found in every.items()}
+    assert _twice(public) == set()
+    assert _twice({name: _of_package(name, found) for name, found in every.items()}) == set()
 
 
 def test_no_two_modules_of_a_folder_a_letter_apart():

@@ -62,10 +62,10 @@ def reduce_cases(parameters: CalibrateMismatchParameters) -> Work:
     made = plans(
         Path(parameters.recordings), parameters.real, parameters.first, parameters.second, parameters.unnamed
     )
-    return {f"{code}/{name}.pkl": _Reduced(make) for name, make in made}
+    return {f"{code}/{name}.pkl": _ReducedCase(make) for name, make in made}
 
 
-class _Reduced:
+class _ReducedCase:
     """One case, made and reduced when it is asked for."""
 
     def __init__(self, make: Callable[[], KnownCase]) -> None:

@@ -83,16 +83,16 @@ def walk(folder: str | os.PathLike[str], wanted: Callable[[str], bool]) -> Found
 class _Search:
     def __init__(self, root: str, wanted: Callable[[str], bool]) -> None:
         real = os.path.realpath(root)
-        self.root = _Place("", root, real)
+        self.root = _WalkedEntry("", root, real)
         self.above = {real[: at or 1] for at, letter in enumerate(real) if letter == os.sep}
         self.wanted = wanted
         self.found = Found()
         self.entered: dict[str, str] = {}  # real path of a folder -> its name
-        self.folder_links: dict[str, _Place] = {}
+        self.folder_links: dict[str, _WalkedEntry] = {}
         self.file_links: dict[str, str] = {}  # name -> path
         self.real_files: dict[str, str] = {}  # real path -> name
 
-    def go_into(self, place: _Place) -> None:
+    def go_into(self, place: _WalkedEntry) -> None:
         """Take a folder and all below it that is reached without links."""
         left = [place]
         while left:
@@ -110,7 +110,7 @@ class _Search:
                 if not entry.name.startswith("."):
                     left += self._entry(here, entry)
 
-    def _entry(self, here: _Place, entry: os.DirEntry[str]) -> list[_Place]:
+    def _entry(self, here: _WalkedEntry, entry: os.DirEntry[str]) -> list[_WalkedEntry]:
         inner = here.inner(entry.name)
         try:
             if entry.is_symlink():
@@ -129,7 +129,7 @@ class _Search:
             self._unknown(inner, error)
         return []
 
-    def _link(self, inner: _Place, name: str) -> None:
+    def _link(self, inner: _WalkedEntry, name: str) -> None:
         try:
             mode = os.stat(inner.path).st_mode
         except FileNotFoundError:
@@ -147,7 +147,7 @@ class _Search:
                 else:
                     self._not_regular(inner, mode)
 
-    def follow(self, link: _Place) -> None:
+    def follow(self, link: _WalkedEntry) -> None:
         """Take what lies behind a link to a folder, unless it is taken already."""
         real = os.path.realpath(link.path)
         if real in self.entered:
@@ -155,7 +155,7 @@ class _Search:
         elif real in self.above:
             self.found.aside[link.name] = "a link to a folder above this one"
         else:
-            self.go_into(_Place(link.name + "/", link.path, real))
+            self.go_into(_WalkedEntry(link.name + "/", link.path, real))
 
     def add_linked_files(self) -> None:
         """Take files that are reached by a link alone."""
@@ -167,15 +167,15 @@ class _Search:
             else:
                 self.found.again[name] = other
 
-    def _not_regular(self, inner: _Place, mode: int) -> None:
+    def _not_regular(self, inner: _WalkedEntry, mode: int) -> None:
         kind = _KINDS.get(stat.S_IFMT(mode), "of an unknown kind")
         self.found.aside[inner.name] = f"{kind}, not a regular file"
 
-    def _unknown(self, inner: _Place, error: OSError) -> None:
+    def _unknown(self, inner: _WalkedEntry, error: OSError) -> None:
         self.found.aside[inner.name] = f"cannot be looked at ({error.strerror})"
         self.found.unseen += [inner.name, inner.name + "/"]
 
-    def _closed(self, here: _Place, error: OSError) -> None:
+    def _closed(self, here: _WalkedEntry, error: OSError) -> None:
         if not here.name:
             raise DomainError(
                 f"this folder may not be read ({error.strerror})",
@@ -188,14 +188,14 @@ class _Search:
 
 
 @dataclass(frozen=True)
-class _Place:
+class _WalkedEntry:
     name: str
     path: str
     real: str
 
-    def inner(self, name: str) -> _Place:
+    def inner(self, name: str) -> _WalkedEntry:
         path, real = os.path.join(self.path, name), os.path.join(self.real, name)
-        return _Place(self.name + shown_name(name), path, real)
+        return _WalkedEntry(self.name + shown_name(name), path, real)
 
-    def as_folder(self) -> _Place:
-        return _Place(self.name + "/", self.path, self.real)
+    def as_folder(self) -> _WalkedEntry:
+        return _WalkedEntry(self.name + "/", self.path, self.real)

@@ -33,7 +33,7 @@ _BY_CARCASS = {
     "relaxation_lateral": "LATERAL_STIFFNESS",
     "relaxation_longitudinal": "LONGITUDINAL_STIFFNESS",
 }  # MF 6.1 takes these instead of the radius where it has them
-_STACK_LEVEL = 4
+_STACK_LEVEL_OF_RADIUS = 4
 _NUMBERS = frozenset((float, int, np.float64))
 
 
@@ -190,7 +190,7 @@ def _warn_of_radius(model: TireParameters, wanted: Sequence[str], turning: bool)
         f"the model{place} has no UNLOADED_RADIUS: {', '.join(lost)} are NaN; state the radius (m) by "
         "model.replace(UNLOADED_RADIUS=...) or read_tir(path, unloaded_radius=...)",
         MissingRadiusWarning,
-        stacklevel=_STACK_LEVEL,
+        stacklevel=_STACK_LEVEL_OF_RADIUS,
     )
 
 

@@ -16,7 +16,7 @@ from tire_pipeline.magic_formula.parameters.tire import TireParameters
 LARGEST_SLIP_ANGLE = np.deg2rad(15.0)
 LARGEST_SLIP_RATIO = 0.3
 SHARES_OF_LOAD = (0.5, 1.0, 1.5)
-_POINTS = 301
+_POINTS_OF_CURVE = 301
 _FEWEST_LOADS = 2
 
 
@@ -110,7 +110,7 @@ def slip_range(model: TireParameters, slip: str) -> np.ndarray:
     """Return slips to look at: to 15 degrees or a ratio of 0.3, or to where the file's range ends."""
     most = LARGEST_SLIP_ANGLE if slip == "slip_angle" else LARGEST_SLIP_RATIO
     low, high = model.ranges[slip][2:] if slip in model.ranges else (-most, most)
-    return np.linspace(max(low, -most), min(high, most), _POINTS)
+    return np.linspace(max(low, -most), min(high, most), _POINTS_OF_CURVE)
 
 
 def usual_loads(models: Sequence[TireParameters]) -> list[float]:

@@ -27,7 +27,7 @@ from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.progress import track, under_way
 from tire_pipeline.tasks import one_thread
 
-_STEPS = ("check", "noise and misfit", "sets", "answer")
+_STAGES = ("check", "noise and misfit", "sets", "answer")
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ class Explainer:
         """Return what a report is made of: the recording, its sets, and what the posterior says."""
         self._check()
         recording = numeric(recording)
-        steps = track(_STEPS, "explaining the mismatch")
+        steps = track(_STAGES, "explaining the mismatch")
         step = next(steps)
         try:
             prepared = prepare(tire, recording)

@@ -21,7 +21,7 @@ from tire_pipeline.mismatch.report.sentences import with_held_out, without_equat
 from tire_pipeline.recordings.join import join_recordings
 
 Array = np.ndarray
-_STRETCHES = 24
+_STRETCHES_RESAMPLED = 24
 """Stretches of a held-out recording that are resampled as wholes for the interval."""
 
 
@@ -185,9 +185,9 @@ def _finite(recording: pd.DataFrame) -> pd.DataFrame:
 
 
 def _error(before: Array, after: Array) -> PredictionError:
-    stretch = np.arange(before.size) * _STRETCHES // before.size
-    sums = [np.bincount(stretch, x**2, _STRETCHES) for x in (before, after)]
-    picks = np.random.default_rng(0).integers(_STRETCHES, size=(1000, _STRETCHES))
+    stretch = np.arange(before.size) * _STRETCHES_RESAMPLED // before.size
+    sums = [np.bincount(stretch, x**2, _STRETCHES_RESAMPLED) for x in (before, after)]
+    picks = np.random.default_rng(0).integers(_STRETCHES_RESAMPLED, size=(1000, _STRETCHES_RESAMPLED))
     ratio = np.sqrt(sums[1][picks].sum(axis=1) / np.maximum(sums[0][picks].sum(axis=1), 1e-300))
     low, high = np.quantile(ratio, [0.025, 0.975])
     rms_before, rms_after = (rms(x) for x in (before, after))

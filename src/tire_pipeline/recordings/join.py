@@ -18,7 +18,7 @@ GAP_STEPS = 20.0
 _SURE = 0.5
 _SLIPS = {"slip_angle": 0.005, "camber": 0.008, "slip_ratio": 0.01}
 """Inputs that count as zero where they are not recorded, and the size from which that is wrong, rad or 1."""
-_KNOWN = tuple(channel.name for channel in (*CANONICAL, *FURTHER) if channel.name != "time")
+_JOINED_CHANNELS = tuple(channel.name for channel in (*CANONICAL, *FURTHER) if channel.name != "time")
 
 
 def join_recordings(recordings: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
@@ -85,7 +85,7 @@ def _common(recordings: Mapping[str, pd.DataFrame], notes: list[str]) -> list[st
     """Columns of all recordings, in the first one's order; note or refuse what some lack."""
     frames = list(recordings.values())
     common = [str(c) for c in frames[0].columns if all(c in frame for frame in frames)]
-    for channel in _KNOWN:
+    for channel in _JOINED_CHANNELS:
         lacking = [name for name, frame in recordings.items() if channel not in frame]
         if not 0 < len(lacking) < len(frames):
             continue

@@ -11,7 +11,7 @@ from tire_pipeline.evaluation.judged import FLOOR
 from tire_pipeline.translation.result import TRANSLATED
 
 METRIC = "forces"
-_FEW = 20
+_FEW_TIRES = 20
 """Tires below which an error and its floor are called uncertain."""
 
 
@@ -60,7 +60,7 @@ def _judged(
     others = [who for who in table["translator"].unique() if who not in (best["name"], NO_CHANGE)]
     unchanged = _unchanged(len(part) - acted)
     tires = part["tire"].nunique()
-    uncertain = f" With {tires} tires, both figures are uncertain." if tires < _FEW else ""
+    uncertain = f" With {tires} tires, both figures are uncertain." if tires < _FEW_TIRES else ""
     return [
         f"{_subject(str(best['name']))}, the best translator, brings the RMS error of lateral force from "
         f"{before:,.0f} N to {rms[best['name']]:,.0f} N ({rms[best['name']] / before:.0%}) on the "

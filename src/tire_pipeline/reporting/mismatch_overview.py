@@ -28,7 +28,7 @@ _KEPT = (
     "the corrected files that belong to them."
 )
 _NO_ROW = "Open it to see what was found."
-_FEW = 5
+_FEW_RECORDINGS = 5
 """Of so many recordings a run says what was found in each."""
 
 
@@ -80,7 +80,7 @@ def draw_overview(
     ]
     earlier = _earlier(last, pages, rows)
     outcome = [_counted(overview)]
-    if len(last) <= _FEW:
+    if len(last) <= _FEW_RECORDINGS:
         outcome += [f"{row['recording']}: {_said(row)}" for row in last]
     parts: list[Text | Table | Links] = [
         Text(outcome[:1], emphasis=True),

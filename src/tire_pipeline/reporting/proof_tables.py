@@ -25,7 +25,7 @@ _KINDS = {
     "nothing": "nothing missing",
     "unknown": "outside the catalogue",
 }
-_COLUMNS = {
+_COLUMN_TITLES = {
     "above": "strength above",
     "up_to": "up to",
     "name": "score",
@@ -99,7 +99,7 @@ def _plain(table: pd.DataFrame) -> pd.DataFrame:
     for name in shown.columns:
         if not pd.api.types.is_numeric_dtype(shown[name]) and name not in ("case", "kind"):
             shown[name] = shown[name].map(_listed)
-    return shown.rename(columns=_COLUMNS)
+    return shown.rename(columns=_COLUMN_TITLES)
 
 
 def _listed(value: Any) -> Any:

@@ -9,7 +9,7 @@ from tire_pipeline.representations.base import CURVE_LOADS
 from tire_pipeline.representations.lateral_curve import lateral_factors
 from tire_pipeline.representations.power_series import derivatives
 
-_STEP = 1e-6
+_PART_OF_SPREAD = 1e-6
 
 
 def condition_numbers(table: pd.DataFrame) -> pd.DataFrame:
@@ -67,8 +67,8 @@ def _singular_values(inputs: np.ndarray, form: str) -> np.ndarray:
     columns = []
     for index in range(3):
         step = np.zeros(3)
-        step[index] = _STEP * input_spread[index]
+        step[index] = _PART_OF_SPREAD * input_spread[index]
         change = _features(inputs + step, form) - _features(inputs - step, form)
-        columns.append(change / (2 * _STEP) / feature_spread)
+        columns.append(change / (2 * _PART_OF_SPREAD) / feature_spread)
     singular = np.linalg.svd(np.stack(columns, axis=-1), compute_uv=False)
     return np.maximum(singular, 1e-300)

@@ -17,7 +17,7 @@ WITHOUT_ANY_MODEL = (
     "`kedro run --pipeline retrain`, which trains the first model again from the files"
 )
 UNCHANGED = "unchanged"
-_RELEASED, _REFUSED, _ROLLED_BACK = "released", "refused", "rolled back"
+_RELEASED_EVENT, _REFUSED_EVENT, _ROLLED_BACK_EVENT = "released", "refused", "rolled back"
 
 
 @dataclass(frozen=True)
@@ -154,11 +154,11 @@ def judge(
     event = {"time": time, "model": model, **figures}
     if not better:
         reason = "worse than the released model on the held-out tires"
-        return release._with({**event, "event": _REFUSED, "reason": reason}, judged=judged)
+        return release._with({**event, "event": _REFUSED_EVENT, "reason": reason}, judged=judged)
     reason = "not worse than the released model on the held-out tires" if release.models else "the first"
     models = (*release.models, model)[-KEPT_MODELS:]
     splits = {name: ({**release.splits, model: judged.split})[name] for name in models}
-    event = {**event, "event": _RELEASED, "reason": reason}
+    event = {**event, "event": _RELEASED_EVENT, "reason": reason}
     return release._with(event, judged=judged, models=models, splits=splits)
 
 
@@ -187,7 +187,7 @@ def roll_back(release: Release, *, time: str, unusable: Mapping[str, str] | None
     reason = f"{release.models[-1]} was taken back by hand"
     if left:
         reason += f" (unusable: {', '.join(left)})"
-    event = {"time": time, "event": _ROLLED_BACK, "model": earlier[-1], "reason": reason}
+    event = {"time": time, "event": _ROLLED_BACK_EVENT, "model": earlier[-1], "reason": reason}
     return release._with(event, models=earlier, splits={name: release.splits[name] for name in earlier})
 
 

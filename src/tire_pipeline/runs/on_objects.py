@@ -19,13 +19,12 @@ from dataclasses import dataclass, field
 from datetime import UTC, datetime
 
 from tire_pipeline.files.objects import ConflictError, Objects
-from tire_pipeline.runs.ticket import BEAT_SECONDS, LostTicketError, Note
+from tire_pipeline.runs.ticket import BEAT_SECONDS, KEPT_TICKETS, LostTicketError, Note
 from tire_pipeline.runs.turn import Beats
 
 _LOG = logging.getLogger(__name__)
 TICKETS = ".runs"
-_NAME = re.compile(rf"{re.escape(TICKETS)}/(\d+)\.(json|beat|over)").fullmatch
-_KEPT = 50
+_OBJECT_NAME = re.compile(rf"{re.escape(TICKETS)}/(\d+)\.(json|beat|over)").fullmatch
 
 
 class ObjectTicket:
@@ -178,7 +177,7 @@ def take_back_objects(data: Objects, note: Note) -> None:
 def prune(data: Objects) -> None:
     """Forget all but the last runs that are over."""
     states = _states(data)
-    oldest = max(states, default=0) - _KEPT
+    oldest = max(states, default=0) - KEPT_TICKETS
     old = [n for n, kinds in states.items() if n < oldest and "over" in kinds]
     data.delete(_name(number, kind) for number in old for kind in sorted(states[number]))
 
@@ -187,7 +186,7 @@ def _states(data: Objects) -> dict[int, set[str]]:
     """Number -> which of its three objects are there."""
     found: dict[int, set[str]] = {}
     for name in data.names(TICKETS):
-        if match := _NAME(name):
+        if match := _OBJECT_NAME(name):
             found.setdefault(int(match[1]), set()).add(match[2])
     return found
 

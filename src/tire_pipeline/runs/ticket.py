@@ -25,9 +25,10 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.runs.system_lock import Held, system_lock
 
 BEAT_SECONDS = 5.0
-_KEPT = 50
+KEPT_TICKETS = 50
+"""Notes of so many runs before the newest stay."""
 _STEP_NS = 2_000_000_000  # two seconds, the coarsest date of a file system
-_NAME = re.compile(r"(\d+)\.(json|ended|taken|lock)").fullmatch
+_FILE_NAME = re.compile(r"(\d+)\.(json|ended|taken|lock)").fullmatch
 
 
 class LostTicketError(DomainError):
@@ -207,14 +208,14 @@ def boot_id() -> str:
 
 def numbers(folder: Path) -> list[int]:
     """All numbers that are or were taken, as far as they are remembered."""
-    return [int(found[1]) for name in os.listdir(folder) if (found := _NAME(name))]
+    return [int(found[1]) for name in os.listdir(folder) if (found := _FILE_NAME(name))]
 
 
 def open_notes(folder: Path, below: int) -> list[Note]:
     """Notes of runs that have not ended, with numbers below one's own."""
     notes = []
     for name in sorted(os.listdir(folder)):
-        found = _NAME(name)
+        found = _FILE_NAME(name)
         if found and found[2] == "json" and int(found[1]) < below:
             with contextlib.suppress(FileNotFoundError):  # it has ended since
                 notes.append(Note.from_json(int(found[1]), (folder / name).read_bytes()))
@@ -241,9 +242,9 @@ def prune(folder: Path) -> None:
 
     Some are remembered so that a run that was slow to take its number cannot take one from before.
     """
-    oldest = max(numbers(folder), default=0) - _KEPT
+    oldest = max(numbers(folder), default=0) - KEPT_TICKETS
     for name in os.listdir(folder):
-        found = _NAME(name)
+        found = _FILE_NAME(name)
         if found and int(found[1]) < oldest and found[2] != "json":
             if found[2] == "lock" and (folder / f"{found[1]}.json").exists():
                 continue

@@ -95,7 +95,7 @@ def train_networks(
     network = _Networks(sizes, seeds)
     shuffles = [np.random.default_rng([seed, 1]) for seed in seeds]
     steps_of = -(-counts // batch_size)
-    steps = _Steps(optimizer, network, learning_rates, weight_decays, steps_of)
+    steps = _TrainingSteps(optimizer, network, learning_rates, weight_decays, steps_of)
     out: dict[int, list[Layers]] = {}
     order = np.zeros((len(sets), int(steps_of.max()) * batch_size), dtype=np.int64)
     for epoch in track(range(1, wanted[-1] + 1), "training neural networks, epoch by epoch"):
@@ -182,7 +182,7 @@ class _Networks:
         ]
 
 
-class _Steps:
+class _TrainingSteps:
     """An optimiser over all networks; neighbours with the same rate, decay and steps are one group."""
 
     def __init__(

@@ -37,7 +37,7 @@ _NAME_OF = {
     "force_rate": "time_delay",
     "time": "sensor_drift",
 }
-_CHANNELS = tuple(channel for channel in OPERATING_CHANNELS if channel in _NAME_OF)
+_NAMED_CHANNELS = tuple(channel for channel in OPERATING_CHANNELS if channel in _NAME_OF)
 
 
 def explain_sindy(tire: TireModel, recording: pd.DataFrame, *, threshold: float = 0.15) -> BaselineReport:
@@ -91,7 +91,7 @@ def explain_sindy(tire: TireModel, recording: pd.DataFrame, *, threshold: float 
 def _centres(frame: pd.DataFrame) -> dict[str, tuple[float, float]]:
     """Centre and extent of the channels that move."""
     out = {}
-    for channel in _CHANNELS:
+    for channel in _NAMED_CHANNELS:
         if channel in frame:
             low, high = np.quantile(frame[channel], [0.01, 0.99])
             floor = 0.05 * abs(high + low) + 1e-2

@@ -24,7 +24,7 @@ KIND_SHARES: dict[str, float] = {
 }
 """Share of each kind among the cases."""
 
-_CONFOUNDED = (
+_CONFOUNDED_PAIRS = (
     {"relaxation_length", "time_delay"},
     {"temperature", "wear"},
     {"plysteer_conicity", "force_offset"},
@@ -84,7 +84,7 @@ def _draw_pair(rng: np.random.Generator) -> tuple[str, ...]:
     while True:
         first = str(rng.choice(PHYSICS))
         second = str(rng.choice(PHYSICS if rng.random() < 0.75 else _IN_PAIRS))
-        if first != second and {first, second} not in _CONFOUNDED:
+        if first != second and {first, second} not in _CONFOUNDED_PAIRS:
             return (first, second)
 
 

@@ -41,7 +41,7 @@ EFFECT = (0.5, 6.0)
 
 MOST_CASE_ROWS = 7000
 RATES: Mapping[str, tuple[float, ...]] = {"calspan": (10.0, 20.0, 50.0, 100.0), "dart": (5.0, 10.0, 20.0)}
-NEEDS: Mapping[str, tuple[str, ...]] = {
+NEEDED_CHANNELS: Mapping[str, tuple[str, ...]] = {
     "camber_offset": ("camber",),
     "temperature": ("tread_temperature",),
     **dict.fromkeys(("relaxation_length", "speed_dependence", "wear", "nonuniformity"), ("speed",)),
@@ -175,7 +175,7 @@ def _attempt(rng: np.random.Generator, plan: RealPlan, chosen: Sequence[Sweep]) 
 def _set_up(
     rng: np.random.Generator, chosen: Sequence[Sweep], hidden: tuple[str, ...], effects: Sequence[str]
 ) -> _RealBench:
-    layout = draw_layout(rng, chosen, hidden, [c for name in effects for c in NEEDS.get(name, ())])
+    layout = draw_layout(rng, chosen, hidden, [c for name in effects for c in NEEDED_CHANNELS.get(name, ())])
     if layout is None:
         raise _UnfitSweeps
     raw, raw_held = rows(layout.shown, None), rows(layout.held_out, None)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-_STRONG, _CLEAR = 2.0, 1.0
+_STRONG_MISFITS, _CLEAR_MISFITS = 2.0, 1.0
 _COLUMNS = (
     "case mechanism strength verdict names true_drivers drivers drivers_right equation_right removed worse "
     "seconds"
@@ -36,9 +36,9 @@ def _cell(value: Any) -> str:
 
 
 def _scores(cases: pd.DataFrame) -> list[tuple[tuple[str, int], float, str]]:
-    clear = cases[cases["strength"] >= _CLEAR]
+    clear = cases[cases["strength"] >= _CLEAR_MISFITS]
     judged = cases[cases["removed"].notna()]
-    strong = judged[judged["strength"] >= _STRONG]
+    strong = judged[judged["strength"] >= _STRONG_MISFITS]
     grammar = judged[judged["in_grammar"]]
     in_grammar = cases[cases["in_grammar"]]
     with_equation = cases[cases["equation"] != ""]

@@ -32,16 +32,16 @@ SAMPLES_TOGETHER = 256
 SETS: tuple[tuple[str, ...], ...] = (TANGENTIAL_FORCES, PLANE_FORCES, OUTPUTS)
 """The sets of outputs that kernels exist for, from the cheapest to the whole."""
 
-_POINTS = types.Array(types.float64, 2, "A", readonly=True)
+_POINT_TABLE = types.Array(types.float64, 2, "A", readonly=True)
 _VECTOR = types.Array(types.float64, 1, "C", readonly=True)
 _SIGNATURE = types.void(
     types.Array(types.float64, 2, "C", readonly=True),
-    _POINTS,
-    _POINTS,
-    _POINTS,
-    _POINTS,
-    _POINTS,
-    _POINTS,
+    _POINT_TABLE,
+    _POINT_TABLE,
+    _POINT_TABLE,
+    _POINT_TABLE,
+    _POINT_TABLE,
+    _POINT_TABLE,
     _VECTOR,
     types.Array(types.int64, 1, "C", readonly=True),
     types.Array(types.float64, 3, "A"),

@@ -19,7 +19,7 @@ from tire_pipeline.magic_formula.parameters.inputs import as_float_arrays
 from tire_pipeline.magic_formula.parameters.points import OperatingPoints, refuse_turn_slip
 from tire_pipeline.magic_formula.parameters.tire import TireParameters
 
-_CHUNK = 4096
+_POINTS_AT_ONCE = 4096
 
 
 def jacobian(
@@ -134,8 +134,8 @@ def _fill(
         _compiled(family, output)(vector, *state, rows, out)
         return
     gradient = getattr(gradients_of(family), output)
-    for start in range(0, out.shape[1], _CHUNK):
-        part = slice(start, start + _CHUNK)
+    for start in range(0, out.shape[1], _POINTS_AT_ONCE):
+        part = slice(start, start + _POINTS_AT_ONCE)
         with np.errstate(all="ignore"):
             values = gradient(p, *(x[part] for x in state))
         for row, value in zip(rows, values, strict=True):

@@ -21,7 +21,7 @@ from tire_pipeline.magic_formula.fitting.setup.typical import FEW_POINTS
 from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome, fit_stage
 from tire_pipeline.magic_formula.model import TireModel
 
-_MOST_POINTS = 20_000
+_MOST_FITTED_POINTS = 20_000
 _POINTS_OF = {
     "lateral": "pure lateral slip",
     "longitudinal": "pure longitudinal slip",
@@ -248,9 +248,9 @@ def _camber_shift_moved(model: TireModel) -> TireModel:
 
 def _thinned(rows: np.ndarray) -> np.ndarray:
     """Return no more rows than a stage needs, evenly spread."""
-    if rows.size <= _MOST_POINTS:
+    if rows.size <= _MOST_FITTED_POINTS:
         return rows
-    return rows[np.linspace(0, rows.size - 1, _MOST_POINTS).round().astype(int)]
+    return rows[np.linspace(0, rows.size - 1, _MOST_FITTED_POINTS).round().astype(int)]
 
 
 class _Report:

@@ -87,7 +87,7 @@ class Outcome:
 
 
 @dataclass(frozen=True)
-class _Setup:
+class _StageProblem:
     """A stage's problem over some of its coefficients, and where its searches start."""
 
     stage: Stage
@@ -171,7 +171,7 @@ def fit_stage(
     silent = noise_alone(tuple(names), ranges, model.value("FNOMIN"))
     known = {n for group in closed.values() for n in group}
     rows = [np.ascontiguousarray(here[name]) for name in POINT_CHANNELS]
-    setup = _Setup(stage, names, model, rows, measured, typical, first, known, seeds, options.rng)
+    setup = _StageProblem(stage, names, model, rows, measured, typical, first, known, seeds, options.rng)
     free = [name for name in names if name not in known]
     problem, bounds = setup.problem(free)
     best = least(problem, bounds, setup.starts(problem, bounds, options.starts))

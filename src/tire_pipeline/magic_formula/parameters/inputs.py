@@ -14,8 +14,8 @@ from tire_pipeline.errors import TirShapeError, TirValueError
 LOOKS_LIKE_DEGREES = 1.6
 """Angles beyond this (rad) draw a warning."""
 
-_CHUNK = 1 << 20
-_STACK_LEVEL = 5
+_VALUES_AT_ONCE = 1 << 20
+_STACK_LEVEL_OF_INPUTS = 5
 
 
 class TireRangeWarning(UserWarning):
@@ -131,8 +131,8 @@ def _extremes(array: np.ndarray) -> tuple[float, float]:
 def _count_outside(array: np.ndarray, low: float, high: float, is_load: bool) -> int:
     flat = array.reshape(-1)
     count = 0
-    for start in range(0, flat.size, _CHUNK):
-        part = flat[start : start + _CHUNK]
+    for start in range(0, flat.size, _VALUES_AT_ONCE):
+        part = flat[start : start + _VALUES_AT_ONCE]
         outside = (part < low) | (part > high)
         if is_load:
             outside &= part > 0
@@ -149,7 +149,7 @@ def _tell(found: str, limits: str) -> None:
     warnings.warn(
         f"operating points lie outside the model's range and are evaluated as they are ({found})",
         TireRangeWarning,
-        stacklevel=_STACK_LEVEL,
+        stacklevel=_STACK_LEVEL_OF_INPUTS,
     )
 
 
@@ -162,5 +162,5 @@ def _warn_of_degrees(arrays: Mapping[str, np.ndarray], extremes: Mapping[str, tu
                 f"{name}: {count} of {arrays[name].size} values are beyond {LOOKS_LIKE_DEGREES} rad: "
                 "this looks like degrees; the model takes radians",
                 DegreesWarning,
-                stacklevel=_STACK_LEVEL,
+                stacklevel=_STACK_LEVEL_OF_INPUTS,
             )

@@ -20,7 +20,7 @@ Array = np.ndarray
 _RATES = ("slip_angle", "slip_ratio", "normal_load")
 _POINTS = 250
 _HELD_POINTS = 2000
-_LONGEST = 3.0
+_LONGEST_LENGTH = 3.0
 _LEAST_LOG_EVIDENCE = 3.0
 _NOT_THERE = 30.0
 
@@ -109,7 +109,7 @@ def _chosen(x: Array, y: Array, noise: float) -> tuple[list[int], GaussianProces
     live = list(range(x.shape[1]))
     process = _fit(x, y, noise)
     lengths = np.atleast_1d(process.kernel_.k1.k2.length_scale)
-    near = [k for k in live if lengths[k] < _LONGEST] or [int(np.argmin(lengths))]
+    near = [k for k in live if lengths[k] < _LONGEST_LENGTH] or [int(np.argmin(lengths))]
     if len(near) < len(live):
         live, process = near, _fit(x[:, near], y, noise)
     lengths = np.atleast_1d(process.kernel_.k1.k2.length_scale)

@@ -18,7 +18,7 @@ from tire_pipeline.mismatch.effects.shared import njit
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-_ROWS = 512
+_ROWS_AT_ONCE = 512
 
 
 @dataclass
@@ -44,8 +44,8 @@ class Sums:
 def _product(a: Array, b: Array) -> Array:
     """Return ``a.T @ b``, in pieces that stay in the processor's cache."""
     out = np.zeros((a.shape[1], b.shape[1]))
-    for first in range(0, a.shape[0], _ROWS):
-        out += a[first : first + _ROWS].T @ b[first : first + _ROWS]
+    for first in range(0, a.shape[0], _ROWS_AT_ONCE):
+        out += a[first : first + _ROWS_AT_ONCE].T @ b[first : first + _ROWS_AT_ONCE]
     return out
 
 

@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.model.residual import rms
 
 Array = np.ndarray
 _SLIPS = ("slip_angle", "slip_ratio")
-_STRETCHES = 15
+_FEWEST_STRETCHES = 15
 """Fewest stretches whose variance says anything."""
 _JUMP = 0.1
 """Step of an input, over its range, by which a test plan goes on; the steps of a run are smaller."""
@@ -62,7 +62,7 @@ def orders_of(data: Data) -> list[Array]:
 def _most_alike(x: Array) -> float:
     """Largest variance of sums over stretches of a series of unit power, over that of white noise."""
     worst, length = 1.0, 1
-    while x.size // length >= _STRETCHES:
+    while x.size // length >= _FEWEST_STRETCHES:
         whole = x[: x.size // length * length].reshape(-1, length)
         worst = max(worst, float(np.mean(whole.sum(axis=1) ** 2)) / length)
         length *= 2

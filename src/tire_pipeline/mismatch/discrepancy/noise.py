@@ -15,7 +15,7 @@ from tire_pipeline.mismatch.model.data import Data
 Array = np.ndarray
 _MEDIAN_OF_CHI2 = 0.4549
 _ORDER = 12
-_LAGS = (1, 2, 3, 4, 6, 8, 11)
+_LAGS_IN_SAMPLES = (1, 2, 3, 4, 6, 8, 11)
 
 
 def white_noise(x: Array) -> float:
@@ -122,7 +122,7 @@ def _series(data: Data, r: Array, parts: list[Array]) -> tuple[Array, float, flo
     count = max(r.size // length, 4)
     block = np.minimum(np.arange(r.size) // length, count - 1)
     sizes = []
-    for lag in _LAGS:
+    for lag in _LAGS_IN_SAMPLES:
         d, ok = _second_difference(r, data.start, lag)
         sizes.append(_block_median(d**2, ok, block, count) / _MEDIAN_OF_CHI2)
     d1 = sizes[0]
@@ -154,10 +154,10 @@ def _expected(share: float, rho: float, lag: int) -> float:
 def _colour(growth: Array) -> tuple[float, float]:
     """Coloured share and correlation that let second differences grow with lag as they do."""
     best = (np.inf, 0.0, 0.0)
-    weight = 1.0 / np.array(_LAGS) ** 0.5
+    weight = 1.0 / np.array(_LAGS_IN_SAMPLES) ** 0.5
     for rho in (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.93):
         for share in np.linspace(0.0, 1.0, 21):
-            model = np.array([_expected(share, rho, k) for k in _LAGS])
+            model = np.array([_expected(share, rho, k) for k in _LAGS_IN_SAMPLES])
             error = float(np.sum(weight * (np.log(growth) - np.log(model / model[0])) ** 2))
             best = min(best, (error, float(share), rho))
     return best[1], best[2]

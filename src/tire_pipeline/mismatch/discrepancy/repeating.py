@@ -11,7 +11,7 @@ from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
-_LENGTHS = (3.0, 14.0)
+_CIRCUMFERENCES = (3.0, 14.0)
 """What drums and belts measure round, m."""
 _OF_A_TURN = (0.88, 1.06)
 """Of the tire's circumference: what repeats so often is the wheel's."""
@@ -54,13 +54,13 @@ def strongest_length(data: Data, rest: Array) -> float | None:
     rolled = data.distance
     span = float(rolled[-1] - rolled[0])
     step = float(np.quantile(np.diff(rolled), 0.75))
-    if span < 20.0 * _LENGTHS[1] or not 0.0 < step < _LENGTHS[0] / 6.0:
+    if span < 20.0 * _CIRCUMFERENCES[1] or not 0.0 < step < _CIRCUMFERENCES[0] / 6.0:
         return None
     even = np.arange(rolled[0], rolled[-1], step)
     fast = rest - data.running_mean(rest, 1.0)
     power = np.abs(np.fft.rfft(np.interp(even, rolled, fast), _PADDED * even.size)) ** 2
     per_metre = np.arange(power.size) / (_PADDED * even.size * step)
-    first = np.flatnonzero((per_metre >= 1.0 / _LENGTHS[1]) & (per_metre <= 1.0 / _LENGTHS[0]))
+    first = np.flatnonzero((per_metre >= 1.0 / _CIRCUMFERENCES[1]) & (per_metre <= 1.0 / _CIRCUMFERENCES[0]))
     turns = 1.0 / per_metre[first] / (2.0 * np.pi * data.radius)
     first = first[(turns < _OF_A_TURN[0]) | (turns > _OF_A_TURN[1])]
     first = first[2 * first < power.size]

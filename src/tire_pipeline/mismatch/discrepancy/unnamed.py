@@ -22,8 +22,8 @@ from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
 
 Array = np.ndarray
 Columns = dict[str, Array]
-_LAGS = (1.0, 4.0)
-_PLAYS = {"slip_angle": (0.001, 0.003, 0.008), "slip_ratio": (0.008,)}
+_LAGS_OF_MEMORY = (1.0, 4.0)
+_PLAYS_BY_SLIP = {"slip_angle": (0.001, 0.003, 0.008), "slip_ratio": (0.008,)}
 """Half widths that are tried, rad and 1: well above the noise of the channels."""
 _SMOOTH = 0.1
 _CELLS = 16
@@ -59,7 +59,7 @@ def forms(data: Data, changes: list[Change]) -> Iterator[Columns]:
     for name, output in FORCE_OF_SLIP.items():
         if not data.varies(name) or output not in data.outputs:
             continue
-        for width in _PLAYS[name]:
+        for width in _PLAYS_BY_SLIP[name]:
             moved = _with_play(data, name, width)
             yield {o: moved[o][:, None] for o in data.outputs}
 
@@ -89,7 +89,7 @@ def _drivers(data: Data) -> Iterator[Array]:
         else:
             yield _unit(rate)
             level = x
-        for lag in _LAGS:
+        for lag in _LAGS_OF_MEMORY:
             gain = 1.0 - np.exp(-data.step / lag)
             memory = _unit(first_order(level, gain, data.start) - level)
             yield memory

@@ -19,6 +19,9 @@ GAINS = (-0.8, 2.0)
 LONGEST_DELAY = 0.6
 """Longest time, s, by which a rig's channels may be apart and the slip still counts as driving the force."""
 
+INDEPENDENT_STRETCHES = 20
+"""What the model gets wrong is taken as independent from one of so many stretches of rows to the next."""
+
 CLIPPED = ("fy", "fx", "slip_angle", "normal_load", "mz")
 """Channels in which clipping is looked for."""
 

@@ -38,8 +38,8 @@ START = LearntSizes(
     left=(0.006, 0.022),
 )
 """Where learning begins: the misfit of a good formula, and odds of one to thirty or so."""
-_ROUNDS = 3
-_FACTORS = ("independent", "background", "form_error", "prior", "error", "spread", "wide")
+_ROUNDS_OF_LEARNING = 3
+_LEARNT_FACTORS = ("independent", "background", "form_error", "prior", "error", "spread", "wide")
 _SURPRISES = 0.01
 """Share of cases whose answer is as likely as any other: what the posterior cannot know must not rule it."""
 
@@ -112,11 +112,11 @@ def learn(
         ``map``, or one that spreads the work.
     """
     sizes = start
-    for _ in range(_ROUNDS if steps else 1):
+    for _ in range(_ROUNDS_OF_LEARNING if steps else 1):
         sizes = replace(sizes, background=learnt_background(cases, sizes))
     best, sizes = _best_odds(cases, sizes, mapped)
     for step in steps:
-        for name in _FACTORS:
+        for name in _LEARNT_FACTORS:
             for factor in (step, 1.0 / step):
                 trial, there = _best_odds(cases, _scaled(sizes, name, factor), mapped)
                 if trial > best:

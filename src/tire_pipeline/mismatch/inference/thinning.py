@@ -20,7 +20,7 @@ from tire_pipeline.progress import track
 Array = np.ndarray
 MOST_SAMPLES = 18_000
 _STRETCH = 40.0
-_FARTHEST = 6.0
+_MOST_ERRORS_MOVED = 6.0
 _RCOND = 1e-8
 
 
@@ -92,7 +92,7 @@ def refit_on_all(analysis: Analysis, data: Data) -> Fit:
     live = np.array([name not in LOCKED for _, name in fit.labels]) & (np.diag(information) > 0.0)
     delta = np.zeros(k)
     delta[live] = inverse(information[np.ix_(live, live)], _RCOND) @ score[live]
-    most = _FARTHEST * fit.errors
+    most = _MOST_ERRORS_MOVED * fit.errors
     changes = moved(fit.changes, fit.labels, np.clip(delta, -most, most))
     return linearised(analysis.system, changes, fit.free, fit.covariance, fit.weight)
 

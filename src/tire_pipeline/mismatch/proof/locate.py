@@ -12,12 +12,12 @@ from tire_pipeline.mismatch.discrepancy.noise import ForceNoise
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-_LEVEL = 0.05
+_LEVEL_OF_FLIPS = 0.05
 _LEAST_FORCE = 0.1
 """A share of the force is given where the force is above this part of the largest one."""
 _EVEN = 0.7
 """One share of the force that is this part of the squared difference is off throughout, in no stretch."""
-_BINS = 16
+_BINS_OF_AXIS = 16
 
 
 @dataclass(frozen=True)
@@ -126,7 +126,7 @@ def _axes(
     for axis in dict.fromkeys(t[0] for t in tests):
         own = [i for i, t in enumerate(tests) if t[0] == axis]
         chance = {i: float((1 + (top[1:] >= statistics[0, i]).sum()) / signs.shape[0]) for i in own}
-        sure = [i for i in own if chance[i] <= _LEVEL]
+        sure = [i for i in own if chance[i] <= _LEVEL_OF_FLIPS]
         sure = [i for i in sure if _along(rest, data.base[output], tests[i][3]) == along]
         if not sure:
             continue
@@ -168,7 +168,7 @@ def _values(data: Data, axis: str) -> Array:
 
 def _profile(values: Array, x: Array) -> Array:
     """Mean over all samples with nearly the same value of an axis."""
-    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, _BINS + 1)[1:-1]))
+    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, _BINS_OF_AXIS + 1)[1:-1]))
     number = np.searchsorted(edges, values)
     size = np.maximum(np.bincount(number), 1)
     return np.asarray((np.bincount(number, x) / size)[number])

@@ -17,7 +17,7 @@ from tire_pipeline.mismatch.proof.locate import locate
 from tire_pipeline.mismatch.proof.measured import Remainder
 
 Array = np.ndarray
-_MOST_TERMS = 5
+_MOST_REMAINDER_TERMS = 5
 
 
 def remainder(
@@ -115,7 +115,7 @@ def _few_terms(features: Array, y: Array) -> Array:
             optimizer = pysindy.STLSQ(threshold=threshold, alpha=1e-3)
             optimizer.fit(features, y[:, None])
         found = np.ravel(optimizer.coef_)
-        if np.count_nonzero(found) <= _MOST_TERMS:
+        if np.count_nonzero(found) <= _MOST_REMAINDER_TERMS:
             break
         threshold *= 1.6
     return found

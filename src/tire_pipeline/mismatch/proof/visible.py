@@ -32,11 +32,11 @@ from tire_pipeline.mismatch.proof.rivals import Rivals
 Array = np.ndarray
 _SEEN = NormalDist().inv_cdf(0.95)
 _RULED_OUT = NormalDist().inv_cdf(0.975)
-_ROUNDS = 7
+_ROUNDS_OF_HALVING = 7
 _FURTHER = 1.2
 """Factor between the sizes that are tried beside an effect's rivals."""
 _MOST_FORMS = 3
-_SMALL, _SIZES, _HALVINGS = 1e-4, 97, 40
+_SMALLEST_SIZE, _SIZES_TRIED, _HALVINGS = 1e-4, 97, 40
 FALSE = 0.02
 """Level of the likelihood-ratio test over all of the catalogue: in so many recordings in which nothing is
 missing something may be named (issue 24)."""
@@ -106,7 +106,7 @@ def sights(analysis: Analysis, enumerated: Enumerated, named: OfSet) -> Iterator
     named : OfSet
         The set that is named.
     """
-    scene = _Scene(analysis, enumerated, named)
+    scene = _Recorded(analysis, enumerated, named)
     for name in dict.fromkeys(v.name for v in analysis.variants):
         if name in named.names:
             continue
@@ -122,7 +122,7 @@ def sights(analysis: Analysis, enumerated: Enumerated, named: OfSet) -> Iterator
                 yield sorted(seen, key=lambda s: s.seen)[(len(seen) - 1) // 2]
 
 
-class _Scene:
+class _Recorded:
     """One recording beside the set that is named."""
 
     def __init__(self, analysis: Analysis, enumerated: Enumerated, named: OfSet) -> None:
@@ -191,7 +191,7 @@ class _Scene:
             return with_it.value - without.value
 
         low, high = 0.0, 3.0 * error
-        for _ in range(_ROUNDS):
+        for _ in range(_ROUNDS_OF_HALVING):
             if gain(high) > odds or high > most:
                 break
             low, high = high, 2.0 * high
@@ -199,7 +199,7 @@ class _Scene:
             return value, error, np.inf
         if gain(high) <= odds:
             return value, error, np.inf
-        for _ in range(_ROUNDS):
+        for _ in range(_ROUNDS_OF_HALVING):
             middle = 0.5 * (low + high)
             low, high = (low, middle) if gain(middle) > odds else (middle, high)
         return value, error, high + _SEEN * error
@@ -239,7 +239,7 @@ class _Scene:
 
     def _least(self, sight: Sight) -> float:
         """Return the smallest size that a tire or a rig can have, whatever the recording shows."""
-        sizes = np.geomspace(_SMALL, 1.0, _SIZES) * largest(sight.parameter)
+        sizes = np.geomspace(_SMALLEST_SIZE, 1.0, _SIZES_TRIED) * largest(sight.parameter)
         k = next((k for k, size in enumerate(sizes) if not self._outside(sight, size)), None)
         if not k:
             return 0.0 if k == 0 else np.inf

@@ -19,7 +19,7 @@ from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.recording.smoothing import denoise
 
 Array = np.ndarray
-_SURE = float(np.log(20.0))
+_EVIDENCE_TO_SMOOTH = float(np.log(20.0))
 """Log evidence from which the smooth channel is taken: 20 to 1. Without it a channel stays as recorded."""
 
 
@@ -94,7 +94,7 @@ def clean(
         trial = {**now, name: smooth}
         there = _forces(tire, trial)
         felt, evidence = _judge(forces, there, recorded, start)
-        smoothed = evidence > _SURE
+        smoothed = evidence > _EVIDENCE_TO_SMOOTH
         done.append(Cleaning(name, smoothed, rms(taken), felt, evidence))
         if smoothed:
             now, forces = trial, there

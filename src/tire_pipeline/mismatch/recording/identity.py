@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.channels import SLIP_AND_LOAD, SLIP_OF_FORCE
+from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.model.channels import moves
 from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
@@ -36,13 +37,12 @@ _ERRORS_OFF = 3.0
 """Standard errors by which it must be off."""
 
 SEVERAL = 3
-MOST = 0.5
+LEAST_REMOVED = 0.5
 """So many figures, one of them a load slope, and with them right at least half of the mismatch is gone."""
 
-_ROWS = 4000
-_STRETCHES = 20
-_STEPS = 12
-_FARTHEST = 2.0
+_MOST_ROWS_FITTED = 4000
+_GAUSS_NEWTON_STEPS = 12
+_LARGEST_FIGURE = 2.0
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,9 @@ class Figures:
     @property
     def another(self) -> bool:
         """Whether this force says that it is another tire."""
-        return bool(self.off.sum() >= SEVERAL and self.off[list(LOADED)].any() and self.removed > MOST)
+        return bool(
+            self.off.sum() >= SEVERAL and self.off[list(LOADED)].any() and self.removed > LEAST_REMOVED
+        )
 
     @property
     def in_words(self) -> str:
@@ -118,7 +120,7 @@ def figures(tire: Any, arrays: Mapping[str, Array], output: str) -> Figures:
     slip) and 1 (full sliding): Pacejka, Tire and Vehicle Dynamics, 3rd ed., section 4.2, with a bend.
     Standard errors are by the scatter over stretches of rows.
     """
-    step = max(1, arrays["normal_load"].size // _ROWS)
+    step = max(1, arrays["normal_load"].size // _MOST_ROWS_FITTED)
     a = {n: arrays[n][::step] for n in (*SLIP_AND_LOAD, output) if n in arrays}
     model = _Similar(tire, a, output)
     free = np.flatnonzero([True, model.loaded, True, model.loaded, True])
@@ -126,8 +128,8 @@ def figures(tire: Any, arrays: Mapping[str, Array], output: str) -> Figures:
     p, left, columns = _fit(model, recorded, free)
     before = float(np.sum((recorded - model(np.zeros(5))) ** 2))
     inverse = np.linalg.pinv(columns.T @ columns, rcond=1e-12)
-    stretch = np.arange(recorded.size) * _STRETCHES // recorded.size
-    score = np.array([np.bincount(stretch, c * left, _STRETCHES) for c in columns.T])
+    stretch = np.arange(recorded.size) * INDEPENDENT_STRETCHES // recorded.size
+    score = np.array([np.bincount(stretch, c * left, INDEPENDENT_STRETCHES) for c in columns.T])
     errors, values = np.full(5, np.nan), np.full(5, np.nan)
     errors[free] = np.sqrt(np.maximum(np.diag(inverse @ (score @ score.T) @ inverse), 0.0))[: free.size]
     values[free] = p[free]
@@ -173,7 +175,7 @@ def _fit(model: _Similar, recorded: Array, free: Array) -> tuple[Array, Array, A
     p = np.zeros(5)
     force = model(p)
     left = _centred(recorded - force)
-    for _ in range(_STEPS):
+    for _ in range(_GAUSS_NEWTON_STEPS):
         columns = np.empty((recorded.size, free.size + 1))
         columns[:, -1] = 1.0
         for j, i in enumerate(free):
@@ -184,7 +186,7 @@ def _fit(model: _Similar, recorded: Array, free: Array) -> tuple[Array, Array, A
         share = 1.0
         while share > 1e-3:
             trial = p.copy()
-            trial[free] = np.clip(trial[free] + share * delta, -_FARTHEST, _FARTHEST)
+            trial[free] = np.clip(trial[free] + share * delta, -_LARGEST_FIGURE, _LARGEST_FIGURE)
             trial_force = model(trial)
             rest = _centred(recorded - trial_force)
             if rest @ rest < left @ left:

@@ -27,7 +27,7 @@ INPUTS = (*OPERATING_CHANNELS, "turn_slip")
 ASSUMED_ZERO = ("camber", "slip_ratio", "slip_angle")
 """What is taken as zero where it is not recorded."""
 AS_GIVEN = "columns in ISO W axes and SI units, as they were given"
-_RATE = 50.0
+_LEAST_RATE = 50.0
 _LONG_STEP = 1.0
 
 
@@ -338,7 +338,7 @@ def _binned(
     if time is None:
         return arrays, time, start, rows
     rate = 1.0 / max(float(np.median(np.diff(time))), 1e-9)
-    m = int(rate / _RATE + 1e-6)
+    m = int(rate / _LEAST_RATE + 1e-6)
     if m < 2:
         return arrays, time, start, rows
     piece = np.cumsum(start) - 1

@@ -14,7 +14,7 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.model.forces import plain_forces
 
 Array = np.ndarray
-_MOST_POINTS = 4000
+_MOST_FITTED = 4000
 
 
 def stand_in(arrays: Mapping[str, Array]) -> tuple[Any, dict[str, Array]]:
@@ -45,7 +45,7 @@ def stand_in(arrays: Mapping[str, Array]) -> tuple[Any, dict[str, Array]]:
             todo="give the tire model, or the other simulator's output",
         )
     inputs = {n: arrays[n] for n in SLIP_AND_LOAD if n in arrays}
-    step = max(1, arrays["normal_load"].size // _MOST_POINTS)
+    step = max(1, arrays["normal_load"].size // _MOST_FITTED)
     frame = pd.DataFrame({n: a[::step] for n, a in inputs.items()})
     for f in forces:
         frame[f] = arrays[f"simulated_{f}"][::step]

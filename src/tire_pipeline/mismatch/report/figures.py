@@ -16,8 +16,8 @@ from tire_pipeline.mismatch.report.contents import ReportContents
 from tire_pipeline.pages.drawing import captioned, svg_element
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
-_FEW = 600
-_GAP = 5.0
+_FEW_POINTS = 600
+_STEPS_OF_GAP = 5.0
 """Usual steps without a sample after which a curve over time is broken."""
 _LEAST_SLIP = 0.002
 """Range of slip, rad or 1, from which a map over it says something."""
@@ -61,7 +61,7 @@ def time_line(report: ReportContents, output: str, figure: FigureBase | None = N
                 )
         floor = s[f"floor_{output}"]
         axes.axhspan(-floor, floor, color="#BBBBBB", alpha=0.6, lw=0, label="noise (1 sigma)")
-        few = x.size < _FEW
+        few = x.size < _FEW_POINTS
         look: Any = {"lw": 0.9 if few else 0.5, "marker": "." if few else None, "rasterized": True}
         axes.plot(*_broken(x, s[f"before_{output}"]), color=_BEFORE, label="before", **look)
         if report.corrected.changes:
@@ -77,7 +77,7 @@ def time_line(report: ReportContents, output: str, figure: FigureBase | None = N
 def _broken(x: Any, y: Any) -> tuple[Any, Any]:
     """Put NaN where the recording has a gap, so that no line runs over it."""
     steps = np.diff(x)
-    gaps = 1 + np.flatnonzero(steps > _GAP * np.median(steps)) if steps.size else np.empty(0, int)
+    gaps = 1 + np.flatnonzero(steps > _STEPS_OF_GAP * np.median(steps)) if steps.size else np.empty(0, int)
     return np.insert(x.astype(float), gaps, np.nan), np.insert(y.astype(float), gaps, np.nan)
 
 
@@ -90,7 +90,7 @@ def operating_map(report: ReportContents, output: str, figure: FigureBase | None
     small = float(np.max(s["normal_load"])) < 100.0
     load = s["normal_load"] if small else s["normal_load"] / 1e3
     kinds = ["before"] + (["after"] if report.corrected.changes else [])
-    points = slip.size < _FEW
+    points = slip.size < _FEW_POINTS
     maps: list[Any] = []
     edges = (
         np.linspace(slip.min() * factor, slip.max() * factor + 1e-9, 25),
@@ -148,7 +148,7 @@ def overview(report: ReportContents) -> Figure:
 
 
 def _map_caption(report: ReportContents, output: str) -> str:
-    which = "each point" if _slip(report, output).size < _FEW else "mean of each cell"
+    which = "each point" if _slip(report, output).size < _FEW_POINTS else "mean of each cell"
     faded = "; it should fade from before to after" if report.corrected.changes else ""
     return (
         f"{output.capitalize()} over slip and load: recorded minus simulated force, {which}. Strong colour "

@@ -21,14 +21,14 @@ from tire_pipeline.mismatch.inference.sets.answer import SetAnswer
 from tire_pipeline.mismatch.model.forces import Change
 
 Array = np.ndarray
-_RATE = 50.0
+_SAMPLING_RATE = 50.0
 _SWEEPS = 10.0
 """Independent samples of a short sweep."""
 _LEAST_GAIN = 0.1
 """Log evidence below which no standard sweep tells anything."""
 _USUAL_SPEED = 16.7
 """m/s, where none was recorded."""
-_WARMER = 25.0
+_WARMED_BY = 25.0
 """degC."""
 
 
@@ -82,11 +82,11 @@ def _sweeps(analysis: Analysis) -> Iterator[StandardSweep]:
     for name in ("pressure", "tread_temperature"):
         if data.has(name):
             middle[name] = float(np.median(data.get(name)))
-    slow = np.sin(2.0 * np.pi * np.arange(0.0, 20.0, 1.0 / _RATE) / 10.0)
-    fast = np.sin(2.0 * np.pi * np.arange(0.0, 20.0, 1.0 / _RATE))
+    slow = np.sin(2.0 * np.pi * np.arange(0.0, 20.0, 1.0 / _SAMPLING_RATE) / 10.0)
+    fast = np.sin(2.0 * np.pi * np.arange(0.0, 20.0, 1.0 / _SAMPLING_RATE))
 
     def sweep(text: str, wave: Array, **changed: float | Array) -> StandardSweep:
-        time = np.arange(wave.size) / _RATE
+        time = np.arange(wave.size) / _SAMPLING_RATE
         return StandardSweep(
             text, pd.DataFrame({"time": time, "slip_angle": top * wave, **{**middle, **changed}})
         )
@@ -107,7 +107,7 @@ def _sweeps(analysis: Analysis) -> Iterator[StandardSweep]:
         yield sweep(
             "a slow slip angle sweep with the tread 25 degC warmer",
             slow,
-            tread_temperature=middle["tread_temperature"] + _WARMER,
+            tread_temperature=middle["tread_temperature"] + _WARMED_BY,
         )
     if "pressure" in middle:
         yield sweep("a slow slip angle sweep at 20% more pressure", slow, pressure=1.2 * middle["pressure"])

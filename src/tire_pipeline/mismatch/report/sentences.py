@@ -20,7 +20,7 @@ from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 _FEW_STRETCHES = 3
 """More stretches of time are not listed in the summary; the report has them all."""
 
-_MOST = 0.5
+_HALF = 0.5
 _HARDLY = 0.2
 """What is most of the time or of the mismatch, and below which part of its RMS a mean difference shows hardly
 anything of it."""
@@ -309,7 +309,7 @@ def _stretches(effect: EffectReport, ranges: Ranges) -> str:
     """Return ``between 25 and 65 s``, or nothing where that is most of the time or many stretches."""
     first, last = ranges.get("time", (0.0, 0.0))
     shows = sum(b - a for a, b in effect.when)
-    if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > _MOST * (last - first):
+    if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > _HALF * (last - first):
         return ""
     return "between " + ", ".join(f"{figure('time', a)} and {figure('time', b)} s" for a, b in effect.when)
 
@@ -364,7 +364,7 @@ def _to_both_sides(
     A camber to both sides adds to the force and takes from it: what is then clearest is next to nothing.
     """
     main = max(effects, key=lambda e: e.share if np.isfinite(e.share) else 0.0, default=None)
-    if main is None or not main.share > _MOST or main.output not in fit:
+    if main is None or not main.share > _HALF or main.output not in fit:
         return ""
     means = [abs(f.mean) for f in located if f.output == main.output]
     stretches = _stretches(main, ranges)

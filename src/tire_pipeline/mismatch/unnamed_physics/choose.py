@@ -31,12 +31,12 @@ _GROWN = 8
 _KEPT = 90
 """Terms of which all sums are kept."""
 _REFINED = 4
-_STEPS = (1.8, 1.35, 1.15)
+_STEPS_OF_NUMBERS = (1.8, 1.35, 1.15)
 _RADII = (0.1, 2.5)
 """Radii of what may roll along, m."""
 _SHORTEST_WAY = 10.0
 _PER_TURN = 8.0
-_MOST_POINTS = 16384
+_MOST_EVEN_POINTS = 16384
 
 Ranked = list[tuple[float, Term]]
 
@@ -140,7 +140,7 @@ def _refined(columns: Columns, terms: Sequence[Term], inflation: float, kept: Ar
     with_number = [t for t in terms if any("{}" in f.text and f.kind == "memory" for f in t.factors)]
     for begun in with_number[:_REFINED]:
         term = begun
-        for step in _STEPS:
+        for step in _STEPS_OF_NUMBERS:
             trials = [_moved(term, power) for power in (1.0 / step, 1.0, step)]
             ranked = _screened(columns, trials, inflation, kept)
             if ranked:
@@ -183,7 +183,7 @@ def _rolling(columns: Columns, kept: Array) -> list[Term]:
 def _strongest_radius(signal: Array, way: Array) -> float:
     """Radius (m) at whose turns a signal has most power: on an even grid of the way, then nearby."""
     span = float(way[-1] - way[0])
-    count = int(np.clip(_PER_TURN * span / (2.0 * np.pi * _RADII[0]), 256, _MOST_POINTS))
+    count = int(np.clip(_PER_TURN * span / (2.0 * np.pi * _RADII[0]), 256, _MOST_EVEN_POINTS))
     even = np.interp(np.linspace(way[0], way[-1], count), way, signal)
     power = np.abs(np.fft.rfft(even, 2 * count))
     rates = np.arange(power.size) * np.pi * (count - 1) / (span * count)

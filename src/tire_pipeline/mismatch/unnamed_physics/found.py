@@ -18,7 +18,7 @@ FORMAT = "unnamed physics 1"
 FADE = 0.25
 """Outside of its range an equation goes to nothing over this part of the range's width; in time at once,
 since what turns with the way has another phase in another recording."""
-_SIZES = {"sidecar": 20_000}
+_LONGEST_SIDECAR = 20_000
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ def from_sidecar(content: object) -> UnnamedPhysics:
         It is not of the format; nothing in it is run.
     """
     try:
-        if not isinstance(content, Mapping) or len(json.dumps(content)) > _SIZES["sidecar"]:
+        if not isinstance(content, Mapping) or len(json.dumps(content)) > _LONGEST_SIDECAR:
             raise ValueError("it is no short mapping")
         if content.get("format") != FORMAT:
             raise ValueError(f"its format is not {FORMAT!r}")

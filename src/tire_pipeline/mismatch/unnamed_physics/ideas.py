@@ -11,7 +11,7 @@ from typing import Any
 from tire_pipeline.mismatch.unnamed_physics.found import Idea
 from tire_pipeline.mismatch.unnamed_physics.library import Term
 
-_MOST = 3
+_MOST_IDEAS = 3
 
 
 @cache
@@ -39,4 +39,4 @@ def matching(drivers: frozenset[str], terms: Sequence[Term]) -> list[Idea]:
             why = f"{entry['shape']}; it depends on {', '.join(sorted(drivers))}, too"
             ranked.append((closeness, Idea(entry["name"], why, entry["experiment"], entry["source"])))
     ranked.sort(key=lambda pair: -pair[0])
-    return [idea for _, idea in ranked[:_MOST]]
+    return [idea for _, idea in ranked[:_MOST_IDEAS]]

@@ -20,7 +20,7 @@ from tire_pipeline.mismatch.unnamed_physics.problem import Unexplained
 
 Array = np.ndarray
 FOLDS = 5
-_ROWS = 5000
+_ROWS_SCREENED = 5000
 """Rows from which on a screen looks at every second, every third ..."""
 _LEAST_SIZE = 1e-9
 """Root mean square over the largest force below which a term does nothing."""
@@ -94,7 +94,7 @@ class Columns:
         self._residual: dict[int, Products] = {}
         self._full: dict[Term, _Full | None] = {}
         self._white_rest: dict[str, Array] = {}
-        self.stride = max(1, round(problem.table.size / _ROWS))
+        self.stride = max(1, round(problem.table.size / _ROWS_SCREENED))
 
     def part(self, text: str) -> Array | None:
         """Return the value of an expression at each sample; None where it is not finite."""

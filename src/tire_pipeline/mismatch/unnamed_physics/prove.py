@@ -20,7 +20,7 @@ from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 Array = np.ndarray
 _LEAST_SHARE = 0.03
 """Least share of the squared mismatch that has to go on unseen sweeps."""
-_LEVEL = 0.05 / 6.0
+_LEVEL_OF_WILCOXON = 0.05 / 6.0
 """Of the Wilcoxon test over sweeps, of which there are six: two views, each with one term, two and three."""
 _NEAR_MOST = 0.95
 _PLAIN_SHARE = 0.1
@@ -75,7 +75,7 @@ class Proven:
             self.outputs
             and self.choices > FOLDS // 2
             and self.share >= _LEAST_SHARE
-            and self.p_value < _LEVEL
+            and self.p_value < _LEVEL_OF_WILCOXON
             and 2 * self.better > self.sweeps
         )
 

@@ -35,7 +35,7 @@ from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL
 
 Array = np.ndarray
 _SHOWN = 3
-_BINS = 30
+_BINS_OF_CURVE = 30
 _ABOVE_NOISE = 1.5
 _ONE_SIDED = "the recording turns to one side, and no equation from it can be trusted on the other"
 _NOT_PROVED = "no equation makes sweeps better that neither its choice nor its fit has seen"
@@ -213,7 +213,7 @@ def _curve(columns: Columns, choice: ChosenModels, model: Model) -> dict[str, ob
     if x is None or base is None:
         return {}
     sign = np.sign(base)
-    edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, _BINS + 1)))
+    edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, _BINS_OF_CURVE + 1)))
     if edges.size < 3:
         return {}
     at = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, edges.size - 2)

@@ -15,7 +15,7 @@ from tire_pipeline.mismatch.unnamed_physics.grammar import SymbolTable
 Array = np.ndarray
 SPAN = 20.0
 """degC that one of ``h`` stands for."""
-_STEP = 2e-3
+_SLIP_DIFFERENCE = 2e-3
 _LOAD_STEP = 0.01
 MEANING = {
     "s": "tan(slip_angle)",
@@ -137,8 +137,8 @@ def _slopes(data: Any) -> dict[str, Array]:
     out = {}
     for force in TANGENTIAL_FORCES:
         slip = SLIP_OF_FORCE[force]
-        up, down = (at(**{slip: data.get(slip) + sign * _STEP})[force] for sign in (1.0, -1.0))
-        out[f"{force}_slip"] = (up - down) / (2.0 * _STEP)
+        up, down = (at(**{slip: data.get(slip) + sign * _SLIP_DIFFERENCE})[force] for sign in (1.0, -1.0))
+        out[f"{force}_slip"] = (up - down) / (2.0 * _SLIP_DIFFERENCE)
     load = data.get("normal_load")
     up_load, down_load = (at(normal_load=load * (1.0 + sign * _LOAD_STEP)) for sign in (1.0, -1.0))
     for force in TANGENTIAL_FORCES:

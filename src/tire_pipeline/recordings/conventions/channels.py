@@ -106,7 +106,7 @@ def _ranks() -> dict[str, tuple[Channel, int]]:
     return table
 
 
-_KNOWN = _ranks()
+_RANK_OF_NAME = _ranks()
 
 
 def find_channel(name: str) -> tuple[Channel, int] | None:
@@ -119,4 +119,4 @@ def find_channel(name: str) -> tuple[Channel, int] | None:
     >>> find_channel("brake_pressure") is None
     True
     """
-    return _KNOWN.get(plain_name(name))
+    return _RANK_OF_NAME.get(plain_name(name))

@@ -24,7 +24,7 @@ _COMMENTS = ("#", "%", "//", "!")
 
 
 @dataclass(frozen=True)
-class _Layout:
+class _TableLayout:
     delimiter: str
     decimal: str
     header: list[str]
@@ -88,7 +88,7 @@ def read_csv(path: Path) -> RawRecording:
     return RawRecording("CSV", channels, notes=notes, comments=layout.comments)
 
 
-def _find_layout(path: Path) -> _Layout:
+def _find_layout(path: Path) -> _TableLayout:
     for size in _HEAD_BYTES:
         with path.open("rb") as file:
             head = file.read(size)
@@ -105,7 +105,7 @@ def _find_layout(path: Path) -> _Layout:
     )
 
 
-def _layout_of(head: bytes, whole: bool, path: Path) -> _Layout | None:
+def _layout_of(head: bytes, whole: bool, path: Path) -> _TableLayout | None:
     """Where the table begins; None if no row of numbers is whole in this much of the file."""
     encoding = "utf-8-sig"
     if head[:2] in (b"\xff\xfe", b"\xfe\xff"):
@@ -136,7 +136,7 @@ def _layout_of(head: bytes, whole: bool, path: Path) -> _Layout | None:
             todo="put a row with the channels' names first",
         )
     comments = [s.strip() for s in lines[:line] if s.strip().startswith(_COMMENTS)]
-    return _Layout(delimiter, decimal, header, units, line, encoding, comments)
+    return _TableLayout(delimiter, decimal, header, units, line, encoding, comments)
 
 
 def _fields(line: str, delimiter: str) -> list[str]:

@@ -16,7 +16,7 @@ from pathlib import Path
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.readers.limits import check_expansion
 
-_HEADER = 128
+_HEADER_BYTES = 128
 _COMPRESSED, _MATRIX = 15, 14
 _SIZES = {1: 1, 2: 1, 3: 2, 4: 2, 5: 4, 6: 4, 7: 4, 9: 8, 12: 8, 13: 8, 16: 1, 17: 2, 18: 4}
 _TEXTS = (1, 16)
@@ -39,7 +39,7 @@ def check_elements(path: Path) -> None:
     """
     content = memoryview(path.read_bytes())
     order = {b"IM": "<", b"MI": ">"}.get(bytes(content[126:128]))
-    at, unpacked = _HEADER, 0
+    at, unpacked = _HEADER_BYTES, 0
     try:
         if order is None:
             raise RecordingError("its byte order is unknown")

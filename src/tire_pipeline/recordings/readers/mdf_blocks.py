@@ -16,7 +16,7 @@ from typing import BinaryIO
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.readers.limits import check_expansion
 
-_HEADER = struct.Struct("<4sI2Q")
+_BLOCK_HEADER = struct.Struct("<4sI2Q")
 _FIRST_BLOCK = 64
 _MOST_LINKS = 1 << 20
 _BODY = 64
@@ -38,7 +38,7 @@ _VIRTUAL_MASTER = 3
 
 
 @dataclass(frozen=True)
-class _Block:
+class _MdfBlock:
     kind: str
     length: int
     links: tuple[int, ...]
@@ -88,29 +88,29 @@ def check_blocks(path: Path) -> None:
             ) from error
 
 
-def _walk(file: BinaryIO, size: int) -> dict[int, _Block]:
-    blocks: dict[int, _Block] = {}
+def _walk(file: BinaryIO, size: int) -> dict[int, _MdfBlock]:
+    blocks: dict[int, _MdfBlock] = {}
     waiting = [_FIRST_BLOCK]
     while waiting:
         at = waiting.pop()
         if at in blocks:
             continue
-        if len(blocks) > _MOST_LINKS or at % 8 or at + _HEADER.size > size:
+        if len(blocks) > _MOST_LINKS or at % 8 or at + _BLOCK_HEADER.size > size:
             raise RecordingError("a link leads out of the file")
         file.seek(at)
-        kind, _, length, count = _HEADER.unpack(file.read(_HEADER.size))
-        if kind[:2] != b"##" or length < _HEADER.size + 8 * count or at + length > size:
+        kind, _, length, count = _BLOCK_HEADER.unpack(file.read(_BLOCK_HEADER.size))
+        if kind[:2] != b"##" or length < _BLOCK_HEADER.size + 8 * count or at + length > size:
             raise RecordingError(f"damaged block at byte {at}")
         links = struct.unpack(f"<{count}Q", file.read(8 * count))
-        body = file.read(min(_BODY, length - _HEADER.size - 8 * count))
-        blocks[at] = _Block(kind[2:].decode("latin-1"), length, links, body)
+        body = file.read(min(_BODY, length - _BLOCK_HEADER.size - 8 * count))
+        blocks[at] = _MdfBlock(kind[2:].decode("latin-1"), length, links, body)
         waiting.extend(link for link in links if link)
     if blocks[_FIRST_BLOCK].kind != "HD":
         raise RecordingError("the first block is no header")
     return blocks
 
 
-def _check_links(blocks: dict[int, _Block]) -> None:
+def _check_links(blocks: dict[int, _MdfBlock]) -> None:
     for at, block in blocks.items():
         allowed = _LINKS.get(block.kind, ())
         if block.kind == "DL":
@@ -124,7 +124,7 @@ def _check_links(blocks: dict[int, _Block]) -> None:
                 )
 
 
-def _check_ends(blocks: dict[int, _Block]) -> None:
+def _check_ends(blocks: dict[int, _MdfBlock]) -> None:
     """No chain may run in a circle, and no channel may hold itself."""
     done: set[int] = set()
     for start, block in blocks.items():
@@ -144,7 +144,7 @@ def _check_ends(blocks: dict[int, _Block]) -> None:
             )
 
 
-def _chain(at: int, blocks: dict[int, _Block]) -> list[_Block]:
+def _chain(at: int, blocks: dict[int, _MdfBlock]) -> list[_MdfBlock]:
     found = []
     while at:
         found.append(blocks[at])
@@ -152,14 +152,14 @@ def _chain(at: int, blocks: dict[int, _Block]) -> list[_Block]:
     return found
 
 
-def _data_bytes(block: _Block, blocks: dict[int, _Block]) -> int:
+def _data_bytes(block: _MdfBlock, blocks: dict[int, _MdfBlock]) -> int:
     """Bytes of records that a data block, or a list of them, holds."""
     if block.kind == "DZ":
         original = block.body[:2].decode("latin-1")
         kind, _, parameter, size, packed = block.unpack("<BBIQQ", 2)
         if original not in _DATA or kind > 1 or (kind == 1 and not 0 < parameter <= size):
             raise RecordingError("a compressed block is of unknown kind")
-        if packed > block.length - _HEADER.size - 24:
+        if packed > block.length - _BLOCK_HEADER.size - 24:
             raise RecordingError("a compressed block is cut off")
         return size
     if block.kind == "HL":
@@ -172,10 +172,10 @@ def _data_bytes(block: _Block, blocks: dict[int, _Block]) -> int:
                 raise RecordingError("a data list holds another number of blocks than it says")
             total += sum(_data_bytes(blocks[link], blocks) for link in part.links[1:] if link)
         return total
-    return block.length - _HEADER.size
+    return block.length - _BLOCK_HEADER.size
 
 
-def _check_group(group: _Block, blocks: dict[int, _Block]) -> None:
+def _check_group(group: _MdfBlock, blocks: dict[int, _MdfBlock]) -> None:
     """Channels within their record, records within the data."""
     (id_bytes,) = group.unpack("<B")
     channel_groups = _chain(group.links[1], blocks)
@@ -193,7 +193,7 @@ def _check_group(group: _Block, blocks: dict[int, _Block]) -> None:
             _check_channel(channel, width, invalid)
 
 
-def _check_channel(channel: _Block, width: int, invalid: int) -> None:
+def _check_channel(channel: _MdfBlock, width: int, invalid: int) -> None:
     kind, _, data_type, bit, byte, bits, flags, position = channel.unpack("<4B4I")
     if kind > 3 or data_type > 14:
         raise RecordingError(f"a channel of type {kind} with data of type {data_type}")

@@ -12,7 +12,7 @@ from tire_pipeline.thesis.results import BETTER, CELL, Results, in_words, over_s
 from tire_pipeline.translation.thesis.tables import METRICS, better_than_nothing
 
 Part = Text | Table | Figure
-_SHORT = {
+_SHORT_METRICS = {
     "forces": "forces",
     "cornering_stiffness": "slope",
     "peak_friction": "friction",
@@ -110,7 +110,7 @@ def _side_by_side(rows: pd.DataFrame, columns: dict[str, tuple[str, str | None]]
         for metric in METRICS:
             one = values.loc[metric]
             for words, (value, spread) in columns.items():
-                name = f"{_SHORT[metric]}: {words}"
+                name = f"{_SHORT_METRICS[metric]}: {words}"
                 line[name] = float(one[value]) if spread is None else plus_minus(one[value], one[spread])
         out.append(line)
     return pd.DataFrame(out)
@@ -262,7 +262,7 @@ def _every_cell(results: Results) -> list[Part]:
         tables = {}
         for quantity in ("ratio", "improved"):
             wide = part[part["quantity"] == quantity].pivot(index=CELL, columns="metric", values="text")
-            wide = wide[list(METRICS)].rename(columns=_SHORT).reset_index()
+            wide = wide[list(METRICS)].rename(columns=_SHORT_METRICS).reset_index()
             for column in ("representation", "reward"):
                 wide[column] = wide[column].map(in_words)
             tables[quantity] = wide

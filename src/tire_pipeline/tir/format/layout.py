@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-_LAYOUT = """\
+_LAYOUT_TEXT = """\
 [MODEL]
 PROPERTY_FILE_FORMAT
 FITTYP Magic Formula version number
@@ -312,7 +312,7 @@ QDRP1 Turn slip moment peak magnitude parameter
 def _parse() -> dict[str, dict[str, str]]:
     sections: dict[str, dict[str, str]] = {}
     section: dict[str, str] = {}
-    for line in _LAYOUT.splitlines():
+    for line in _LAYOUT_TEXT.splitlines():
         if line.startswith("["):
             section = sections.setdefault(line.strip("[]"), {})
         else:

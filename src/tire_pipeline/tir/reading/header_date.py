@@ -41,16 +41,17 @@ _MONTHS = {
     )
     for name in names.split()
 }
-_NAME = "|".join(sorted(_MONTHS, key=len, reverse=True))
+_MONTH_NAME = "|".join(sorted(_MONTHS, key=len, reverse=True))
 _END = r"(?![\w-]|[./]\d)"
 _START = r"(?<![\w./\\-])"
 _YEAR_FIRST = re.compile(rf"{_START}(\d{{4}})([-/.])(\d{{1,2}})\2(\d{{1,2}})(?:T\d\d[:\d.]*Z?)?{_END}")
 _YEAR_LAST = re.compile(rf"{_START}(\d{{1,2}})([-/.]) ?(\d{{1,2}})\2 ?(\d{{4}}|\d{{2}}){_END}")
 _NAMED_MONTH = re.compile(
-    rf"{_START}(\d{{1,2}})(?:st|nd|rd|th)?[ .-]{{1,2}}({_NAME})[ .,-]{{1,2}}(\d{{4}}){_END}", re.IGNORECASE
+    rf"{_START}(\d{{1,2}})(?:st|nd|rd|th)?[ .-]{{1,2}}({_MONTH_NAME})[ .,-]{{1,2}}(\d{{4}}){_END}",
+    re.IGNORECASE,
 )
 _MONTH_FIRST = re.compile(
-    rf"\b({_NAME})[ .-]{{1,2}}(\d{{1,2}})(?:st|nd|rd|th)?,?(?: \d\d?:\d\d(?::\d\d)?)? (\d{{4}}){_END}",
+    rf"\b({_MONTH_NAME})[ .-]{{1,2}}(\d{{1,2}})(?:st|nd|rd|th)?,?(?: \d\d?:\d\d(?::\d\d)?)? (\d{{4}}){_END}",
     re.IGNORECASE,
 )
 _COMPACT = re.compile(rf"{_START}(\d{{4}})(\d\d)(\d\d){_END}")

@@ -13,7 +13,7 @@ from tire_pipeline.tir.format.values import format_number
 from tire_pipeline.tir.format.version import VERSION_FITTYP
 from tire_pipeline.tir.text.escaping import comment_lines, quoted
 
-_NAME = re.compile(r"([A-Z][A-Z0-9_ ]*)\.([A-Z_][A-Z0-9_.\-]*)").fullmatch
+_METADATA_NAME = re.compile(r"([A-Z][A-Z0-9_ ]*)\.([A-Z_][A-Z0-9_.\-]*)").fullmatch
 _RULE = 76
 _LABELS = ("FITTYP", "PROPERTY_FILE_FORMAT")
 NOT_GIVEN = "not given: this value is used"
@@ -65,7 +65,7 @@ def metadata_entries(metadata: Mapping[str, object]) -> dict[tuple[str, str], st
     """
     found: dict[tuple[str, str], str | float] = {}
     for name, value in metadata.items():
-        match = _NAME(name)
+        match = _METADATA_NAME(name)
         if match is None or match[2] in _LABELS or not isinstance(value, str | int | float):
             continue
         section = section_name(match[1])

@@ -30,7 +30,7 @@ _NOMINAL = 0.01  # of the logarithm of test over nominal pressure
 _SEVERAL = 4  # files of a cell tell its noise
 _NOISE_SHARE = 0.05  # of the spread between tires, where no tire has three files in one category
 
-_LOADS = slice(0, LOADS.size), slice(LOADS.size, 2 * LOADS.size), slice(2 * LOADS.size, None)
+_LOAD_SLICES = slice(0, LOADS.size), slice(LOADS.size, 2 * LOADS.size), slice(2 * LOADS.size, None)
 
 
 @dataclass(frozen=True)
@@ -53,13 +53,13 @@ class Part:
 
 
 PARTS: dict[str, Part] = {
-    "cornering stiffness": Part("lateral", _LOADS[0], 2),
-    "lateral friction": Part("lateral", _LOADS[1], 2),
-    "lateral shape": Part("lateral", _LOADS[2], 8),
+    "cornering stiffness": Part("lateral", _LOAD_SLICES[0], 2),
+    "lateral friction": Part("lateral", _LOAD_SLICES[1], 2),
+    "lateral shape": Part("lateral", _LOAD_SLICES[2], 8),
     "camber": Part("camber", slice(None), 5),
-    "slip stiffness": Part("longitudinal", _LOADS[0], 2),
-    "longitudinal friction": Part("longitudinal", _LOADS[1], 2),
-    "longitudinal shape": Part("longitudinal", _LOADS[2], 6),
+    "slip stiffness": Part("longitudinal", _LOAD_SLICES[0], 2),
+    "longitudinal friction": Part("longitudinal", _LOAD_SLICES[1], 2),
+    "longitudinal shape": Part("longitudinal", _LOAD_SLICES[2], 6),
     "aligning torque": Part("aligning", slice(None), 10),
 }
 """Stiffness, friction and shape apart: a mechanism acts on one of them, and so does chance."""

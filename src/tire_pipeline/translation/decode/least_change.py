@@ -13,7 +13,7 @@ from tire_pipeline.translation.curves.features import GROUPS, Group
 from tire_pipeline.translation.curves.pure_slip import columns
 from tire_pipeline.translation.decode.physics import curvature_excess
 
-_STEPS = Steps(
+_SOLVER_STEPS = Steps(
     most=6, tolerance=0.01, damping=1e-3, easier=10.0, harder=50.0, largest=1e4, relative=False, hold=False
 )
 _DIFFERENCE = 1e-4  # of a coefficient's spread, for derivatives
@@ -151,5 +151,5 @@ class _Solver:
             (values - source) / self.spread for values in (start, self.low[rows], self.high[rows])
         )
         zero = np.zeros_like(start)
-        moves, cost = solve(LeastSquares(model, start, lower, upper, zero, zero + _PULL), _STEPS)
+        moves, cost = solve(LeastSquares(model, start, lower, upper, zero, zero + _PULL), _SOLVER_STEPS)
         return np.where(lower == upper, source, source + moves * self.spread), cost

@@ -22,7 +22,7 @@ SHAPE = {"PCY1": (1.0, 2.0), "PCX1": (1.0, 2.0)}
 """Shape factors: below 1 a curve has no peak, above 2 it crosses zero."""
 
 CHECKED_LOADS = np.array([2000.0, 3500.0, 5000.0, 6500.0, 8000.0])
-_ORIGIN = Points.grid([0.0], CHECKED_LOADS, [0.0])
+_CHECKED_ORIGIN = Points.grid([0.0], CHECKED_LOADS, [0.0])
 
 SYMMETRY = {
     "lateral": ("PEY3", "PHY1", "PHY2", "PVY1", "PVY2"),
@@ -72,8 +72,8 @@ def violations(table: pd.DataFrame) -> pd.DataFrame:
         curve rises up to its peak, so that needs no column of its own.
     """
     p = columns(table)
-    friction, friction_x = peak_friction(p, _ORIGIN), peak_friction_x(p, _ORIGIN)
-    stiffness = -cornering_stiffness(p, _ORIGIN)
+    friction, friction_x = peak_friction(p, _CHECKED_ORIGIN), peak_friction_x(p, _CHECKED_ORIGIN)
+    stiffness = -cornering_stiffness(p, _CHECKED_ORIGIN)
     over_load = stiffness / CHECKED_LOADS
     excess = [curvature_excess(name, p).max(axis=1) for name in ("lateral", "longitudinal", "aligning")]
     shape = [(p[name] < low) | (p[name] > high) for name, (low, high) in SHAPE.items()]
@@ -82,7 +82,7 @@ def violations(table: pd.DataFrame) -> pd.DataFrame:
         "longitudinal friction": _outside(friction_x, *FRICTION),
         "cornering stiffness": (stiffness <= 0.0).any(axis=1)
         | (np.diff(over_load, axis=1) > 0.0).any(axis=1),
-        "slip stiffness": (slip_stiffness(p, _ORIGIN) <= 0.0).any(axis=1),
+        "slip stiffness": (slip_stiffness(p, _CHECKED_ORIGIN) <= 0.0).any(axis=1),
         "curvature": np.max(excess, axis=0) > 1e-3,
         "shape": np.concatenate(shape, axis=1).any(axis=1),
     }

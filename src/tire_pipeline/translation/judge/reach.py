@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 
-_EDGE = 0.995  # share of the training data inside the edge
+_SHARE_INSIDE = 0.995  # share of the training data inside the edge
 
 
 @dataclass(frozen=True)
@@ -41,9 +41,9 @@ class TrainingReach:
         gap = 1.0
         if points.shape[1] and len(points) > 2:
             nearest = cKDTree(points).query(points, k=2)[0][:, 1]
-            gap = float(max(np.quantile(nearest, _EDGE), 1e-3))
+            gap = float(max(np.quantile(nearest, _SHARE_INSIDE), 1e-3))
         found = model.predict(training, target)
-        return cls(points, gap, float(np.quantile(_size(model, found), _EDGE)))
+        return cls(points, gap, float(np.quantile(_size(model, found), _SHARE_INSIDE)))
 
     def distance(self, model: CurveMixedModel, table: pd.DataFrame, found: Prediction) -> np.ndarray:
         """Give the distance of every file, (n,): 1 is the edge of the training data.

@@ -36,8 +36,8 @@ NEEDED_TO_TRANSLATE = ("FNOMIN", "UNLOADED_RADIUS", "PCY1", "PDY1", "PKY1", "PKY
 """What a file must state to be translated."""
 
 _OWN = "it is the target's own"
-_UNKNOWN = "no training file is of its supplier: give training files of it"
-_VERDICTS = {_OWN: UNBIASED, _UNKNOWN: UNKNOWN}
+_NO_TRAINING_FILE = "no training file is of its supplier: give training files of it"
+_VERDICTS = {_OWN: UNBIASED, _NO_TRAINING_FILE: UNKNOWN}
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ class VerdictRules:
                 "its Magic Formula version is not 5.x: fit 5.2 to its forces first (fit_magic_formula)"
             )
         reason[category == self.target] = _OWN
-        reason[~np.isin(category, model.categories)] = _UNKNOWN
+        reason[~np.isin(category, model.categories)] = _NO_TRAINING_FILE
         usable = np.flatnonzero(reason == "")
         if usable.size:
             features = encode(source.iloc[usable])

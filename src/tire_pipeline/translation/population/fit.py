@@ -53,7 +53,7 @@ kind tells (:mod:`.kinds`), and a few dozen tires tell a spread to 10% only."""
 
 _OTHER_WIDTH = 0.2
 
-_POOLED = ("category", "category_metadata", "category_kind", "category_class")
+_POOLED_VARIANCES = ("category", "category_metadata", "category_kind", "category_class")
 _POOLED_WIDTH = 1.0
 _WIDTH = 3.0
 
@@ -279,7 +279,7 @@ def _fit_scores(design: Design, cells: Cells, space: CurveSpace, scale: np.ndarr
     noise = space.noise / scale**2
     common = {
         name: float(np.exp(np.mean(np.log(np.array([f.variances[name] for f in first]) / noise))))
-        for name in _POOLED
+        for name in _POOLED_VARIANCES
         if name in first[0].variances
     }
     guesses = [{**VARIANCE_GUESS, **{name: common[name] * one for name in common}} for one in noise]

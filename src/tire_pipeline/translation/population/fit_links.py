@@ -21,10 +21,10 @@ LINKED = (("cornering stiffness", "lateral shape"), ("slip stiffness", "longitud
 FEWEST = 20
 """Fewer rows than this tell no correlation."""
 
-_BOUND = 3.0  # of a deviation, in standard deviations
+_LARGEST_DEVIATION = 3.0  # of a deviation, in standard deviations
 _LEAST_SPREAD = 1e-9
 """A score that differs by less, in standard deviations, has no correlation with others."""
-_LEAST_OWN = 0.05  # of a score's variance is the tires' own at least
+_LEAST_OWN_PART = 0.05  # of a score's variance is the tires' own at least
 _LARGEST = 0.95  # correlation of what is the tires' own
 _FLOOR = 1e-2  # of an eigenvalue of a correlation
 
@@ -145,10 +145,10 @@ def _own_correlation(found: Deviations, block: np.ndarray, error: np.ndarray) ->
 
     own, noise = found.own[block], found.error[block]
     spread = np.sqrt(own + noise)
-    bounded = np.clip(found.cells[:, block] / spread, -_BOUND, _BOUND)
+    bounded = np.clip(found.cells[:, block] / spread, -_LARGEST_DEVIATION, _LARGEST_DEVIATION)
     whole = LedoitWolf().fit(bounded).covariance_ * np.outer(spread, spread)
     rest = whole - error * np.sqrt(np.outer(noise, noise))
-    size = np.sqrt(np.maximum(np.diag(rest), _LEAST_OWN * np.diag(whole)))
+    size = np.sqrt(np.maximum(np.diag(rest), _LEAST_OWN_PART * np.diag(whole)))
     correlation = np.clip(rest / np.outer(size, size), -_LARGEST, _LARGEST)
     np.fill_diagonal(correlation, 1.0)
     values, axes = np.linalg.eigh(correlation)

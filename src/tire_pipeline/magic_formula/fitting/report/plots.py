@@ -9,6 +9,7 @@ import pandas as pd
 
 from tire_pipeline.channels import MOMENT_CHANNELS, SHOWN_UNITS, SLIP_OF_FORCE, axis_label
 from tire_pipeline.errors import DomainError
+from tire_pipeline.magic_formula.fitting.report.statistics import LOAD_STEP
 from tire_pipeline.magic_formula.fitting.setup.stages import PURE_SLIP_ANGLE, PURE_SLIP_RATIO
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, OperatingPoints
@@ -17,10 +18,9 @@ from tire_pipeline.pages.drawing import colour_of, new_figure
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_LOAD_STEP = 0.25
 _MOST_LOADS = 5
-_MOST_POINTS = 3000
-_FEWEST = 5
+_MOST_DRAWN_POINTS = 3000
+_FEWEST_DRAWN = 5
 
 
 def draw_fit(model: TireModel, measured: pd.DataFrame | None) -> tuple[Figure, str]:
@@ -43,7 +43,9 @@ def draw_fit(model: TireModel, measured: pd.DataFrame | None) -> tuple[Figure, s
         The points are not there, or none of them is at pure slip.
     """
     parts = {} if measured is None else {o: _pure(measured, o) for o in SLIP_OF_FORCE if o in measured}
-    parts = {o: part for o, part in parts.items() if len(part) >= _FEWEST and _spread(part, SLIP_OF_FORCE[o])}
+    parts = {
+        o: part for o, part in parts.items() if len(part) >= _FEWEST_DRAWN and _spread(part, SLIP_OF_FORCE[o])
+    }
     if not parts:
         raise DomainError("there are no points at pure slip to draw", todo="draw result.model.plot() instead")
     figure, axes = new_figure(len(parts), 2, width=9.5, height=2.9 * len(parts), squeeze=False)
@@ -61,7 +63,7 @@ def _pure(measured: pd.DataFrame, output: str) -> pd.DataFrame:
     """Points at pure slip that have the output, thinned evenly."""
     other, limit = ("slip_angle", PURE_SLIP_ANGLE) if output == "fx" else ("slip_ratio", PURE_SLIP_RATIO)
     rows = measured[(measured[other].abs() <= limit) & np.isfinite(measured[output])]
-    return rows.iloc[:: max(1, len(rows) // _MOST_POINTS)]
+    return rows.iloc[:: max(1, len(rows) // _MOST_DRAWN_POINTS)]
 
 
 def _spread(part: pd.DataFrame, slip: str) -> bool:
@@ -71,7 +73,7 @@ def _spread(part: pd.DataFrame, slip: str) -> bool:
 def _draw(row: Any, model: TireModel, output: str, part: pd.DataFrame) -> None:
     slip, name = SLIP_OF_FORCE[output], output.capitalize()
     factor, unit = SHOWN_UNITS[slip].factor, "N m" if output in MOMENT_CHANNELS else "N"
-    step = _LOAD_STEP * model.value("FNOMIN")
+    step = LOAD_STEP * model.value("FNOMIN")
     group = np.round(part["normal_load"] / step)
     largest = group.value_counts().index[:_MOST_LOADS]
     for i, number in enumerate(sorted(largest)):

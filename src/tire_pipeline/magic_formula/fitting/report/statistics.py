@@ -10,7 +10,8 @@ import pandas as pd
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, OperatingPoints
 
-_LOAD_STEP = 0.25
+LOAD_STEP = 0.25
+"""Points are grouped by load in steps of this part of the nominal load."""
 _CAMBER_STEP = np.deg2rad(1.0)
 
 
@@ -41,7 +42,7 @@ def residual_table(
     Loads are grouped in steps of a quarter of the nominal load, camber in steps of a degree; both columns
     hold the middle of the group.
     """
-    step = _LOAD_STEP * model.value("FNOMIN")
+    step = LOAD_STEP * model.value("FNOMIN")
     parts = []
     for name, residual in _residuals(model, points, forces).items():
         frame = pd.DataFrame(

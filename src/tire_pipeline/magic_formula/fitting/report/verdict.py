@@ -22,7 +22,7 @@ _FOLLOWS = 0.3
 _BINS = 20
 _SMALL = 0.4
 """Share of the largest slips below which the slope of the force is looked at."""
-_FEWEST = 10
+_FEWEST_IN_GROUP = 10
 
 
 class PoorFitWarning(UserWarning):
@@ -138,7 +138,7 @@ def _slopes(slip: np.ndarray, force: np.ndarray, load: np.ndarray, camber: np.nd
     found = []
     for value in np.unique(group[small]):
         x, y = slip[small & (group == value)], force[small & (group == value)]
-        if x.size >= _FEWEST and np.ptp(x) > 0.5 * reach:
+        if x.size >= _FEWEST_IN_GROUP and np.ptp(x) > 0.5 * reach:
             slope, level = np.polyfit(x, y, 1)
             left = np.sum((y - level - slope * x) ** 2) / max(x.size - 2, 1)
             if slope**2 * np.sum((x - x.mean()) ** 2) > 16.0 * left:  # four standard errors

@@ -12,9 +12,9 @@ from tire_pipeline.mismatch.model.forces import plain_forces
 
 Array = np.ndarray
 At = dict[str, Array]
-_LENGTHS = {"slip": 0.25, "normal_load": 0.8, "camber": 0.9}
-_MOST_POINTS = 130
-_NEAR, _FAR = 0.85, 1.3
+_LENGTHS_OF_INPUTS = {"slip": 0.25, "normal_load": 0.8, "camber": 0.9}
+_MOST_CENTRES = 130
+_SYMMETRIC_LENGTH, _ASYMMETRIC_LENGTH = 0.85, 1.3
 
 
 def flexible_form(
@@ -35,9 +35,9 @@ def flexible_form(
     pick = np.random.default_rng(0).permutation(data.size)[:3000]
     points = np.vstack([x[pick], y])
     sign = -1.0 if name == "fy" else 1.0
-    kernels = [_Mirrored(points, mirror, sign, _NEAR, 1.0)]
+    kernels = [_Mirrored(points, mirror, sign, _SYMMETRIC_LENGTH, 1.0)]
     if mirror.min() < 0.0:
-        kernels.append(_Mirrored(points, mirror, -sign, _FAR, ASYMMETRY_SHARE))
+        kernels.append(_Mirrored(points, mirror, -sign, _ASYMMETRIC_LENGTH, ASYMMETRY_SHARE))
     top = np.quantile(data.get("normal_load"), 0.99)
     slip, half = SLIP_OF_FORCE[name], _slip_at_half(data, name)
     lean = max(float(np.quantile(np.abs(data.get("camber")), 0.99)), 0.01)
@@ -56,7 +56,7 @@ def flexible_form(
     ways = np.zeros((data.size, 0))
     towards = _direction(data, slip)
     if towards is not None:
-        turned = _Mirrored(points, mirror, -sign if name == "fy" else sign, _NEAR, 1.0)
+        turned = _Mirrored(points, mirror, -sign if name == "fy" else sign, _SYMMETRIC_LENGTH, 1.0)
         ways = turned.features(x) * (amplitude(here) * towards)[:, None]
     return features(x, here), features(y, grid), ways
 
@@ -79,15 +79,17 @@ def _coordinates(data: Data, at: dict[str, Array]) -> tuple[Array, Array]:
     for slip, force in FORCE_OF_SLIP.items():
         if data.varies(slip):
             half = _slip_at_half(data, force)
-            parts.append(2.0 / np.pi * np.arctan(at[slip] / half) / _LENGTHS["slip"])
+            parts.append(2.0 / np.pi * np.arctan(at[slip] / half) / _LENGTHS_OF_INPUTS["slip"])
             mirror.append(-1.0 if slip == "slip_angle" else 1.0)
     if data.varies("normal_load"):
         low, high = np.quantile(data.get("normal_load"), [0.005, 0.995])
         load = (at["normal_load"] - 0.5 * (low + high)) / (0.5 * (high - low))
-        parts.append(load / _LENGTHS["normal_load"])
+        parts.append(load / _LENGTHS_OF_INPUTS["normal_load"])
         mirror.append(1.0)
     if data.varies("camber") and data.knows_camber:
-        parts.append(at["camber"] / np.quantile(np.abs(data.get("camber")), 0.99) / _LENGTHS["camber"])
+        parts.append(
+            at["camber"] / np.quantile(np.abs(data.get("camber")), 0.99) / _LENGTHS_OF_INPUTS["camber"]
+        )
         mirror.append(-1.0)
     if not parts:
         return np.zeros((at["normal_load"].size, 1)), np.ones(1)
@@ -127,7 +129,7 @@ class _Mirrored:
         turned = np.flatnonzero(mirror < 0.0)
         if turned.size:  # one half of the space stands for both
             points = np.where((points[:, turned[0]] < 0.0)[:, None], points * mirror, points)
-        self.centres = _spread(points, apart, _MOST_POINTS)
+        self.centres = _spread(points, apart, _MOST_CENTRES)
         kernel = self._kernel(self.centres) + 1e-6 * np.eye(len(self.centres))
         values, vectors = np.linalg.eigh(kernel)
         good = values > 1e-3 * values.max()

@@ -13,7 +13,7 @@ Array = np.ndarray
 _SLIP_STEP = 2e-3
 _BANDS = (0.0, 0.1, 0.2)
 """Seconds over which the load is averaged before its rate is taken: the answer differs from band to band."""
-_MEMORIES = (1.0, 4.0)
+_MEMORY_SECONDS = (1.0, 4.0)
 """Seconds over which a tread remembers."""
 
 
@@ -28,7 +28,7 @@ def memory(data: Data, name: str) -> Array:
     speed = np.abs(data.get("speed")) if data.has("speed") else np.ones(data.size)
     power = np.abs(data.base[name] * data.get(slip)) * speed
     power = power / max(float(np.quantile(power, 0.9)), 1e-12)
-    lags = [first_order(power, 1.0 - np.exp(-data.step / lag), data.start) - power for lag in _MEMORIES]
+    lags = [first_order(power, 1.0 - np.exp(-data.step / lag), data.start) - power for lag in _MEMORY_SECONDS]
     ways = (data.base[name], data.slope(slip, _SLIP_STEP)[name] * data.get(slip))
     return np.column_stack([way * lag for way in ways for lag in lags])
 

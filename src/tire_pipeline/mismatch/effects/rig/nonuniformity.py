@@ -6,7 +6,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 
-_FORCE = ("cosine_y", "sine_y", "cosine_x", "sine_x")
+_FORCE_PARAMETERS = ("cosine_y", "sine_y", "cosine_x", "sine_x")
 _WOBBLE = ("angle_cosine", "angle_sine", "load_cosine", "load_sine")
 
 
@@ -59,12 +59,12 @@ class Nonuniformity(Effect):
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """Return one form's parameters; the radius is found by the scan."""
-        return _WOBBLE if start["angle_cosine"] else _FORCE
+        return _WOBBLE if start["angle_cosine"] else _FORCE_PARAMETERS
 
     def quarter_turn(self, p: Parameters) -> dict[str, float]:
         """Turn all harmonics on by a quarter of a turn."""
         out = dict(p)
-        for cosine, sine in (_FORCE[:2], _FORCE[2:], _WOBBLE[:2], _WOBBLE[2:]):
+        for cosine, sine in (_FORCE_PARAMETERS[:2], _FORCE_PARAMETERS[2:], _WOBBLE[:2], _WOBBLE[2:]):
             out[cosine], out[sine] = p[sine], -p[cosine]
         return out
 
@@ -78,7 +78,7 @@ class Nonuniformity(Effect):
 
     def outputs(self, state: State, data: object, p: Parameters) -> None:
         """Add the harmonic."""
-        if not any(p[n] for n in _FORCE):
+        if not any(p[n] for n in _FORCE_PARAMETERS):
             return
         c, s = self._turn(data, p)
         for axis in "xy":

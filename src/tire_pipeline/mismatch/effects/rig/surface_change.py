@@ -7,9 +7,9 @@ import numpy as np
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
-_STEP = 0.2
+_STEP_SECONDS = 0.2
 """s over which friction steps, so that the moment can be refined."""
-_GAP = 0.5
+_LONGEST_GAP = 0.5
 """Part of the time from begin to end: a steady change is not told from a step in a longer gap."""
 
 
@@ -32,7 +32,7 @@ class SurfaceChange(Effect):
     parameters = (
         Parameter("friction", "1", -0.8, 1.0, 0.01, prior=0.15),
         Parameter("moment", "s", -1e12, 1e12, 0.05, form=True, kept=True),
-        Parameter("duration", "s", _STEP, 1e12, 0.05, form=True, kept=True),
+        Parameter("duration", "s", _STEP_SECONDS, 1e12, 0.05, form=True, kept=True),
     )
     looks_like = {
         "friction_scale": "a friction factor holds from the start",
@@ -48,14 +48,14 @@ class SurfaceChange(Effect):
         A step in a long gap between two pieces would look the same.
         """
         first, last = data.time[0], data.time[-1]  # type: ignore[attr-defined]
-        forms = [(m, _STEP) for m in np.linspace(first, last, 26)[1:-1]]
-        if np.max(np.diff(data.time)) < _GAP * (last - first):  # type: ignore[attr-defined]
+        forms = [(m, _STEP_SECONDS) for m in np.linspace(first, last, 26)[1:-1]]
+        if np.max(np.diff(data.time)) < _LONGEST_GAP * (last - first):  # type: ignore[attr-defined]
             forms.append((0.5 * (first + last), last - first))
         return [{"friction": 0.0, "moment": float(m), "duration": float(d)} for m, d in forms]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """Friction, and the moment of a step; a steady change lasts the whole recording."""
-        return ("friction", "moment") if start["duration"] <= _STEP else ("friction",)
+        return ("friction", "moment") if start["duration"] <= _STEP_SECONDS else ("friction",)
 
     def outside(self, data: object, p: Parameters) -> bool:
         """Ask for a twentieth of the recording before and after: at its ends it is something that settles."""
@@ -65,5 +65,5 @@ class SurfaceChange(Effect):
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Change the friction."""
-        ramp = np.clip((data.time - p["moment"]) / max(p["duration"], _STEP) + 0.5, 0.0, 1.0)  # type: ignore[attr-defined]
+        ramp = np.clip((data.time - p["moment"]) / max(p["duration"], _STEP_SECONDS) + 0.5, 0.0, 1.0)  # type: ignore[attr-defined]
         state.log_friction = state.log_friction + safe_log1p(p["friction"] * ramp)

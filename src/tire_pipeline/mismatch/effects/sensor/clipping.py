@@ -79,8 +79,8 @@ def _at_the_ends(x: Array, in_time: bool) -> tuple[Array | None, list[float]]:
     return (bad, limits) if limits else (None, [])
 
 
-_STEPS = 10
-_LEVEL = 1e-3
+_STEPS_OF_CREST = 10
+_LEVEL_OF_CREST = 1e-3
 
 
 def _crest(values: Array, counts: Array, end: float) -> bool:
@@ -90,14 +90,14 @@ def _crest(values: Array, counts: Array, end: float) -> bool:
     them. The resolution is the smallest step between values near the end.
     """
     distance = np.abs(values - end)
-    near = np.sort(distance)[: 5 * _STEPS]
+    near = np.sort(distance)[: 5 * _STEPS_OF_CREST]
     steps = np.diff(near)
     resolution = float(np.min(steps[steps > 1e-9 * max(abs(end), near[-1])], initial=np.inf))
     if not np.isfinite(resolution):
         return False
     last = int(counts[distance < 0.5 * resolution].sum())
-    around = int(counts[distance < (_STEPS - 0.5) * resolution].sum())
+    around = int(counts[distance < (_STEPS_OF_CREST - 0.5) * resolution].sum())
     by_chance = (
-        1.0 if last == 0 else float(scipy.special.bdtrc(last - 1, around, _STEPS**-0.5))
+        1.0 if last == 0 else float(scipy.special.bdtrc(last - 1, around, _STEPS_OF_CREST**-0.5))
     )  # binomial: so many or more
-    return by_chance > _LEVEL
+    return by_chance > _LEVEL_OF_CREST

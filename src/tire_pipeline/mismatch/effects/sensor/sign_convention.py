@@ -11,11 +11,12 @@ import numpy as np
 from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.repairs import Simulate
+from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 
 _CONVENTIONS = {"fy": ("slip_angle", "camber", "fy"), "fx": ("slip_ratio", "fx")}
 """Channels whose signs an axis system may turn, by the force that shows it."""
 
-_GAINS = (1.0 / 3.0, 3.0)
+_SIGN_GAINS = (1.0 / 3.0, 3.0)
 """Whatever the signs, the force may be so much smaller or larger than the model's."""
 
 _EXPLAINED = 0.85
@@ -29,10 +30,10 @@ _FORM = 0.15
 _AWAY = 0.1
 """Part of the mismatch that turned signs must take away: what is there by chance is small."""
 
-_SURE = 8.0
+_EVIDENCE_TO_TURN = 8.0
 """Log evidence by which turned signs must be likelier than those that were given."""
 
-_ALIKE = 3.0
+_NOT_TOLD_APART = 3.0
 """Log evidence within which two conventions cannot be told apart."""
 
 _GAIN_OFF = 0.3
@@ -41,9 +42,6 @@ _OFFSET = 0.03
 
 _SLIP_OFF = 0.01
 """rad, or 1: how far a slip may be off. In a model with ply steer an offset looks much like turned axes."""
-
-_STRETCHES = 20
-"""What the model gets wrong is taken as independent from one of so many stretches of rows to the next."""
 
 
 class SignConvention(Effect):
@@ -120,7 +118,7 @@ def convention(
     recorded = channels[force][ok]
     turned = {s: p[ok] for s, p in turned.items()}
     beside = _off_by_slip(channels, simulate, force)[ok]
-    if ok.sum() < _STRETCHES or float(np.var(recorded)) == 0.0:
+    if ok.sum() < INDEPENDENT_STRETCHES or float(np.var(recorded)) == 0.0:
         return (), []
     share = {s: _explained(recorded, p) for s, p in turned.items()}
     best = max(sets, key=lambda s: round(share[s], 6))  # the fewest turns of those that are the same
@@ -134,7 +132,7 @@ def convention(
     log_evidence = {
         s: _likelier(recorded, turned[base], turned[s], beside) for s in sets if s in away and share[s] > 0.5
     }
-    if log_evidence and max(log_evidence.values()) > _SURE:
+    if log_evidence and max(log_evidence.values()) > _EVIDENCE_TO_TURN:
         chosen = max(log_evidence, key=lambda s: round(log_evidence[s], 3))
     if not chosen:
         return (), []
@@ -160,10 +158,10 @@ def excludes_sae(channels: Mapping[str, Array], simulate: Simulate) -> bool:
         return False
     given, sae = (_turned(channels, simulate, "fy", s) for s in ((), tuple(sorted(_SAE))))
     ok = np.isfinite(channels["fy"]) & np.isfinite(given) & np.isfinite(sae)
-    if ok.sum() < _STRETCHES:
+    if ok.sum() < INDEPENDENT_STRETCHES:
         return False
     beside = _off_by_slip(channels, simulate, "fy")[ok]
-    return _likelier(channels["fy"][ok], given[ok], sae[ok], beside, sized=False) <= -_ALIKE
+    return _likelier(channels["fy"][ok], given[ok], sae[ok], beside, sized=False) <= -_NOT_TOLD_APART
 
 
 def _off_by_slip(channels: Mapping[str, Array], simulate: Simulate, force: str) -> Array:
@@ -182,16 +180,16 @@ def _turned(channels: Mapping[str, Array], simulate: Simulate, force: str, names
 
 
 def _explained(recorded: Array, model: Array) -> float:
-    """Share of the force's variance that the model explains with a gain within ``_GAINS`` and an offset."""
+    """Share of the force's variance that the model explains with a gain (``_SIGN_GAINS``) and an offset."""
     r, m = recorded - recorded.mean(), model - model.mean()
     size = float(m @ m)
-    gain = float(np.clip(m @ r / size, *_GAINS)) if size > 0.0 else 0.0
+    gain = float(np.clip(m @ r / size, *_SIGN_GAINS)) if size > 0.0 else 0.0
     return 1.0 - float(np.sum((r - gain * m) ** 2)) / float(r @ r)
 
 
 def _alike(recorded: Array, base: Array, other: Array, beside: Array) -> bool:
     """Whether two conventions explain a force as well as each other."""
-    return other is base or abs(_likelier(recorded, base, other, beside, sized=False)) < _ALIKE
+    return other is base or abs(_likelier(recorded, base, other, beside, sized=False)) < _NOT_TOLD_APART
 
 
 def _likelier(recorded: Array, base: Array, other: Array, beside: Array, *, sized: bool = True) -> float:
@@ -213,13 +211,13 @@ def _likelier(recorded: Array, base: Array, other: Array, beside: Array, *, size
     off = np.array([_GAIN_OFF * size[0], _OFFSET * float(np.max(np.abs(base))), np.inf, size[3]])
     square = x.T @ x
     left = gap - x @ (np.linalg.pinv(square, rcond=1e-10) @ (x.T @ gap))
-    spread = float(np.mean(left**2)) * base.size / _STRETCHES
+    spread = float(np.mean(left**2)) * base.size / INDEPENDENT_STRETCHES
     prior = np.diag(spread / off**2)
     inverse = np.linalg.pinv(square + prior, rcond=1e-10)
     fit = inverse @ (x.T @ gap)
     left = gap - x @ fit
-    stretch = np.arange(base.size) * _STRETCHES // base.size
-    score = np.array([np.bincount(stretch, x[:, k] * left, _STRETCHES) for k in range(4)])
+    stretch = np.arange(base.size) * INDEPENDENT_STRETCHES // base.size
+    score = np.array([np.bincount(stretch, x[:, k] * left, INDEPENDENT_STRETCHES) for k in range(4)])
     scatter = score @ score.T + spread * prior
     error = np.sqrt(max((inverse @ scatter @ inverse)[2, 2], 0.0)) / size[2]
     b = fit[2] / size[2]

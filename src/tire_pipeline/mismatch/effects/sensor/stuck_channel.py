@@ -79,13 +79,13 @@ def _stuck(x: Array, *, once: bool) -> tuple[Array | None, float]:
 
 
 _FAR_LONGER = 5
-_AROUND = 10
+_LENGTHS_AROUND = 10
 """A slow signal in few digits, at its crest or brought to a faster clock, repeats its values for ever longer
 and ever shorter; one that is stuck stands out from what lies so many times its length before and after."""
 
 
 def _longest_beside(starts: Array, lengths: Array, first: int, length: int) -> int:
     """Return the longest other run in the stretches before and after a run."""
-    low, high = first - _AROUND * length, first + (1 + _AROUND) * length
+    low, high = first - _LENGTHS_AROUND * length, first + (1 + _LENGTHS_AROUND) * length
     near = (starts + lengths > low) & (starts < high) & (starts != first)
     return int(lengths[near].max(initial=0))

@@ -12,14 +12,14 @@ from tire_pipeline.recordings.check import LARGEST_PLAUSIBLE, in_another_unit
 from tire_pipeline.unit_definitions import GRAVITY, POUND_FORCE, PSI
 
 _DEG = 180.0 / np.pi
-_FORCE = {POUND_FORCE: "pound-force for newton", 1e3: "kN for N", GRAVITY: "kgf for N"}
-_FACTORS: dict[str, dict[float, str]] = {
+_FORCE_FACTORS = {POUND_FORCE: "pound-force for newton", 1e3: "kN for N", GRAVITY: "kgf for N"}
+_FACTORS_BY_CHANNEL: dict[str, dict[float, str]] = {
     "slip_angle": {_DEG: "degree for radian"},
     "camber": {_DEG: "degree for radian"},
     "slip_ratio": {100.0: "percent for 1"},
-    "normal_load": _FORCE,
-    "fx": _FORCE,
-    "fy": _FORCE,
+    "normal_load": _FORCE_FACTORS,
+    "fx": _FORCE_FACTORS,
+    "fy": _FORCE_FACTORS,
 }
 _PRESSURE = {
     1e3 / PSI: "psi for kPa",
@@ -56,7 +56,7 @@ class UnitError(Effect):
         channels = {**channels, **{n: x for f in found for n, x in f.repaired.items()}}
         trials = [
             (name, factor, text if power > 0 else f"the inverse of {text}")
-            for name, factors in _FACTORS.items()
+            for name, factors in _FACTORS_BY_CHANNEL.items()
             if name in channels
             for base, text in factors.items()
             for power in (1, -1)
@@ -69,7 +69,7 @@ class UnitError(Effect):
             simulate,
             [
                 ({"fx": 1.0 / f**k, "fy": 1.0 / f**k}, ("fx, fy", f**k, t))
-                for f, t in _FORCE.items()
+                for f, t in _FORCE_FACTORS.items()
                 for k in (1, -1)
                 if "fx" in channels and "fy" in channels
             ],
@@ -124,7 +124,7 @@ def _impossible(channels: Mapping[str, Array]) -> list[Finding]:
     for name, (_, unit) in LARGEST_PLAUSIBLE.items():
         if name in channels and in_another_unit(name, channels[name]):
             factor = _OF_UNIT[unit]
-            text = _FACTORS[name][factor]
+            text = _FACTORS_BY_CHANNEL[name][factor]
             parameters = {"ratio": (factor, 0.0, "times")}
             repaired = {name: channels[name] / factor}
             found.append(

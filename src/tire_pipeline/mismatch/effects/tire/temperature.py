@@ -9,7 +9,7 @@ from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 _WARMER = 25.0
 """degC above the warmest of the recording."""
-_AROUND = 15.0
+_USUALLY_OFF = 15.0
 """degC by which the temperature of the file's own test is usually off the middle of a recording."""
 _AROUND_BLIND = 0.6
 """The same in the unit of the integrated heat, whose 90% quantile is 1."""
@@ -100,7 +100,7 @@ class Temperature(Effect):
             return super().usual(data, name)
         if self.blind(data):
             return 0.5, _AROUND_BLIND
-        return float(np.median(data.smooth("tread_temperature"))), _AROUND  # type: ignore[attr-defined]
+        return float(np.median(data.smooth("tread_temperature"))), _USUALLY_OFF  # type: ignore[attr-defined]
 
     def blind(self, data: object) -> bool:
         """Without a temperature channel, now or where the effect was found."""

@@ -32,10 +32,10 @@ BACKGROUNDS = (0.3, 1.0)
 """Sizes of the background over the usual one: some rigs have hardly any, and its many directions show it."""
 ERRORS = np.geomspace(2e-4, 0.4, 60)
 """Sizes of the error over the largest force over which it is summed."""
-_ROUNDS = 4
-_ALIKE = 1e-3
+_ROUNDS_OF_CLIMBING = 4
+_MODE_TOLERANCE = 1e-3
 """Change of all coefficients, over their spread, below which a mode is reached."""
-_FAR = 10.0
+_WIDER = 10.0
 """Times as wide as they are: from there priors with tails are tried, too. They can have a second mode, far
 out."""
 
@@ -242,7 +242,7 @@ class Likelihood:
         near, least_squares = self._climbed(known, scale, has_tails, 1.0, wide=wide)
         found = near
         if has_tails.any() and np.any(widening(least_squares[has_tails]) > 1.0):
-            far, _ = self._climbed(known, scale, has_tails, _FAR, wide=wide)
+            far, _ = self._climbed(known, scale, has_tails, _WIDER, wide=wide)
             found = max(near, far, key=lambda each: each.value)
         if positive is None or not positive.any():
             return found
@@ -259,7 +259,7 @@ class Likelihood:
         """
         z: Array = np.zeros(scale.size)
         times = np.where(has_tails, start, 1.0)
-        for number in range(_ROUNDS):
+        for number in range(_ROUNDS_OF_CLIMBING):
             times = times if number == 0 else np.where(has_tails, widening(z), 1.0)
             spread = scale * times
             inner, aim = np.eye(scale.size), np.zeros(scale.size)
@@ -277,7 +277,7 @@ class Likelihood:
                 power += float(reduced[-1, -1])
                 total += _log_sum(values) + 0.5 * float(u @ reduced @ u)
             before, z = z, times * np.linalg.solve(inner, aim)
-            if np.max(np.abs(z - before), initial=0.0) < _ALIKE:
+            if np.max(np.abs(z - before), initial=0.0) < _MODE_TOLERANCE:
                 break
         value = total - 0.5 * (power - float(aim @ (z / times))) - 0.5 * float(np.linalg.slogdet(inner)[1])
         value += log_correction(z[has_tails], times[has_tails])

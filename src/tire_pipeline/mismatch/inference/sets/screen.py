@@ -19,8 +19,8 @@ Array = np.ndarray
 Names = tuple[str, ...]
 EFFECTS_KEPT = 12
 """Effects that go on to be fitted."""
-_ROUNDS = 8
-_ALIKE = 0.05
+_ROUNDS_OF_COUNTING = 8
+_COUNT_TOLERANCE = 0.05
 """Change of a count, as a part of it, below which it stays."""
 
 
@@ -87,7 +87,7 @@ def screen(products: RecordingProducts, guess: Likelihood, forms: Sequence[Scree
         they are chosen again, and scored.
     forms : sequence of ScreenedForm
     """
-    columns = _Columns(products, forms)
+    columns = _FormColumns(products, forms)
     independent = _independent(columns, guess, columns.likeliest(columns.scores(guess)))
     likelihood = guess.counting(independent)
     scores = columns.scores(likelihood)
@@ -99,7 +99,7 @@ def screen(products: RecordingProducts, guess: Likelihood, forms: Sequence[Scree
     return Screened(columns.each_choice(scores), evidence, _kept(evidence), independent)
 
 
-class _Columns:
+class _FormColumns:
     """The columns of all forms and the residual, and their products."""
 
     def __init__(self, products: RecordingProducts, forms: Sequence[ScreenedForm]) -> None:
@@ -141,7 +141,7 @@ class _Columns:
         return {name: tuple(choices.values()) for name, choices in found.items()}
 
 
-def _independent(columns: _Columns, guess: Likelihood, best: Mapping[str, int]) -> Mapping[str, float]:
+def _independent(columns: _FormColumns, guess: Likelihood, best: Mapping[str, int]) -> Mapping[str, float]:
     """Samples of each output that are independent beside all that is looked for.
 
     What is left beside coefficients and misfit says how many there are, and how many there are says how much
@@ -151,12 +151,12 @@ def _independent(columns: _Columns, guess: Likelihood, best: Mapping[str, int]) 
     every = columns.products.take(chosen)
     looked_for = {o: x[:, np.r_[chosen, -1]] for o, x in columns.columns.items()}
     count: Mapping[str, float] = guess.unknown.independent
-    for _ in range(_ROUNDS):
+    for _ in range(_ROUNDS_OF_COUNTING):
         before = count
         here = guess.counting({o: n / guess.part for o, n in before.items()})
         found = here.evidence(every, np.ones(chosen.size), wide=True)
         count = columns.recording.independent(looked_for, found)
-        if all(abs(np.log(count[o] / before[o])) < _ALIKE for o in count):
+        if all(abs(np.log(count[o] / before[o])) < _COUNT_TOLERANCE for o in count):
             break
     return count
 

@@ -23,12 +23,12 @@ COUNTS = (1, 2, 3, 4)
 """Numbers of classes that are tried. More of them were found on tuning fleets where there are four, and then
 the groups of different categories were laid over each other wrongly; fewer do little harm."""
 
-_STEPS = 25
+_MAXIMISATION_STEPS = 25
 _LITTLE = 0.3  # growth of the evidence at which the climb ends
 _SHARE_COST = 2.0  # parameters that a class's share counts as: slopes over the metadata are penalised
 _TIRES_A_CLASS = 15  # fewer tires tell no classes
 _LEAST_ROW = 0.01  # probability below which a cell is not laid out for a class
-_LEAST_OWN = 1e-3
+_LEAST_VARIANCE = 1e-3
 
 
 def with_classes(blocks: Mapping[str, np.ndarray], coded: np.ndarray) -> dict[str, np.ndarray]:
@@ -107,7 +107,7 @@ def refined_classes(question: ClassSearchInput, probability: np.ndarray) -> Clas
     start = np.diag([v["tire"] for v in variances])
     state = ClassState(probability, start, variances, fit_shares(question.metadata, probability))
     before = -np.inf
-    for _ in range(_STEPS):
+    for _ in range(_MAXIMISATION_STEPS):
         state = _step(question, state)
         if abs(state.evidence - before) < _LITTLE:
             break
@@ -187,7 +187,7 @@ def _own_covariance(
 ) -> np.ndarray:
     total = np.einsum("nk,nka,nkb->ab", probability, gap, gap) / len(gap) - np.diag(alone.mean(axis=0))
     values, axes = np.linalg.eigh(total * linked)
-    return np.asarray((axes * np.maximum(values, _LEAST_OWN)) @ axes.T)
+    return np.asarray((axes * np.maximum(values, _LEAST_VARIANCE)) @ axes.T)
 
 
 def _updated(

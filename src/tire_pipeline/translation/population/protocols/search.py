@@ -32,9 +32,9 @@ alone: of fleets of 11 to 20 tires a category, nothing but noise, a fifth had a 
 
 _SIZES = np.array([0.01, 0.03, 0.1, 0.3, 1.0])  # variance of a step in units of the tires' own
 _TRENDS = np.array([0.0, *_SIZES])  # the same of what all categories' tires have changed by
-_FEWEST = 5  # tires on either side of the day
+_FEWEST_TIRES = 5  # tires on either side of the day
 _LEAST_SHARE = 0.1  # of the category's dated tires on either side
-_BOUND = 4.0  # robust standard deviations beyond which a tire counts no more
+_MOST_SPREADS = 4.0  # robust standard deviations beyond which a tire counts no more
 _RANGE = 0.05, 0.95
 
 
@@ -96,7 +96,7 @@ def find_changes(
 
 
 @dataclass(frozen=True)
-class _Look:
+class _DayEvidence:
     """What was found of one category: evidence by day, logarithms of the odds against no change."""
 
     days: np.ndarray
@@ -142,7 +142,7 @@ def _whitened(gap: np.ndarray, category: np.ndarray, day: np.ndarray) -> np.ndar
             continue
         middle = np.median(gap[own], axis=0)
         spread = 1.4826 * np.median(np.abs(np.diff(gap[own], axis=0)), axis=0) / np.sqrt(2.0)
-        scaled[own] = np.clip((gap[own] - middle) / np.maximum(spread, 1e-9), -_BOUND, _BOUND)
+        scaled[own] = np.clip((gap[own] - middle) / np.maximum(spread, 1e-9), -_MOST_SPREADS, _MOST_SPREADS)
         apart.append(np.diff(scaled[own], axis=0))
     if not apart:
         return scaled
@@ -175,11 +175,11 @@ def _steps(
 
 def _look(
     organisation: np.ndarray, day: np.ndarray, values: Mapping[str, np.ndarray], category: str
-) -> _Look | None:
+) -> _DayEvidence | None:
     """Weigh a step of ``category`` against none; None if too few dated tires tell."""
     own = (organisation == category) & ~np.isnat(day)
     others = (organisation != category) & ~np.isnat(day)
-    fewest = max(_FEWEST, _LEAST_SHARE * own.sum())
+    fewest = max(_FEWEST_TIRES, _LEAST_SHARE * own.sum())
     days = np.unique(day[own])
     after = np.array([(day[own] >= one).sum() for one in days])
     days = days[(after >= fewest) & (own.sum() - after >= fewest)]
@@ -191,7 +191,7 @@ def _look(
         there, known = _steps(part[others], day[others], organisation[others], days)
         odds += np.logaddexp(0.0, _log_odds(step, there, 1.0 / weight, 1.0 / np.maximum(known, 1e-9)))
         odds -= np.log(2.0)
-    return _Look(days, odds, day[own])
+    return _DayEvidence(days, odds, day[own])
 
 
 def _rare(
@@ -234,7 +234,11 @@ def _log_odds(own: np.ndarray, others: np.ndarray, noise: np.ndarray, theirs: np
 
 
 def _remove_step(
-    organisation: np.ndarray, day: np.ndarray, values: Mapping[str, np.ndarray], category: str, look: _Look
+    organisation: np.ndarray,
+    day: np.ndarray,
+    values: Mapping[str, np.ndarray],
+    category: str,
+    look: _DayEvidence,
 ) -> None:
     """Take a change that was found out of the values, so that it does not show in the others' comparison."""
     own = (organisation == category) & ~np.isnat(day)
