@@ -93,7 +93,7 @@ def test_each_subcommand_has_help_and_the_shared_options(name):
 def test_python_m_runs_the_command(folder):
     call = [sys.executable, "-m", "tire_pipeline.command", "show", "a.tir", "--no-page"]
     done = subprocess.run(call, capture_output=True, text=True, check=True)
-    assert "Magic Formula 5.2, nominal load 4000 N" in done.stdout
+    assert "Magic Formula 5.2, nominal load 4 kN" in done.stdout
 
 
 def test_show_says_version_ranges_and_what_is_missing(folder):
@@ -104,7 +104,7 @@ def test_show_says_version_ranges_and_what_is_missing(folder):
     assert "There is no aligning moment" in text
     assert "No ranges are stated" not in text
     assert "No ranges are stated" in run("show", "a.tir", "--no-page").stdout
-    assert re.search(r"normal load +500 +9,000 +N", text)
+    assert re.search(r"normal load +0\.5 +9 +kN", text)
     found = told("show", "b.tir", "--no-page")
     assert found["version"] == "5.2"
     assert found["ranges"]["normal_load"] == [500.0, 9000.0]

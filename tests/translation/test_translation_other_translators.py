@@ -5,7 +5,7 @@ import pytest
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
-from tire_pipeline.translation.base import make_translator, translator_from_state
+from tire_pipeline.translation.base import judging, make_translator, translator_from_state
 from tire_pipeline.translation.learned import CuriousAgent, CycleConsistent, LikelihoodAgent
 from tire_pipeline.translation.result import LEFT_ALONE, TRANSLATED
 from tire_pipeline.translation.simple.greedy_forest import GreedyForest
@@ -21,6 +21,13 @@ def test_agents_learn_and_come_back(training, made, hidden):
     pd.testing.assert_frame_equal(translated, back.translate(hidden), check_exact=True)
     curious = CuriousAgent(updates=4).fit(training, target="D", seed=3, made=made)
     assert not curious.translate(hidden).equals(translated)
+    strict = agent.with_verdict(farthest=0.5)
+    assert (type(strict), strict.categories, strict.target) == (LikelihoodAgent, agent.categories, "D")
+    assert (
+        strict.translation(hidden, bands=False)
+        .report["distance"]
+        .equals(agent.translation(hidden, bands=False).report["distance"])
+    )
 
 
 def test_cycle_consistent_networks_move_tires_and_come_back(training, made, hidden):
@@ -60,3 +67,16 @@ def test_doing_nothing_gives_a_copy(training, hidden):
     found = make_translator("no_change").fit(training, target="D", seed=0)
     assert found.translate(hidden) is not hidden
     pd.testing.assert_frame_equal(found.translate(hidden), hidden)
+
+
+@pytest.mark.parametrize("name", ["no_change", "greedy_forest"])
+def test_a_translator_without_a_model_of_the_bias_is_no_judge(name, training):
+    with pytest.raises(DomainError, match=f"{name} gives no verdicts"):
+        judging(make_translator(name).fit(training, target="D", seed=0))
+
+
+def test_a_mixed_model_is_a_judge_and_knows_its_categories(mixed, training):
+    assert judging(mixed) is mixed
+    assert set(mixed.categories) == set(training["category"])
+    with pytest.raises(DomainError, match="not fitted"):
+        judging(make_translator("mixed_model"))

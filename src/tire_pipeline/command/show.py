@@ -43,8 +43,10 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
 
     figures = key_figures(model)
     ranges = {name: (low, high) for name, (*_, low, high) in model.ranges.items()}
+    load = model.value("FNOMIN")
+    factor, unit, _ = shown_unit("normal_load", load)
     lines = [
-        f"Magic Formula {model.version}, nominal load {model.value('FNOMIN'):g} N, "
+        f"Magic Formula {model.version}, nominal load {load * factor:g} {unit}, "
         f"{len(model.coefficients)} coefficients."
     ]
     missing = _replaced(model)

@@ -68,16 +68,15 @@ def command(
     from tire_pipeline.command.stored import translator_state
     from tire_pipeline.tir import read_tir, write_tir
     from tire_pipeline.tir.format.values import COMPUTED_DIGITS
-    from tire_pipeline.translation import translator_from_state
+    from tire_pipeline.translation.base import judging, translator_from_state
     from tire_pipeline.translation.of_models import translate_models
 
     model = read_tir(file, unloaded_radius=radius)
     state, source = translator_state(stored)
-    translator: Any = translator_from_state(state)
-    goal = str(getattr(translator, "target", "target"))
-    target = Path(f"{file.stem}_as_{goal}.tir") if target is None else target
+    translator = judging(translator_from_state(state))
+    target = Path(f"{file.stem}_as_{translator.target}.tir") if target is None else target
     check_target(target, overwrite, file)
-    who = category or _folder(file, translator)
+    who = category or _folder(file, translator.categories)
     load = nominal_load or float(state.get("nominal_load", USUAL_LOAD))
     notes = [] if nominal_load or "nominal_load" in state else [_ASSUMED]
     result, translated, comments = translate_models(
@@ -91,17 +90,14 @@ def command(
     finish(outcome, f"{file.stem}_translate", **output)
 
 
-def _folder(file: Path, translator: Any) -> str:
-    from tire_pipeline.translation.of_models import categories_of
-
-    known = categories_of(translator)
+def _folder(file: Path, known: tuple[str, ...]) -> str:
     for folder in reversed(file.resolve().parent.parts):
         if folder in known:
             return folder
     raise DomainError(
         "who measured this tire is not known",
         where=str(file),
-        todo=f"add --from with one of {', '.join(known) or 'the training categories'}",
+        todo=f"add --from with one of {', '.join(known)}",
     )
 
 

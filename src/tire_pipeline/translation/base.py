@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar, Protocol, Self
+from typing import Any, ClassVar, Protocol, Self, runtime_checkable
 
+import numpy as np
 import pandas as pd
 
 from tire_pipeline.class_by_name import class_by_name
@@ -127,6 +128,65 @@ class Translator(Protocol):
     def from_state(cls, state: Mapping[str, Any]) -> Self:
         """Bring back what :meth:`to_state` gave; it translates the same."""
         ...
+
+
+@runtime_checkable
+class JudgingTranslator(Translator, Protocol):
+    """A translator that knows its categories, judges each file, and may learn from the files to translate."""
+
+    @property
+    def target(self) -> str:
+        """The category that it translates to."""
+        ...
+
+    @property
+    def categories(self) -> tuple[str, ...]:
+        """The categories that it has learned from."""
+        ...
+
+    @property
+    def learn_from_batch(self) -> bool:
+        """Whether it learns from the files to translate, too."""
+        ...
+
+    def with_verdict(self, **changes: Any) -> Self:
+        """Give the same translator with other rules of the verdict, such as ``farthest=1.5``."""
+        ...
+
+    def teaching(self, source: pd.DataFrame) -> tuple[np.ndarray, pd.DataFrame]:
+        """Give what :meth:`taught` needs of some files of a batch: their tires, and those that may teach."""
+        ...
+
+    def taught(self, tires: np.ndarray, teachers: pd.DataFrame) -> Self:
+        """Give the same translator after it has learned from a batch, if it learns from batches."""
+        ...
+
+    def protocol_changes(self) -> pd.DataFrame:
+        """Give the categories that changed how they measure, one row each."""
+        ...
+
+
+def judging(translator: Translator) -> JudgingTranslator:
+    """Return a translator as one that judges.
+
+    Parameters
+    ----------
+    translator : Translator
+        Fitted.
+
+    Returns
+    -------
+    JudgingTranslator
+        The same object.
+
+    Raises
+    ------
+    DomainError
+        If it gives no verdicts: it models no bias that files could be judged by.
+    """
+    if not isinstance(translator, JudgingTranslator):
+        raise DomainError(f"the translator {translator.name} gives no verdicts", todo="use a mixed model")
+    return translator
 
 
 def _class_of(name: str) -> Any:

@@ -8,7 +8,7 @@ from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE
 from tire_pipeline.translation.predict.base import Predictor
 from tire_pipeline.translation.predict.cycle import ROUNDS, CyclePredictor
 from tire_pipeline.translation.predict.policy import UPDATES, PolicyPredictor
-from tire_pipeline.translation.translator import CurveTranslator
+from tire_pipeline.translation.translator import CurveOptions, CurveTranslator
 
 
 class LikelihoodAgent(CurveTranslator):
@@ -34,8 +34,8 @@ class LikelihoodAgent(CurveTranslator):
         pairs: bool = False,
         farthest: float = FARTHEST_DISTANCE,
     ) -> None:
-        policy = PolicyPredictor(int(updates), self.curious)
-        super().__init__(policy, pairs=pairs, gate=gate, farthest=farthest)
+        options = CurveOptions(pairs, gate=gate, farthest=farthest)
+        super().__init__(PolicyPredictor(int(updates), self.curious), options)
 
 
 class CuriousAgent(LikelihoodAgent):
@@ -60,4 +60,4 @@ class CycleConsistent(CurveTranslator):
     predictors: ClassVar[type[Predictor]] = CyclePredictor
 
     def __init__(self, *, rounds: int = ROUNDS, gate: bool = False, pairs: bool = False) -> None:
-        super().__init__(CyclePredictor(int(rounds)), pairs=pairs, gate=gate)
+        super().__init__(CyclePredictor(int(rounds)), CurveOptions(pairs, gate=gate))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -12,11 +11,10 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.tire_table import from_models, normalize_table
-from tire_pipeline.translation.base import Translator
+from tire_pipeline.translation.base import Translator, judging
 from tire_pipeline.translation.decode.decoder import COEFFICIENTS
 from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE
 from tire_pipeline.translation.result import EDGE, TRANSLATED, TranslationResult, comment_lines
-from tire_pipeline.translation.translator import CurveTranslator
 
 
 def translate_models(
@@ -53,19 +51,16 @@ def translate_models(
     DomainError
         A category is unknown to the translator, or the translator gives no verdicts.
     """
-    if not isinstance(translator, CurveTranslator):
-        raise DomainError(f"the translator {translator.name} gives no verdicts", todo="use a mixed model")
-    known = categories_of(translator)
+    judge = judging(translator)
+    known = judge.categories
     for file, (category, _) in models.items():
-        if known and category not in known:
+        if category not in known:
             raise DomainError(
                 f"the translator has seen no files of {category!r}",
                 where=file,
                 todo=f"say who measured the tire: one of {', '.join(known)}",
             )
-    gated = translator.with_verdict(
-        farthest=min(farthest, FARTHEST_DISTANCE), gate=True
-    )  # agents never refuse
+    gated = judge.with_verdict(farthest=min(farthest, FARTHEST_DISTANCE), gate=True)  # agents never refuse
     own = from_models((file, category, model) for file, (category, model) in models.items())
     source = normalize_table(own, nominal_load).assign(category_probability=1.0)
     result = gated.translation(source)
@@ -104,8 +99,3 @@ def at_own_load(
         translated[file] = model.replace(**changed)
         comments[file] = comment_lines(result, row, COEFFICIENTS)
     return translated, comments
-
-
-def categories_of(translator: Any) -> tuple[str, ...]:
-    """Return the categories that a fitted translator knows; empty if it does not tell."""
-    return tuple(str(name) for name in getattr(getattr(translator, "model", None), "categories", ()))

@@ -23,10 +23,10 @@ from tire_pipeline.tir.format.values import COMPUTED_DIGITS
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.tire_table.from_models import KNOWN_COEFFICIENTS, as_in_whole
 from tire_pipeline.tire_table.read_blocks import Load, cause_in_file
+from tire_pipeline.translation.base import JudgingTranslator
 from tire_pipeline.translation.curves.of_files import file_curves
 from tire_pipeline.translation.of_models import at_own_load
 from tire_pipeline.translation.result import REFUSED, UNKNOWN, TranslationResult
-from tire_pipeline.translation.translator import CurveTranslator
 
 TABLES = ("sources", "report", "coefficients", "bands")
 BAND_COLUMNS = ("file", "output", "normal_load", "slip", "middle", "low", "high")
@@ -80,7 +80,7 @@ class Given:
 
     Attributes
     ----------
-    translator : CurveTranslator
+    translator : JudgingTranslator
         Fitted; it has learned from the batch already, if it learns from one.
     suppliers : KnownSuppliers
     nominal_load : float
@@ -89,7 +89,7 @@ class Given:
         Files farther from the training data are refused.
     """
 
-    translator: CurveTranslator
+    translator: JudgingTranslator
     suppliers: KnownSuppliers
     nominal_load: float
     farthest: float
@@ -220,7 +220,7 @@ class LookForTeachers:
     label = ""
 
     def __call__(self) -> tuple[np.ndarray, pd.DataFrame]:
-        """Tires, and rows of the files that may teach (:meth:`.CurveTranslator.teaching`)."""
+        """Tires, and rows of the files that may teach (:meth:`.JudgingTranslator.teaching`)."""
         return self.given.translator.teaching(Sources.read(self.files, self.given).table)
 
 

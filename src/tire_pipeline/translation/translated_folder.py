@@ -21,8 +21,7 @@ from tire_pipeline.progress import track
 from tire_pipeline.tasks import Map, all_done, in_turn
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.tire_table.read_blocks import digest_of, divided
-from tire_pipeline.translation import translator_from_state
-from tire_pipeline.translation.judge.effects import protocol_changes
+from tire_pipeline.translation.base import JudgingTranslator, judging, translator_from_state
 from tire_pipeline.translation.parameters import TranslateParameters
 from tire_pipeline.translation.translated_block import (
     Given,
@@ -34,7 +33,6 @@ from tire_pipeline.translation.translated_block import (
     translated_in,
     unreadable_in,
 )
-from tire_pipeline.translation.translator import CurveTranslator
 
 Files = Mapping[str, Callable[[], TireModel]]
 Parts = Mapping[str, Callable[[], bytes]]
@@ -54,7 +52,9 @@ def translate_each(
     *,
     work: Map = in_turn,
 ) -> dict[str, TranslateBlock]:
-    """Say how the files are translated, some at a time; what is stored and has not changed is not done again.
+    """Return the tasks that translate the files, some hundred each.
+
+    A task's name says all that its result depends on: what is stored under that name is not done again.
 
     Parameters
     ----------
@@ -73,10 +73,14 @@ def translate_each(
     Returns
     -------
     dict
-        A name that says all that the block's part depends on -> the block.
+        Name of a task -> the task.
+
+    Raises
+    ------
+    DomainError
+        If the translator gives no verdicts.
     """
-    fitted = translator_from_state(translator)
-    assert isinstance(fitted, CurveTranslator)  # the parameters allow no other
+    fitted = judging(translator_from_state(translator))
     suppliers = KnownSuppliers.learn(normalized_table, chosen_files, classify=parameters.classify, seed=seed)
     given = Given(fitted, suppliers, normalize.nominal_load, parameters.farthest)
     common = [state_digest(translator).encode(), *_depends_on(given, normalized_table, seed)]
@@ -102,7 +106,7 @@ def _depends_on(given: Given, normalized_table: pd.DataFrame, seed: int) -> list
     return common
 
 
-def _taught(given: Given, blocks: Mapping[int, Files], work: Map) -> CurveTranslator:
+def _taught(given: Given, blocks: Mapping[int, Files], work: Map) -> JudgingTranslator:
     """The translator after it has learned from all files: from the rows of those that may teach."""
     tasks = {next(iter(block)): LookForTeachers(block, given) for block in blocks.values()}
     found = [done.result() for done in all_done(work, tasks, "reading files to learn from").values()]
@@ -160,11 +164,11 @@ def join_translated(
             reports.append(table_in(part, "report"))
             files |= {file: partial(last.text, load, file) for file in translated_in(part)}
     report = _joined_report(reports, unreadable)
-    model = translator_from_state(translator).model  # type: ignore[attr-defined]
+    protocols = judging(translator_from_state(translator)).protocol_changes()
     sources, coefficients, bands = (
         [_table_of(load, name) for load in read] for name in ("sources", "coefficients", "bands")
     )
-    return files, report, sources, coefficients, bands, protocol_changes(model)
+    return files, report, sources, coefficients, bands, protocols
 
 
 def _joined_report(reports: list[pd.DataFrame], unreadable: list[dict[str, str]]) -> pd.DataFrame:

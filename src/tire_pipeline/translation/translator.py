@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -25,13 +25,12 @@ from tire_pipeline.translation.predict.mixed import MixedPredictor
 from tire_pipeline.translation.result import TRANSLATED, Band, TranslationResult, moved_coefficients
 
 
-class CurveTranslator:
-    """A predictor with the population's model below it, and decoder and verdict above it.
+@dataclass(frozen=True)
+class CurveOptions:
+    """How a translator of curves learns and judges.
 
-    Parameters
+    Attributes
     ----------
-    predictor : Predictor
-        Not fitted yet.
     pairs : bool
         Use that several categories measured one tire, if they did.
     learn_from_batch : bool
@@ -45,27 +44,62 @@ class CurveTranslator:
         Distance to the training data beyond which a file is refused, at most ``FARTHEST_DISTANCE``.
     """
 
+    pairs: bool
+    learn_from_batch: bool = False
+    trust: float = 0.0
+    gate: bool = False
+    farthest: float = FARTHEST_DISTANCE
+
+    def __post_init__(self) -> None:
+        """Take what a configuration gives: 1 for true, an integer for a float."""
+        for name, kind in (("pairs", bool), ("learn_from_batch", bool), ("trust", float), ("gate", bool)):
+            object.__setattr__(self, name, kind(getattr(self, name)))
+        object.__setattr__(self, "farthest", min(float(self.farthest), FARTHEST_DISTANCE))
+
+
+class CurveTranslator:
+    """A predictor with the population's model below it, and decoder and verdict above it.
+
+    Parameters
+    ----------
+    predictor : Predictor
+        Not fitted yet.
+    options : CurveOptions
+    """
+
     name: ClassVar[str]
     predictors: ClassVar[type[Predictor]]
 
-    def __init__(
-        self,
-        predictor: Predictor,
-        *,
-        pairs: bool,
-        learn_from_batch: bool = False,
-        trust: float = 0.0,
-        gate: bool = False,
-        farthest: float = FARTHEST_DISTANCE,
-    ) -> None:
-        self.pairs, self.learn_from_batch = bool(pairs), bool(learn_from_batch)
-        self.trust, self.gate, self.farthest = (
-            float(trust),
-            bool(gate),
-            min(float(farthest), FARTHEST_DISTANCE),
-        )
-        self._predictor = predictor
+    def __init__(self, predictor: Predictor, options: CurveOptions) -> None:
+        self._predictor, self._options = predictor, options
         self._parts: Parts | None = None
+
+    @classmethod
+    def of_parts(cls, parts: Parts, options: CurveOptions) -> Self:
+        """Make a fitted translator of what it is composed of.
+
+        Parameters
+        ----------
+        parts : Parts
+        options : CurveOptions
+            Where they differ from the rules of the verdict, the rules hold.
+        """
+        translator = cls.__new__(cls)  # a subclass's constructor makes the predictor, which is there already
+        rules = parts.verdict
+        own = replace(options, gate=rules.gate, farthest=rules.farthest)
+        CurveTranslator.__init__(translator, parts.predictor, own)
+        translator._parts = parts
+        return translator
+
+    @property
+    def pairs(self) -> bool:
+        """Whether it uses that several categories measured one tire."""
+        return self._options.pairs
+
+    @property
+    def learn_from_batch(self) -> bool:
+        """Whether it learns from the files to translate, too."""
+        return self._options.learn_from_batch
 
     @property
     def parts(self) -> Parts:
@@ -89,6 +123,11 @@ class CurveTranslator:
     def target(self) -> str:
         """The category that it translates to."""
         return self.parts.verdict.target
+
+    @property
+    def categories(self) -> tuple[str, ...]:
+        """The categories that it has learned from."""
+        return tuple(str(name) for name in self.model.categories)
 
     def __repr__(self) -> str:
         return f"<translator: {self.method}>"
@@ -116,13 +155,15 @@ class CurveTranslator:
             If the table has no tire of the target, or none of any other category.
         """
         check_target(training, target)
-        training = training.reset_index(drop=True)
+        options, training = self._options, training.reset_index(drop=True)
         if self.learn_from_batch:
             made = made or prepare(training, pairs=self.pairs)
         with threadpool_limits(1):  # thousands of small matrices: threads would only wait for each other
             model = fit_curve_mixed_model(training, pairs=self.pairs, made=made)
-            found = MixedPredictor(self.trust).shortened(model, training, target)
-            rules = VerdictRules.fit(model, training, found, target, gate=self.gate, farthest=self.farthest)
+            found = MixedPredictor(options.trust).shortened(model, training, target)
+            rules = VerdictRules.fit(
+                model, training, found, target, gate=options.gate, farthest=options.farthest
+            )
         predictor = self._predictor.fit(model, training, target, seed)
         batch = BatchLearning.of(made, training) if self.learn_from_batch and made else None
         self._parts = Parts(model, predictor, batch, Decoder.fit(training), rules)
@@ -140,9 +181,8 @@ class CurveTranslator:
         **changes
             Such as ``farthest=1.5`` or ``gate=False``; with another ``target`` it translates to that one.
         """
-        other = self._with(replace(self.parts, verdict=replace(self.parts.verdict, **changes)))
-        other.gate, other.farthest = other.parts.verdict.gate, other.parts.verdict.farthest
-        return other
+        parts = replace(self.parts, verdict=replace(self.parts.verdict, **changes))
+        return self.of_parts(parts, self._options)
 
     def teaching(self, source: pd.DataFrame) -> tuple[np.ndarray, pd.DataFrame]:
         """Give what :meth:`taught` needs of some files of a batch: the tires, and the files that may teach.
@@ -175,14 +215,12 @@ class CurveTranslator:
         if parts.batch is None:
             return self
         with threadpool_limits(1):
-            return self._with(replace(parts, taught=parts.batch.learn(parts.model, tires, teachers)))
+            learned = parts.batch.learn(parts.model, tires, teachers)
+        return self.of_parts(replace(parts, taught=learned), self._options)
 
-    def _with(self, parts: Parts) -> Self:
-        """The same translator of other parts."""
-        other = object.__new__(type(self))
-        other.__dict__.update(self.__dict__)
-        other._parts = parts
-        return other
+    def protocol_changes(self) -> pd.DataFrame:
+        """Give the categories that changed how they measure, one row each."""
+        return protocol_changes(self.model)
 
     def translate(self, source: pd.DataFrame) -> pd.DataFrame:
         """Give the translated tires: same rows, columns, index and metadata."""
@@ -221,7 +259,7 @@ class CurveTranslator:
         usable = np.flatnonzero(refused == "")
         table = source.copy()
         report = verdict.empty_report(model, source, refused)
-        protocols = protocol_changes(model)
+        protocols = self.protocol_changes()
         if not usable.size:
             return TranslationResult(table, report, {}, pd.DataFrame(), self.method, protocols)
         rows = source.iloc[usable]
@@ -263,7 +301,7 @@ class CurveTranslator:
             "translator": self.name,
             "option_pairs": self.pairs,
             "option_learn_from_batch": self.learn_from_batch,
-            "option_trust": self.trust,
+            "option_trust": self._options.trust,
             "coefficient_limits": parts.decoder.limits,
             **parts.verdict.to_state(),
             **parts.model.to_state(),
@@ -274,27 +312,15 @@ class CurveTranslator:
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
         """Bring back what :meth:`to_state` gave; it translates the same."""
-        predictor = cls.predictors.from_state(state)
-        verdict = VerdictRules.from_state(state)
         learns = bool(state.get("option_learn_from_batch", False))
-        translator = object.__new__(cls)
-        CurveTranslator.__init__(
-            translator,
-            predictor,
-            pairs=bool(state["option_pairs"]),
-            learn_from_batch=learns,
-            trust=float(state["option_trust"]),
-            gate=verdict.gate,
-            farthest=verdict.farthest,
-        )
-        translator._parts = Parts(
+        parts = Parts(
             CurveMixedModel.from_state(state),
-            predictor,
+            cls.predictors.from_state(state),
             BatchLearning.from_state(state) if learns else None,
             Decoder(np.asarray(state["coefficient_limits"])),
-            verdict,
+            VerdictRules.from_state(state),
         )
-        return translator
+        return cls.of_parts(parts, CurveOptions(state["option_pairs"], learns, state["option_trust"]))
 
 
 def _among_all(band: Band, usable: np.ndarray, count: int) -> Band:
@@ -349,14 +375,8 @@ class MixedModel(CurveTranslator):
         gate: bool = True,
         farthest: float = FARTHEST_DISTANCE,
     ) -> None:
-        super().__init__(
-            MixedPredictor(float(trust)),
-            pairs=pairs,
-            learn_from_batch=learn_from_batch,
-            trust=trust,
-            gate=gate,
-            farthest=farthest,
-        )
+        options = CurveOptions(pairs, learn_from_batch, trust, gate, farthest)
+        super().__init__(MixedPredictor(options.trust), options)
 
     @property
     def method(self) -> str:
