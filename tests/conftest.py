@@ -69,7 +69,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if ci_only & {item.nodeid, item.nodeid.partition("[")[0], item.nodeid.partition("::")[0]}:
             item.add_marker(pytest.mark.ci)
         if item.nodeid in known:
-            item.add_marker(pytest.mark.xfail(reason=_REASON, strict=False))
+            item.add_marker(pytest.mark.xfail(reason=_REASON, strict=True))
         folder = item.path.relative_to(_HERE).parts[0]
         if folder in _SLOW_FOLDERS:
             item.add_marker(pytest.mark.slow)

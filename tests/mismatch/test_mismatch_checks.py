@@ -3,8 +3,8 @@ import re
 import numpy as np
 import pandas as pd
 import pytest
+from small_rig import schedule
 
-from tire_pipeline.concealed import make_case
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch, explain_recordings
 from tire_pipeline.mismatch.effects import catalogue
@@ -124,10 +124,13 @@ def test_the_corrected_model_says_what_the_same_rig_would_record(tire, record, n
     assert np.std(left) < 2.0 * noise
 
 
-@pytest.mark.parametrize("seed", [225298103, 290109469])
-def test_what_reaches_its_limit_once_is_clipped_and_not_stuck(seed):
-    case, _ = make_case(seed, "artefact")
-    assert [f.name for f in prepare(case.tire, case.recording).findings] == ["clipping"]
+def test_what_reaches_its_limit_once_is_clipped_and_not_stuck(tire, record):
+    r = record()
+    wrong = r[r["time"] < 22.0].assign(fy=lambda r: np.minimum(r["fy"], 4800.0))
+    at_limit = (wrong["fy"] == 4800.0).to_numpy()
+    assert at_limit.sum() > 100
+    assert np.count_nonzero(np.diff(at_limit.astype(int)) == 1) == 1
+    assert [f.name for f in prepare(tire, wrong).findings] == ["clipping"]
 
 
 def test_a_clipped_force_is_predicted_clipped(tire, record):
@@ -136,11 +139,28 @@ def test_a_clipped_force_is_predicted_clipped(tire, record):
     assert (predicted.min(), predicted.max()) == (-3500.0, 3400.0)
 
 
-@pytest.mark.parametrize(("seed", "channel"), [(322996948, "slip_angle"), (880357143, "fy")])
-def test_signs_that_were_turned_one_after_the_other_are_said_once(seed, channel):
+@pytest.fixture(scope="module")
+def cambered(tire):
+    """A tire that leans to both sides, and its recording."""
+    leaning = tire.replace(PHY3=-0.03, PVY3=-0.3, PDY3=-5.0)
+    t, alpha, load, _ = schedule()
+    rng = np.random.default_rng(4)
+    camber = np.where(t // 30.0 % 2.0 == 0.0, 0.05, -0.03)
+    wave = np.sin(5.0 * np.arctan(alpha / 0.06)) * np.abs(alpha) / (np.abs(alpha) + 0.03)
+    fy = leaning.forces(slip_angle=alpha, normal_load=load, camber=camber).fy + 0.006 * load * wave
+    noise = rng.standard_normal((4, t.size)) * [[1e-4], [1e-4], [8.0], [25.0]]
+    columns = zip(("slip_angle", "camber", "normal_load", "fy"), (alpha, camber, load, fy), strict=True)
+    return leaning, pd.DataFrame({"time": t} | {n: x + e for (n, x), e in zip(columns, noise, strict=True)})
+
+
+@pytest.mark.parametrize(
+    ("turned", "channel"),
+    [(["fy"], "fy"), (["slip_angle", "camber"], "fy"), (["camber", "fy"], "slip_angle")],
+)
+def test_signs_that_were_turned_one_after_the_other_are_said_once(cambered, turned, channel):
     """The fewest channels are named; that slip angle and camber would look the same as Fy is said beside."""
-    case, _ = make_case(seed, "artefact")
-    found = explain_mismatch(case.tire, case.recording).effects
+    leaning, recording = cambered
+    found = explain_mismatch(leaning, recording.assign(**{n: -recording[n] for n in turned})).effects
     assert [(e.name, e.output) for e in found] == [("sign_convention", channel)]
 
 

@@ -5,9 +5,8 @@ import math
 
 import numpy as np
 import pytest
-from mismatch_shared import shared
+from mismatch_rates import points
 
-from tire_pipeline.concealed.real import RealPlan, make_real_case
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.explain import Explainer
@@ -91,11 +90,10 @@ def test_what_is_said_to_be_seen_is_named(tire, record):
 
 
 def test_what_is_said_to_be_seen_in_real_points_is_named():
-    """A slice of ``benchmarks/visible_sizes.py``: points of the TYDEX file, the formula fitted to them."""
-    plan = RealPlan(seed=62_700, source="tydex", kind="nothing")
-    case, _ = make_real_case(plan, shared("recordings"), "development")
-    named = _named_at_their_sizes(case.tire, case.recording, plan.seed)
-    assert len(named) >= 12
+    """The TYDEX points without camber, and a fit to them; rates: ``benchmarks/visible_sizes.py``."""
+    tire, table, _ = points()
+    named = _named_at_their_sizes(tire, table[table["camber"].abs() < 0.002].reset_index(drop=True), 0)
+    assert len(named) >= 10
     assert np.mean(list(named.values())) >= 0.9, [k for k, ok in named.items() if not ok]
 
 

@@ -1,0 +1,39 @@
+"""A small rig: a tire with a structured misfit, and what it drives through."""
+
+from __future__ import annotations
+
+import numpy as np
+
+COEFFICIENTS = {
+    "FNOMIN": 4000.0,
+    "UNLOADED_RADIUS": 0.32,
+    "LONGVL": 16.7,
+    "PCY1": 1.35,
+    "PDY1": 1.02,
+    "PDY2": -0.1,
+    "PEY1": -1.2,
+    "PEY2": -0.6,
+    "PKY1": 22.0,
+    "PKY2": 2.1,
+}
+
+
+def rig_force(tire, alpha, load, friction=1.0, stiffness=1.0):
+    """The tire's force with another friction and stiffness, and the misfit that fitted models have."""
+    plain = tire.forces(slip_angle=alpha * stiffness / friction, normal_load=load).fy * friction
+    wave = np.sin(5.0 * np.arctan(alpha / 0.06)) * np.cos(2.0 * load / 4000.0)
+    return plain + 0.006 * load * wave * np.abs(alpha) / (np.abs(alpha) + 0.03)
+
+
+def schedule(seconds=150.0, rate=50.0):
+    t = np.arange(0.0, seconds, 1.0 / rate)
+    period = 7.5
+    triangle = 2.0 * np.abs(2.0 * ((t / period + 0.25) % 1.0) - 1.0) - 1.0
+    alpha = -0.18 * triangle
+    level = np.array([3000.0, 5500.0, 1800.0, 4200.0])[(t // (2 * period)).astype(int) % 4]
+    load = np.empty_like(level)
+    load[0] = level[0]
+    for i in range(1, load.size):
+        load[i] = load[i - 1] + 0.08 * (level[i] - load[i - 1])
+    pressure = np.where((t > 50.0) & (t < 85.0), 1.85e5, np.where(t >= 85.0, 2.6e5, 2.2e5))
+    return t, alpha, load, pressure
