@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.magic_formula.equations.shapes import sine_curve
 from tire_pipeline.representations.base import CURVE_LOADS, CURVE_SLIP_ANGLES
 from tire_pipeline.representations.curve_fit import fit_lateral
 from tire_pipeline.representations.lateral_curve import lateral_factors, lateral_force
@@ -52,8 +53,8 @@ class KeyAttributes:
         """Give the curves of Appendix D, N, shape (n, 3, 100)."""
         stiffness, peak, slip = np.split(np.asarray(features, dtype=float), 3, axis=1)
         shape, factor = shape_and_stiffness_factor(stiffness, peak, slip)
-        angle = np.arctan(factor[..., None] * CURVE_SLIP_ANGLES)
-        return peak[..., None] * np.sin(shape[..., None] * angle)
+        b, c, d = (each[..., None] for each in (factor, shape, peak))
+        return np.asarray(sine_curve(b, c, d, 0.0, CURVE_SLIP_ANGLES))
 
     def decode(self, features: np.ndarray, source: pd.DataFrame) -> pd.DataFrame:
         """Give the source tires, fitted to the curves of Appendix D."""

@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
+from tire_pipeline.magic_formula.equations.equations_61 import cornering_stiffness
 from tire_pipeline.magic_formula.fitting.joint import fit_together
 from tire_pipeline.magic_formula.fitting.report.result import FitResult
 from tire_pipeline.magic_formula.fitting.report.statistics import relative_rms, residual_table
@@ -20,6 +21,7 @@ from tire_pipeline.magic_formula.fitting.setup.stages import STAGES, Stage
 from tire_pipeline.magic_formula.fitting.setup.typical import FEW_POINTS
 from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome, fit_stage
 from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.parameters.coefficients import Coefficients
 
 _MOST_FITTED_POINTS = 20_000
 _POINTS_OF = {
@@ -242,8 +244,9 @@ def _camber_shift_moved(model: TireModel) -> TireModel:
     """Return a 6.x model that came from 5.2 with PHY3 in PKY6, which gives its shift at the nominal load."""
     if not {"PHY3", "PKY1", "PKY2"} <= set(model.coefficients):
         return model
-    stiffness = model.value("PKY1") * np.sin(2.0 * np.arctan(1.0 / model.value("PKY2")))
-    return model.replace(PHY3=0.0, PKY6=model.value("PKY6") + model.value("PHY3") * float(stiffness))
+    p: Any = Coefficients(*model.packed.tolist())
+    stiffness = float(cornering_stiffness(p, 0.0, p.FNOMIN, 0.0, p.FNOMIN, 1.0)) / p.FNOMIN
+    return model.replace(PHY3=0.0, PKY6=p.PKY6 + p.PHY3 * stiffness)
 
 
 def _thinned(rows: np.ndarray) -> np.ndarray:
