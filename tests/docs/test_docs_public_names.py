@@ -27,7 +27,7 @@ BESIDE = {
     "tir": "TirError TirFile",
     "recordings": "DART_CAR",
     "mismatch": "EffectReport Explainer HeldOutFit OutputFit",
-    "translation": "",
+    "translation": "TranslationResult",
 }
 """What the thirty raise, warn of, take and give."""
 EVERY = NAMES + [
@@ -111,6 +111,26 @@ def test_each_field_is_described_and_no_other(package, name):
     sections = _sections(what)
     described = _entries(sections.get("Parameters", "") + sections.get("Attributes", ""))
     assert described == {field.name for field in fields(what) if not field.name.startswith("_")}
+
+
+def _methods():
+    """Public methods of the public classes, with those that they have from a class of this project."""
+    for package, name in EVERY:
+        what = _object(package, name)
+        for base in what.__mro__ if inspect.isclass(what) else ():
+            own = vars(base).items() if base.__module__.startswith("tire_pipeline") else ()
+            for method, found in own:
+                function = getattr(found, "__func__", found)
+                if inspect.isfunction(function) and not method.startswith("_"):
+                    yield pytest.param(function, id=f"{name}.{method}")
+
+
+@pytest.mark.parametrize("method", list(_methods()))
+def test_each_method_says_what_it_takes_and_gives(method):
+    sections, signature = _sections(method), inspect.signature(method)
+    described = _entries(sections.get("Parameters", ""))
+    assert described == set(signature.parameters) - {"self", "cls"}
+    assert ("Returns" in sections) == (signature.return_annotation not in ("None", None))
 
 
 def test_the_names_of_all_translators_are_given():

@@ -183,11 +183,47 @@ class TireModel(TireParameters):
         return captioned(*draw_models({self.path or "tire": self}, loads=loads, camber=camber))
 
     def nominal_load_changed(self, new: float) -> TireModel:
-        """Return the same tire with another nominal load; see :func:`.nominal_load.nominal_load_changed`."""
+        """Return the same tire with another nominal load: the same forces and moments at every load.
+
+        Parameters
+        ----------
+        new : float
+            The new ``FNOMIN``, N.
+
+        Returns
+        -------
+        TireModel
+            Coefficients that are relative to the nominal load are others.
+
+        Raises
+        ------
+        TirValueError
+            If ``new`` is not positive.
+        """
         return nominal_load_changed(self, new)
 
     def to_version(self, version: str) -> TireModel:
-        """Return the tire as a model of another version; see :func:`.convert.to_version`."""
+        """Return the tire as a model of another version.
+
+        Parameters
+        ----------
+        version : str
+            5.0, 5.1, 5.2 and PAC2002 turn into one another, 6.1 and 6.2 too, and each of the former into the
+            latter.
+
+        Returns
+        -------
+        TireModel
+            From 5.2 to 6.1 forces and moments stay as they are at every point; :func:`conversion_notes` says
+            what does not.
+
+        Raises
+        ------
+        TirVersionError
+            From 6.1 or 6.2 to an older version, or for a version that is not known.
+        TirValueError
+            If ``LMX`` is 0.
+        """
         return to_version(self, version)
 
     def jacobian(
@@ -199,7 +235,33 @@ class TireModel(TireParameters):
         out: Mapping[str, np.ndarray] | None = None,
         **channels: Unpack[PointFields],
     ) -> dict[str, np.ndarray]:
-        """Return the derivatives of forces with respect to coefficients; see :func:`.jacobian.jacobian`."""
+        """Return the derivatives of forces with respect to coefficients.
+
+        Parameters
+        ----------
+        names : sequence of str
+            Coefficients, by ``.tir`` name; zeros for one that an output does not depend on.
+        points : OperatingPoints, optional
+            Where to evaluate, in ISO W axes; or give its fields by keyword. Ranges are not checked.
+        outputs : sequence of str
+            Some of "fx", "fy", "mx", "my", "mz".
+        out : mapping of str to ndarray of shape (len(names), number of points), optional
+            Where to put each output's derivatives: it saves the time that new memory takes.
+        **channels : float or array_like
+            As for :meth:`forces`, without ``turn_slip``.
+
+        Returns
+        -------
+        dict of str to ndarray of shape (*shape of the points, len(names))
+            N or N m per unit of the coefficient.
+
+        Raises
+        ------
+        TirValueError
+            For a name that is not a coefficient, an output without derivatives, or points with turn slip.
+        TirShapeError
+            If the arguments do not broadcast.
+        """
         return jacobian(self, names, points_of(points, channels), outputs=outputs, out=out)
 
 

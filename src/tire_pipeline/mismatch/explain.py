@@ -80,14 +80,50 @@ class Explainer:
     learnt: LearntSizes = field(default_factory=learnt)
 
     def explain(self, tire: Any, recording: pd.DataFrame) -> MismatchReport:
-        """Explain one recording; parameters, returns and errors as :func:`explain_mismatch`."""
+        """Explain one recording.
+
+        Parameters
+        ----------
+        tire : TireModel or None
+            The model; None if the recording has a column ``simulated_fy`` or ``simulated_fx``.
+        recording : pandas.DataFrame
+            Canonical columns in SI, as for :func:`explain_mismatch`.
+
+        Returns
+        -------
+        MismatchReport
+            Verdict, effects with their probabilities, errors before and after, and the corrected model.
+
+        Raises
+        ------
+        RecordingError
+            If the recording cannot be used, or the catalogue lacks an effect of ``without`` or ``priors``.
+        """
         with one_thread():
             explained = self.weigh(tire, recording)
             with under_way("proving the explanation on held-out sweeps"):
                 return assembled(explained)
 
     def weigh(self, tire: Any, recording: pd.DataFrame) -> Explained:
-        """Return what a report is made of: the recording, its sets, and what the posterior says."""
+        """Return what a report is made of, without the proof on held-out sweeps.
+
+        Parameters
+        ----------
+        tire : TireModel or None
+            As for :meth:`explain`.
+        recording : pandas.DataFrame
+            As for :meth:`explain`.
+
+        Returns
+        -------
+        Explained
+            The prepared recording, its sets of effects, and what the posterior says of them.
+
+        Raises
+        ------
+        RecordingError
+            As :meth:`explain`.
+        """
         self._check()
         recording = numeric(recording)
         steps = track(_STAGES, "explaining the mismatch")

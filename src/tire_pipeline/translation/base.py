@@ -76,6 +76,11 @@ class Translator(Protocol):
         seed : int
             Seed of whatever is drawn.
 
+        Returns
+        -------
+        Translator
+            This one.
+
         Raises
         ------
         DomainError
@@ -121,12 +126,29 @@ class Translator(Protocol):
         ...
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays, strings and numbers that bring the fitted translator back."""
+        """Give what brings the fitted translator back.
+
+        Returns
+        -------
+        dict
+            Arrays, strings and numbers by name; ``translator`` is :attr:`name`.
+        """
         ...
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave; it translates the same."""
+        """Bring a fitted translator back.
+
+        Parameters
+        ----------
+        state : mapping
+            What :meth:`to_state` gave.
+
+        Returns
+        -------
+        Translator
+            Translates the same.
+        """
         ...
 
 

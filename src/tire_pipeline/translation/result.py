@@ -52,7 +52,7 @@ class Band:
 
 @dataclass(frozen=True)
 class TranslationResult:
-    """A translation.
+    """What a translator gives of some files: the translated tires, and a verdict on each file.
 
     Attributes
     ----------
@@ -79,6 +79,23 @@ class TranslationResult:
         did. A target that did is given by its newest protocol.
     stiffness : Band, optional
         Of the cornering stiffness (N/rad, positive), with the one slip 0.
+
+    See Also
+    --------
+    Translator.translation : Gives one.
+
+    Notes
+    -----
+    How the columns of the report come about: docs/explanation/translation.md.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> from tire_pipeline.translation import make_translator
+    >>> tires = pd.DataFrame({"file": ["A/1.tir", "D/1.tir"], "category": ["A", "D"], "PDY1": [1.0, 0.9]})
+    >>> result = make_translator("no_change").fit(tires, target="D", seed=0).translation(tires)
+    >>> result.method, list(result.report["verdict"])
+    ('no_change', ['left alone', 'left alone'])
     """
 
     table: pd.DataFrame

@@ -126,7 +126,15 @@ class TireParameters:
     def channels_at(self, points: OperatingPoints) -> tuple[Any, ...]:
         """Return points in the order of ``POINT_CHANNELS``; speed and pressure are the tire's own for None.
 
-        MF 5.2 knows no pressure: its is 0.
+        Parameters
+        ----------
+        points : OperatingPoints
+            In ISO W axes, SI.
+
+        Returns
+        -------
+        tuple of float or ndarray
+            MF 5.2 knows no pressure: its is 0.
         """
         normal_load, slip_angle, slip_ratio, camber, speed, pressure, _ = points
         if speed is None:
@@ -140,7 +148,16 @@ class TireParameters:
     def value(self, name: str) -> float:
         """Return a coefficient's value, or what stands in for it.
 
-        A coefficient of another version, which this one has no use for, has its neutral value, 0 or 1.
+        Parameters
+        ----------
+        name : str
+            By ``.tir`` name.
+
+        Returns
+        -------
+        float
+            SI units. A coefficient of another version, which this one has no use for, has its neutral value,
+            0 or 1.
 
         Raises
         ------
@@ -158,7 +175,20 @@ class TireParameters:
     def replace(self, **coefficients: float) -> Self:
         """Return the tire with some coefficients changed.
 
-        A coefficient that was defaulted and is set here is no longer defaulted.
+        Parameters
+        ----------
+        **coefficients : float
+            New values by ``.tir`` name, SI units. One that was defaulted is no longer defaulted.
+
+        Returns
+        -------
+        TireParameters
+            Of the class that came in.
+
+        Raises
+        ------
+        TirValueError
+            If a value is not finite, or one that the equations divide by is zero.
         """
         changed = {**self.coefficients, **coefficients}
         left = {k: v for k, v in self.defaulted.items() if k not in coefficients}

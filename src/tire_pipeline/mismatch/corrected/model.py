@@ -172,9 +172,17 @@ class CorrectedModel:
         )
 
     def cleaned_where_it_helps(self, recording: pd.DataFrame) -> CorrectedModel:
-        """Return the model with the noise of the recording that was explained, as it was recorded.
+        """Return the model with the noise of the recording that was explained.
 
-        Without any cleaning if the forces of that recording are predicted no better with it.
+        Parameters
+        ----------
+        recording : pandas.DataFrame
+            That recording as it was recorded, SI.
+
+        Returns
+        -------
+        CorrectedModel
+            Without any cleaning if the recorded forces are predicted no better with it.
         """
         if not (self.cleaned and self._changed and "time" in recording):
             return self

@@ -122,7 +122,13 @@ class MismatchReport(ReportContents):
         return overview(self)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the report as plain JSON types (no arrays, no NaN)."""
+        """Return the report as plain JSON types.
+
+        Returns
+        -------
+        dict
+            SI units; no arrays, and None for NaN.
+        """
         raw = {
             "verdict": self.verdict,
             "summary": self.summary,
@@ -148,7 +154,18 @@ class MismatchReport(ReportContents):
         return json.loads(json.dumps(_plain(raw)))
 
     def to_json(self, path: str | Path) -> Path:
-        """Write :meth:`to_dict` as a JSON file."""
+        """Write :meth:`to_dict` as a JSON file.
+
+        Parameters
+        ----------
+        path : str or Path
+            Where; a file that is there is overwritten.
+
+        Returns
+        -------
+        Path
+            The same.
+        """
         path = Path(path)
         path.write_text(json.dumps(self.to_dict(), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
         return path

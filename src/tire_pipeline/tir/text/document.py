@@ -130,6 +130,11 @@ class TirFile:
     def scan(self) -> Scan:
         """Go through the lines.
 
+        Returns
+        -------
+        Scan
+            Entries, sections and tables in order, and the lines that are none of these.
+
         Raises
         ------
         TirSyntaxError
@@ -169,13 +174,38 @@ class TirFile:
         return max(counts, key=lambda each: counts[each])
 
     def get(self, section: str, key: str, default: str | None = None) -> str | None:
-        """Return the last value text under that section (any alias) and key."""
+        """Return the last value under a section and key, as it is written.
+
+        Parameters
+        ----------
+        section : str
+            Its standard name, or any other that files have for it.
+        key : str
+            In any case.
+        default : str, optional
+            What is returned where there is none.
+
+        Returns
+        -------
+        str or None
+            Text: numbers and units are not interpreted.
+        """
         wanted = (section_name(section), key.upper())
         found = [each.value for each in self.entries if (each.section, each.key) == wanted]
         return found[-1] if found else default
 
     def rows(self, table: DocumentTable) -> list[tuple[float, ...]]:
-        """Return the numbers of a table, a tuple a row.
+        """Return the numbers of a table.
+
+        Parameters
+        ----------
+        table : DocumentTable
+            One of :attr:`tables`.
+
+        Returns
+        -------
+        list of tuple of float
+            A tuple a row, as they stand in the file.
 
         Raises
         ------
@@ -205,6 +235,11 @@ class TirFile:
         ----------
         edits : sequence of (start, stop, text)
             Spans of the present text that do not overlap. An empty span inserts.
+
+        Returns
+        -------
+        TirFile
+            Of the same encoding and path.
         """
         pieces, at = [], 0
         for start, stop, new in sorted(edits, key=lambda each: each[:2]):
@@ -214,7 +249,13 @@ class TirFile:
         return TirFile(text, self.encoding, self.mark, self.path)
 
     def to_bytes(self) -> bytes:
-        """Return the file's content; UTF-8 if new text does not fit the encoding it came in."""
+        """Return the file's content.
+
+        Returns
+        -------
+        bytes
+            In the encoding it came in; UTF-8 if new text does not fit that.
+        """
         try:
             return self.mark + self.text.encode(self.encoding)
         except UnicodeEncodeError:

@@ -76,7 +76,18 @@ class FitResult:
     not_fitted: Sequence[str] = ()
 
     def forces(self, **points: Any) -> TireForces:
-        """Return the fitted model's forces; see :meth:`TireModel.forces`."""
+        """Return the fitted model's forces.
+
+        Parameters
+        ----------
+        **points : float or array_like
+            As for :meth:`TireModel.forces`: ``slip_angle`` (rad), ``normal_load`` (N) and so on.
+
+        Returns
+        -------
+        TireForces
+            N and N m, of the shape that the arguments broadcast to.
+        """
         return self.model.forces(**points)
 
     def plot(self) -> Figure:
@@ -119,7 +130,13 @@ class FitResult:
         )
 
     def summary(self) -> str:
-        """Return the fit in plain text."""
+        """Return the fit in plain text.
+
+        Returns
+        -------
+        str
+            Errors by output, coefficients with their standard errors, and the notes.
+        """
         lines = [f"Magic Formula {self.model.version}, FNOMIN = {self.model.value('FNOMIN'):g} N", ""]
         for output, value in self.relative_rms.items():
             if output in self.not_fitted:
