@@ -13,6 +13,7 @@ from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit
+from tire_pipeline.mismatch.report.equation_words import of_equation, on_unnamed
 from tire_pipeline.mismatch.report.head import Head
 from tire_pipeline.mismatch.report.words import figure, in_words, newtons, place
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
@@ -66,15 +67,13 @@ def head(
         causes, size = _UNDECIDED, _undecided(fit, remainder)
     else:
         causes = _causes(verdict, effects, remainder, ranges)
-        size = _size(effects, fit) or _of_equation(unnamed)
+        size = _size(effects, fit) or of_equation(unnamed)
     return Head(
         causes=causes,
         spot=_spot(effects, fit, located, remainder, ranges, even or {}),
         size=size,
         todo=_next(effects, next_experiment),
-        remarks=tuple(
-            filter(None, [_more_left(remainder) if effects else "", _on_unnamed(unnamed, verdict)])
-        ),
+        remarks=tuple(filter(None, [_more_left(remainder) if effects else "", on_unnamed(unnamed, verdict)])),
     )
 
 
@@ -128,7 +127,7 @@ def without_equation(
     fit : mapping of str to OutputFit
         Errors without the equation.
     """
-    remarks = tuple(remark for remark in told.remarks if remark != _on_unnamed(found, verdict))
+    remarks = tuple(remark for remark in told.remarks if remark != on_unnamed(found, verdict))
     size = told.size if verdict == "undecided" else _size(effects, _forces(fit))
     return replace(told, size=size, remarks=remarks)
 
@@ -187,49 +186,6 @@ def on_expected(names: Sequence[str]) -> str:
         f"{titles[:1].upper()}{titles[1:]} {acts} on every tire, and the tire model has no coefficient for "
         f"{it}: in this recording {is_} too small to be told from the misfit of the formula."
     )
-
-
-def _on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
-    """Return what is known of the part without a name, in a sentence or two; empty where nothing is."""
-    if found is None or found.physics is None:
-        return ""
-    first = verdict in ("unexplained", "partly explained")
-    what = "The unexplained residual" if first else "The remaining residual"
-    text = (
-        f"{what} is of no effect of the catalogue. Of what was recorded, it follows {_drivers(found)} best. "
-        "An equation of it is in the corrected model"
-    )
-    if verdict in ("unexplained", "undecided"):
-        return f"{text}."
-    shares = " and ".join(
-        f"{100.0 * (1.0 - after / before):.0f}% of that of {o.capitalize()}"
-        for o, (before, after, _) in _unseen(found).items()
-    )
-    return (
-        f"{text}: on sweeps that neither its choice nor its fit has seen, it removes of the remaining RMS "
-        f"error {shares}; the errors above include that."
-    )
-
-
-def _of_equation(found: UnnamedReport | None) -> str:
-    """What an equation does on unseen sweeps where no name stands beside it."""
-    if found is None or found.physics is None:
-        return ""
-    errors = ", that of ".join(
-        f"{o.capitalize()} from {newtons(before)} N to {newtons(after)} N"
-        for o, (before, after, _) in _unseen(found).items()
-    )
-    return f"an equation in {_drivers(found)} takes the RMS error of {errors} on held-out sweeps"
-
-
-def _drivers(found: UnnamedReport) -> str:
-    assert found.physics is not None
-    return ", ".join(found.physics.depends_on) or "the force itself"
-
-
-def _unseen(found: UnnamedReport) -> dict[str, tuple[float, float, float]]:
-    assert found.physics is not None
-    return {o: found.unseen[o] for o in found.physics.equations}
 
 
 def _agreement(fit: Mapping[str, OutputFit]) -> Head:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -45,19 +45,24 @@ def learning_figure(results: Results) -> MplFigure | None:
     figure, axes = new_figure(1, columns, width=max(4.6 * columns, 7.0), height=3.6, sharey=True)
     names = list(dict.fromkeys(frame["representation"]))
     for one, algorithm in zip(np.atleast_1d(np.asarray(axes)), algorithms, strict=True):
-        for number, name in enumerate(names):
-            part = frame[(frame["algorithm"] == algorithm) & (frame["representation"] == name)]
-            if part.empty:
-                continue
-            steps, mean, spread = _over_seeds(part)
-            one.plot(steps, mean, color=colour_of(number), label=in_words(name))
-            one.fill_between(steps, mean - spread, mean + spread, color=colour_of(number), alpha=0.15, lw=0)
+        _draw_learning(one, frame[frame["algorithm"] == algorithm], names)
         one.set_title(algorithm)
         one.set_xlabel("training steps of all environments")
     first = np.atleast_1d(np.asarray(axes))[0]
     first.set_ylabel("reward of an episode")
     first.legend(fontsize=8)
     return figure
+
+
+def _draw_learning(panel: Any, frame: pd.DataFrame, names: Sequence[str]) -> None:
+    """Draw a representation's mean reward, and its deviation, in the colour of its place among the names."""
+    for number, name in enumerate(names):
+        part = frame[frame["representation"] == name]
+        if part.empty:
+            continue
+        steps, mean, spread = _over_seeds(part)
+        panel.plot(steps, mean, color=colour_of(number), label=in_words(name))
+        panel.fill_between(steps, mean - spread, mean + spread, color=colour_of(number), alpha=0.15, lw=0)
 
 
 def _over_seeds(part: pd.DataFrame) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -73,6 +78,21 @@ def _over_seeds(part: pd.DataFrame) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     return steps, rewards.mean(axis=0), rewards.std(axis=0, ddof=1) if len(seeds) > 1 else 0.0 * steps
 
 
+_FORCE_LINES: dict[str, tuple[str, dict[str, Any]]] = {
+    "source": ("as measured", {"color": colour_of(0)}),
+    "translated": ("translated .tir", {"color": colour_of(1), "ls": "--"}),
+    "decoded": ("as the thesis decodes", {"color": colour_of(2), "lw": 0.8}),
+    "target": ("target's measurement", {"color": "black", "lw": 0.9}),
+}
+"""Kind of a curve -> its label and style."""
+
+
+def _draw_forces(panel: Any, part: pd.DataFrame) -> None:
+    for kind, (label, style) in _FORCE_LINES.items():
+        curve = part[part["kind"] == kind]
+        panel.plot(np.degrees(curve["slip_angle"]), curve["fy"] / 1e3, label=label, **style)
+
+
 def force_figure(results: Results, representation: str) -> MplFigure | None:
     """Lateral force at 6 kN of each tire (rows) and supplier (columns) (Figures 5.10 to 5.13)."""
     if "force_curves" not in results.frames:
@@ -86,30 +106,25 @@ def force_figure(results: Results, representation: str) -> MplFigure | None:
     figure, axes = new_figure(
         rows, columns, width=2.5 * columns, height=1.9 * rows, sharex=True, sharey=True, squeeze=False
     )
-    kinds: dict[str, tuple[str, dict[str, Any]]] = {
-        "source": ("as measured", {"color": colour_of(0)}),
-        "translated": ("translated .tir", {"color": colour_of(1), "ls": "--"}),
-        "decoded": ("as the thesis decodes", {"color": colour_of(2), "lw": 0.8}),
-        "target": ("target's measurement", {"color": "black", "lw": 0.9}),
-    }
     limit = 1.3 * float(frame.loc[frame["kind"] != "decoded", "fy"].abs().max()) / 1e3
     grid: Any = axes
     for row, tire in enumerate(tires):
         for column, supplier in enumerate(suppliers):
             one = grid[row, column]
-            part = frame[(frame["tire"] == tire) & (frame["category"] == supplier)]
-            for kind, (label, style) in kinds.items():
-                curve = part[part["kind"] == kind]
-                one.plot(np.degrees(curve["slip_angle"]), curve["fy"] / 1e3, label=label, **style)
+            _draw_forces(one, frame[(frame["tire"] == tire) & (frame["category"] == supplier)])
             one.set_title(f"{tire}, supplier {supplier}", fontsize=8)
             one.set_ylim(-limit, limit)
+    _label_grid(figure, grid)
+    return figure
+
+
+def _label_grid(figure: MplFigure, grid: Any) -> None:
     for one in grid[-1]:
         one.set_xlabel("slip angle / deg", fontsize=8)
     for one in grid[:, 0]:
         one.set_ylabel("lateral force / kN", fontsize=8)
     handles, labels = grid[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8)
-    return figure
 
 
 def load_figure(results: Results, column: str, label: str, scale: float) -> MplFigure | None:

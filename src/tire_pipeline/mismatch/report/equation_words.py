@@ -1,0 +1,49 @@
+"""What an equation of unnamed physics explains, in words."""
+
+from __future__ import annotations
+
+from tire_pipeline.mismatch.report.words import newtons
+from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
+
+
+def on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
+    """Return what is known of the part without a name, in a sentence or two; empty where nothing is."""
+    if found is None or found.physics is None:
+        return ""
+    first = verdict in ("unexplained", "partly explained")
+    what = "The unexplained residual" if first else "The remaining residual"
+    text = (
+        f"{what} is of no effect of the catalogue. Of what was recorded, it follows {_drivers(found)} best. "
+        "An equation of it is in the corrected model"
+    )
+    if verdict in ("unexplained", "undecided"):
+        return f"{text}."
+    shares = " and ".join(
+        f"{100.0 * (1.0 - after / before):.0f}% of that of {o.capitalize()}"
+        for o, (before, after, _) in _unseen(found).items()
+    )
+    return (
+        f"{text}: on sweeps that neither its choice nor its fit has seen, it removes of the remaining RMS "
+        f"error {shares}; the errors above include that."
+    )
+
+
+def of_equation(found: UnnamedReport | None) -> str:
+    """What an equation does on unseen sweeps where no name stands beside it."""
+    if found is None or found.physics is None:
+        return ""
+    errors = ", that of ".join(
+        f"{o.capitalize()} from {newtons(before)} N to {newtons(after)} N"
+        for o, (before, after, _) in _unseen(found).items()
+    )
+    return f"an equation in {_drivers(found)} takes the RMS error of {errors} on held-out sweeps"
+
+
+def _drivers(found: UnnamedReport) -> str:
+    assert found.physics is not None
+    return ", ".join(found.physics.depends_on) or "the force itself"
+
+
+def _unseen(found: UnnamedReport) -> dict[str, tuple[float, float, float]]:
+    assert found.physics is not None
+    return {o: found.unseen[o] for o in found.physics.equations}
