@@ -22,6 +22,7 @@ STATEMENTS = {
     "tire_pipeline.tir": ["-c", "import tire_pipeline.tir"],
     "tire_pipeline.recordings": ["-c", "import tire_pipeline.recordings"],
     "tire_pipeline.mismatch": ["-c", "import tire_pipeline.mismatch"],
+    "tire_pipeline.translation": ["-c", "import tire_pipeline.translation"],
     "explain_mismatch": ["-c", "from tire_pipeline.mismatch import explain_mismatch"],
     "tire --help": ["-m", "tire_pipeline.command", "--help"],
     "tire explain --help": ["-m", "tire_pipeline.command", "explain", "--help"],

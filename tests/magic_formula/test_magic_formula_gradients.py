@@ -1,5 +1,6 @@
 """The derivatives' code is written when it is first asked for, wherever the package lies."""
 
+import importlib.util
 import json
 import os
 import shutil
@@ -132,3 +133,14 @@ def test_the_wheel_builds_offline_and_holds_no_generated_code(tmp_path):
     names = zipfile.ZipFile(wheel).namelist()
     assert f"{PLACE}/derive.py" in names
     assert not [name for name in names if "gradients_" in name]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("version", ["5.2", "6.1"])
+def test_the_first_use_takes_a_tenth_more_at_most_than_where_the_code_is_there(version):
+    path = ROOT / "benchmarks" / "bench_first_use.py"
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    without, found = module.least(version, rounds=2)
+    assert without <= module.GOAL * found
