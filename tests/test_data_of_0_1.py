@@ -7,13 +7,15 @@ import shutil
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
+from kedro.config import OmegaConfigLoader
+from kedro.io import DataCatalog, DatasetError
 from pydantic import ValidationError
 
 from tire_pipeline.command.stored import translator_state
 from tire_pipeline.datasets import IngestStoreDataset, ReleaseDataset
 from tire_pipeline.errors import TirSyntaxError
+from tire_pipeline.kedro_runs.run_errors import one_line
 from tire_pipeline.pipelines.rollback.pipeline import restore_previous
 from tire_pipeline.retraining.compare import balanced_accuracy, compare_models
 from tire_pipeline.tir import read_sidecar, read_tir, write_tir
@@ -22,6 +24,7 @@ from tire_pipeline.translation import translator_from_state
 from tire_pipeline.translation.parameters import TranslateParameters
 
 STORED = Path(__file__).with_name("data_of_0_1")
+ROOT = Path(__file__).parents[1]
 
 
 @pytest.fixture
@@ -29,15 +32,37 @@ def folder(tmp_path):
     return Path(shutil.copytree(STORED, tmp_path / "data"))
 
 
+def _loaded(folder, name):
+    """What the catalog of today reads."""
+    config = OmegaConfigLoader(str(ROOT / "conf"), base_env="base", default_run_env="base")
+    globals_of_it = {**config["globals"], "data": str(folder)}
+    config["globals"] = globals_of_it
+    return DataCatalog.from_config({name: config["catalog"][name]}).load(name)
+
+
 def _table(folder):
-    (path,) = (folder / "03_primary").rglob("*.parquet/*/*.parquet")
-    return pd.read_parquet(path)
+    return _loaded(folder, "normalized_table")
 
 
 def test_the_ingest_store_opens(folder):
     store = IngestStoreDataset(path=str(folder / "02_intermediate" / "ingested")).load()
     assert len(store.table) == 90
     assert set(store.table["file"]) == set(store.manifest.files)
+
+
+def test_a_table_of_all_files_in_its_former_form_is_refused_with_what_to_do(folder):
+    stored = next((folder / "03_primary").glob("*.parquet/*/*.parquet"))
+    former = folder / "02_intermediate" / "tire_table_raw.parquet" / stored.parent.name
+    former.mkdir(parents=True)
+    shutil.copy(stored, former / "tire_table_raw.parquet")
+    with pytest.raises(DatasetError) as caught:
+        _loaded(folder, "tire_table_raw")
+    assert "tire_table_raw.parquet" in one_line(caught.value)
+    assert "run `kedro run --pipeline ingest_tir` once" in one_line(caught.value)
+    shutil.rmtree(former)
+    with pytest.raises(DatasetError) as caught:
+        _loaded(folder, "tire_table_raw")
+    assert "is not there yet" in one_line(caught.value)
 
 
 def test_the_released_model_recognizes_tires_as_it_did(folder):

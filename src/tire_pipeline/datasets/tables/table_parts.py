@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import pandas as pd
+from kedro.io.core import VersionNotFoundError
 
 from tire_pipeline.datasets.storage.versioned import VersionedDataset
 from tire_pipeline.datasets.tables.indexed_frames import parts_of, write_parts
+from tire_pipeline.errors import DomainError
 from tire_pipeline.tire_table.in_pieces import Piece, TableInPieces, numbers_of
 
 
@@ -29,7 +31,8 @@ class TablePartsDataset(VersionedDataset[TableInPieces]):
     Raises
     ------
     DomainError
-        When a part is read that is gone or was changed.
+        When a part is read that is gone or was changed; or a former version of this project has stored the
+        table, as one Parquet file.
     """
 
     def save(self, data: TableInPieces) -> None:
@@ -38,8 +41,22 @@ class TablePartsDataset(VersionedDataset[TableInPieces]):
 
     def load(self) -> TableInPieces:
         """The index; a part is read when it is needed."""
-        parts = parts_of(*self._place(self._get_load_path()))
+        try:
+            place = self._place(self._get_load_path())
+        except VersionNotFoundError:
+            self._refuse_former()
+            raise
+        parts = parts_of(*place)
         return TableInPieces(tuple(Piece(part["rows"], tuple(part["numbers"]), load) for part, load in parts))
+
+    def _refuse_former(self) -> None:
+        former = self._filepath.with_suffix(".parquet")
+        if next(iter(self._glob_function(str(former / "*" / former.name))), None) is not None:
+            raise DomainError(
+                "a former version stored this table in another form",
+                where=f"{self._address}{former}",
+                todo="run `kedro run --pipeline ingest_tir` once: it reads the files again",
+            )
 
 
 def _numbers(frame: pd.DataFrame) -> dict[str, Any]:
