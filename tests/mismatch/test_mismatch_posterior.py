@@ -11,9 +11,9 @@ from tire_pipeline.mismatch.discrepancy.background import principal
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.explain import Explainer
 from tire_pipeline.mismatch.inference.analysis import analyse
-from tire_pipeline.mismatch.inference.calibrate import START, Tuning, learn, log_scores, pruned
 from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_posterior, log_prior
 from tire_pipeline.mismatch.inference.evidence.likelihood import Weights
+from tire_pipeline.mismatch.inference.learn_sizes import START, Tuning, learn, log_scores, pruned
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.mismatch.inference.one_sided import log_possible
 from tire_pipeline.mismatch.inference.priors import prior

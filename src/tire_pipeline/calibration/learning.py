@@ -19,7 +19,7 @@ from tire_pipeline.calibration.cases import KnownCase, plans
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.mismatch.inference.analysis import analyse
-from tire_pipeline.mismatch.inference.calibrate import START, Tuning, learn, log_scores, pruned
+from tire_pipeline.mismatch.inference.learn_sizes import START, Tuning, learn, log_scores, pruned
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 from tire_pipeline.mismatch.inference.sets.answer import answered
 from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets

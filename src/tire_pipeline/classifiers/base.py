@@ -14,7 +14,7 @@ CLASSIFIERS: dict[str, tuple[str, str]] = {
     "naive_bayes": ("tire_pipeline.classifiers.methods.naive_bayes", "NaiveBayes"),
     "ann": ("tire_pipeline.classifiers.methods.ann", "Ann"),
     "gradient_boosting": ("tire_pipeline.classifiers.methods.gradient_boosting", "GradientBoosting"),
-    "calibrated": ("tire_pipeline.classifiers.calibrated", "CalibratedForest"),
+    "calibrated": ("tire_pipeline.classifiers.calibrated_forest", "CalibratedForest"),
 }
 """Name of a classifier -> module and class; imported only when asked for."""
 

@@ -7,8 +7,8 @@ See ``docs/explanation/concealed.md``.
 proof that it is what it was before the engine. The order in which it reads is a rule of import-linter.
 """
 
-from tire_pipeline.concealed.cases.answers import Answer, EffectTruth, seal, unseal
 from tire_pipeline.concealed.cases.make import Case, CaseSettings, case_plan, make_case, make_cases
+from tire_pipeline.concealed.cases.sealed_answers import Answer, EffectTruth, seal, unseal
 from tire_pipeline.concealed.scoring.held_out import held_out_errors
 from tire_pipeline.concealed.scoring.score import score
 

@@ -12,8 +12,8 @@ from tire_pipeline import __version__
 from tire_pipeline.errors import DomainError
 from tire_pipeline.evaluation import THESIS_METRICS, curves_of, evaluate_translations
 from tire_pipeline.evaluation.all_translators import Files, read_chosen, translated_by, translators
-from tire_pipeline.evaluation.measured import measured
 from tire_pipeline.evaluation.parameters import EvaluateParameters
+from tire_pipeline.evaluation.target_measurements import measured
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.tir import read_tir, tir_bytes

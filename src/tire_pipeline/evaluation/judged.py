@@ -7,7 +7,7 @@ import pandas as pd
 
 from tire_pipeline.evaluation import curves_of, evaluate_translations
 from tire_pipeline.evaluation.all_translators import NO_CHANGE, UNJUDGED
-from tire_pipeline.evaluation.measured import Files, measured
+from tire_pipeline.evaluation.target_measurements import Files, measured
 from tire_pipeline.progress import track
 from tire_pipeline.representations.coefficients import DATASETS
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters

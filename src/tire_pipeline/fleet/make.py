@@ -10,8 +10,8 @@ import pandas as pd
 
 from tire_pipeline.fleet.files.other_values import other_values
 from tire_pipeline.fleet.files.tir_text import Template, style_of
-from tire_pipeline.fleet.measure import measure_all, regimes_of
 from tire_pipeline.fleet.plan import EVALUATION_SETS, Plan, make_plan
+from tire_pipeline.fleet.run_plan import measure_all, regimes_of
 from tire_pipeline.fleet.settings import FleetSettings
 from tire_pipeline.fleet.truth import FleetTruth, true_curves
 

@@ -13,7 +13,7 @@ import pandas as pd
 
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import DomainError
-from tire_pipeline.evaluation.measured import measured
+from tire_pipeline.evaluation.target_measurements import measured
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.thesis import agents as thesis_agents

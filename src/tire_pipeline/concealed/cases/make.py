@@ -19,9 +19,9 @@ from tire_pipeline.concealed.brush_rig.recorded_run import (
 )
 from tire_pipeline.concealed.brush_rig.schedule import CasePlan, draw_plan, make_schedule
 from tire_pipeline.concealed.cases import effect_size
-from tire_pipeline.concealed.cases.answers import Answer, EffectTruth
 from tire_pipeline.concealed.cases.clean_run import fit_clean, model_forces, residual, rms
 from tire_pipeline.concealed.cases.drawn_effects import KIND_SHARES, Choice, choose
+from tire_pipeline.concealed.cases.sealed_answers import Answer, EffectTruth
 from tire_pipeline.concealed.cases.windows_and_regimes import regimes, windows
 from tire_pipeline.concealed.effect_names import AMBIGUOUS_SETS, ARTEFACTS, CASE_KINDS, HEAT_OR_WEAR, PHYSICS
 from tire_pipeline.errors import DomainError

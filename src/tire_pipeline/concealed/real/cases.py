@@ -10,9 +10,9 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.concealed.cases import effect_size
-from tire_pipeline.concealed.cases.answers import Answer, EffectTruth
 from tire_pipeline.concealed.cases.clean_run import model_forces, rms
 from tire_pipeline.concealed.cases.make import Case
+from tire_pipeline.concealed.cases.sealed_answers import Answer, EffectTruth
 from tire_pipeline.concealed.cases.windows_and_regimes import regimes, windows
 from tire_pipeline.concealed.real.layout import Layout, at_rate, draw_layout, fitted, rows
 from tire_pipeline.concealed.real.plan import RealPlan, draw_effects

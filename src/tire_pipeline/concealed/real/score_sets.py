@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.concealed.cases.answers import EffectTruth
+from tire_pipeline.concealed.cases.sealed_answers import EffectTruth
 from tire_pipeline.concealed.effect_names import ARTEFACTS, PHYSICS
 from tire_pipeline.concealed.real.cases import RealAnswer
 from tire_pipeline.concealed.scoring.score import Report, mean_row, recovered, share_row

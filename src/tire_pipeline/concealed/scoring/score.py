@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.concealed.cases.answers import Answer, EffectTruth
+from tire_pipeline.concealed.cases.sealed_answers import Answer, EffectTruth
 from tire_pipeline.concealed.effect_names import ARTEFACTS, PHYSICS
 from tire_pipeline.concealed.scoring.measures import calibration_error, interval_iou
 from tire_pipeline.errors import DomainError
