@@ -112,6 +112,8 @@ def test_no_metaphors():
     for module in _written().values():
         named = {each.name for each in ast.walk(module) if isinstance(each, ast.FunctionDef | ast.ClassDef)}
         named |= {each.id for each in ast.walk(module) if isinstance(each, ast.Name)}
+        named |= {each.attr for each in ast.walk(module) if isinstance(each, ast.Attribute)}
+        named |= {each.arg or "" for each in ast.walk(module) if isinstance(each, ast.arg | ast.keyword)}
         found |= {name for name in named if set(name.lower().split("_")) & METAPHORS}
     assert found == set()
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 def code_hash(*packages: str) -> str:
-    """Give a hash of the source of parts of this project.
+    """Return a hash of the source of parts of this project.
 
     Parameters
     ----------

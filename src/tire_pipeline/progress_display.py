@@ -77,7 +77,7 @@ class Activity:
 
 
 def pace(done: int, seconds: float) -> str:
-    """Give a rate, or the seconds that each takes if that is more than one.
+    """Return a rate, or the seconds that each takes if that is more than one.
 
     Examples
     --------

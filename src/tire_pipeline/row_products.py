@@ -13,7 +13,7 @@ groups, filled up with zeros."""
 
 
 def by_row(rows: np.ndarray, matrix: np.ndarray) -> np.ndarray:
-    """Give ``rows @ matrix``, each row as if it stood alone.
+    """Return ``rows @ matrix``, each row as if it stood alone.
 
     Parameters
     ----------

@@ -38,11 +38,11 @@ class Classifier(Protocol):
         ...
 
     def predict_proba(self, features: np.ndarray) -> np.ndarray:
-        """Give the probabilities, shape (n, classes), columns in the order of ``classes_``."""
+        """Return the probabilities, shape (n, classes), columns in the order of ``classes_``."""
         ...
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays, strings and numbers that bring the trained classifier back."""
+        """Return arrays, strings and numbers that bring the trained classifier back."""
         ...
 
     @classmethod

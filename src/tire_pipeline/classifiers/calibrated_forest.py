@@ -75,7 +75,7 @@ class CalibratedForest:
         return self
 
     def predict_proba(self, features: np.ndarray) -> np.ndarray:
-        """Give the probabilities, shape (n, classes)."""
+        """Return the probabilities, shape (n, classes)."""
         if self.forest is None:
             raise DomainError("the forest is not trained", todo="call fit(...) first")
         raw = self.forest.sums(features)
@@ -85,7 +85,7 @@ class CalibratedForest:
         return np.where(total > 0, curved / np.where(total > 0, total, 1.0), 1 / len(self.classes_))
 
     def to_state(self) -> dict[str, Any]:
-        """Give the compiled forest and the curves."""
+        """Return the compiled forest and the curves."""
         if self.forest is None:
             raise DomainError("the forest is not trained", todo="call fit(...) first")
         return {

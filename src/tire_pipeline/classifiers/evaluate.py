@@ -112,7 +112,7 @@ def compare_classifiers(
     names: Sequence[str] = ("ann", "naive_bayes", "random_forest"),
     seeds: Sequence[int] = tuple(range(TRAININGS)),
 ) -> pd.DataFrame:
-    """Give the thesis' Table 5.6 on every split: each classifier with and without SMOTE.
+    """Return the thesis' Table 5.6 on every split: each classifier with and without SMOTE.
 
     Parameters
     ----------

@@ -38,7 +38,7 @@ def reliability_curve(
 
 
 def expected_calibration_error(curve: pd.DataFrame) -> float:
-    """Give the mean distance between confidence and accuracy, weighted by rows.
+    """Return the mean distance between confidence and accuracy, weighted by rows.
 
     Parameters
     ----------

@@ -33,7 +33,7 @@ _BLOCK = 16
 
 
 def ann_combinations(grid: dict[str, tuple[Any, ...]] | None = None) -> pd.DataFrame:
-    """Give all combinations of a grid, one a row."""
+    """Return all combinations of a grid, one a row."""
     grid = ANN_GRID if grid is None else grid
     return pd.DataFrame(list(product(*grid.values())), columns=list(grid))
 
@@ -70,7 +70,7 @@ def narrowed_grid(scores: pd.DataFrame, *, best: int = 20) -> dict[str, tuple[An
 def folds_of(
     labels: np.ndarray, *, seed: int, tires: np.ndarray | None = None, folds: int = TUNING_FOLDS
 ) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Give (training rows, test rows) of each fold: at random, or with no tire on both sides."""
+    """Return (training rows, test rows) of each fold: at random, or with no tire on both sides."""
     from sklearn.model_selection import StratifiedGroupKFold, StratifiedKFold
 
     cls = StratifiedKFold if tires is None else StratifiedGroupKFold

@@ -19,7 +19,7 @@ _CHOSEN = {"parameters": ClusterParameters()}
 
 
 def work_map(*, without_cluster: int | None = None) -> Map:
-    """Give the run's map.
+    """Return the run's map.
 
     Parameters
     ----------

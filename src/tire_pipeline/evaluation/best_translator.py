@@ -125,7 +125,7 @@ def write_back(
     target: str,
     method: str,
 ) -> dict[str, bytes]:
-    """Give the translated tires as .tir texts; only coefficients that changed are rewritten."""
+    """Return the translated tires as .tir texts; only coefficients that changed are rewritten."""
     if not len(own):
         return {}
     back = normalize_table(after, own["FNOMIN"].to_numpy())

@@ -122,7 +122,7 @@ def _summary(after: pd.DataFrame, before: pd.DataFrame) -> pd.DataFrame:
 
 
 def _ratio(new: float, old: float) -> float:
-    """Give new over old; nothing to correct and nothing changed counts as 1."""
+    """Return new over old; nothing to correct and nothing changed counts as 1."""
     if old > 0.0:
         return new / old
     return 1.0 if new == 0.0 else float(np.inf)

@@ -59,7 +59,7 @@ def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
 
 @contextlib.contextmanager
 def replaced_file(path: str | os.PathLike[str], *, parents: bool = True) -> Iterator[Path]:
-    """Give a temporary file beside ``path`` that takes its place if the block ends well.
+    """Return a temporary file beside ``path`` that takes its place if the block ends well.
 
     It is on the disk before it takes that place: a power cut leaves the old content or the new.
 
@@ -90,7 +90,7 @@ def replaced_file(path: str | os.PathLike[str], *, parents: bool = True) -> Iter
 
 @contextlib.contextmanager
 def replaced_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Give a temporary folder beside ``path`` that takes its place if the block ends well.
+    """Return a temporary folder beside ``path`` that takes its place if the block ends well.
 
     Between two renamings ``path`` is absent; if the second fails the first is undone.
     """

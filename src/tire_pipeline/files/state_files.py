@@ -24,13 +24,13 @@ def prefixed(prefix: str, state: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def without_prefix(prefix: str, state: Mapping[str, Any]) -> dict[str, Any]:
-    """Give the part of a state that :func:`prefixed` put into it."""
+    """Return the part of a state that :func:`prefixed` put into it."""
     start = f"{prefix}."
     return {name[len(start) :]: value for name, value in state.items() if name.startswith(start)}
 
 
 def layers_to_state(layers: Iterable[tuple[np.ndarray, np.ndarray]]) -> dict[str, Any]:
-    """Give weight and bias of a network's layers by numbered names."""
+    """Return weight and bias of a network's layers by numbered names."""
     state = {}
     for index, (weight, bias) in enumerate(layers):
         state[f"weight_{index}"] = weight
@@ -39,7 +39,7 @@ def layers_to_state(layers: Iterable[tuple[np.ndarray, np.ndarray]]) -> dict[str
 
 
 def layers_from_state(state: Mapping[str, Any]) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Give the layers that :func:`layers_to_state` put into a state, whatever else is in it."""
+    """Return the layers that :func:`layers_to_state` put into a state, whatever else is in it."""
     n_layers = sum(name.startswith("weight_") for name in state)
     return [(np.asarray(state[f"weight_{i}"]), np.asarray(state[f"bias_{i}"])) for i in range(n_layers)]
 

@@ -97,7 +97,7 @@ def draw_tires(count: int, rng: np.random.Generator, first: int = 0) -> pd.DataF
 def _true_parameters(
     tires: pd.DataFrame, means: np.ndarray, heaviness: np.ndarray, rng: np.random.Generator
 ) -> dict[str, np.ndarray]:
-    """Give the parameters of the true model; some follow from the size, some from chance."""
+    """Return the parameters of the true model; some follow from the size, some from chance."""
     count = len(tires)
     rated = tires["load_index"].to_numpy() * GRAVITY
     aspect = tires["ASPECT_RATIO"].to_numpy()

@@ -72,7 +72,7 @@ def write_fleet(fleet: Fleet, raw_folder: str | Path) -> dict[str, Path]:
 
 
 def truth_files(fleet: Fleet) -> dict[str, bytes]:
-    """Give the sealed truth as files: texts, tables (Parquet), regimes (JSON) and curves (NPZ).
+    """Return the sealed truth as files: texts, tables (Parquet), regimes (JSON) and curves (NPZ).
 
     Parameters
     ----------

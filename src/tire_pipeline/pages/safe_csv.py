@@ -19,7 +19,7 @@ _ESCAPED = re.compile(r"⟨U\+([0-9A-F]{4,6})⟩")
 
 
 def safe_text(text: str) -> str:
-    r"""Give a cell as it is written: ``'`` before what begins a formula, unseen characters by their codes.
+    r"""Return a cell as it is written: ``'`` before what begins a formula, unseen characters by their codes.
 
     Examples
     --------
@@ -43,7 +43,7 @@ def original_text(text: str) -> str:
 
 
 def safe_table(table: pd.DataFrame) -> pd.DataFrame:
-    """Give a table with :func:`safe_text` in its texts and names of columns; numbers stay as they are."""
+    """Return a table with :func:`safe_text` in its texts and names of columns; numbers stay as they are."""
     return _each_text(table, safe_text)
 
 

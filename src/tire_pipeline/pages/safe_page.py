@@ -16,7 +16,7 @@ _PERHAPS_UNSEEN = re.compile(r"[^\n\x20-\x7e]")
 
 
 def visible(text: object) -> str:
-    r"""Give a text from a file as it can be shown: control and direction characters by their code points.
+    r"""Return a text from a file as it can be shown: control and direction characters by their code points.
 
     Examples
     --------

@@ -51,11 +51,11 @@ class Representation(Protocol):
         ...
 
     def encode(self, table: pd.DataFrame) -> np.ndarray:
-        """Give the features of every tire, shape (n, d)."""
+        """Return the features of every tire, shape (n, d)."""
         ...
 
     def decode(self, features: np.ndarray, source: pd.DataFrame) -> pd.DataFrame:
-        """Give the tires that have these features.
+        """Return the tires that have these features.
 
         Parameters
         ----------
@@ -72,7 +72,7 @@ class Representation(Protocol):
         ...
 
     def decode_curves(self, features: np.ndarray, source: pd.DataFrame) -> np.ndarray:
-        """Give the lateral force curves as the thesis decodes them.
+        """Return the lateral force curves as the thesis decodes them.
 
         Returns
         -------
@@ -86,7 +86,7 @@ class Representation(Protocol):
         ...
 
     def to_state(self) -> State:
-        """Give arrays, strings and numbers that bring the fitted object back."""
+        """Return arrays, strings and numbers that bring the fitted object back."""
         ...
 
     @classmethod

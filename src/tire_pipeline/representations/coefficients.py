@@ -100,18 +100,18 @@ class Coefficients:
         return self
 
     def encode(self, table: pd.DataFrame) -> np.ndarray:
-        """Give the coefficients, shape (n, d)."""
+        """Return the coefficients, shape (n, d)."""
         self._check(table)
         return table.loc[:, list(self.feature_names)].to_numpy(dtype=float, copy=True)
 
     def decode(self, features: np.ndarray, source: pd.DataFrame) -> pd.DataFrame:
-        """Give the source tires with these coefficients."""
+        """Return the source tires with these coefficients."""
         decoded = source.copy()
         decoded[list(self.feature_names)] = np.asarray(features, dtype=float)
         return decoded
 
     def decode_curves(self, features: np.ndarray, source: pd.DataFrame) -> np.ndarray:
-        """Give the lateral force curves, N, shape (n, 3, 100)."""
+        """Return the lateral force curves, N, shape (n, 3, 100)."""
         factors = lateral_factors(self.decode(features, source), CURVE_LOADS)
         return lateral_force(factors, CURVE_SLIP_ANGLES)
 
@@ -120,7 +120,7 @@ class Coefficients:
         return np.ones(len(features), dtype=bool)
 
     def to_state(self) -> dict[str, Any]:
-        """Give the dataset's name."""
+        """Return the dataset's name."""
         return {"representation": self.name, "dataset": self.dataset}
 
     @classmethod

@@ -22,7 +22,7 @@ def fit_lateral(
     *,
     steps: int = 40,
 ) -> pd.DataFrame:
-    """Give the source tires with the lateral coefficients that come closest to the curves.
+    """Return the source tires with the lateral coefficients that come closest to the curves.
 
     Started from the source's coefficients (:mod:`tire_pipeline.levenberg_marquardt`); a step is taken for the
     tires that it helps only, so no tire ends further away than it began.

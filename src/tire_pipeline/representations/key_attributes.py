@@ -40,7 +40,7 @@ class KeyAttributes:
         return self
 
     def encode(self, table: pd.DataFrame) -> np.ndarray:
-        """Give the attributes, shape (n, 9): N/rad, N, rad."""
+        """Return the attributes, shape (n, 9): N/rad, N, rad."""
         factors = lateral_factors(table, CURVE_LOADS)
         near = lateral_force(factors, np.array([-_SLIP_STEP, _SLIP_STEP]))
         stiffness = (near[..., 1] - near[..., 0]) / (2 * _SLIP_STEP)
@@ -50,14 +50,14 @@ class KeyAttributes:
         return np.concatenate([stiffness, peak, slip], axis=1)
 
     def decode_curves(self, features: np.ndarray, source: pd.DataFrame) -> np.ndarray:
-        """Give the curves of Appendix D, N, shape (n, 3, 100)."""
+        """Return the curves of Appendix D, N, shape (n, 3, 100)."""
         stiffness, peak, slip = np.split(np.asarray(features, dtype=float), 3, axis=1)
         shape, factor = shape_and_stiffness_factor(stiffness, peak, slip)
         b, c, d = (each[..., None] for each in (factor, shape, peak))
         return np.asarray(sine_curve(b, c, d, 0.0, CURVE_SLIP_ANGLES))
 
     def decode(self, features: np.ndarray, source: pd.DataFrame) -> pd.DataFrame:
-        """Give the source tires, fitted to the curves of Appendix D."""
+        """Return the source tires, fitted to the curves of Appendix D."""
         curves = self.decode_curves(features, source)
         return fit_lateral(curves, source, CURVE_LOADS, CURVE_SLIP_ANGLES)
 
@@ -66,7 +66,7 @@ class KeyAttributes:
         return np.ones(len(features), dtype=bool)
 
     def to_state(self) -> dict[str, Any]:
-        """Give the name; nothing is learnt."""
+        """Return the name; nothing is learnt."""
         return {"representation": self.name}
 
     @classmethod

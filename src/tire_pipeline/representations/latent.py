@@ -75,19 +75,19 @@ class Latent:
         return self
 
     def encode(self, table: pd.DataFrame) -> np.ndarray:
-        """Give the latent features, shape (n, n_features)."""
+        """Return the latent features, shape (n, n_features)."""
         self._check_fitted()
         return _forward((_curves(table) - self.mean) / self.scale, self.layers[: _LAYERS // 2])
 
     def decode_curves(self, features: np.ndarray, source: pd.DataFrame) -> np.ndarray:
-        """Give the decoder's own curves, N, shape (n, 3, 100): the thesis' jagged ones."""
+        """Return the decoder's own curves, N, shape (n, 3, 100): the thesis' jagged ones."""
         self._check_fitted()
         flat = _forward(np.asarray(features, dtype=float), self.layers[_LAYERS // 2 :])
         shape = (-1, len(CURVE_LOADS), len(CURVE_SLIP_ANGLES))
         return (flat * self.scale + self.mean).reshape(shape)
 
     def decode(self, features: np.ndarray, source: pd.DataFrame) -> pd.DataFrame:
-        """Give the source tires, fitted to the decoder's curves: smooth by construction."""
+        """Return the source tires, fitted to the decoder's curves: smooth by construction."""
         curves = self.decode_curves(features, source)
         return fit_lateral(curves, source, CURVE_LOADS, CURVE_SLIP_ANGLES)
 
@@ -96,7 +96,7 @@ class Latent:
         return np.ones(len(features), dtype=bool)
 
     def to_state(self) -> dict[str, Any]:
-        """Give the weights and the scaling."""
+        """Return the weights and the scaling."""
         self._check_fitted()
         state: dict[str, Any] = {
             "representation": self.name,

@@ -39,7 +39,7 @@ class LateralFactors:
 
 
 def lateral_factors(table: pd.DataFrame | Mapping[str, np.ndarray], loads: np.ndarray) -> LateralFactors:
-    """Give B, C, D, E and the shifts of pure lateral slip at zero camber and nominal pressure.
+    """Return B, C, D, E and the shifts of pure lateral slip at zero camber and nominal pressure.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def lateral_factors(table: pd.DataFrame | Mapping[str, np.ndarray], loads: np.nd
 
 
 def lateral_force(factors: LateralFactors, slip_angles: np.ndarray) -> np.ndarray:
-    """Give the lateral force of equation A.16.
+    """Return the lateral force of equation A.16.
 
     Parameters
     ----------

@@ -66,7 +66,7 @@ class PowerSeries:
         return self
 
     def encode(self, table: pd.DataFrame) -> np.ndarray:
-        """Give the features, shape (n, 12)."""
+        """Return the features, shape (n, 12)."""
         factors = lateral_factors(table, CURVE_LOADS)
         curvature = np.minimum(factors.curvature, 1.0)
         k1, k2, k3 = derivatives(factors.stiffness, factors.shape, curvature)
@@ -75,7 +75,7 @@ class PowerSeries:
         return np.concatenate([k1, k2, k3, factors.peak], axis=1)
 
     def decode_curves(self, features: np.ndarray, source: pd.DataFrame) -> np.ndarray:
-        """Give the curves, N, shape (n, 3, 100), without shifts, as Appendix C has none.
+        """Return the curves, N, shape (n, 3, 100), without shifts, as Appendix C has none.
 
         An imaginary solution gives NaN in the published form; the stable one has none.
         """
@@ -84,7 +84,7 @@ class PowerSeries:
         return np.asarray(sine_curve(b, c, d, e, CURVE_SLIP_ANGLES))
 
     def decode(self, features: np.ndarray, source: pd.DataFrame) -> pd.DataFrame:
-        """Give the source tires with coefficients fitted to the decoded curves.
+        """Return the source tires with coefficients fitted to the decoded curves.
 
         The published form fits the bare curves; the stable one adds the source's shifts and
         one-sided curvature, which no feature describes. A tire with an imaginary published
@@ -113,7 +113,7 @@ class PowerSeries:
         return np.isfinite(_inverse_square_shapes(r2, r3)).any(axis=0).all(axis=1)
 
     def to_state(self) -> dict[str, Any]:
-        """Give the form and the spread."""
+        """Return the form and the spread."""
         return {"representation": self.name, "form": self.form, "spread": self.spread}
 
     @classmethod
@@ -150,7 +150,7 @@ class PowerSeries:
 def derivatives(
     stiffness: np.ndarray, shape: np.ndarray, curvature: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Give k1, k2, k3: first, third and fifth derivative of MF/D at the origin (Appendix C).
+    """Return k1, k2, k3: first, third and fifth derivative of MF/D at the origin (Appendix C).
 
     Parameters
     ----------
@@ -165,7 +165,7 @@ def derivatives(
 
 
 def _inverse_square_shapes(r2: np.ndarray, r3: np.ndarray) -> np.ndarray:
-    """Give both solutions 1/C^2 (smaller first), NaN where imaginary, shape (2, ...)."""
+    """Return both solutions 1/C^2 (smaller first), NaN where imaginary, shape (2, ...)."""
     s = 1 + r2
     inner = 1024 * s**2 - 160 * (r3 + 10 * s - 1)
     # a hair below zero is the double root seen through rounding

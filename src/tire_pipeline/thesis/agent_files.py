@@ -74,7 +74,7 @@ def _category(file: str) -> str:
 
 
 def fitter(name: str) -> Callable[..., Work]:
-    """Give the node function that fits one representation, once a seed for all its cells."""
+    """Return the node function that fits one representation, once a seed for all its cells."""
 
     def fit_representation(
         normalized_table: pd.DataFrame, splits: pd.DataFrame, parameters: ReproduceThesisParameters
@@ -93,7 +93,7 @@ def fitter(name: str) -> Callable[..., Work]:
 
 
 def trainer(cell: Cell) -> Callable[..., Work]:
-    """Give the node function that trains the agents of one cell, one a seed."""
+    """Return the node function that trains the agents of one cell, one a seed."""
 
     def train_agents(
         normalized_table: pd.DataFrame,
@@ -127,7 +127,7 @@ def seed_of(name: str) -> int:
 
 
 def judge_of(cell: Cell) -> Callable[..., Work]:
-    """Give the node function that judges the agents of one cell."""
+    """Return the node function that judges the agents of one cell."""
 
     def judge(
         trained: Folder,

@@ -129,7 +129,7 @@ def judged_floor(sources: pd.DataFrame, references: pd.DataFrame, again: pd.Data
 
 
 def thinned_learning_curve(curve: pd.DataFrame) -> pd.DataFrame:
-    """Give the mean episode reward in 60 windows of training steps (Figure 5.9).
+    """Return the mean episode reward in 60 windows of training steps (Figure 5.9).
 
     Parameters
     ----------

@@ -31,12 +31,12 @@ FURTHER_CLASSIFIERS = ("gradient_boosting", "calibrated")
 
 
 def features_of(table: pd.DataFrame) -> np.ndarray:
-    """Give the 11 lateral coefficients that the thesis' classifiers see, shape (n, 11)."""
+    """Return the 11 lateral coefficients that the thesis' classifiers see, shape (n, 11)."""
     return make_representation("coefficients").fit(table).encode(table)
 
 
 def tires_of(table: pd.DataFrame, split: str) -> np.ndarray | None:
-    """Give the physical tires for folds by tire, nothing for folds at random."""
+    """Return the physical tires for folds by tire, nothing for folds at random."""
     return table["tire_id"].to_numpy() if split == "by_tire" else None
 
 
@@ -69,7 +69,7 @@ def tuned_networks(table: pd.DataFrame, split: str, combinations: pd.DataFrame, 
 
 
 def kept_values(scores: pd.DataFrame, *, best: int = 20) -> dict[str, tuple[Any, ...]]:
-    """Give the values that the best combinations share (Table 5.2), also those that Table 4.2 lacks."""
+    """Return the values that the best combinations share (Table 5.2), also those that Table 4.2 lacks."""
     kept = narrowed_grid(scores, best=best)
     top = scores.nlargest(best, "accuracy")
     return {name: values or tuple(sorted(set(top[name]))) for name, values in kept.items()}

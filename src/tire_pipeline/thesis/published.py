@@ -65,7 +65,7 @@ def _entry(kind: str, number: str) -> dict[str, Any]:
 
 
 def published_table(number: str) -> PublishedTable:
-    """Give a table of the thesis.
+    """Return a table of the thesis.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def published_table(number: str) -> PublishedTable:
 
 
 def published_figure(number: str) -> PublishedFigure:
-    """Give a figure's caption and what the thesis' text says about it.
+    """Return a figure's caption and what the thesis' text says about it.
 
     Raises
     ------
@@ -99,7 +99,7 @@ def published_figure(number: str) -> PublishedFigure:
 
 
 def published_agents() -> pd.DataFrame:
-    """Give Tables 5.10 to 5.21 in one.
+    """Return Tables 5.10 to 5.21 in one.
 
     Returns
     -------

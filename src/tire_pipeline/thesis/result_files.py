@@ -9,7 +9,7 @@ from tire_pipeline.thesis.results import Results
 
 
 def result_files(results: Results) -> dict[str, str]:
-    """Give every table as CSV and every figure as SVG, by file name."""
+    """Return every table as CSV and every figure as SVG, by file name."""
     out = {f"{name}.csv": safe_table(frame).to_csv(index=False) for name, frame in results.frames.items()}
     out["tables_5_10_to_5_21.csv"] = safe_table(results.beside).to_csv(index=False)
     for name, figure in all_figures(results).items():

@@ -90,7 +90,7 @@ class Results:
 
 
 def over_seeds(agents: pd.DataFrame) -> pd.DataFrame:
-    """Give mean and standard deviation over the seeds.
+    """Return mean and standard deviation over the seeds.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def over_seeds(agents: pd.DataFrame) -> pd.DataFrame:
 
 
 def over_trainings(scores: pd.DataFrame, columns: Sequence[str] = ("accuracy", "f1")) -> pd.DataFrame:
-    """Give mean and spread over the trainings of each classifier, split and use of SMOTE."""
+    """Return mean and spread over the trainings of each classifier, split and use of SMOTE."""
     grouped = scores.groupby(["split", "classifier", "smote"], sort=False)
     means = grouped[list(columns)].mean()
     for name in columns:

@@ -126,7 +126,7 @@ class Translator(Protocol):
         ...
 
     def to_state(self) -> dict[str, Any]:
-        """Give what brings the fitted translator back.
+        """Return what brings the fitted translator back.
 
         Returns
         -------
@@ -172,19 +172,19 @@ class JudgingTranslator(Translator, Protocol):
         ...
 
     def with_verdict(self, **changes: Any) -> Self:
-        """Give the same translator with other rules of the verdict, such as ``farthest=1.5``."""
+        """Return the same translator with other rules of the verdict, such as ``farthest=1.5``."""
         ...
 
     def teaching(self, source: pd.DataFrame) -> tuple[np.ndarray, pd.DataFrame]:
-        """Give what :meth:`taught` needs of some files of a batch: their tires, and those that may teach."""
+        """Return what :meth:`taught` needs of files of a batch: their tires, and those that may teach."""
         ...
 
     def taught(self, tires: np.ndarray, teachers: pd.DataFrame) -> Self:
-        """Give the same translator after it has learned from a batch, if it learns from batches."""
+        """Return the same translator after it has learned from a batch, if it learns from batches."""
         ...
 
     def protocol_changes(self) -> pd.DataFrame:
-        """Give the categories that changed how they measure, one row each."""
+        """Return the categories that changed how they measure, one row each."""
         ...
 
 

@@ -65,7 +65,7 @@ class Metadata:
         return 1.0 - np.isfinite(_raw(table, self.names)).mean(axis=1)
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays that bring it back."""
+        """Return arrays that bring it back."""
         return {
             "metadata_names": np.array(self.names, dtype=str),
             "metadata_mean": self.mean,

@@ -147,7 +147,7 @@ def moved_coefficients(
 def without_estimate(
     source: pd.DataFrame, table: pd.DataFrame, target: str, name: str, verdict: str = TRANSLATED
 ) -> TranslationResult:
-    """Give the result of a translator that has no estimate of its own error.
+    """Return the result of a translator that has no estimate of its own error.
 
     Parameters
     ----------

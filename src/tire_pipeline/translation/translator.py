@@ -174,7 +174,7 @@ class CurveTranslator:
         return self.parts.predict(source)
 
     def with_verdict(self, **changes: Any) -> Self:
-        """Give the same translator with other :class:`.judge.verdict.VerdictRules`.
+        """Return the same translator with other :class:`.judge.verdict.VerdictRules`.
 
         Parameters
         ----------
@@ -185,7 +185,7 @@ class CurveTranslator:
         return self.of_parts(parts, self._options)
 
     def teaching(self, source: pd.DataFrame) -> tuple[np.ndarray, pd.DataFrame]:
-        """Give what :meth:`taught` needs of some files of a batch: the tires, and the files that may teach.
+        """Return what :meth:`taught` needs of some files of a batch: the tires, and the files that may teach.
 
         Parameters
         ----------
@@ -200,7 +200,7 @@ class CurveTranslator:
             return np.unique(rows["tire_id"].to_numpy(dtype=str)), parts.teachers(rows)
 
     def taught(self, tires: np.ndarray, teachers: pd.DataFrame) -> Self:
-        """Give the same translator after it has learned from a batch.
+        """Return the same translator after it has learned from a batch.
 
         It translates any files of the batch as if all were translated together. One that learns from no batch
         is given back as it is.
@@ -219,11 +219,11 @@ class CurveTranslator:
         return self.of_parts(replace(parts, taught=learned), self._options)
 
     def protocol_changes(self) -> pd.DataFrame:
-        """Give the categories that changed how they measure, one row each."""
+        """Return the categories that changed how they measure, one row each."""
         return protocol_changes(self.model)
 
     def translate(self, source: pd.DataFrame) -> pd.DataFrame:
-        """Give the translated tires: same rows, columns, index and metadata."""
+        """Return the translated tires: same rows, columns, index and metadata."""
         return self.translation(source, bands=False).table
 
     def translation(
@@ -295,7 +295,7 @@ class CurveTranslator:
         return _among_all(band, usable, len(table))
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays, strings and numbers that bring the fitted translator back."""
+        """Return arrays, strings and numbers that bring the fitted translator back."""
         parts = self.parts
         return {
             "translator": self.name,

@@ -99,13 +99,13 @@ class Ann:
         return made
 
     def predict_proba(self, features: np.ndarray) -> np.ndarray:
-        """Give the probabilities, shape (n, classes)."""
+        """Return the probabilities, shape (n, classes)."""
         if not self.layers:
             raise DomainError("the network is not trained", todo="call fit(...) first")
         return network_probabilities((features - self.mean) / self.scale, self.layers)
 
     def to_state(self) -> dict[str, Any]:
-        """Give weights and scaling."""
+        """Return weights and scaling."""
         state: dict[str, Any] = {
             "classifier": self.name,
             "classes": self.classes_,
@@ -127,7 +127,7 @@ class Ann:
 
 
 def standard_scale(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Give mean and standard deviation of every column; 1 where a column does not vary."""
+    """Return mean and standard deviation of every column; 1 where a column does not vary."""
     deviation = rows.std(axis=0)
     return rows.mean(axis=0), np.where(deviation > 0, deviation, 1.0)
 

@@ -48,7 +48,7 @@ class CompiledForest:
     roots: np.ndarray
 
     def sums(self, features: np.ndarray) -> np.ndarray:
-        """Give the sum of all trees' leaves.
+        """Return the sum of all trees' leaves.
 
         Parameters
         ----------
@@ -67,7 +67,7 @@ class CompiledForest:
         return out
 
     def sums_without_numba(self, features: np.ndarray) -> np.ndarray:
-        """Give the same as :meth:`sums`, with NumPy alone: all rows and trees a level at a time."""
+        """Return the same as :meth:`sums`, with NumPy alone: all rows and trees a level at a time."""
         rows = np.asarray(features, dtype=np.float32)
         node = np.broadcast_to(self.roots, (len(rows), len(self.roots))).copy()
         index = np.arange(len(rows))[:, None]
@@ -81,11 +81,11 @@ class CompiledForest:
             node = np.where(inner, child, node)
 
     def arrays(self) -> ForestArrays:
-        """Give the arrays, for compiled code."""
+        """Return the arrays, for compiled code."""
         return ForestArrays(**self.to_state())
 
     def to_state(self) -> dict[str, np.ndarray]:
-        """Give the arrays by name."""
+        """Return the arrays by name."""
         return {name: getattr(self, name) for name in ForestArrays._fields}
 
     @classmethod

@@ -70,7 +70,7 @@ class GradientBoosting:
         return self
 
     def predict_proba(self, features: np.ndarray) -> np.ndarray:
-        """Give the probabilities, shape (n, classes)."""
+        """Return the probabilities, shape (n, classes)."""
         if self.forest is None:
             raise DomainError("the trees are not trained", todo="call fit(...) first")
         scores = self.start + self.forest.sums(features)
@@ -79,7 +79,7 @@ class GradientBoosting:
         return softmax(scores)
 
     def to_state(self) -> dict[str, Any]:
-        """Give the compiled trees and the start scores."""
+        """Return the compiled trees and the start scores."""
         if self.forest is None:
             raise DomainError("the trees are not trained", todo="call fit(...) first")
         return {
@@ -100,7 +100,7 @@ class GradientBoosting:
 
 
 def softmax(scores: np.ndarray) -> np.ndarray:
-    """Give probabilities along the last axis."""
+    """Return probabilities along the last axis."""
     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
     shares: np.ndarray = powers / powers.sum(axis=-1, keepdims=True)
     return shares

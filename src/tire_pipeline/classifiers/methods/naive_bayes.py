@@ -44,12 +44,12 @@ class NaiveBayes:
         return self
 
     def predict_proba(self, features: np.ndarray) -> np.ndarray:
-        """Give the probabilities, shape (n, classes)."""
+        """Return the probabilities, shape (n, classes)."""
         probabilities: np.ndarray = self._fitted.predict_proba(np.asarray(features))
         return probabilities
 
     def to_state(self) -> dict[str, Any]:
-        """Give means, variances and priors."""
+        """Return means, variances and priors."""
         arrays = {name: getattr(self._fitted, name) for name in _ARRAYS}
         return {"classifier": self.name, "classes": self.classes_, **arrays}
 

@@ -10,7 +10,7 @@ from tire_pipeline.errors import DomainError
 
 
 def smote_for(labels: np.ndarray, seed: int) -> Any:
-    """Give imbalanced-learn's SMOTE with as many neighbours (at most 5) as the classes allow.
+    """Return imbalanced-learn's SMOTE with as many neighbours (at most 5) as the classes allow.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def with_smote(estimator: Any, labels: np.ndarray, *, smote: bool, seed: int) ->
 def oversample(
     features: np.ndarray, labels: np.ndarray, *, smote: bool, seed: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Give the training rows with SMOTE's synthetic ones, or as they are."""
+    """Return the training rows with SMOTE's synthetic ones, or as they are."""
     if not smote:
         return features, labels
     more, more_labels = smote_for(labels, seed).fit_resample(features, labels)

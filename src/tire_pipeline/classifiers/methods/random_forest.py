@@ -32,7 +32,7 @@ class RandomForest:
         self.forest: CompiledForest | None = None
 
     def estimator(self, labels: np.ndarray, seed: int) -> Any:
-        """Give the untrained imbalanced-learn pipeline: SMOTE, then the forest."""
+        """Return the untrained imbalanced-learn pipeline: SMOTE, then the forest."""
         from sklearn.ensemble import RandomForestClassifier
 
         forest = RandomForestClassifier(
@@ -49,13 +49,13 @@ class RandomForest:
         return self
 
     def predict_proba(self, features: np.ndarray) -> np.ndarray:
-        """Give the probabilities, shape (n, classes)."""
+        """Return the probabilities, shape (n, classes)."""
         if self.forest is None:
             raise DomainError("the forest is not trained", todo="call fit(...) first")
         return self.forest.sums(features)
 
     def to_state(self) -> dict[str, Any]:
-        """Give the compiled forest."""
+        """Return the compiled forest."""
         if self.forest is None:
             raise DomainError("the forest is not trained", todo="call fit(...) first")
         return {"classifier": self.name, "classes": self.classes_, **self.forest.to_state()}

@@ -96,7 +96,7 @@ def score_real_proof(
 
 
 def oracle_and_floor(answers: list[RealAnswer]) -> dict[str, tuple[dict[str, Any], dict[str, Any]]]:
-    """Give what knows the answers (oracle) and what never says anything (floor), to be scored as the others.
+    """Return what knows the answers (oracle) and what never says anything (floor), scored as the others.
 
     Parameters
     ----------

@@ -64,7 +64,7 @@ def create_pipeline(**_: object) -> Pipeline:
 
 
 def fit_node() -> Node:
-    """Give the node that both ``train_agent`` and ``translate`` run."""
+    """Return the node that both ``train_agent`` and ``translate`` run."""
     return Node(
         fit_translator,
         inputs=[

@@ -28,7 +28,7 @@ SHOWN_VERDICTS = ("translated", "already unbiased", "left alone", "refused", "un
 
 
 def rows_of(report: pd.DataFrame, own: set[str], tires: Mapping[str, str]) -> list[list[Any]]:
-    """Give the rows by ``ROW_COLUMNS``; None: not known.
+    """Return the rows by ``ROW_COLUMNS``; None: not known.
 
     The user's own files come first, and of them those that were judged before those that need no translation;
     then by file.

@@ -19,7 +19,7 @@ QUESTIONS = (
 
 
 def answers(results: Results) -> list[Text]:
-    """Give each question with its answer."""
+    """Return each question with its answer."""
     given = (_classify(results), _learn(results), _translate(results), _policies(results))
     return [Text(lines, heading=question) for question, lines in zip(QUESTIONS, given, strict=True)]
 

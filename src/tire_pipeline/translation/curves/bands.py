@@ -35,7 +35,7 @@ _LEFT_OUT = 4.0  # CurveSpace.limit is in these deviations
 def curve_bands(
     space: CurveSpace, translated: pd.DataFrame, variance: np.ndarray, changed: np.ndarray, *, pairs: bool
 ) -> dict[str, Band]:
-    """Give the bands of lateral force, longitudinal force and aligning torque at zero camber.
+    """Return the bands of lateral force, longitudinal force and aligning torque at zero camber.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def curve_bands(
 def stiffness_band(
     space: CurveSpace, translated: pd.DataFrame, variance: np.ndarray, changed: np.ndarray
 ) -> Band:
-    """Give the band of the cornering stiffness over load at zero camber.
+    """Return the band of the cornering stiffness over load at zero camber.
 
     Parameters
     ----------

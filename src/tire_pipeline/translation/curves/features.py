@@ -202,6 +202,6 @@ GROUPS: tuple[Group, ...] = (
 
 
 def encode(table: pd.DataFrame) -> dict[str, np.ndarray]:
-    """Give the features of every tire, by group: each (n, d)."""
+    """Return the features of every tire, by group: each (n, d)."""
     p = columns(table)
     return {group.name: group.of(p) for group in GROUPS}

@@ -122,7 +122,7 @@ class CurveSpace:
         return {name: slice(int(s), int(e)) for name, s, e in zip(PARTS, starts, ends, strict=True)}
 
     def encode(self, table: pd.DataFrame) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-        """Give the scores (n, p), and by part what they leave out (n, d), bounded."""
+        """Return the scores (n, p), and by part what they leave out (n, d), bounded."""
         features = encode(table)
         scores, rest = [], {}
         for name, part in PARTS.items():
@@ -134,7 +134,7 @@ class CurveSpace:
         return np.concatenate(scores, axis=1), rest
 
     def features(self, scores: np.ndarray, rest: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-        """Give the features, by group (n, d), that belong to scores."""
+        """Return the features, by group (n, d), that belong to scores."""
         found: dict[str, list[np.ndarray]] = {group.name: [] for group in GROUPS}
         for name, place in self.slices.items():
             group = PARTS[name].group
@@ -143,7 +143,7 @@ class CurveSpace:
         return {group: np.concatenate(values, axis=1) for group, values in found.items()}
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays that bring it back."""
+        """Return arrays that bring it back."""
         state: dict[str, Any] = {"space_noise": self.noise}
         for what in ("mean", "onto", "back", "limit"):
             state.update({f"space_{what}_{k}": v for k, v in getattr(self, what).items()})

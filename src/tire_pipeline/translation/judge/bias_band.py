@@ -45,7 +45,7 @@ class BiasBand:
         return self.contains_zero & (widest <= NEGLIGIBLE)
 
     def in_words(self, row: int) -> str:
-        """Give the bands of one file, such as ``"cornering stiffness +1.0% to +3.2%, ..."``."""
+        """Return the bands of one file, such as ``"cornering stiffness +1.0% to +3.2%, ..."``."""
         return ", ".join(
             f"{part} {low:+.1%} to {high:+.1%}"
             for part, low, high in zip(KEY_PARTS, self.low[row], self.high[row], strict=True)
@@ -53,7 +53,7 @@ class BiasBand:
 
 
 def bias_band(model: CurveMixedModel, found: Prediction) -> BiasBand:
-    """Give the bands from the difference of the two effects, which a shift undoes, and its variance.
+    """Return the bands from the difference of the two effects, which a shift undoes, and its variance.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def bias_band(model: CurveMixedModel, found: Prediction) -> BiasBand:
 def measured_by_both(
     model: CurveMixedModel, rows: pd.DataFrame, found: Prediction
 ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """Give the curve features of n tires as their source and as the target measures them.
+    """Return the curve features of n tires as their source and as the target measures them.
 
     They differ by the bias alone. What a translation changes besides, since a file's own noise is drawn
     towards what is usual of such a tire, says nothing of what the target measures.

@@ -53,7 +53,7 @@ def expected_gain(model: CurveMixedModel, found: Prediction) -> tuple[np.ndarray
 def pooled_harm(
     harm: np.ndarray, category: np.ndarray, categories: tuple[str, ...], target: str
 ) -> np.ndarray:
-    """Give the probability that translating a category's files makes their error larger, (categories,).
+    """Return the probability that translating a category's files makes their error larger, (categories,).
 
     The mean over its files, drawn towards the mean over all categories: whether anyone differs from the
     target at all is told by all of them together.

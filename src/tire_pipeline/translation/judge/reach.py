@@ -46,10 +46,21 @@ class TrainingReach:
         return cls(points, gap, float(np.quantile(_size(model, found), _SHARE_INSIDE)))
 
     def distance(self, model: CurveMixedModel, table: pd.DataFrame, found: Prediction) -> np.ndarray:
-        """Give the distance of every file, (n,): 1 is the edge of the training data.
+        """Return how far files are from the training data.
 
-        The larger of: metadata to the target's nearest tire, and how unlike the curves are to what is
-        expected of such a tire in its category.
+        Parameters
+        ----------
+        model : CurveMixedModel
+        table : DataFrame
+            n files.
+        found : Prediction
+            Of these files.
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            1 at the edge. The larger of two: how far the metadata is from the target's nearest tire, and how
+            unlike the curves are to what is expected of such a tire in its category.
         """
         curves = _size(model, found) / self.surprise
         if not self.metadata.shape[1]:
@@ -58,7 +69,7 @@ class TrainingReach:
         return np.maximum(curves, nearest)
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays and numbers that bring it back."""
+        """Return arrays and numbers that bring it back."""
         return {"reach_metadata": self.metadata, "reach_gap": self.gap, "reach_surprise": self.surprise}
 
     @classmethod

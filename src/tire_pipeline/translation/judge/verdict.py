@@ -84,7 +84,19 @@ class VerdictRules:
         return self.reach.distance(model, source, found) <= self.farthest
 
     def refusals(self, model: CurveMixedModel, source: pd.DataFrame) -> np.ndarray:
-        """Say why a file cannot be translated at all, "" if it can, (n,)."""
+        """Return why files cannot be translated at all.
+
+        Parameters
+        ----------
+        model : CurveMixedModel
+        source : DataFrame
+            n files.
+
+        Returns
+        -------
+        ndarray of str, shape (n,)
+            Empty where nothing is in the way.
+        """
         reason = np.full(len(source), "", dtype=object)
         category = source["category"].astype(str).to_numpy()
         lacking = source.reindex(columns=list(NEEDED_TO_TRANSLATE)).isna()
@@ -178,7 +190,7 @@ class VerdictRules:
         )
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays, strings and numbers that bring it back."""
+        """Return arrays, strings and numbers that bring it back."""
         return {
             "target": self.target,
             "option_gate": self.gate,

@@ -58,7 +58,7 @@ def shared_cells(tire: np.ndarray, category: np.ndarray, categories: int) -> np.
 def category_spreads(
     found: Residuals, own: float, alone: float, width: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Find spread and variance alone of every category, each (categories,), by their posterior's mode.
+    """Find by how much each category scatters: the mode of the posterior.
 
     Parameters
     ----------
@@ -69,6 +69,13 @@ def category_spreads(
         Variance of what one tire does in one category only, in the mean of the categories.
     width : float
         Standard deviation of the logarithm of a category's spread about the common one, beforehand.
+
+    Returns
+    -------
+    spread : ndarray, shape (categories,)
+        Times as far apart as the tires are.
+    alone : ndarray, shape (categories,)
+        Variance of what one tire does in this category only.
     """
     count = found.shared.shape[1]
     single = np.ones(len(found.gap), dtype=bool)

@@ -136,7 +136,7 @@ class PreparedTraining:
     protocols: Protocols = NO_PROTOCOL_CHANGE
 
     def model(self, fitted: tuple[Fitted, ...]) -> CurveMixedModel:
-        """Give the model with these weights."""
+        """Return the model with these weights."""
         category = self.design.blocks["category"]
         spread, alone, links = own_and_links(
             fitted,

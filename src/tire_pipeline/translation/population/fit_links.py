@@ -45,7 +45,7 @@ class FitLinks:
     error: np.ndarray
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays that bring it back."""
+        """Return arrays that bring it back."""
         return {"links_own": self.own, "links_error": self.error}
 
     @classmethod

@@ -42,7 +42,18 @@ class TireKinds:
 
     @classmethod
     def find(cls, scores: np.ndarray, regressors: np.ndarray, expected: np.ndarray, count: int) -> Self:
-        """Find the ``count`` directions along which n tires (n, m) are expected to differ most."""
+        """Find the directions along which tires are expected to differ most.
+
+        Parameters
+        ----------
+        scores : ndarray of int
+        regressors : ndarray, shape (n, m)
+            Of n tires.
+        expected : ndarray, shape (m, q)
+            Weights of their expectation.
+        count : int
+            Directions at most.
+        """
         values = regressors @ expected
         centre = values.mean(axis=0)
         _, size, axes = np.linalg.svd(values - centre, full_matrices=False)
@@ -50,7 +61,7 @@ class TireKinds:
         return cls(scores, expected, centre, axes[:keep].T / (size[:keep] / np.sqrt(len(values))))
 
     def of(self, blocks: Mapping[str, np.ndarray], own: np.ndarray) -> np.ndarray:
-        """Give the numbers of n tires, (n, k).
+        """Return the numbers of n tires, (n, k).
 
         Parameters
         ----------
@@ -63,7 +74,7 @@ class TireKinds:
         return by_row(expected - self.centre + own, self.turn)
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays that bring it back."""
+        """Return arrays that bring it back."""
         return {f"kinds_{name}": getattr(self, name) for name in ("scores", "expected", "centre", "turn")}
 
     @classmethod

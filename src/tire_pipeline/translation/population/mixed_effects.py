@@ -79,7 +79,22 @@ class MarginalLikelihood:
         self.weight = np.ones(len(response)) if design.weight is None else design.weight
 
     def posterior(self, logs: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
-        """Mean, covariance, residual variance of each row, and the value."""
+        """Return the posterior of the p weights for some variances.
+
+        Parameters
+        ----------
+        logs : ndarray, shape (v,)
+            Logarithms of the variances.
+
+        Returns
+        -------
+        mean : ndarray, shape (p,)
+        covariance : ndarray, shape (p, p)
+        rest : ndarray, shape (n,)
+            Variance of each row that the weights leave.
+        value : float
+            The negative logarithm of the marginal likelihood, up to a constant.
+        """
         variances = np.exp(logs)
         prior = np.concatenate(
             [np.full(e - s, v) for s, e, v in zip(self.starts, self.ends, variances[:-1], strict=True)]
@@ -97,7 +112,7 @@ class MarginalLikelihood:
         return mean, covariance, rest, float(value)
 
     def value_and_gradient(self, logs: np.ndarray) -> tuple[float, np.ndarray]:
-        """Give the value and its gradient by the logarithms of the variances, (v,)."""
+        """Return the value and its gradient by the logarithms of the variances, (v,)."""
         mean, covariance, rest, value = self.posterior(logs)
         variances = np.exp(logs)
         square = mean**2 + np.diag(covariance)

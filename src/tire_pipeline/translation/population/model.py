@@ -248,7 +248,7 @@ class CurveMixedModel:
         )
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays, strings and numbers that bring it back."""
+        """Return arrays, strings and numbers that bring it back."""
         names = list(self.fitted[0].variances)
         return {
             **self.space.to_state(),

@@ -92,16 +92,16 @@ class TaughtCells:
         return len(self.scores)
 
     def part(self, rows: np.ndarray) -> TaughtCells:
-        """Give some of the cells, by their places or a mask."""
+        """Return some of the cells, by their places or a mask."""
         return TaughtCells(**{name: value[rows] for name, value in vars(self).items()})
 
     def shared(self) -> np.ndarray:
-        """Give an indicator column for each tire that more than one cell is of, (c, t)."""
+        """Return an indicator column for each tire that more than one cell is of, (c, t)."""
         names, count = np.unique(self.tire, return_counts=True)
         return np.asarray(self.tire[:, None] == names[count > 1][None, :], dtype=float)
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays that bring it back."""
+        """Return arrays that bring it back."""
         return {f"taught_{name}": value for name, value in vars(self).items()}
 
     @classmethod

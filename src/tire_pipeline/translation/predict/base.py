@@ -14,7 +14,7 @@ class Predictor(Protocol):
     """Predicts scores by a fitted model of the population; a value that is never changed."""
 
     def fit(self, model: CurveMixedModel, training: pd.DataFrame, target: str, seed: int) -> Self:
-        """Give the predictor with what it learns beyond the model.
+        """Return the predictor with what it learns beyond the model.
 
         Parameters
         ----------
@@ -33,7 +33,7 @@ class Predictor(Protocol):
         ...
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays, strings and numbers that bring it back."""
+        """Return arrays, strings and numbers that bring it back."""
         ...
 
     @classmethod

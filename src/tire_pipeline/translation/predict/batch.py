@@ -125,7 +125,18 @@ class BatchLearning:
         return Taught(names, tuple(models), tuple(counts))
 
     def sure_and_new(self, source: pd.DataFrame) -> np.ndarray:
-        """Tell whose category is sure, and whose tire is no training tire's, (n,)."""
+        """Find the files that may teach by what is known of them.
+
+        Parameters
+        ----------
+        source : DataFrame
+            n files.
+
+        Returns
+        -------
+        ndarray of bool, shape (n,)
+            True where the category is sure and the tire is not among those of the training files.
+        """
         sure = np.ones(len(source), dtype=bool)
         if "category_probability" in source:
             sure = source["category_probability"].to_numpy(dtype=float) >= TEACHING_PROBABILITY
@@ -133,7 +144,7 @@ class BatchLearning:
         return np.asarray(sure & new)
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays that bring it back."""
+        """Return arrays that bring it back."""
         return {
             **self.training.to_state(),
             "taught_repeats": self.repeats,

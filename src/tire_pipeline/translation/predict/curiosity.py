@@ -27,7 +27,7 @@ class Curiosity:
         self.weight, self.usual = weight, 1.0
 
     def __call__(self, seen: np.ndarray) -> np.ndarray:
-        """Give the bonus (n,) of observations (n, size), and learn from them."""
+        """Return the bonus (n,) of observations (n, size), and learn from them."""
         inputs = torch.as_tensor(seen, dtype=torch.float32)
         errors = ((self.learner(inputs) - self.random(inputs)) ** 2).mean(dim=1)
         self.optimizer.zero_grad()

@@ -64,7 +64,7 @@ class CyclePredictor:
         return replace(found, shift=moved, target=found.source + moved)
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays, strings and numbers that bring it back."""
+        """Return arrays, strings and numbers that bring it back."""
         return {
             "option_rounds": self.rounds,
             **{f"network_{k}": layer for k, layer in enumerate(self.layers)},

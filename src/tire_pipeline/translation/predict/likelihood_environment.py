@@ -190,7 +190,7 @@ class BatchLikelihoodEnvironment(VecEnv):
         """Nothing to close."""
 
     def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
-        """Give an attribute of this object for each tire."""
+        """Return an attribute of this object for each tire."""
         return [getattr(self, attr_name, None)] * self.num_envs
 
     def set_attr(self, attr_name: str, value: Any, indices: Any = None) -> None:

@@ -25,7 +25,7 @@ class MixedPredictor:
     trust: float = 1.0
 
     def fit(self, model: CurveMixedModel, training: pd.DataFrame, target: str, seed: int) -> Self:
-        """Give itself: nothing is to be learned beyond the model."""
+        """Return itself: nothing is to be learned beyond the model."""
         return self
 
     def predict(self, model: CurveMixedModel, source: pd.DataFrame, target: str) -> Prediction:
@@ -37,7 +37,7 @@ class MixedPredictor:
         return shortened(model, model.predict(source, target, trust=self.trust))
 
     def to_state(self) -> dict[str, Any]:
-        """Give the option."""
+        """Return the option."""
         return {"option_trust": self.trust}
 
     @classmethod

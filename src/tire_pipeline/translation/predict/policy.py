@@ -82,7 +82,7 @@ class PolicyPredictor:
         return replace(self, layers=tuple(_layers(agent)), learning=learning)
 
     def act(self, seen: np.ndarray) -> np.ndarray:
-        """Give the policy's mean action, (n, p), in [-1, 1]."""
+        """Return the policy's mean action, (n, p), in [-1, 1]."""
         first, first_bias, last, last_bias = self.layers
         hidden = np.tanh(by_row(seen, first) + first_bias)
         return np.clip(by_row(hidden, last) + last_bias, -1.0, 1.0)
@@ -99,7 +99,7 @@ class PolicyPredictor:
         return without_failed_fits(model, replace(found, shift=moved, target=found.source + moved))
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays, strings and numbers that bring the trained policy back."""
+        """Return arrays, strings and numbers that bring the trained policy back."""
         return {
             "option_updates": self.updates,
             **{f"policy_{k}": layer for k, layer in enumerate(self.layers)},
@@ -107,7 +107,7 @@ class PolicyPredictor:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave; it moves the same and cannot learn on."""
+        """Bring back what :meth:`to_state` gave; it moves tires alike, and begins anew if it is trained again."""
         layers = tuple(np.asarray(state[f"policy_{k}"]) for k in range(4))
         return cls(int(state["option_updates"]), str(state["translator"]) == "curious_agent", layers)
 

@@ -44,7 +44,7 @@ class GreedyForest:
         return self
 
     def probability(self, features: np.ndarray) -> np.ndarray:
-        """Give the target's probability for coefficients (n, 11)."""
+        """Return the target's probability for coefficients (n, 11)."""
         column = int(np.flatnonzero(self.forest.classes_ == self.target)[0])
         return self.forest.predict_proba(np.ascontiguousarray(features))[:, column]
 
@@ -84,7 +84,7 @@ class GreedyForest:
         return without_estimate(source, self.translate(source), self.target, self.name)
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays, strings and numbers that bring it back."""
+        """Return arrays, strings and numbers that bring it back."""
         state = {f"forest_{name}": value for name, value in self.forest.to_state().items()}
         return {"translator": self.name, "target": self.target, "low": self.low, "high": self.high, **state}
 

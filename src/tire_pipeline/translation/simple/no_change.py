@@ -23,7 +23,7 @@ class NoChange:
         return self
 
     def translate(self, source: pd.DataFrame) -> pd.DataFrame:
-        """Give a copy."""
+        """Return a copy."""
         return source.copy()
 
     def translation(
@@ -33,7 +33,7 @@ class NoChange:
         return without_estimate(source, self.translate(source), self.target, self.name, LEFT_ALONE)
 
     def to_state(self) -> dict[str, Any]:
-        """Give the target."""
+        """Return the target."""
         return {"translator": self.name, "target": self.target}
 
     @classmethod

@@ -28,7 +28,7 @@ class GreedyPolicy:
         self.n_bins = n_bins
 
     def actions(self, states: np.ndarray) -> np.ndarray:
-        """Give the most probable action of every state.
+        """Return the most probable action of every state.
 
         Parameters
         ----------
@@ -41,7 +41,7 @@ class GreedyPolicy:
         return self.scores(states).argmax(axis=1)
 
     def scores(self, states: np.ndarray) -> np.ndarray:
-        """Give the logits of all actions, shape (m, actions)."""
+        """Return the logits of all actions, shape (m, actions)."""
         d = states.shape[1]
         columns = states + np.arange(d) * self.n_bins
         weight, bias = self.layers[0]
@@ -64,7 +64,7 @@ class GreedyPolicy:
         return cls(layers, n_bins)
 
     def to_state(self) -> dict[str, Any]:
-        """Give the weights."""
+        """Return the weights."""
         return {"n_bins": self.n_bins} | layers_to_state(self.layers)
 
     @classmethod

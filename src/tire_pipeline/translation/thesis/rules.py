@@ -101,7 +101,7 @@ class Rules:
         )
 
     def for_compiled_code(self) -> RulesForCompiledCode:
-        """Give the rules as numba takes them."""
+        """Return the rules as numba takes them."""
         return RulesForCompiledCode(
             self.reward == "maximize_reward",
             self.n_bins,
@@ -113,7 +113,7 @@ class Rules:
         )
 
     def to_state(self) -> dict[str, Any]:
-        """Give all attributes by name."""
+        """Return all attributes by name."""
         return {name: getattr(self, name) for name in self.__dataclass_fields__}
 
     @classmethod
@@ -132,5 +132,5 @@ class Rules:
 
 
 def feature_and_direction(action: int) -> tuple[int, int]:
-    """Give the feature that an action moves, and -1 (down) or +1 (up)."""
+    """Return the feature that an action moves, and -1 (down) or +1 (up)."""
     return action // 2, 1 if action % 2 else -1

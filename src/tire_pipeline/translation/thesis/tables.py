@@ -43,7 +43,7 @@ def collect_cells(
 def thesis_table(
     collected: pd.DataFrame, *, reward: str, n_bins: int, value: str = "ratio", decoding: str = "tire"
 ) -> pd.DataFrame:
-    """Give one of Tables 5.10 to 5.21: mean over the seeds, and their spread.
+    """Return one of Tables 5.10 to 5.21: mean over the seeds, and their spread.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def thesis_table(
 
 
 def better_than_nothing(collected: pd.DataFrame, *, decoding: str = "tire") -> pd.DataFrame:
-    """Give Table 6.1: configurations whose mean ratio over the seeds is below 1, by metric.
+    """Return Table 6.1: configurations whose mean ratio over the seeds is below 1, by metric.
 
     Returns
     -------

@@ -81,7 +81,7 @@ def train_agent(
 
 
 def make_model(env: object, *, algorithm: str, seed: int, n_steps: int = N_STEPS) -> Any:
-    """Give an untrained PPO or A2C with the thesis' settings."""
+    """Return an untrained PPO or A2C with the thesis' settings."""
     import stable_baselines3
 
     if algorithm not in ALGORITHMS:

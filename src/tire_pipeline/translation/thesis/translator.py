@@ -165,12 +165,12 @@ class AgentTranslator:
         return without_estimate(source, self.translate(source), self.target, self.name)
 
     def translate_curves(self, source: pd.DataFrame) -> np.ndarray:
-        """Give the curves as the thesis decodes them, N, shape (n, 3, 100)."""
+        """Return the curves as the thesis decodes them, N, shape (n, 3, 100)."""
         representation, features, _ = self._moved(source)
         return representation.decode_curves(features, source)
 
     def follow(self, source: pd.DataFrame) -> RollOut:
-        """Give the roll-out itself: states, probabilities, actions."""
+        """Return the roll-out itself: states, probabilities, actions."""
         return self._moved(source)[2]
 
     @property
@@ -181,7 +181,7 @@ class AgentTranslator:
         return tuple(f"{name} {way}" for name in names for way in ("down", "up"))
 
     def to_state(self) -> dict[str, Any]:
-        """Give everything that translating needs; the learning curve is not part of it."""
+        """Return everything that translating needs; the learning curve is not part of it."""
         representation, bins, forest, rules = self._fitted()
         assert self.policy is not None  # fit sets both
         return {

@@ -164,7 +164,7 @@ def _step(question: ClassSearchInput, state: ClassState) -> ClassState:
 
 
 def _tire_in_class(tire: np.ndarray, kind: np.ndarray, count: int, share: np.ndarray) -> np.ndarray:
-    """Give columns of a tire's own effect, another for each class that it may be of, (rows, tires * k).
+    """Return columns of a tire's own effect, another for each class that it may be of, (rows, tires * k).
 
     One effect for all of them would have to explain the difference between the classes, and as a tire that
     several categories measured leaves little noise, it would draw the classes together. A row counts by its

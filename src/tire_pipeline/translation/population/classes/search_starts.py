@@ -20,7 +20,7 @@ _LEAST_SPLIT = 8  # tires of a class that is split
 
 
 def starts(question: ClassSearchInput, count: int, fewer: np.ndarray | None, seed: int) -> list[np.ndarray]:
-    """Give probabilities of classes to begin with.
+    """Return probabilities of classes to begin with.
 
     Parameters
     ----------

@@ -70,7 +70,7 @@ class TireClasses:
         return np.exp(_normalised(self.prior(metadata) + log_density(gap, self.own, alone)))
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays that bring it back."""
+        """Return arrays that bring it back."""
         return {
             "class_scores": self.scores,
             "class_shares": self.shares,

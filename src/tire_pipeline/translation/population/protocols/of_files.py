@@ -99,7 +99,7 @@ class Protocols:
         return said
 
     def to_state(self) -> dict[str, Any]:
-        """Give arrays that bring it back."""
+        """Return arrays that bring it back."""
         return {
             **{f"protocol_{n}": np.array([getattr(c, n) for c in self.changes], dtype=str) for n in _TEXTS},
             "protocol_probability": np.array([c.probability for c in self.changes], dtype=float),
