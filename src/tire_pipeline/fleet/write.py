@@ -12,7 +12,31 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.fleet.make import Fleet
+from tire_pipeline.fleet.make import Fleet, make_fleet
+from tire_pipeline.fleet.parameters import FleetParameters
+from tire_pipeline.fleet.settings import FleetSettings
+
+
+def build_fleet(
+    parameters: FleetParameters, target_category: str, seed: int
+) -> tuple[dict[str, bytes], dict[str, bytes], dict[str, bytes]]:
+    """Make every file of the fleet.
+
+    Parameters
+    ----------
+    parameters : FleetParameters
+    target_category : str
+        Its measurements of the evaluation tires are sealed.
+    seed : int
+
+    Returns
+    -------
+    truth, evaluation, files : dict of str to bytes
+        By relative path. The training files come last: until they are there, the fleet counts as not made.
+    """
+    settings = FleetSettings(target=target_category, seed=seed, **parameters.model_dump())
+    fleet = make_fleet(settings)
+    return truth_files(fleet), encoded(fleet.evaluation), encoded(fleet.files)
 
 
 def write_fleet(fleet: Fleet, raw_folder: str | Path) -> dict[str, Path]:

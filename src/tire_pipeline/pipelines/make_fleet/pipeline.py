@@ -2,7 +2,7 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.pipelines.make_fleet.nodes import build_fleet
+from tire_pipeline.fleet.write import build_fleet
 
 
 def create_pipeline(**_: object) -> Pipeline:
