@@ -178,60 +178,52 @@ def _time(frame: pd.DataFrame) -> list[Issue]:
     if "time" not in frame or len(frame) < 2:
         return []
     time = frame["time"].to_numpy(dtype=float)
-    issues = []
-    broken = ~np.isfinite(time)
-    if broken.any():
-        issues.append(
-            Issue(
-                "time_not_finite",
-                "warning",
-                f"time, {broken.sum()} rows from row {int(broken.argmax())}",
-                "these rows are not used",
-                _runs(broken),
-            )
-        )
-    known = np.flatnonzero(~broken)
+    known = np.flatnonzero(np.isfinite(time))
     step = np.full(time.size - 1, np.nan)
     step[known[1:] - 1] = np.diff(time[known])
-    back = np.concatenate([[False], step < 0])
-    if back.any():
-        issues.append(
-            Issue(
-                "time_runs_backwards",
-                "error",
-                f"time, {back.sum()} places, first at row {int(back.argmax())}",
-                "split the file there, or sort by time if the rows were shuffled",
-                _runs(back),
-            )
-        )
-    again = np.concatenate([[False], step == 0])
-    if again.any():
-        issues.append(
-            Issue(
-                "repeated_time_stamps",
-                "error",
-                f"time, {again.sum()} rows, first at row {int(again.argmax())}",
-                "the clock is coarser than the samples: give a finer one, or average the rows",
-                _runs(again),
-            )
-        )
+    return [
+        *_broken_time(~np.isfinite(time)),
+        *_backwards(np.concatenate([[False], step < 0])),
+        *_repeated(np.concatenate([[False], step == 0])),
+        *_gaps(step),
+    ]
+
+
+def _broken_time(bad: np.ndarray) -> list[Issue]:
+    if not bad.any():
+        return []
+    where = f"time, {bad.sum()} rows from row {int(bad.argmax())}"
+    return [Issue("time_not_finite", "warning", where, "these rows are not used", _runs(bad))]
+
+
+def _backwards(bad: np.ndarray) -> list[Issue]:
+    if not bad.any():
+        return []
+    where = f"time, {bad.sum()} places, first at row {int(bad.argmax())}"
+    todo = "split the file there, or sort by time if the rows were shuffled"
+    return [Issue("time_runs_backwards", "error", where, todo, _runs(bad))]
+
+
+def _repeated(bad: np.ndarray) -> list[Issue]:
+    if not bad.any():
+        return []
+    where = f"time, {bad.sum()} rows, first at row {int(bad.argmax())}"
+    todo = "the clock is coarser than the samples: give a finer one, or average the rows"
+    return [Issue("repeated_time_stamps", "error", where, todo, _runs(bad))]
+
+
+def _gaps(step: np.ndarray) -> list[Issue]:
     ahead = step[step > 0]
-    if ahead.size:
-        usual = float(np.median(ahead))
-        gap = np.concatenate([[False], step > _GAP_FACTOR * usual])
-        if gap.any():
-            longest = float(np.nanmax(step))
-            issues.append(
-                Issue(
-                    "gaps_in_time",
-                    "warning",
-                    f"time, {gap.sum()} gaps of up to {longest:.3g} s, first at row "
-                    f"{int(gap.argmax())}; the usual step is {usual:.3g} s",
-                    "states such as temperature are unknown after a gap",
-                    _runs(gap),
-                )
-            )
-    return issues
+    usual = float(np.median(ahead)) if ahead.size else np.inf
+    bad = np.concatenate([[False], step > _GAP_FACTOR * usual])
+    if not bad.any():
+        return []
+    where = (
+        f"time, {bad.sum()} gaps of up to {float(np.nanmax(step)):.3g} s, first at row {int(bad.argmax())}; "
+        f"the usual step is {usual:.3g} s"
+    )
+    todo = "states such as temperature are unknown after a gap"
+    return [Issue("gaps_in_time", "warning", where, todo, _runs(bad))]
 
 
 def _values(frame: pd.DataFrame) -> list[Issue]:
