@@ -91,6 +91,19 @@ def _check_what_is_left(left: int, out: int) -> None:
         )
 
 
+def _zeros(arrays: dict[str, Array], count: int) -> list[str]:
+    """Put zeros in place of inputs that were not recorded, and say so."""
+    missing = [name for name in ASSUMED_ZERO if name not in arrays]
+    arrays |= {name: np.zeros(count) for name in missing}
+    return [f"{name} is not recorded and taken as zero" for name in missing]
+
+
+def _cleaned(tire: Any, arrays: dict[str, Array], start: Array) -> tuple[dict[str, Array], list[Cleaning]]:
+    """Clean the inputs by the forces, less what another simulator has beyond the tire model."""
+    forces = {n: arrays[n] - arrays.get(f"_beside_{n}", 0.0) for n in TANGENTIAL_FORCES if n in arrays}
+    return clean(tire, arrays, forces, start)
+
+
 def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     """Check a recording, repair what is exactly wrong, and bring it to arrays.
 
@@ -135,19 +148,12 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
         question = another_tire(tire, arrays, driven) or open_axes(
             tire, arrays, findings, str(recording.attrs.get("axes_unclear", ""))
         )
-    assumed = _assumed(recording, factors)
     present = {n for n in INPUTS if n in recording.columns and n in arrays}
-    for name in ASSUMED_ZERO:
-        if name not in arrays:
-            arrays[name] = np.zeros(rows.size)
-            assumed.append(f"{name} is not recorded and taken as zero")
+    assumed = _assumed(recording, factors) + _zeros(arrays, rows.size)
     start = _pieces(time, rows, notes)
     arrays, time, start, rows = _binned(arrays, time, start, rows)
-    cleaned: list[Cleaning] = []
-    if time is not None:
-        forces = {n: arrays[n] - arrays.get(f"_beside_{n}", 0.0) for n in TANGENTIAL_FORCES if n in arrays}
-        arrays, cleaned = clean(tire, arrays, forces, start)
-        notes += [c.text() for c in cleaned]
+    arrays, cleaned = (arrays, []) if time is None else _cleaned(tire, arrays, start)
+    notes += [c.text() for c in cleaned]
     own = own_relaxation(tire)
     if own and time is not None and "speed" not in present:
         notes.append("speed is not recorded, so the relaxation lengths that the file states are left out")
