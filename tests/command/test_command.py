@@ -186,10 +186,23 @@ def test_fit_writes_what_was_measured(folder):
     assert (folder / "run.csv").read_bytes() == before
     assert fitted.coefficients["PDY1"] == pytest.approx(found["coefficients"]["PDY1"])
     assert found["relative_rms"]["fy"] < 0.01
+    angles = pd.read_csv("run.csv")["slip_angle"]
+    assert fitted.ranges["slip_angle"][2:] == pytest.approx((angles.min(), angles.max()), abs=1e-6)
+    assert "camber" not in fitted.ranges, "one camber is no range"
     there = read_tir("a.tir").forces(slip_angle=0.1, normal_load=4500.0).fy
     assert fitted.forces(slip_angle=0.1, normal_load=4500.0).fy == pytest.approx(there, rel=0.02)
     assert "Points: measured at pure slip" in page(folder / "out_fit.html")
     assert "out.tir" in run("fit", "run.csv", "-o", "out.tir", code=2).stderr
+
+
+def test_fit_gives_no_residual_of_a_force_that_it_could_not_fit(folder):
+    record("run.csv", seconds=30.0)
+    pd.read_csv("run.csv").assign(fx=12.0).to_csv("run.csv", index=False)
+    found = told("fit", "run.csv", "-o", "out.tir", "--no-page")
+    assert "fx" in found["not_fitted"]
+    assert "fx" not in found["relative_rms"]
+    assert "Fx: recorded, but" in run("fit", "run.csv", "-o", "out2.tir", "--no-page").stdout
+    assert "There is no longitudinal force" in run("show", "out.tir", "--no-page").stdout
 
 
 def test_fit_takes_several_recordings_together(folder):

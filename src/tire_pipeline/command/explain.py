@@ -154,6 +154,7 @@ def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Command
 
     data = {"file": file, **report.to_dict()}
     title = f"{file} and {', '.join(report.recordings)}: {report.verdict}"
-    return CommandOutcome(
-        title, [report.summary, *report.head.remarks], data, page, grids, report.notes, written
-    )
+    lines = [report.summary, *report.head.remarks]
+    if report.assumed:
+        lines.append(f"Assumed: {'; '.join(report.assumed)}.")
+    return CommandOutcome(title, lines, data, page, grids, report.notes, written)

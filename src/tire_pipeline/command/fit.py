@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,6 +50,7 @@ def command(
 ) -> None:
     """Fit a model."""
     from tire_pipeline.magic_formula import fit_magic_formula
+    from tire_pipeline.magic_formula.fitting.report.valid_ranges import with_measured_ranges
     from tire_pipeline.recordings import join_recordings
     from tire_pipeline.tir import read_tir, write_tir
     from tire_pipeline.tir.format.values import COMPUTED_DIGITS
@@ -63,7 +65,9 @@ def command(
         nominal_load=nominal_load,
         unloaded_radius=radius,
     )
-    said = ", ".join(f"{name} {100 * value:.2g}%" for name, value in result.relative_rms.items())
+    if start is None:
+        result = replace(result, model=with_measured_ranges(result.model, result.measured))
+    said = ", ".join(f"{name} {100 * value:.2g}%" for name, value in _fitted(result).items())
     write_tir(
         result.model,
         target,
@@ -79,17 +83,29 @@ def command(
     finish(_outcome(result, list(recordings), target, notes), f"{target.stem}_fit", **output)
 
 
+def _fitted(result: FitResult) -> dict[str, float]:
+    """The misfit of the outputs that were fitted."""
+    return {name: value for name, value in result.relative_rms.items() if name not in result.not_fitted}
+
+
 def _outcome(result: FitResult, runs: list[str], target: Path, notes: list[str]) -> CommandOutcome:
     model = result.model
-    sizes = ", ".join(f"{n.capitalize()} {100 * v:.2g}%" for n, v in result.relative_rms.items())
+    sizes = ", ".join(f"{n.capitalize()} {100 * v:.2g}%" for n, v in _fitted(result).items())
     lines = [
         f"Magic Formula {model.version} fitted to {', '.join(runs)}: "
         f"{len(result.standard_errors)} coefficients, FNOMIN = {model.value('FNOMIN'):g} N.",
         f"RMS of the residuals, as a share of the largest magnitude: {sizes}.",
     ]
+    if result.not_fitted:
+        names = ", ".join(name.capitalize() for name in result.not_fitted)
+        lines.append(f"{names}: recorded, but at no points that determine a coefficient; not fitted.")
     residuals = Grid(
         ("output", "load (N)", "camber (deg)", "points", "bias", "RMS", "largest", "RMS (%)"),
-        [_row(row) for row in result.residuals.itertuples(index=False)],
+        [
+            _row(row)
+            for row in result.residuals.itertuples(index=False)
+            if row.output not in result.not_fitted
+        ],
         "Residuals, model minus measured, N or N m",
     )
     data = {
@@ -98,7 +114,8 @@ def _outcome(result: FitResult, runs: list[str], target: Path, notes: list[str])
         "version": model.version,
         "coefficients": dict(model.coefficients),
         "standard_errors": dict(result.standard_errors),
-        "relative_rms": dict(result.relative_rms),
+        "relative_rms": _fitted(result),
+        "not_fitted": list(result.not_fitted),
         "undetermined": result.undetermined,
         "notes": notes,
     }

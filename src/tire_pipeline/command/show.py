@@ -13,9 +13,13 @@ from tire_pipeline.command.options import FILE, output_options, radius_option
 from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from tire_pipeline.magic_formula import TireModel
 
 _FEW = 12
+_SHAPE_AND_LEVEL = {"PCX1": "PDX1", "PCY1": "PDY1"}
+"""The shape factor of a force, which means nothing without its level."""
 _MOMENT = ("QDZ", "SSZ")
 """Beginnings of the coefficients without which there is no trail, residual moment or arm of Fx."""
 
@@ -85,6 +89,10 @@ def _gaps(model: TireModel, figures: dict[str, float]) -> list[str]:
         gaps.append("There are no relaxation lengths: forces follow the slip at once.")
     if all(model.value(name) == 0.0 for name in ("RBX1", "RBY1")):
         gaps.append("There is no combined slip: braking and cornering do not weaken each other.")
+    if not model.value("PDX1"):
+        gaps.append("There is no longitudinal force: PDX1 is 0 or missing.")
+    if not model.value("PDY1"):
+        gaps.append("There is no side force: PDY1 is 0 or missing.")
     if not any(value for name, value in model.coefficients.items() if name.startswith(_MOMENT)):
         gaps.append("There is no aligning moment.")
     if not model.ranges:
@@ -93,8 +101,9 @@ def _gaps(model: TireModel, figures: dict[str, float]) -> list[str]:
 
 
 def _replaced(model: TireModel) -> dict[str, float]:
-    """What the file lacks and a value stands in for; of a radius that is missing a note speaks."""
-    return {name: value for name, value in model.defaulted.items() if value == value}
+    """What the file lacks and a value stands in for; of a radius or a whole force a sentence speaks."""
+    none = tuple(name for name, level in _SHAPE_AND_LEVEL.items() if not model.value(level))
+    return {name: value for name, value in model.defaulted.items() if value == value and name not in none}
 
 
 def _missing(missing: dict[str, float]) -> str:
@@ -106,6 +115,25 @@ def _missing(missing: dict[str, float]) -> str:
 def _range(name: str, low: float, high: float) -> tuple[str, float, float, str]:
     factor, unit, _ = shown_unit(name, max(abs(low), abs(high)))
     return name.replace("_", " "), low * factor, high * factor, unit
+
+
+def _by_section(model: TireModel) -> dict[str, pd.DataFrame]:
+    """The coefficients with their meaning, in the sections of a .tir file and in their order."""
+    import pandas as pd
+
+    from tire_pipeline.tir.format.layout import describe, home_section
+
+    given = pd.DataFrame(
+        [
+            (home_section(name), name, value, describe(home_section(name), name))
+            for name, value in model.coefficients.items()
+        ],
+        columns=["section", "coefficient", "value", "meaning"],
+    )
+    return {
+        str(section).replace("_", " ").capitalize(): rows.drop(columns="section")
+        for section, rows in given.groupby("section", sort=False)
+    }
 
 
 def _page(
@@ -125,9 +153,6 @@ def _page(
     from tire_pipeline.reporting import Figure, Table, Text, render_page
 
     figure = draw_models({file.name: model}, loads=loads or None, camber=math.radians(camber))
-    given = pd.DataFrame(
-        {"coefficient": list(model.coefficients), "value": list(model.coefficients.values())}
-    )
     absent = pd.DataFrame(_replaced(model).items(), columns=["coefficient", "value used"])
     parts: list[Any] = [Text(lines, emphasis=True), Figure(*figure, heading="Curves")]
     if odd:
@@ -144,5 +169,6 @@ def _page(
                 most_rows=400,
             )
         )
-    parts.append(Table(given, "SI units.", "All coefficients", digits=8, most_rows=1000))
+    for section, given in _by_section(model).items():
+        parts.append(Table(given, "SI units.", section, digits=8))
     return render_page(file.name, parts, footer=f"tire show {file.name}")

@@ -225,6 +225,8 @@ class SignpostHooks:
     """After a run, says what was done, how long it took, and where its results are."""
 
     OUTCOMES = ("evaluation_outcome", "translation_outcome", "mismatch_outcome")
+    PAGES = ("retraining_report", "proof_report", "translation_page", "thesis_page")
+    """Pages whose main message is the outcome of the run that makes them."""
     SIGNS = (
         ("evaluation_report", "report"),
         ("translation_list", "page of the translated files"),
@@ -254,11 +256,16 @@ class SignpostHooks:
     @hook_impl(trylast=True)
     def after_pipeline_run(self, pipeline: Any, catalog: Any) -> None:
         """Print what came out in sentences, and the places of those results that this run made."""
+        from tire_pipeline.reporting.front import main_message  # slow to import
+
         made = pipeline.all_outputs()
         print(f"done in {_duration(time.monotonic() - self._began)}")
         for name in self.OUTCOMES:
             if name in made:
                 print(*catalog.load(name), sep="\n")
+        for name in self.PAGES:
+            if name in made:
+                print(*main_message(catalog.load(name)), sep="\n")
         if "ingest_summary" in made:
             print(_read(catalog.load("ingest_summary")))
         for name, what in self.SIGNS:

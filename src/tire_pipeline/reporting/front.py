@@ -10,7 +10,8 @@ from pathlib import Path
 from tire_pipeline.reporting.page_parts import Links, Picture, Text, render_page
 
 FRONT = "index.html"
-_LEAD = re.compile(r'<div class="main">\s*<p[^>]*>(.*?)</p>', re.S)
+_MAIN = re.compile(r'<div class="main">(.*?)</div>', re.S)
+_PARAGRAPH = re.compile(r"<p[^>]*>(.*?)</p>", re.S)
 LEADS = (
     ("report.html", "The translation, judged"),
     ("translated_files.html", "Your files, translated"),
@@ -144,8 +145,29 @@ def _lead(page: Path) -> str:
     if not page.is_file():
         return ""
     with page.open(encoding="utf-8", errors="replace") as file:
-        found = _LEAD.search(file.read(40_000))
-    return html.unescape(found[1]).strip() if found else ""
+        return " ".join(main_message(file.read(40_000))[:1])
+
+
+def main_message(page: str) -> list[str]:
+    """Read the main message of a page: what stands in its emphasised box.
+
+    Parameters
+    ----------
+    page : str
+        HTML as ``render_page`` writes it, or the part of it that holds the box.
+
+    Returns
+    -------
+    list of str
+        One entry a paragraph, as plain text; empty if the page has no such box.
+
+    Examples
+    --------
+    >>> main_message(render_page("Tires", [Text(["One & all.", "<b> stays."], emphasis=True)]))
+    ['One & all.', '<b> stays.']
+    """
+    box = _MAIN.search(page)
+    return [html.unescape(text).strip() for text in _PARAGRAPH.findall(box[1])] if box else []
 
 
 def _items(folder: Path, pattern: str, name: str, command: str) -> list[tuple[str, str, str]]:
