@@ -32,7 +32,7 @@ def test_every_effect_of_the_catalogue_has_a_row(clean):
 
 def test_what_was_not_varied_is_said_so(clean):
     rows = {row.name: row for row in clean.visible if not row.parameter}
-    assert rows["camber"].text == "camber: camber is not recorded or does not vary, nothing can be said"
+    assert rows["camber"].text == "camber: camber is not recorded, nothing can be said"
     assert math.isnan(rows["camber"].seen)
 
 

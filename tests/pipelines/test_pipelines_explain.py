@@ -93,6 +93,18 @@ def test_what_cannot_be_explained_together_is_said(thirds):
         _explain(RecordingFolderDataset(path=str(thirds)).load(), ExplainParameters(together=True))
 
 
+def test_why_a_recording_could_not_be_used_stands_without_its_path(tmp_path):
+    (tmp_path / "odd").mkdir()
+    shutil.copy(EXAMPLES / "rig_run.csv", tmp_path / "odd" / "run.csv")
+    loaders = RecordingFolderDataset(path=str(tmp_path)).load()
+    _, overview, _, _ = _explain(loaders, ExplainParameters(axes="ISO"))
+    assert overview["recording"].tolist() == ["odd/run.csv"]
+    (problem,) = overview["problem"]
+    assert problem == (
+        "no .tir file lies beside this recording -> put one .tir beside it, or name it run.tir"
+    )
+
+
 def test_effects_that_are_left_out_are_not_looked_for(tmp_path):
     for name in ("rig", "other"):
         (tmp_path / name).mkdir()

@@ -79,7 +79,7 @@ class ExplainTask:
             explainer = Explainer(without=self.without, learnt=self.learnt)
             report = explain_recordings(tire, runs, held_out=self.held_out, explainer=explainer)
         except TirePipelineError as error:
-            return self.lost(str(error))
+            return self.lost(_reason(error, self.name))
         row["verdict"] = report.verdict
         row["summary"] = report.summary
         row["effects"] = ", ".join(effect.name for effect in report.effects)
@@ -93,6 +93,15 @@ class ExplainTask:
         """What is stored of recordings that cannot be explained: until the next run, which tries again."""
         row = dict.fromkeys(COLUMNS, "") | {"recording": self.name, "problem": reason}
         return Passing(pack({"row.json": json.dumps(row).encode(), "report.json": b"null"}))
+
+
+def _reason(error: TirePipelineError, recording: str) -> str:
+    """What an error says, without the path of the recording, beside whose name it stands."""
+    before, found, after = (error.where or "").rpartition(recording)
+    if not found or before[-1:] not in ("", "/", "\\"):
+        return str(error)
+    line = f"line {after[1:]}: " if after[:1] == ":" else ""
+    return str(error).replace(f"{error.where}: ", line, 1)
 
 
 def corrected_files(recording: str) -> tuple[str, str]:

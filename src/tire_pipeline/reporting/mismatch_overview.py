@@ -91,7 +91,15 @@ def draw_overview(
         parts.append(Links([_link(row) for row in earlier], heading="Reports of earlier runs"))
     parts += [
         _in_one_table([*last, *earlier]),
-        Links([("tables/mismatch_overview.csv", "The last run's rows as a file", "with the summaries")]),
+        Links(
+            [
+                (
+                    "tables/mismatch_overview.csv",
+                    "Table of the last run (CSV)",
+                    "with every recording's summary",
+                )
+            ]
+        ),
     ]
     return render_page("Recordings against their simulations", parts, pages=HOME), outcome
 

@@ -200,7 +200,7 @@ class Effect:
             return "the recording has no time"
         for name in self.channels:
             if not data.varies(name):  # type: ignore[attr-defined]
-                return f"{name} is not recorded or does not vary"
+                return f"{name} {'does not vary' if data.has(name) else 'is not recorded'}"  # type: ignore[attr-defined]
         for name in self.used:
             if not data.has(name):  # type: ignore[attr-defined]
                 return f"{name} is not recorded"
