@@ -152,7 +152,7 @@ def attempt_in_silence(name: str, task: Task[_T]) -> Done[_T]:
 
 
 def in_processes(count: int) -> Map:
-    """Return a map that does so many tasks at once in processes of this machine.
+    """Return a map that runs up to ``count`` tasks at once, each in a process of this machine.
 
     Parameters
     ----------

@@ -126,7 +126,7 @@ def test_a_doubt_about_axes_that_the_forces_do_not_settle_stays_open(tire, recor
     report = explain_mismatch(tire, read_recording(path))
     assert report.corrected.question is not None
     assert "negative throughout" in report.summary
-    assert any("ISO W axes, which nobody has stated" in a for a in report.assumed)
+    assert any("ISO W axes, which were not stated" in a for a in report.assumed)
     page = report.to_html(tmp_path / "page.html").read_text()
     assert "Assumed:" in page
     with pytest.raises(RecordingError, match="negative throughout"):

@@ -84,7 +84,7 @@ class ClusterHooks:
 
     @hook_impl
     def on_pipeline_error(self) -> None:
-        """The same; what is still under way is given up."""
+        """Close the connection, end the processes; unfinished tasks are dropped."""
         self._close()
 
     def _close(self) -> None:

@@ -72,7 +72,7 @@ def read_recording(
         positive), `speed` m/s, `pressure` Pa, `tread_temperature` degC, `fx`, `fy` N, `mx`, `my`,
         `mz` N m those that the file has, then its further channels. `attrs`: `source`, `format`,
         `steady_points`, `channels` (the file's names), `units`, `conversions`, `repeats`,
-        `constants`, `comments`, `notes`, `assumed` (axes and units that nobody has stated),
+        `constants`, `comments`, `notes`, `assumed` (axes and units that were not stated),
         `axes_unclear` (what speaks against the axes that were assumed).
 
     Raises

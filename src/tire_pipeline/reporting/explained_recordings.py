@@ -177,7 +177,7 @@ def collect_explained(
 def _check_any(reports: Mapping[str, Any], rows: list[dict[str, str]]) -> None:
     if not reports:
         raise RecordingError(
-            f"none of {len(rows)} recordings could be explained; the first: {rows[0]['problem']}",
+            f"none of {len(rows)} recordings could be explained; {rows[0]['recording']}: {rows[0]['problem']}",
             todo="correct that, then run again",
         )
 

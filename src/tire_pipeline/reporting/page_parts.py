@@ -225,7 +225,7 @@ def render_page(
 
 
 def without_empty_columns(table: pd.DataFrame, always: Sequence[str] = ()) -> pd.DataFrame:
-    """Return a table of texts without the columns in which nothing stands.
+    """Return a table of texts without its empty columns.
 
     Parameters
     ----------

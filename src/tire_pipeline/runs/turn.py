@@ -226,7 +226,7 @@ def take_back(data: Path, note: Note) -> None:
 
 
 def _declare_dead(folder: Path, note: Note) -> None:
-    """Take a dead run's note away first, so that it finds out if it is not dead; then its results.
+    """Remove a dead run's note, then its results. A run that is alive after all sees that its note is gone.
 
     A run that ended while it was being looked at has taken its note away itself: its results stay.
     """

@@ -47,7 +47,7 @@ def read_files(tir_files: Mapping[str, Callable[[], TireModel]]) -> dict[str, Re
 def join_files(
     blocks: Mapping[str, Callable[[], bytes]], parameters: IngestParameters
 ) -> tuple[TableInPieces, pd.DataFrame, dict[str, Any]]:
-    """Put what was read into one table and one report.
+    """Join the blocks of files that were read: one table, one report.
 
     Parameters
     ----------

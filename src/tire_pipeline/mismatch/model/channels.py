@@ -60,7 +60,7 @@ class RecordedChannels:
         return name in self.present
 
     def varies(self, name: str) -> bool:
-        """Whether the channel is there and moves by more than sensors do."""
+        """Whether the channel is recorded and varies by more than a sensor's noise."""
         if name not in self.present:
             return False
         known = self.fixed.get("varies")

@@ -50,7 +50,7 @@ class Prepared:
     cleaned : list of Cleaning
         What was done to each input channel that fluctuates.
     assumed : list of str
-        What nobody has stated: axes, units, repairs, channels taken as zero.
+        What was not stated: axes, units, repairs, channels taken as zero.
     question : Question, optional
         What has to be settled before anything is explained, or before anything corrected is written.
     """

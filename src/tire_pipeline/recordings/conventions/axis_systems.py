@@ -81,7 +81,7 @@ def to_iso_w(
     if systems and "?" not in systems.values():
         return "axes by the names of the channels (TYDEX)", ""
     against = "Fz is negative throughout in the file, as in SAE axes" if mirrored else ""
-    return "ISO W axes, which nobody has stated" + (
+    return "ISO W axes, which were not stated" + (
         f" ({against}; only Fz was mirrored)" if against else ""
     ), against
 
