@@ -197,6 +197,29 @@ def all_done(work: Map, tasks: Mapping[str, Task[_T]], what: str) -> dict[str, D
 
 
 @dataclass(frozen=True)
+class Labelled(Generic[_T]):
+    """A task with the words by which progress shows it, where its name is the key under which it is stored.
+
+    Attributes
+    ----------
+    label : str
+    task : callable
+
+    Examples
+    --------
+    >>> Labelled("case 3", lambda: 9)()
+    9
+    """
+
+    label: str
+    task: Task[_T]
+
+    def __call__(self) -> _T:
+        """Do the task."""
+        return self.task()
+
+
+@dataclass(frozen=True)
 class Block(Generic[_T]):
     """Several short tasks as one, so that handing them over costs less than doing them.
 

@@ -176,8 +176,9 @@ def collect_explained(
 
 def _check_any(reports: Mapping[str, Any], rows: list[dict[str, str]]) -> None:
     if not reports:
+        first = f"{rows[0]['recording']}: {rows[0]['problem']}"
         raise RecordingError(
-            f"none of {len(rows)} recordings could be explained; {rows[0]['recording']}: {rows[0]['problem']}",
+            f"none of {len(rows)} recordings could be explained; {first}",
             todo="correct that, then run again",
         )
 

@@ -27,6 +27,7 @@ from tire_pipeline.concealed.real import RealAnswer, real_plan
 from tire_pipeline.concealed.real.published import published
 from tire_pipeline.concealed.real.score_sets import score_real
 from tire_pipeline.concealed.real.sources import available, development_list, fingerprint
+from tire_pipeline.tasks import Labelled
 
 Work = dict[str, Callable[[], bytes]]
 
@@ -39,7 +40,9 @@ def real_cases_to_make(parameters: ProveConcealedParameters) -> Work:
         return {}
     code = f"{code_hash('concealed', 'magic_formula', 'recordings')}-{fingerprint(folder)}"
     return {
-        f"{code}/{plan.seed:010d}_{plan.source}-{plan.kind}.zip": partial(files.made_real_case, plan, folder)
+        f"{code}/{plan.seed:010d}_{plan.source}-{plan.kind}.zip": Labelled(
+            f"case {plan.seed}", partial(files.made_real_case, plan, folder)
+        )
         for plan in real_plan(real.cases, real.seed)
     }
 

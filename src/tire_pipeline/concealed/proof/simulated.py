@@ -6,6 +6,7 @@ import io
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
+from pathlib import PurePosixPath
 from typing import Any, Literal
 
 import pandas as pd
@@ -17,6 +18,7 @@ from tire_pipeline.concealed.proof import case_files as files
 from tire_pipeline.concealed.real.parameters import RealParameters
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.progress import track
+from tire_pipeline.tasks import Labelled
 from tire_pipeline.tir import read_tir
 
 Folder = Mapping[str, Callable[[], bytes]]
@@ -51,7 +53,7 @@ def cases_to_make(parameters: ProveConcealedParameters) -> dict[str, Callable[[]
     """Say how each case is made; the dataset makes those that are not there."""
     code = code_hash("concealed", "magic_formula")
     return {
-        f"{code}/{seed:010d}_{kind}.zip": partial(files.made_case, seed, kind)
+        f"{code}/{seed:010d}_{kind}.zip": Labelled(f"case {seed}", partial(files.made_case, seed, kind))
         for seed, kind in case_plan(parameters.cases, parameters.seed)
     }
 
@@ -79,7 +81,15 @@ def part_cases(
 def explain_cases(shown: Folder) -> dict[str, Callable[[], bytes]]:
     """Explain every case; neither answers nor held-out forces are at hand here."""
     code = code_hash("mismatch", "magic_formula", "tir")
-    return {f"{code}/{name}": partial(files.explained, read, METHOD) for name, read in shown.items()}
+    return {
+        f"{code}/{name}": Labelled(_case(name), partial(files.explained, read, METHOD))
+        for name, read in shown.items()
+    }
+
+
+def _case(name: str) -> str:
+    """What progress calls a case by the name of its file."""
+    return f"case {PurePosixPath(name).stem.lstrip('0')}"
 
 
 def explain_by_baselines(
@@ -93,7 +103,9 @@ def explained_by(shown: Folder, methods: Sequence[str]) -> dict[str, Callable[[]
     """Say how each case is explained by each of these baselines."""
     code = code_hash("concealed/baselines", "magic_formula", "tir")
     return {
-        f"{code}/{method}/{name}": partial(files.explained, read, method)
+        f"{code}/{method}/{name}": Labelled(
+            f"{_case(name)} by {method}", partial(files.explained, read, method)
+        )
         for method in methods
         for name, read in shown.items()
     }
