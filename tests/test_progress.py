@@ -204,3 +204,11 @@ def test_processes_of_a_pool_show_steps_only_where_each_has_one_task(tasks, step
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
     assert ("steps of a task" in done.stderr) == steps
     assert "tasks (task 0; task 1): 0/" in done.stderr
+
+
+def test_the_time_left_shrinks_while_the_next_one_is_under_way():
+    activity = progress_display.Activity("training", total=3, began=100.0)
+    activity.done, activity.latest = 1, 130.0
+    assert activity.line(130.0) == "training: 1/3 (30 s each, 60 s left)"
+    assert activity.line(150.0) == "training: 1/3 (30 s each, 40 s left)"
+    assert activity.line(200.0) == "training: 1/3 (30 s each, 100 s so far)"

@@ -41,7 +41,7 @@ def track(
     try:
         for item in items:
             yield item
-            activity.done += 1
+            activity.advance()
     finally:
         DISPLAY.leave(activity)
 

@@ -39,6 +39,8 @@ class Activity:
     counted : bool
     done : int
     began : float
+    latest : float
+        When the last of those done was done: the rate is that of these, however long the next one takes.
     now_at : callable or None
         Returns what is under way at the moment.
     """
@@ -48,6 +50,7 @@ class Activity:
     counted: bool = True
     done: int = 0
     began: float = field(default_factory=time.monotonic)
+    latest: float = 0.0
     now_at: Callable[[], str] | None = None
 
     def label(self) -> str:
@@ -59,20 +62,25 @@ class Activity:
         """How many are done of how many."""
         return f"{self.done}/{self.total or '?'}" if self.counted else ""
 
-    def pace(self, now: float) -> str:
+    def advance(self) -> None:
+        """One more is done."""
+        self.done += 1
+        self.latest = time.monotonic()
+
+    def pace(self) -> str:
         """A rate, or the seconds that each takes if that is more than one."""
-        return pace(self.done, now - self.began) if self.done else ""
+        return pace(self.done, self.latest - self.began) if self.done else ""
 
     def line(self, now: float) -> str:
         """All of it, for a log."""
-        seconds = now - self.began
+        so_far = f"{now - self.began:.0f} s so far"
         if not self.counted:
-            return f"{self.label()}: {seconds:.0f} s so far"
-        known = [f"{seconds:.0f} s so far"]
-        if self.done:
-            known = [self.pace(now)]
+            return f"{self.label()}: {so_far}"
+        known = [self.pace()] if self.done else [so_far]
         if self.done and self.total:
-            known.append(f"{(self.total - self.done) * seconds / self.done:.0f} s left")
+            each = (self.latest - self.began) / self.done
+            left = (self.total - self.done) * each - (now - self.latest)
+            known.append(f"{left:.0f} s left" if left > 1.0 else so_far)
         return f"{self.label()}: {self.count()} ({', '.join(known)})"
 
 
@@ -188,7 +196,7 @@ class Display:
             completed=activity.done,
             visible=True,
             count=activity.count(),
-            pace=activity.pace(now),
+            pace=activity.pace(),
         )
         if new:
             self._row.start()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import warnings
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -168,6 +169,8 @@ def in_processes(count: int) -> Map:
             return
         from joblib import Parallel, delayed
 
+        # joblib replaces a process whose memory has grown; no task is lost by it
+        warnings.filterwarnings("ignore", message="A worker stopped while some jobs", category=UserWarning)
         _WAITING.add(count)
         parallel = Parallel(n_jobs=count, return_as="generator_unordered")
         one_each = len(tasks) <= count  # how many are done says nothing until the end

@@ -35,7 +35,7 @@ def _real_in_short(scores: pd.DataFrame, made: dict[str, Any]) -> list[str]:
     if not len(scores):
         return []
     own = scores[(scores["method"] == OWN) & (scores["source"] == "all")]
-    return [f"{made['cases']} cases made from real recordings, further below. {_goals(own)}"]
+    return [f"{made['cases']} cases made from real recordings: {_goals(own)}"]
 
 
 def _simulated(
