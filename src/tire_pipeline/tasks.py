@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import logging
-import warnings
 import sys
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
