@@ -4,7 +4,7 @@ The model is fitted to 82 kPa and no camber. It then meets recordings of the oth
 or both, at three of five loads. The other two loads judge the correction, beside a formula that is refitted
 to the rows that were explained. It needs the shared recordings:
 ``python benchmarks/flat_belt_hidden.py [rates]``, which writes ``benchmarks/results/flat_belt_hidden.csv``;
-``--write`` puts the stored table into docs/explanation/concealed.md.
+``--write`` puts the stored table into docs/explanation/concealed_results.md.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from tire_pipeline.recordings import read_recording
 FILE = Path(__file__).parents[2] / "shared/recordings/calspan/cornering_part.mat"
 CHANNELS = ["time", "slip_angle", "camber", "normal_load", "speed", "pressure", "fy"]
 RESULTS = Path(__file__).parent / "results" / "flat_belt_hidden.csv"
-PAGE = Path(__file__).parent.parent / "docs" / "explanation" / "concealed.md"
+PAGE = Path(__file__).parent.parent / "docs" / "explanation" / "concealed_results.md"
 BEGIN = "<!-- from flat_belt_hidden.py -->"
 HIDDEN = ("nothing", "pressure", "camber", "camber and pressure")
 LOADS = (800.0, 1350.0, 1900.0, 2450.0)

@@ -64,16 +64,16 @@ def measure(kind: str, size: float, seed: int) -> pd.DataFrame:
     return found[[*KEYS, "features", "category", "files", "right", "wrong", "given_when_unseen"]].round(4)
 
 
-def summary(found: pd.DataFrame) -> pd.DataFrame:
+def summary(found: pd.DataFrame, by: tuple[str, ...] = ("features", "kind", "bias_size")) -> pd.DataFrame:
     """By features, kind and size: shares over all files, and the worst category of any fleet."""
     rows = []
-    for keys, own in found.groupby(["features", "kind", "bias_size"]):
+    for keys, own in found.groupby(list(by)):
         known = own["right"].notna()
         large, copies = own[known], own[~known]
         weights = large["files"] / large["files"].sum()
         rows.append(
             {
-                **dict(zip(["features", "kind", "bias_size"], keys, strict=True)),
+                **dict(zip(by, keys, strict=True)),
                 "right": float(np.dot(large["right"], weights)),
                 "right_worst": large["right"].min(),
                 "wrong": float(np.dot(large["wrong"], weights)),
@@ -86,12 +86,13 @@ def summary(found: pd.DataFrame) -> pd.DataFrame:
 
 
 def write_table(found: pd.DataFrame) -> None:
-    """Put the summary into docs/explanation/translation.md."""
-    head = ["features", "kind", "bias size", "right", "worst", "to another", "unseen", "worst", "copies"]
+    """Put the summary over the kinds of fleets into docs/explanation/translation.md."""
+    shares = ["right", "right, worst", "to another", "unseen", "unseen, worst", "copies"]
     rows = [
-        [row[0], row[1], f"{row[2]:g}", *(f"{value:.3f}" for value in row[3:])]
-        for row in summary(found).itertuples(index=False)
+        [row[0], f"{row[1]:g}", *(f"{value:.3f}" for value in row[2:])]
+        for row in summary(found, ("features", "bias_size")).itertuples(index=False)
     ]
+    head = ["features", "bias size", *shares]
     write_between(PAGE, BEGIN, markdown(head, rows))
 
 

@@ -1,4 +1,4 @@
-"""Write the published proofs' scores into docs/explanation/concealed.md, none by hand.
+"""Write the published proofs' scores into docs/explanation, none by hand: concealed.md, concealed_results.md.
 
 python benchmarks/proof_table.py                          # prints benchmarks/results/proof_scores.csv
 python benchmarks/proof_table.py --data data --write      # takes the last run's scores and misses first
@@ -10,6 +10,7 @@ import argparse
 import json
 import shutil
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 from doc_tables import markdown, write_between
@@ -20,10 +21,13 @@ from tire_pipeline.concealed.scoring.words import in_words, outcome
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benchmarks" / "results"
 PAGE = ROOT / "docs" / "explanation" / "concealed.md"
+RESULTS_PAGE = ROOT / "docs" / "explanation" / "concealed_results.md"
 REAL = ROOT / "src" / "tire_pipeline" / "concealed" / "real" / "published.csv"
+BEGIN_GOALS = "<!-- goals, from proof_table.py -->"
 BEGIN = "<!-- from proof_table.py -->"
 BEGIN_REAL = "<!-- real, from proof_table.py -->"
 OWN = "explain_mismatch"
+NAIVE, FLOOR, ORACLE = "bic_stepwise", "floor", "oracle"
 
 
 def take(data: Path) -> None:
@@ -44,59 +48,81 @@ def _last(data: Path, name: str) -> Path:
     return max((data / "07_model_output" / name).glob(f"*/{name}"))
 
 
-def table(scores: pd.DataFrame) -> str:
-    """Own scores with interval and goal, the baselines' values beside them."""
-    own = scores[scores["method"] == OWN].set_index("name")
-    others = scores[scores["method"] != OWN].pivot(index="name", columns="method", values="value")
-    head = ["score", "value", "95% interval", "cases", "goal", "result", *others.columns]
+def goals(simulated: pd.DataFrame, real: pd.DataFrame) -> str:
+    """The scores of both halves that have a goal, beside naive baseline, floor and oracle."""
+    head = "half|score|value|95% interval|cases|goal|result|stepwise regression|floor|oracle".split("|")
     rows = []
-    for name, row in own.iterrows():
-        goal = row["target"] if isinstance(row["target"], str) else ""
-        cells = [
-            in_words(str(name)),
-            f"{row['value']:.3f}",
-            f"{row['low']:.3f} to {row['high']:.3f}",
-            f"{row['n']:.0f}",
-            goal,
-            outcome(row.to_dict()),
-            *(f"{value:.2f}" if pd.notna(value) else "" for value in others.loc[name]),
-        ]
-        rows.append(cells)
+    for half, scores in (("simulated", simulated), ("real", real)):
+        aimed = scores[scores["target"].map(lambda goal: isinstance(goal, str))]
+        values = _beside(scores)
+        for row in aimed[aimed["method"] == OWN].itertuples():
+            others = [_cell(values.get(method, {}).get(row.name), 2) for method in (NAIVE, FLOOR, ORACLE)]
+            rows.append([half, *_own(row), *others])
     return markdown(head, rows)
 
 
-def real_table(scores: pd.DataFrame, made: dict) -> str:
-    """Scores on real recordings by source, and those of the baselines on all."""
-    own = scores[scores["method"] == OWN]
-    others = scores[(scores["method"] != OWN) & (scores["source"] == "all")]
-    beside = others.pivot(index="name", columns="method", values="value")
+def table(scores: pd.DataFrame) -> str:
+    """Own scores with interval and goal, the baselines' values beside them."""
+    own, others = scores[scores["method"] == OWN], _beside(scores).drop(columns=OWN)
+    head = ["score", "value", "95% interval", "cases", "goal", "result", *others.columns]
+    rows = [[*_own(row), *(_cell(value, 2) for value in others.loc[row.name])] for row in own.itertuples()]
+    return markdown(head, rows)
+
+
+def real_tables(scores: pd.DataFrame, made: dict) -> str:
+    """Scores on real recordings: all of them, by source, and those of the other methods."""
+    everywhere = scores[scores["source"] == "all"]
+    own = everywhere[everywhere["method"] == OWN]
+    first = ["score", "value", "95% interval", "cases", "goal", "result"]
+    whole = markdown(first, [_own(row) for row in own.itertuples()])
+    mine = scores[scores["method"] == OWN].set_index(["name", "source"])
     sources = list(made["by_source"])
-    head = ["score", "all", "95% interval", "cases", "goal", "result", *sources, *beside.columns]
-    rows = []
-    for row in own[own["source"] == "all"].itertuples():
-        parts = own[own["name"] == row.name].set_index("source")
-        rows.append(
-            [
-                in_words(row.name),
-                _cell(row.value, 3),
-                f"{_cell(row.low, 3)} to {_cell(row.high, 3)}" if row.n else "",
-                f"{row.n:.0f}",
-                row.target if isinstance(row.target, str) else "",
-                outcome(row._asdict()),
-                *(f"{_cell(parts.loc[s, 'value'], 3)} ({parts.loc[s, 'n']:.0f})" for s in sources),
-                *(_cell(value, 2) for value in beside.loc[row.name]),
-            ]
-        )
+    by_source = [
+        [
+            in_words(name),
+            *(f"{_cell(mine.loc[(name, s), 'value'], 3)} ({mine.loc[(name, s), 'n']:.0f})" for s in sources),
+        ]
+        for name in own["name"]
+    ]
+    others = _beside(everywhere).drop(columns=OWN)
+    beside = [[in_words(name), *(_cell(value, 2) for value in others.loc[name])] for name in own["name"]]
     count = ", ".join(f"{n} from {source}" for source, n in made["by_source"].items())
-    first = (
+    said = (
         f"{made['cases']} cases ({count}) of seed {made['seed']}, run on {made['date']}; hash of the code "
         f"that was judged {made['code']}, of the answers `{made['sha256']}`; {made['sealed_sweeps']} sweeps "
         f"sealed, {made['development_sweeps']} for development."
     )
-    return f"{first}\n\n{markdown(head, rows)}"
+    return "\n\n".join(
+        [
+            said,
+            whole,
+            "By source, with the number of cases:",
+            markdown(["score", *sources], by_source),
+            "The other methods on the same cases:",
+            markdown(["score", *others.columns], beside),
+        ]
+    )
 
 
-def _cell(value: float, digits: int) -> str:
+def _beside(scores: pd.DataFrame) -> pd.DataFrame:
+    """Score -> method -> value, over all sources."""
+    whole = scores[scores["source"] == "all"] if "source" in scores else scores
+    return whole.pivot(index="name", columns="method", values="value")
+
+
+def _own(row: Any) -> list[str]:
+    """Score, value, interval, cases, goal, result."""
+    return [
+        in_words(str(row.name)),
+        _cell(row.value, 3),
+        f"{_cell(row.low, 3)} to {_cell(row.high, 3)}" if row.n else "",
+        f"{row.n:.0f}",
+        row.target if isinstance(row.target, str) else "",
+        outcome(row._asdict()),
+    ]
+
+
+def _cell(value: float | None, digits: int) -> str:
     return f"{value:.{digits}f}" if pd.notna(value) else ""
 
 
@@ -107,16 +133,19 @@ def main() -> None:
     asked = parser.parse_args()
     if asked.data:
         take(asked.data)
-    text = table(pd.read_csv(RESULTS / "proof_scores.csv"))
-    print(text)
-    if asked.write:
-        write_between(PAGE, BEGIN, text)
+    simulated = pd.read_csv(RESULTS / "proof_scores.csv")
     scores, made = published()
+    everywhere = scores[scores["source"] == "all"] if made else scores
+    parts = [
+        (PAGE, BEGIN_GOALS, goals(simulated, everywhere)),
+        (RESULTS_PAGE, BEGIN, table(simulated)),
+    ]
     if made:
-        text = real_table(scores, made)
-        print(f"\n{text}")
+        parts.append((RESULTS_PAGE, BEGIN_REAL, real_tables(scores, made)))
+    for page, begin, text in parts:
+        print(f"{text}\n")
         if asked.write:
-            write_between(PAGE, BEGIN_REAL, text)
+            write_between(page, begin, text)
 
 
 if __name__ == "__main__":

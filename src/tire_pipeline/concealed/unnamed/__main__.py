@@ -3,7 +3,7 @@
 python -m tire_pipeline.concealed.unnamed tuning --cases 24 --folder data/08_reporting/unnamed
 python -m tire_pipeline.concealed.unnamed sealed --cases 24 --folder data/08_reporting/unnamed --write .
 
-With --write the table goes into benchmarks/results and its scores into docs/explanation/concealed.md.
+With --write the table goes into benchmarks/results and its scores into docs/explanation/concealed_results.md.
 """
 
 from __future__ import annotations
@@ -113,7 +113,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def write(half: str, text: str, project: Path) -> None:
     """Put the table into ``benchmarks/results`` and its scores between two marks of the page."""
     (project / "benchmarks" / "results" / f"unnamed_{half}.md").write_text(text, encoding="utf-8")
-    page = project / "docs" / "explanation" / "concealed.md"
+    page = project / "docs" / "explanation" / "concealed_results.md"
     mark, end = f"<!-- unnamed {half}, from concealed.unnamed -->", "<!-- end -->"
     before, after = page.read_text(encoding="utf-8").split(mark)
     scores = text.split("\n\n| case ")[0]
