@@ -167,7 +167,7 @@ def main() -> None:
 
 def written(table: pd.DataFrame) -> str:
     """Return the table of the documentation, one recording a row."""
-    head = ["hidden", "rate / Hz", "tread temperature", "named", "before / N", "after / N", "refitted / N"]
+    head = ["hidden", "rate (Hz)", "tread temperature", "named", "before (N)", "after (N)", "refitted (N)"]
     lines = [
         [
             str(row.hidden),

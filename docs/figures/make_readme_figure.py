@@ -37,7 +37,7 @@ def main() -> None:
     for ax, (name, run) in zip(axes, runs.items(), strict=True):
         draw(ax, run, tire, report.corrected.predict(run)["fy"].to_numpy(), fit.noise_floor)
         ax.set_title(f"{name}.csv, {texts[name]}", fontsize=10)
-    axes[0].set_ylabel("lateral force, recorded minus simulated / N")
+    axes[0].set_ylabel("lateral force, recorded minus simulated (N)")
     axes[0].legend(fontsize=9, loc="lower left")
     figure.savefig(ROOT / "docs/assets/readme.png", dpi=90)
 
@@ -50,7 +50,7 @@ def draw(ax: Any, run: pd.DataFrame, tire: TireModel, after: np.ndarray, noise: 
     ax.axhspan(-noise, noise, color="#BBBBBB", alpha=0.6, lw=0, label="noise (one sigma)")
     for k, (name, simulated) in enumerate((("tire.tir", before), ("with what was found", after))):
         ax.plot(degrees, recorded - simulated, ".", ms=3, color=colour_of(1 - k), label=name)
-    ax.set_xlabel("slip angle / degrees")
+    ax.set_xlabel("slip angle (deg)")
 
 
 if __name__ == "__main__":

@@ -17,6 +17,6 @@ figure, axes = new_figure(width=6.0, height=3.4)
 for number, name in enumerate(("ISO", "SAE", "adapted SAE")):
     fy = tire.forces(slip_angle=slip_angle, normal_load=4000.0, axes=name).fy
     axes.plot(np.degrees(slip_angle), fy / 1e3, ("-", "--", ":")[number], color=colour_of(number), label=name)
-axes.set_xlabel("slip angle in this system / degrees")
-axes.set_ylabel("lateral force in this system / kN")
+axes.set_xlabel("slip angle in this system (deg)")
+axes.set_ylabel("lateral force in this system (kN)")
 axes.legend()

@@ -16,5 +16,5 @@ for issue in check_recording(damaged):
 
 figure, axes = new_figure(width=7.5, height=3.0)
 axes.plot(damaged["time"], damaged["fy"] / 1e3, ".", ms=2, color=colour_of(0))
-axes.set_xlabel("time / s")
-axes.set_ylabel("lateral force / kN")
+axes.set_xlabel("time (s)")
+axes.set_ylabel("lateral force (kN)")

@@ -16,6 +16,6 @@ figure, axes = new_figure(width=5.5, height=4.2)
 for number, degrees in enumerate((2, 4, 8)):
     forces = tire.forces(slip_angle=np.radians(degrees), slip_ratio=slip_ratio, normal_load=4000.0)
     axes.plot(forces.fx / 1e3, forces.fy / 1e3, color=colour_of(number), label=f"{degrees} degrees")
-axes.set_xlabel("longitudinal force / kN")
-axes.set_ylabel("lateral force / kN")
+axes.set_xlabel("longitudinal force (kN)")
+axes.set_ylabel("lateral force (kN)")
 axes.legend(title="slip angle")

@@ -19,4 +19,4 @@ print(f"ratio, 95% interval: {error.ratio_low:.2f} to {error.ratio_high:.2f}")
 noise = report.fit["fy"].noise_floor
 figure, axes = new_figure(width=5.0, height=3.2)
 axes.bar(["before", "after", "noise"], [error.rms_before, error.rms_after, noise], color=colour_of(0))
-axes.set_ylabel("RMS error of the side force / N")
+axes.set_ylabel("RMS error of the side force (N)")

@@ -23,6 +23,6 @@ for number, (label, model, line) in enumerate(
 ):
     fy = np.abs(model.forces(slip_angle=0.06, normal_load=loads).fy) / 1e3
     axes.plot(loads / 1e3, fy, line, markevery=5, color=colour_of(number), label=label)
-axes.set_xlabel("normal load / kN")
-axes.set_ylabel("side force at 3.4 degrees / kN")
+axes.set_xlabel("normal load (kN)")
+axes.set_ylabel("side force at 3.4 degrees (kN)")
 axes.legend()

@@ -22,6 +22,6 @@ for number, (model, line) in enumerate(((tire, "-"), (newer, "o"))):
     axes.plot(
         np.degrees(slip_angle), fy / 1e3, line, markevery=5, color=colour_of(number), label=model.version
     )
-axes.set_xlabel("slip angle / degrees")
-axes.set_ylabel("lateral force / kN")
+axes.set_xlabel("slip angle (deg)")
+axes.set_ylabel("lateral force (kN)")
 axes.legend(title="version")

@@ -18,6 +18,6 @@ figure, axes = new_figure(width=6.5, height=3.4)
 for number, name in enumerate(names):
     change = 0.01 * tire.coefficients[name] * slopes[..., number]
     axes.plot(np.degrees(slip_angle), change, color=colour_of(number), label=name)
-axes.set_xlabel("slip angle / degrees")
-axes.set_ylabel("change of the side force / N")
+axes.set_xlabel("slip angle (deg)")
+axes.set_ylabel("change of the side force (N)")
 axes.legend()

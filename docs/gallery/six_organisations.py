@@ -22,6 +22,6 @@ for number, name in enumerate(name for name in names if name.endswith(tire)):
     axes.plot(np.degrees(slip_angle), fy / 1e3, color=colour_of(number), label=name.split("/")[1])
 curves = fleet.truth.curves["hidden"]
 axes.plot(np.degrees(curves["slip_angle"]), curves["fy"][0, 1] / 1e3, "k--", label="true")
-axes.set_xlabel("slip angle / degrees")
-axes.set_ylabel("lateral force at 6 kN / kN")
+axes.set_xlabel("slip angle (deg)")
+axes.set_ylabel("lateral force at 6 kN (kN)")
 axes.legend(title="measured by")

@@ -17,8 +17,8 @@ friction = np.abs(sweep).max(axis=1) / loads
 
 figure, (left, right) = new_figure(1, 2, width=8.0, height=3.2)
 left.plot(loads / 1e3, stiffness / 1e3)
-left.set_ylabel("cornering stiffness / (kN/rad)")
+left.set_ylabel("cornering stiffness (kN/rad)")
 right.plot(loads / 1e3, friction)
 right.set_ylabel("largest side force / normal load")
 for axes in (left, right):
-    axes.set_xlabel("normal load / kN")
+    axes.set_xlabel("normal load (kN)")

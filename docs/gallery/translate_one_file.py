@@ -39,6 +39,6 @@ axes.fill_between(degrees, band.low[0, load] / 1e3, band.high[0, load] / 1e3, al
 axes.plot(degrees, band.middle[0, load] / 1e3, color=colour_of(0), label="translated to D")
 fy = source.forces(slip_angle=band.slip, normal_load=at, limits="ignore").fy
 axes.plot(degrees, fy / 1e3, color=colour_of(1), label="as A measured it")
-axes.set_xlabel("slip angle / degrees")
-axes.set_ylabel(f"lateral force at {at / 1e3:g} kN / kN")
+axes.set_xlabel("slip angle (deg)")
+axes.set_ylabel(f"lateral force at {at / 1e3:g} kN (kN)")
 axes.legend()

@@ -24,6 +24,6 @@ for number, (name, fy) in enumerate(
     (("as recorded", wrong["fy"]), ("predicted", report.corrected.predict(wrong)["fy"]))
 ):
     axes.plot(np.degrees(wrong["slip_angle"]), fy, ".", ms=2, color=colour_of(number), label=name)
-axes.set_xlabel("slip angle / degrees")
+axes.set_xlabel("slip angle (deg)")
 axes.set_ylabel("lateral force, in the recording's unit")
 axes.legend()

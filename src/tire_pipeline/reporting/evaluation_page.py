@@ -58,10 +58,10 @@ def force_figure(translated_table: pd.DataFrame, references: pd.DataFrame, best:
         target = references[references["tire"] == tire] if len(references) else references
         _draw_tire(axes[:, column], part[part["tire"] == tire], target)
         axes[0, column].set_title(str(tire))
-        axes[-1, column].set_xlabel("slip angle / deg")
-    axes[0, 0].set_ylabel("lateral force at 6 kN / kN")
+        axes[-1, column].set_xlabel("slip angle (deg)")
+    axes[0, 0].set_ylabel("lateral force at 6 kN (kN)")
     if rows > 1:
-        axes[1, 0].set_ylabel("difference from the target / N")
+        axes[1, 0].set_ylabel("difference from the target (N)")
     handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=5, fontsize=8)
     return figure

@@ -285,8 +285,8 @@ def _truth_figure(both: pd.DataFrame) -> MplFigure:
         )
     low, high = 100 * both["true_bias"].min(), 100 * both["true_bias"].max()
     axis.plot([low, high], [low, high], color="black", linewidth=0.8)
-    axis.set_xlabel("true bias / %")
-    axis.set_ylabel("reported bias / %")
+    axis.set_xlabel("true bias (%)")
+    axis.set_ylabel("reported bias (%)")
     axis.legend()
     return figure
 

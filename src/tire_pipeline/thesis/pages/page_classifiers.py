@@ -16,7 +16,7 @@ from tire_pipeline.thesis.results import Results, in_words, over_trainings
 
 Part = Text | Table | Figure
 CONDITION_COLUMNS = {
-    "normal_load": "normal load / N",
+    "normal_load": "normal load (N)",
     "condition_median": "condition (median)",
     "condition_p95": "condition (95%)",
     "gain_median": "gain (median)",
