@@ -234,10 +234,10 @@ def test_a_click_draws_source_translation_band_stiffness_and_coefficients(driver
     )
     _straight(pixels, np.concatenate([*stiffness[:3], stiffness[3][::-1]]))
     for text in (
-        "slip angle / deg",
-        "Fy / kN",
-        "Mz / N m",
-        "stiffness / kN/rad",
+        "slip angle (deg)",
+        "Fy (kN)",
+        "Mz (N m)",
+        "stiffness (kN/rad)",
         "normal load 6 kN",
         "90% band",
     ):

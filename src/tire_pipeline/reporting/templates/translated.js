@@ -3,11 +3,11 @@
   const AT_ONCE = 100; // A click lays the whole table out again, so its time grows with the rows that are shown.
   const SVG = "http://www.w3.org/2000/svg";
   const PANELS = [
-    {name: "fy", title: "Lateral force", x: "slip angle / deg", y: "Fy / kN", across: 180 / Math.PI, scale: 1e-3,
+    {name: "fy", title: "Lateral force", x: "slip angle (deg)", y: "Fy (kN)", across: 180 / Math.PI, scale: 1e-3,
      see: "The slope at zero is the cornering stiffness, the largest force over the load is the friction."},
-    {name: "fx", title: "Longitudinal force", x: "slip ratio", y: "Fx / kN", across: 1, scale: 1e-3,
+    {name: "fx", title: "Longitudinal force", x: "slip ratio", y: "Fx (kN)", across: 1, scale: 1e-3,
      see: "The slope at zero is the slip stiffness, the largest force over the load is the friction."},
-    {name: "mz", title: "Aligning moment", x: "slip angle / deg", y: "Mz / N m", across: 180 / Math.PI, scale: 1,
+    {name: "mz", title: "Aligning moment", x: "slip angle (deg)", y: "Mz (N m)", across: 180 / Math.PI, scale: 1,
      see: "The slope at zero is the cornering stiffness times the pneumatic trail."},
   ];
   const data = JSON.parse(document.getElementById("data").textContent);
@@ -266,7 +266,7 @@
     const xs = data.loads.map(load => load / 1e3);
     const [least, largest] = extent([...[own, moved, low, high].filter(Boolean), [0]]);
     const title = "Cornering stiffness over load";
-    const {svg, x, y} = axes(title, {x: "normal load / kN", y: "stiffness / kN/rad"}, [xs[0], xs[xs.length - 1]], Math.max(0, least), largest);
+    const {svg, x, y} = axes(title, {x: "normal load (kN)", y: "stiffness (kN/rad)"}, [xs[0], xs[xs.length - 1]], Math.max(0, least), largest);
     if (low && high) {
       const there = path(xs, high, x, y), back = path([...xs].reverse(), [...low].reverse(), x, y);
       svg.append(drawn("path", {d: there + back.replace("M", "L") + "Z", class: "band l0"}));
