@@ -181,6 +181,49 @@ def test_a_limit_is_found_whatever_the_digits(tire, limit, digits):
     assert "fy" in [f.channel for f in prepare(tire, r).findings if f.name == "clipping"]
 
 
+def _points(count, seed, noise=15.0):
+    """Steady points of a made-up force, in the digits of a table."""
+    rng = np.random.default_rng(seed)
+    slip = rng.uniform(-0.18, 0.18, count)
+    load = rng.choice([2000.0, 3500.0, 5000.0], count)
+    fy = load * np.tanh(12.0 * slip) + noise * rng.standard_normal(count)
+    return pd.DataFrame({"slip_angle": slip, "normal_load": load, "fy": np.round(fy, 2)})
+
+
+def _limits(tire, points):
+    return [f for f in prepare(tire, points).findings if f.name == "clipping"]
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_three_of_few_points_at_a_limit_of_either_sign_are_clipped(tire, seed):
+    points = _points(30, seed)
+    limit = np.sort(np.abs(points["fy"]))[-3] - 1.0
+    assert len(_limits(tire, points.assign(fy=points["fy"].clip(-limit, limit)))) == 1
+    assert _limits(tire, points) == []
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_points_that_coincide_for_another_reason_are_not_clipped(tire, seed):
+    """Whole newtons where the tire slides, a table that holds each row four times, a curve with a symmetry."""
+    points = _points(60, seed, noise=0.0)
+    sliding = points.assign(fy=np.round(points["fy"] / 100.0))
+    repeated = pd.concat([points] * 4).sample(frac=1.0, random_state=seed).assign(row=range(240))
+    mirrored = pd.concat([points, points.assign(slip_angle=-points["slip_angle"], fy=-points["fy"])])
+    for table in (sliding, repeated, mirrored):
+        assert _limits(tire, table) == []
+
+
+@pytest.mark.parametrize("unit", [4.4482216, 9.80665, 1000.0])
+def test_a_dozen_points_are_enough_for_a_wrong_unit(tire, unit):
+    angles, loads = np.meshgrid([-0.12, -0.06, 0.0, 0.06, 0.1, 0.15], [3000.0, 5000.0])
+    points = pd.DataFrame({"slip_angle": angles.ravel(), "normal_load": loads.ravel()})
+    fy = tire.forces(slip_angle=points["slip_angle"], normal_load=points["normal_load"]).fy
+    noise = 1.0 + 0.01 * np.random.default_rng(3).standard_normal(len(points))
+    (found,) = prepare(tire, points.assign(fy=fy * noise / unit)).findings
+    assert (found.name, found.channel) == ("unit_error", "fy")
+    assert found.parameters["ratio"][0] == pytest.approx(1.0 / unit)
+
+
 def test_no_limit_is_named_where_no_sample_stands_at_one(tire, record):
     """A load sensitivity was taken for clipping twice: the largest forces are the ones that lack."""
     r = record(0)

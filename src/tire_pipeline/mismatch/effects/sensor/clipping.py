@@ -14,8 +14,8 @@ from tire_pipeline.mismatch.effects.shared import CLIPPED
 class Clipping(Effect):
     """The recorded force stops at a limit, whatever the tire does.
 
-    Covers channels of which many samples stand exactly at one end of their range, either or both. Not
-    covered: a limit that noise or a filter after it has blurred: without samples at it there is no limit to
+    Covers channels of which many samples in time stand exactly at one end of their range, either or both, and
+    steady points of which more stand at a limit than chance explains. Not covered: a limit that noise or a filter after it has blurred: without samples at it there is no limit to
     see.
     """
 
@@ -40,7 +40,7 @@ class Clipping(Effect):
             if name not in channels:
                 continue
             x = channels[name]
-            bad, limits = _at_the_ends(x, "_steady_points" not in channels)
+            bad, limits = _points_at_a_limit(x) if "_steady_points" in channels else _at_the_ends(x)
             if bad is None:
                 continue
             text = (
@@ -54,33 +54,64 @@ class Clipping(Effect):
         return found
 
 
-def _at_the_ends(x: Array, in_time: bool) -> tuple[Array | None, list[float]]:
-    """Samples exactly at the largest or smallest value, if these are many and the rest is not.
+def _at_the_ends(x: Array) -> tuple[Array | None, list[float]]:
+    """Samples in time that stand exactly at the largest or smallest value, if these are many.
 
-    In time they must stay there three samples on end, and be more than the crest of a smooth signal leaves
-    in a last step of the channel's resolution; of steady points four at one end are enough, if all others
-    differ.
+    They must stay there three samples on end, and be more than the crest of a smooth signal leaves in a last
+    step of the channel's resolution.
     """
     finite = x[np.isfinite(x)]
-    if finite.size < (50 if in_time else 20) or np.ptp(finite) == 0.0:
+    if finite.size < 50 or np.ptp(finite) == 0.0:
         return None, []
     values, counts = np.unique(finite, return_counts=True)
-    usual = np.quantile(counts, 0.99 if in_time else 0.9)
-    least = max(12.0, 4.0 * usual) if in_time else 4.0 * usual
+    least = max(12.0, 4.0 * np.quantile(counts, 0.99))
     bad = np.zeros(x.size, bool)
     limits = []
     for value in (values[-1], values[0]):
         at = x == value
         runs = np.diff(np.flatnonzero(np.diff(np.r_[0, at.astype(np.int8), 0])))[::2]
-        stays = not in_time or (runs.size and runs.max() >= 3 and not _crest(values, counts, value))
-        if at.sum() >= least and stays and at.mean() < 0.6:
+        stays = runs.size and runs.max() >= 3 and not _crest(values, counts, value)
+        if at.sum() >= least and stays and at.mean() < _MOST_AT_A_LIMIT:
             bad |= at
             limits.append(float(value))
     return (bad, limits) if limits else (None, [])
 
 
 _STEPS_OF_CREST = 10
-_LEVEL_OF_CREST = 1e-3
+_BY_CHANCE = 1e-3
+_MOST_AT_A_LIMIT = 0.6
+"""A channel of which more stands at one value has no range to be clipped."""
+_DECIMALS = range(-3, 12)
+
+
+def _points_at_a_limit(x: Array) -> tuple[Array | None, list[float]]:
+    """Steady points exactly at a limit: of either sign, or at one end.
+
+    So many must not coincide there by chance. One more point falls on the limit with the probability that
+    one falls into its last digit rather than into the gap below, or, if that is more likely, as often as
+    the other points coincide with each other (rows that were repeated, curves with a symmetry).
+    """
+    finite = np.isfinite(x)
+    if not finite.any() or np.ptp(x[finite]) == 0.0:
+        return None, []
+    for y in (np.abs(x), x, -x):
+        limit = float(np.max(y[finite]))
+        at = finite & (y == limit)
+        below = y[finite & ~at]
+        if (
+            below.size
+            and at.mean() < _MOST_AT_A_LIMIT
+            and _coincide(limit - below, x[finite & ~at], at.sum())
+        ):
+            return at, sorted({float(v) for v in x[at]}, reverse=True)
+    return None, []
+
+
+def _coincide(below: Array, others: Array, count: int) -> bool:
+    """Whether so many points at a limit are no chance; ``below``: how far the others are from it."""
+    digit = next((10.0**-d for d in _DECIMALS if np.allclose(np.round(others, d), others, 1e-12, 0.0)), 0.0)
+    repeated = (below.size - np.unique(below).size + 0.5) / (below.size + 1.0)  # Jeffreys' prior of a share
+    return max(digit / (digit + np.min(below)), repeated) ** (count - 1) < _BY_CHANCE
 
 
 def _crest(values: Array, counts: Array, end: float) -> bool:
@@ -100,4 +131,4 @@ def _crest(values: Array, counts: Array, end: float) -> bool:
     by_chance = (
         1.0 if last == 0 else float(scipy.special.bdtrc(last - 1, around, _STEPS_OF_CREST**-0.5))
     )  # binomial: so many or more
-    return by_chance > _LEVEL_OF_CREST
+    return by_chance > _BY_CHANCE

@@ -15,7 +15,11 @@ FAR = 0.15
 """The model's force is far from zero beyond this part of its largest one (of either force)."""
 
 FEW = 12
-"""With fewer samples far from zero a force says nothing about a unit."""
+"""So many samples far from zero are heard in any case."""
+
+LEAST = FEW * float(np.log(5.0))
+"""Fewer are heard if they say as much for the repair as these do at a fifth of the squares: in twice the log
+likelihood, samples times the logarithm of the squares' ratio."""
 
 _ASKED = {"fx": ("fx",), "fy": ("fy",), "slip_angle": ("fy",), "camber": ("fy",), "slip_ratio": ("fx",)}
 """The force that a channel belongs to: this one has to ask for the repair. A load belongs to both."""
@@ -38,7 +42,7 @@ def best_repair(
     -------
     tuple or None
         Unexplained share of the forces' squares, factors, label. The share must be below 0.15 and a
-        fifth of what it is without the repair.
+        fifth of what it is without the repair, and the samples enough for that to be no chance.
     """
     plain = simulate(channels)
     best: tuple[float, dict[str, float], tuple] | None = None
@@ -58,7 +62,7 @@ def unexplained(
     Forces are compared as they were recorded: a force that is made a thousand times smaller leaves a
     thousand times less, and has explained nothing. Only samples count where the model that the repair
     believes in has a force far from zero, and only forces that the repaired channels belong to; of these
-    the worse one. Where no force says anything, or one that is to be repaired does not, both shares are 1.
+    the worse one. Where no force says enough, or one that is to be repaired does not, both shares are 1.
     """
     repaired = {**channels, **{n: channels[n] * f for n, f in factors.items()}}
     predicted = simulate(repaired)
@@ -67,12 +71,17 @@ def unexplained(
     before, after = [], []
     for name in sorted(asked & set(channels)):
         far = np.abs(predicted[name]) > FAR * largest
-        size = float(np.nanmean(channels[name][far] ** 2)) if far.sum() >= FEW else 0.0
+        recorded, model = channels[name][far], predicted[name][far] / factors.get(name, 1.0)
+        size = float(np.nanmean(recorded**2)) if far.any() else 0.0
         if size > 0.0:
-            recorded = channels[name][far]
-            before.append(float(np.nanmean((recorded - plain[name][far]) ** 2)) / size)
-            believed = predicted[name][far] / factors.get(name, 1.0)
-            after.append(float(np.nanmean((recorded - believed) ** 2)) / size)
-        elif name in factors:
+            first, then = (
+                max(float(np.nanmean((recorded - each) ** 2)) / size, 1e-12)
+                for each in (plain[name][far], model)
+            )
+            if far.sum() >= FEW or far.sum() * np.log(first / then) >= LEAST:
+                before.append(first)
+                after.append(then)
+                continue
+        if name in factors:
             return 1.0, 1.0
     return (max(before), max(after)) if after else (1.0, 1.0)
