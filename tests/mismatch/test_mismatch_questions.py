@@ -204,7 +204,7 @@ def test_three_of_few_points_at_a_limit_of_either_sign_are_clipped(tire, seed):
 
 @pytest.mark.parametrize("seed", range(10))
 def test_points_that_coincide_for_another_reason_are_not_clipped(tire, seed):
-    """Whole newtons where the tire slides, a table that holds each row four times, a curve with a symmetry."""
+    """Coarse digits where the tire slides, a table with each row four times, a curve with a symmetry."""
     points = _points(60, seed, noise=0.0)
     sliding = points.assign(fy=np.round(points["fy"] / 100.0))
     repeated = pd.concat([points] * 4).sample(frac=1.0, random_state=seed).assign(row=range(240))

@@ -14,9 +14,9 @@ from tire_pipeline.mismatch.effects.shared import CLIPPED
 class Clipping(Effect):
     """The recorded force stops at a limit, whatever the tire does.
 
-    Covers channels of which many samples in time stand exactly at one end of their range, either or both, and
-    steady points of which more stand at a limit than chance explains. Not covered: a limit that noise or a filter after it has blurred: without samples at it there is no limit to
-    see.
+    Covers channels of which many samples in time stand exactly at one end of their range, either or both,
+    and steady points of which more stand at a limit than chance explains. Not covered: a limit that noise or
+    a filter after it has blurred: without samples at it there is no limit to see.
     """
 
     name = "clipping"
