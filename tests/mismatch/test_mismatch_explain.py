@@ -8,7 +8,7 @@ import pytest
 from mismatch_shared import shared
 
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
-from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch import Explainer, explain_mismatch
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.report.sentences import head
 from tire_pipeline.recordings import read_recording
@@ -172,5 +172,6 @@ def test_the_ten_examples_are_read_right(examples, number):
     folder, labels = examples
     name = f"example{number:02d}"
     recording = pd.read_csv(folder / name / "recording.csv")
-    report = explain_mismatch(read_tir(folder / name / "model.tir"), recording)
-    assert set(names(report)) == set(labels[name]["left_out"])
+    explained = Explainer().weigh(read_tir(folder / name / "model.tir"), recording)
+    found = {finding.name for finding in explained.prepared.findings}
+    assert found | set(explained.answer.names) == set(labels[name]["left_out"])

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
+from weighed import named_sets
 
 from tire_pipeline.concealed import make_case
 from tire_pipeline.concealed.scoring.score import share_row
-from tire_pipeline.mismatch import explain_mismatch
 
 CASES = pd.read_csv(Path(__file__).with_name("spent_cases.csv"))
 SLICE = CASES.iloc[::12]
@@ -25,7 +25,7 @@ def _rates(cases: pd.DataFrame) -> dict[str, float]:
     for seed, kind in cases.itertuples(index=False):
         case, answer = make_case(int(seed), str(kind))
         truth = set() if kind == "unknown" else {effect.name for effect in answer.effects}
-        given = [set(names) for names, _ in explain_mismatch(case.tire, case.recording).sets]
+        given = named_sets(case.tire, case.recording)
         clean.append(all(names & truth for names in given))
         right.append(clean[-1] and truth <= set().union(*given))
         if not right[-1]:
