@@ -17,7 +17,7 @@ FAR = 0.15
 FEW = 12
 """So many samples far from zero are heard in any case."""
 
-LEAST = FEW * float(np.log(5.0))
+LEAST_HEARD = FEW * float(np.log(5.0))
 """Fewer are heard if they say as much for the repair as these do at a fifth of the squares: in twice the log
 likelihood, samples times the logarithm of the squares' ratio."""
 
@@ -78,7 +78,7 @@ def unexplained(
                 max(float(np.nanmean((recorded - each) ** 2)) / size, 1e-12)
                 for each in (plain[name][far], model)
             )
-            if far.sum() >= FEW or far.sum() * np.log(first / then) >= LEAST:
+            if far.sum() >= FEW or far.sum() * np.log(first / then) >= LEAST_HEARD:
                 before.append(first)
                 after.append(then)
                 continue
