@@ -123,3 +123,32 @@ def chain(error: BaseException) -> list[BaseException]:
         found.append(current)
         current = current.__cause__ or current.__context__
     return found
+
+
+def cause_in_entry(error: BaseException) -> Exception:
+    """What is wrong with the file or recording that was being read, so that only this one is set aside.
+
+    Parameters
+    ----------
+    error : Exception
+        Whatever came out of reading it; a loader may have wrapped what went wrong.
+
+    Returns
+    -------
+    Exception
+        The first in the chain that a user can do something about. Where there is none, the program is at
+        fault: then it says so, and names what went wrong.
+    """
+    causes = chain(error)
+    for each in causes:
+        if isinstance(each, TirePipelineError | OSError):
+            return each
+    kind, text = type(causes[-1]).__name__, str(causes[-1])
+    return RuntimeError(f"a fault of this program ({kind}: {text}) -> report it with this file")
+
+
+def may_pass(error: BaseException) -> bool:
+    """Whether the same file may be read next time, though it has not changed."""
+    if not isinstance(cause_in_entry(error), TirePipelineError):
+        return True
+    return any(isinstance(each, OSError) or getattr(each, "passing", False) for each in chain(error))

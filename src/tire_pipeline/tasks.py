@@ -26,7 +26,9 @@ _WAITING: set[int] = set()
 
 
 class LostTaskError(DomainError):
-    """A task has ended the process that did it, again and again."""
+    """A task has ended the process that did it, again and again; the next run may have more memory."""
+
+    passing = True
 
 
 class Task(Protocol[_T_co]):

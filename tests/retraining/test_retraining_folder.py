@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import os
 import socket
 import time
 import unicodedata
+from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 
 import pandas as pd
 import pytest
@@ -14,14 +17,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 from retraining_files import put, tir_text
 
+from tire_pipeline.classifiers.suppliers import KnownSuppliers
 from tire_pipeline.datasets import RecordingFolderDataset, TextFolderDataset, TirFolderDataset
-from tire_pipeline.errors import DomainError, RecordingError
+from tire_pipeline.errors import DomainError, RecordingError, TirError
 from tire_pipeline.file_names import name_on_disk, path_of, shown_name
 from tire_pipeline.files.folder_walk import walk
+from tire_pipeline.files.packed import unpack
+from tire_pipeline.files.regular_file import NotRegularError, open_regular
+from tire_pipeline.reporting.explained_recordings import ExplainParameters, explain_each
 from tire_pipeline.retraining import Manifest, Store, difference, ingest, look_at, settled_difference
 from tire_pipeline.retraining.places import UNREADABLE, fingerprint
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table.read_files import IngestParameters, join_files, read_files
+from tire_pipeline.translation.translated_block import Given, Sources
 
 LATIN = os.fsdecode(b"M\xfcnchen.tir")
 root = pytest.mark.skipif(os.geteuid() != 0, reason="needs root to drop rights")
@@ -154,6 +162,86 @@ def test_fifos_sockets_and_devices_are_told_and_never_opened(folder, tmp_path):
 def test_a_fifo_that_takes_a_files_place_while_it_is_hashed_does_not_block(tmp_path):
     os.mkfifo(tmp_path / "late.tir")
     assert fingerprint(tmp_path / "late.tir").startswith(UNREADABLE)
+
+
+def test_a_regular_file_that_has_nothing_to_read_now_is_told(folder, monkeypatch):
+    """The kernel's log is such a file; here a FIFO with a writer that writes nothing passes for one."""
+    os.mkfifo(folder / "A/log.tir")
+    os.mkfifo(folder / "B/2.tir.sidecar.json")
+    writers = [os.open(path, os.O_RDWR) for path in (folder / "A/log.tir", folder / "B/2.tir.sidecar.json")]
+    monkeypatch.setattr("tire_pipeline.files.regular_file.stat", SimpleNamespace(S_ISREG=lambda mode: True))
+    try:
+        for path in (folder / "A/log.tir", folder / "B/2.tir"):
+            with pytest.raises(TirError, match="is not a regular file"):
+                read_tir(path)
+        with open_regular(folder / "A/log.tir") as stream, pytest.raises(NotRegularError):
+            stream.read()
+    finally:
+        for writer in writers:
+            os.close(writer)
+
+
+def _fails_on(name, error):
+    """Reads every file but one, as long as its error is there."""
+
+    def read(path):
+        if str(path).endswith(name) and error:
+            raise error[0]
+        return read_tir(path)
+
+    return read
+
+
+def _input_output_error():
+    wrapped = TirError("cannot be read: Input/output error", path="1.tir")
+    wrapped.__cause__ = OSError(5, "Input/output error")
+    return wrapped
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        (TypeError("a slip"), "a fault of this program (TypeError: a slip)"),
+        (_input_output_error(), "Input/output"),
+    ],
+)
+def test_a_reader_that_fails_on_one_file_stops_nothing_and_is_asked_again(folder, error, said):
+    failing = [error]
+    read = _fails_on("1.tir", failing)
+
+    def update(store):
+        found = difference(folder, store.manifest, settle_seconds=0.0)
+        store, report = ingest(store, folder, found, read=read)
+        return store, dict(
+            zip(report["file"], zip(report["status"], report["reason"], strict=True), strict=True)
+        )
+
+    store, told = update(Store())
+    status, reason = told["A/1.tir"]
+    assert status == "pending"
+    assert said in reason
+    assert store.table["file"].tolist() == ["B/2.tir"]
+    assert update(store)[1]["A/1.tir"] == (status, reason)
+    loads = {name: partial(read, folder / name) for name in ("A/1.tir", "B/2.tir")}
+    (block,) = read_files(loads).values()
+    part = block()
+    assert said in part.failures["A/1.tir"]
+    assert part.passing  # the stored part does not count for the next run
+    sources = Sources.read(loads, Given(None, KnownSuppliers(("A", "B")), 4000.0, 3.0))
+    assert list(sources.models) == ["B/2.tir"]
+    assert said in sources.unreadable[0]["reason"]
+    assert sources.passing
+    failing.clear()
+    assert update(store)[0].table["file"].tolist() == ["A/1.tir", "B/2.tir"]
+
+
+def test_a_recording_that_a_reader_fails_on_stops_no_other():
+    def load(**_how):
+        raise TypeError("a slip")
+
+    (task,) = explain_each({"rig/run.csv": load}, ExplainParameters()).values()
+    row = json.loads(unpack(task())["row.json"])
+    assert "a fault of this program (TypeError: a slip)" in row["problem"]
 
 
 def _ingest(partitions, parameters):

@@ -7,6 +7,10 @@ import io
 import os
 import stat
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from _typeshed import WriteableBuffer as Buffer
 
 
 class NotRegularError(OSError):
@@ -21,19 +25,36 @@ class NotRegularError(OSError):
 
 
 def open_regular(path: str | os.PathLike[str]) -> io.BufferedReader:
-    """Open a file for reading; a FIFO that nobody writes into does not block.
+    """Open a file for reading; neither opening nor reading it waits for somebody to write.
 
     Raises
     ------
     NotRegularError
+        Also by a read, where the system calls a file regular that has nothing to read now (``/proc/kmsg``).
     OSError
         It cannot be opened.
     """
-    stream = open(Path(path), "rb", opener=_without_waiting)  # noqa: SIM115
+    stream = _WithoutWaiting(Path(path), "rb", opener=_without_waiting)
     if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
         stream.close()
         raise NotRegularError(os.fspath(path))
-    return stream
+    return io.BufferedReader(stream)
+
+
+class _WithoutWaiting(io.FileIO):
+    """Raises where a read would have to wait; by itself it gives None, which callers take for bytes."""
+
+    def readinto(self, buffer: Buffer, /) -> int:
+        count = super().readinto(buffer)
+        if count is None:
+            raise NotRegularError(os.fspath(self.name))
+        return count
+
+    def readall(self) -> bytes:
+        content = super().readall()
+        if content is None:
+            raise NotRegularError(os.fspath(self.name))
+        return content
 
 
 def _without_waiting(name: str, flags: int) -> int:

@@ -14,7 +14,8 @@ from typing import Any
 
 import pandas as pd
 
-from tire_pipeline.errors import RecordingError, TirePipelineError
+from tire_pipeline.errors import RecordingError, cause_in_entry
+from tire_pipeline.files.objects import UnreachableError
 from tire_pipeline.files.packed import Passing, pack
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch import Explainer, MismatchReport, explain_recordings
@@ -78,8 +79,11 @@ class ExplainTask:
             tire, runs = _read(loads)
             explainer = Explainer(without=self.without, learnt=self.learnt)
             report = explain_recordings(tire, runs, held_out=self.held_out, explainer=explainer)
-        except TirePipelineError as error:
-            return self.lost(_reason(error, self.name))
+        except Exception as error:
+            cause = cause_in_entry(error)
+            if isinstance(cause, UnreachableError):
+                raise
+            return self.lost(_reason(cause, self.name))
         row["verdict"] = report.verdict
         row["summary"] = report.summary
         row["effects"] = ", ".join(effect.name for effect in report.effects)
@@ -95,13 +99,13 @@ class ExplainTask:
         return Passing(pack({"row.json": json.dumps(row).encode(), "report.json": b"null"}))
 
 
-def _reason(error: TirePipelineError, recording: str) -> str:
+def _reason(error: Exception, recording: str) -> str:
     """What an error says, without the path of the recording, beside whose name it stands."""
-    before, found, after = (error.where or "").rpartition(recording)
+    before, found, after = str(getattr(error, "where", None) or "").rpartition(recording)
     if not found or before[-1:] not in ("", "/", "\\"):
         return str(error)
     line = f"line {after[1:]}: " if after[:1] == ":" else ""
-    return str(error).replace(f"{error.where}: ", line, 1)
+    return str(error).replace(f"{before}{found}{after}: ", line, 1)
 
 
 def corrected_files(recording: str) -> tuple[str, str]:

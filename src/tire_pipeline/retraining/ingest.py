@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from tire_pipeline.errors import TirePipelineError
+from tire_pipeline.errors import cause_in_entry, may_pass
 from tire_pipeline.file_names import printable
 from tire_pipeline.files.objects import Objects, UnreachableError
 from tire_pipeline.magic_formula import TireModel
@@ -55,9 +55,9 @@ def ingest(
 ) -> tuple[Store, pd.DataFrame]:
     """Read what is new, drop what is gone, keep all the rest as it is.
 
-    A file that cannot be read is pending: an earlier reading of it stays in the table, and it is tried again
-    when its content changes, or at once if it could not be opened. A file whose content changes while it is
-    read counts as growing.
+    A file that cannot be read is pending: an earlier reading of it stays in the table. It is tried again when
+    its content changes, or by the next run where the content is not to blame. A file whose content changes
+    while it is read counts as growing.
 
     Parameters
     ----------
@@ -130,13 +130,15 @@ def _models(
         if isinstance(done.error, UnreachableError):
             raise done.error
         look, digest = wanted[name]
-        if digest.startswith(UNREADABLE):  # whether it can be opened now is not told by its look
+        if done.error is not None and may_pass(done.error) and not digest.startswith(UNREADABLE):
+            digest = f"{UNREADABLE}{type(done.error).__name__}"
+        if digest.startswith(UNREADABLE):  # whether it can be read now is not told by its look
             look = replace(look, size=-1)
         before = files.get(name)
         known = before.row_sha256 if before else ""
         entry = ManifestEntry(digest, known, **asdict(look), sequence=before.sequence if before else number)
-        if isinstance(done.error, TirePipelineError | OSError):
-            reason = printable(str(done.error))
+        if done.error is not None:
+            reason = printable(str(cause_in_entry(done.error)))
             files[name] = replace(entry, reason=reason)
             stays = "; an earlier reading stays" if entry.row_sha256 else ""
             rows.append(_row(name, PENDING, f"{reason}{stays}"))

@@ -11,7 +11,7 @@ from typing import Any
 import pandas as pd
 
 from tire_pipeline.code_hash import code_hash
-from tire_pipeline.errors import TirePipelineError, chain
+from tire_pipeline.errors import cause_in_entry, may_pass
 from tire_pipeline.file_names import printable
 from tire_pipeline.files.objects import UnreachableError
 from tire_pipeline.files.packed import as_parquet, from_parquet, pack, unpack
@@ -33,7 +33,7 @@ class TablePart(bytes):
 
 
 class PassingPart(TablePart):
-    """A part with a file that could not be opened: the next run reads it again."""
+    """A part with a file that may be read next time, though it has not changed: then it is tried again."""
 
     passing = True
 
@@ -61,12 +61,12 @@ class ReadBlock:
             rows.append(row)
             try:
                 tire = load()
-            except Exception as error:  # a loader may wrap what went wrong
-                cause = cause_in_file(error)
-                if cause is None or isinstance(cause, UnreachableError):
+            except Exception as error:
+                cause = cause_in_entry(error)
+                if isinstance(cause, UnreachableError):
                     raise
                 _set_aside(row, str(cause), getattr(cause, "line", None))
-                if not isinstance(cause, TirePipelineError):
+                if may_pass(error):
                     kept = PassingPart
                 continue
             _describe(row, tire)
@@ -163,9 +163,3 @@ def _describe(row: dict[str, Any], tire: TireModel) -> None:
     row["version"] = tire.version
     row["defaulted"] = " ".join(sorted(tire.defaulted))
     row["notes"] = " | ".join(map(str, notes)) if isinstance(notes, list | tuple) else str(notes)
-
-
-def cause_in_file(error: BaseException) -> BaseException | None:
-    """The first in the chain that is of the file, not of the program; None if there is none."""
-    wanted = (each for each in chain(error) if isinstance(each, TirePipelineError | OSError))
-    return next(wanted, None)

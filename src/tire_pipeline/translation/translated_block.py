@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.classifiers.suppliers import BY_FOLDER, UNKNOWN_SUPPLIER, KnownSuppliers
-from tire_pipeline.errors import TirePipelineError
+from tire_pipeline.errors import cause_in_entry, may_pass
 from tire_pipeline.file_names import printable
 from tire_pipeline.files.objects import UnreachableError
 from tire_pipeline.files.packed import as_parquet, from_parquet, member, names_in, pack, unpack
@@ -22,7 +22,7 @@ from tire_pipeline.tir import tir_bytes
 from tire_pipeline.tir.format.values import COMPUTED_DIGITS
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.tire_table.from_models import KNOWN_COEFFICIENTS, as_in_whole
-from tire_pipeline.tire_table.read_blocks import Load, cause_in_file
+from tire_pipeline.tire_table.read_blocks import Load
 from tire_pipeline.translation.base import JudgingTranslator
 from tire_pipeline.translation.curves.of_files import file_curves
 from tire_pipeline.translation.of_models import at_own_load
@@ -124,11 +124,11 @@ class Sources:
         for file, load in files.items():
             try:
                 models[file] = load()
-            except Exception as error:  # a loader may wrap what went wrong
-                cause = cause_in_file(error)
-                if cause is None or isinstance(cause, UnreachableError):
+            except Exception as error:
+                cause = cause_in_entry(error)
+                if isinstance(cause, UnreachableError):
                     raise
-                passing |= not isinstance(cause, TirePipelineError)
+                passing |= may_pass(error)
                 unreadable.append(unreadable_row(file, given.suppliers, f"cannot be read: {cause}"))
         rows = ((file, given.suppliers.by_folder(file), model) for file, model in models.items())
         own = as_in_whole(from_models(rows), KNOWN_COEFFICIENTS)
