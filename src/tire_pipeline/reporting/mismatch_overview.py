@@ -30,6 +30,7 @@ _KEPT = (
 _NO_ROW = "Open it to see what was found."
 _FEW_RECORDINGS = 5
 """Of so many recordings a run says what was found in each."""
+_CSV = ("tables/mismatch_overview.csv", "Table of the last run (CSV)", "with every recording's summary")
 
 
 def rows_to_keep(overview: pd.DataFrame) -> dict[str, str]:
@@ -91,15 +92,7 @@ def draw_overview(
         parts.append(Links([_link(row) for row in earlier], heading="Reports of earlier runs"))
     parts += [
         _in_one_table([*last, *earlier]),
-        Links(
-            [
-                (
-                    "tables/mismatch_overview.csv",
-                    "Table of the last run (CSV)",
-                    "with every recording's summary",
-                )
-            ]
-        ),
+        Links([_CSV]),
     ]
     return render_page("Recordings against their simulations", parts, pages=HOME), outcome
 
