@@ -57,8 +57,9 @@ def _cost(
 ) -> float:
     """Negative log posterior of the parameters, summed over the sizes of misfit and error."""
     rest = residual(products.data, changes)
-    found = likelihood.evidence(products.of({o: r[:, None] for o, r in rest.items()}), np.zeros(0), wide=True)
+    found = likelihood.evidence(products.of({o: r[:, None] for o, r in rest.items()}), np.zeros(0))
     off, wide = prior(products.data, changes, _moving(changes, free))
+    wide = wide * likelihood.learnt.prior
     return -found.value + float(np.sum(cost(off / wide)))
 
 
@@ -85,9 +86,10 @@ def _step(
     data = products.data
     labels, columns = columns_of(data, changes, list(free))
     off, wide = prior(data, changes, labels)
+    wide = wide * likelihood.learnt.prior
     rest = residual(data, changes)
     here = products.of({o: np.column_stack([columns[o] * wide, r]) for o, r in rest.items()})
-    found = likelihood.evidence(here, np.ones(wide.size), wide=True)
+    found = likelihood.evidence(here, np.ones(wide.size))
     near = likelihood.at(found.weights)
     if not labels:
         return changes, 0.0, near
