@@ -42,6 +42,15 @@ def test_a_pressure_that_varied_is_expected_where_the_file_has_no_coefficient_of
     assert not effect.expected(knows)
 
 
+@pytest.mark.parametrize(
+    ("low", "high", "expected"), [(2900.0, 3100.0, True), (1800.0, 5500.0, False), (1500.0, 4000.0, False)]
+)
+def test_another_change_with_load_is_expected_of_a_file_fitted_at_one_load(tire, record, low, high, expected):
+    """The recording's loads are 1.8 to 5.5 kN."""
+    data = prepare(tire.replace(FZMIN=low, FZMAX=high), record(4)).data
+    assert catalogue()["load_sensitivity"].expected(data) == expected
+
+
 def test_nothing_else_is_expected(tire, record):
     data = prepare(tire, record(4)).data
     names = {n for n, e in catalogue().items() if e.absent(data) is None and e.expected(data)}

@@ -15,6 +15,7 @@ import pandas as pd
 from tire_pipeline.concealed.real.sources import UNLOADED_RADIUS, Sweep
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
+from tire_pipeline.magic_formula.fitting.report.valid_ranges import with_measured_ranges
 
 HIDDEN_CHANNELS = ("camber", "inflation_pressure", "load_sensitivity")
 """Names of what can be hidden from a model by the choice of its sweeps."""
@@ -176,9 +177,8 @@ def _fitted(chosen: tuple[Sweep, ...]) -> TireModel:
     channels = ["slip_angle", "normal_load", "fy"]
     channels += [name for name in ("camber", "pressure") if len(_of(name, chosen)) > 1]
     version = "6.1" if "pressure" in channels else "5.2"
-    model = fit_magic_formula(
-        frame[channels], version, unloaded_radius=UNLOADED_RADIUS[chosen[0].source]
-    ).model
+    result = fit_magic_formula(frame[channels], version, unloaded_radius=UNLOADED_RADIUS[chosen[0].source])
+    model = with_measured_ranges(result.model, result.measured)
     if "speed" in frame:
         model = model.replace(LONGVL=round(float(frame["speed"].mean()), 3))
     return model

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
@@ -45,6 +47,16 @@ class LoadSensitivity(Effect):
         """One stiffness where one force alone is driven."""
         both = data.driven("fx") and data.driven("fy")  # type: ignore[attr-defined]
         return ("rate", "stiffness", "lateral_stiffness") if both else ("rate", "stiffness")
+
+    def expected(self, data: object) -> bool:
+        """The recording's loads reach farther outside of the file's range than that range is wide.
+
+        No tire's friction and stiffness are known so far from the loads they were fitted to (Pacejka, 3rd
+        ed., 4.3.2: PDY2 and PKY2 take several loads).
+        """
+        limits, load = data.tire_coefficients, data.get("normal_load")  # type: ignore[attr-defined]
+        low, high = limits.get("FZMIN", -np.inf), limits.get("FZMAX", np.inf)
+        return bool(max(low - np.min(load), np.max(load) - high) > high - low)
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale friction and stiffness with load."""
