@@ -1,10 +1,13 @@
 """The posterior over sets of effects: likelihood, background, priors, answers, and what is learnt."""
 
 import dataclasses
+from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.stats import multivariate_normal, norm
+from small_rig import rig_force, schedule
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.discrepancy.background import principal
@@ -13,7 +16,7 @@ from tire_pipeline.mismatch.explain import Explainer
 from tire_pipeline.mismatch.inference.analysis import analyse
 from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_posterior, log_prior
 from tire_pipeline.mismatch.inference.evidence.likelihood import Weights
-from tire_pipeline.mismatch.inference.learn_sizes import START, Tuning, learn, log_scores, pruned
+from tire_pipeline.mismatch.inference.learn_sizes import Evidences, Tuning, learn, log_scores, pruned
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.mismatch.inference.one_sided import log_possible
 from tire_pipeline.mismatch.inference.priors import prior
@@ -33,7 +36,9 @@ def analyses(tire, record):
 
 @pytest.fixture(scope="module")
 def cases(analyses):
-    return {names: enumerate_sets(a, START, [names] if names else []).case for names, a in analyses.items()}
+    return {
+        names: enumerate_sets(a, learnt(), [names] if names else []).case for names, a in analyses.items()
+    }
 
 
 def test_what_is_never_known_is_integrated_out():
@@ -117,6 +122,20 @@ def test_a_form_beside_a_set_has_the_columns_of_both(cases):
     assert np.concatenate([each.columns(wide=True), *taken]).tolist() == list(range(size))
 
 
+def test_a_fit_is_held_by_the_priors_that_weigh_it(tire):
+    """In a short, noisy recording the width of the prior tells where a fit ends."""
+    t, slip_angle, load, _ = schedule(seconds=30.0, rate=2.0)
+    noise = np.random.default_rng(0).normal(0.0, 400.0, t.size)
+    force = rig_force(tire, slip_angle, load, friction=0.7) + noise
+    channels = {"time": t, "slip_angle": slip_angle, "normal_load": load, "fy": force}
+    analysis, found = analyse(prepare(tire, pd.DataFrame(channels)).data), []
+    for width in (0.1, 3.0):
+        sets = enumerate_sets(analysis, replace(learnt(), prior=width), [("friction_scale",)]).case.sets
+        changes = next(each.changes for each in sets if each.names == ("friction_scale",))
+        found.append(changes[0][1]["friction"])
+    assert found[1] < 1.1 * found[0] < 0.0
+
+
 def test_nothing_missing_is_agreement(cases):
     answer = answered(cases[()], learnt())
     assert answer.sets == ()
@@ -144,13 +163,34 @@ def test_the_fit_finds_the_friction(cases):
     assert changes[0][1]["friction"] == pytest.approx(-0.12, abs=0.01)
 
 
-def test_learning_betters_the_log_score(cases):
-    tuning = [
-        pruned(Tuning(case, "rig", names, (names,) if names else ((),))) for names, case in cases.items()
+@pytest.fixture(scope="module")
+def tuning(cases):
+    """The cases with what is right in each, every one a source of its own, pruned."""
+    return [
+        pruned(Tuning(case, str(names), names, (names,) if names else ((),)), learnt())
+        for names, case in cases.items()
     ]
-    before = log_scores(tuning, START).mean()
-    after = log_scores(tuning, learn(tuning, START, steps=())).mean()
-    assert after > before
+
+
+def test_learning_betters_the_log_score(tuning):
+    found = learn(Evidences(tuning), replace(learnt(), error=0.03))
+    assert log_scores(tuning, found.sizes).mean() == pytest.approx(found.score)
+    assert found.score > found.start
+    assert set(found.curvature) >= {"error", "side", "effect"}
+
+
+def test_a_source_that_is_left_out_teaches_nothing(tuning):
+    nothing, friction = tuning
+    without = learn(Evidences(tuning), learnt(), step=1.0, without=friction.source).sizes
+    assert without == learn(Evidences([nothing]), learnt(), step=1.0).sizes
+    assert without != learn(Evidences(tuning), learnt(), step=1.0).sizes
+
+
+def test_hypotheses_without_mass_change_no_score(cases, tuning):
+    for each, kept in zip(cases.values(), tuning, strict=True):
+        assert len(kept.kept) < len(hypotheses(each))
+        whole = Tuning(each, kept.source, kept.truth, kept.right)
+        assert log_scores([kept], learnt()) == pytest.approx(log_scores([whole], learnt()), abs=1e-3)
 
 
 def test_a_prior_of_the_user_takes_the_place_of_the_stated_one(tire, record):

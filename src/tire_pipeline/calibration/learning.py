@@ -17,15 +17,17 @@ from pydantic import Field
 
 from tire_pipeline.calibration.cases import KnownCase, plans
 from tire_pipeline.code_hash import code_hash
+from tire_pipeline.concealed.scoring.measures import calibration_error
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.mismatch.inference.analysis import analyse
-from tire_pipeline.mismatch.inference.learn_sizes import START, Tuning, learn, log_scores, pruned
-from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
+from tire_pipeline.mismatch.inference.learn_sizes import Evidences, Learnt, Tuning, learn, log_scores, pruned
+from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes, learnt
 from tire_pipeline.mismatch.inference.sets.answer import answered
 from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets
 from tire_pipeline.mismatch.inference.thinning import thinned
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.parameters import Parameters
+from tire_pipeline.progress import track
 
 Work = dict[str, Callable[[], bytes]]
 Folder = Mapping[str, Callable[[], bytes]]
@@ -43,7 +45,7 @@ class CalibrateMismatchParameters(Parameters):
     real, first, second, unnamed : dict of int to int
         Seed -> number of cases of each kind.
     step : float
-        Factor by which each number is tried larger and smaller; 1 learns odds and background only.
+        Factor by which each size is tried larger and smaller; 1 learns the odds only.
     processes : int
     """
 
@@ -83,10 +85,10 @@ def reduced(known: KnownCase) -> Tuning | None:
     prepared = prepare(known.tire, known.recording)
     if prepared.stopped:
         return None
-    truth = known.truth
-    sets = enumerate_sets(analyse(thinned(prepared.data)), START, [truth] if truth else [])
+    truth, sizes = known.truth, learnt()
+    sets = enumerate_sets(analyse(thinned(prepared.data)), sizes, [truth] if truth else [])
     tuning = Tuning(sets.case, known.source, truth, known.right, known.unnamed)
-    return pruned(tuning) if tuning.rights().any() else None
+    return pruned(tuning, sizes) if tuning.rights().any() else None
 
 
 def learn_sizes(
@@ -99,13 +101,20 @@ def learn_sizes(
     sizes : dict
         ``sizes`` and their ``provenance``.
     table : DataFrame
-        Source, cases, log score of the true set, of base rates, and how far confidences are off.
+        Of :func:`judged`, a row for each source.
     """
     cases = [t for read in reduced_cases.values() if (t := pickle.loads(read())) is not None]
-    steps = (parameters.step,) if parameters.step > 1.0 else ()
-    sizes = learn(cases, steps=steps, mapped=_Mapped(parameters.processes))
-    rows = [{"source": s, **judged(*_without(s, cases, sizes))} for s in sorted({t.source for t in cases})]
-    return {"sizes": sizes.to_dict(), "provenance": _made_with(cases, sizes, parameters)}, pd.DataFrame(rows)
+    evidences, start = Evidences(cases, _Mapped(parameters.processes)), learnt()
+    found = learn(evidences, start, step=parameters.step)
+    rows = []
+    sources = sorted({t.source for t in cases})
+    for source in track(sources, "judging each source by the others", len(sources)):
+        own = [each for each in cases if each.source == source]
+        others = found if len(sources) == 1 else learn(evidences, start, step=parameters.step, without=source)
+        rows.append({"source": source, **judged(own, others.sizes, found.sizes)})
+    return {"sizes": found.sizes.to_dict(), "provenance": _made_with(cases, found, parameters)}, pd.DataFrame(
+        rows
+    )
 
 
 class _Mapped:
@@ -118,38 +127,51 @@ class _Mapped:
         return Parallel(n_jobs=self.processes, batch_size=8)(delayed(function)(item) for item in items)
 
 
-def _without(source: str, cases: list[Tuning], sizes: LearntSizes) -> tuple[list[Tuning], LearntSizes]:
-    """Return the cases of one source, and sizes whose odds and background were learnt from the others."""
-    others = [each for each in cases if each.source != source]
-    learnt = learn(others, sizes, steps=()) if others else sizes
-    return [each for each in cases if each.source == source], learnt
-
-
-def _made_with(
-    cases: list[Tuning], sizes: LearntSizes, parameters: CalibrateMismatchParameters
-) -> dict[str, Any]:
+def _made_with(cases: list[Tuning], found: Learnt, parameters: CalibrateMismatchParameters) -> dict[str, Any]:
     return {
+        "command": "kedro run --pipeline calibrate_mismatch",
         "cases": dict(Counter(each.source for each in cases)),
         "seeds": {n: list(getattr(parameters, n)) for n in ("real", "first", "second", "unnamed")},
         "code": code_hash("mismatch", "magic_formula", "tir"),
         "date": datetime.now(UTC).date().isoformat(),
-        "log_score": float(log_scores(cases, sizes).mean()),
+        "log_score": found.score,
+        "log_score_of_the_sizes_before": found.start,
+        "curvature": found.curvature,
     }
 
 
-def judged(cases: list[Tuning], sizes: LearntSizes) -> dict[str, float]:
-    """Return log score, that of base rates, and the expected error of the confidences of some cases."""
-    bare = replace(sizes, independent=1e-6)
+def judged(cases: list[Tuning], without: LearntSizes, every: LearntSizes) -> dict[str, float]:
+    """Return how sizes that were learnt without a source do on its cases.
+
+    Parameters
+    ----------
+    cases : list of Tuning
+        Of one source.
+    without : LearntSizes
+        Learnt from the other sources.
+    every : LearntSizes
+        Learnt from all of them, this one, too: no sizes of this model do much better.
+
+    Returns
+    -------
+    dict
+        Cases; mean log score, that of ``every`` and that of base rates, which know the odds alone; and of
+        the sets of names how many there are, their mean confidence, how many hold the truth, and how far
+        confidences are off (expected calibration error).
+    """
     said = [
         (sure, bool(set(names) & {n for right in t.right for n in right}))
         for t in cases
-        for names, sure in answered(t.case, sizes).sets
+        for names, sure in answered(t.case, without).sets
     ]
+    sure, held = np.array(said, dtype=float).reshape(-1, 2).T
     return {
         "cases": len(cases),
-        "log_score": float(log_scores(cases, sizes).mean()),
-        "log_score_of_base_rates": float(log_scores(cases, bare).mean()),
+        "log_score": float(log_scores(cases, without).mean()),
+        "log_score_learnt_with_it": float(log_scores(cases, every).mean()),
+        "log_score_of_base_rates": float(log_scores(cases, replace(without, independent=1e-6)).mean()),
         "sets": len(said),
-        "mean_confidence": float(np.mean([sure for sure, _ in said])) if said else float("nan"),
-        "hold_the_truth": float(np.mean([held for _, held in said])) if said else float("nan"),
+        "mean_confidence": float(sure.mean()) if said else float("nan"),
+        "hold_the_truth": float(held.mean()) if said else float("nan"),
+        "calibration_error": calibration_error(sure, held.astype(bool)),
     }

@@ -85,7 +85,12 @@ def plain_evidence(likelihood: Likelihood, each: OfSet) -> float:
     return plain(likelihood, each).value
 
 
-def log_evidence(case: OfCase, sizes: LearntSizes, likelihood: Likelihood | None = None) -> Array:
+def log_evidence(
+    case: OfCase,
+    sizes: LearntSizes,
+    likelihood: Likelihood | None = None,
+    which: Sequence[int] | None = None,
+) -> Array:
     """Return the log evidence of each of :func:`hypotheses`, shape (h,).
 
     Parameters
@@ -94,10 +99,14 @@ def log_evidence(case: OfCase, sizes: LearntSizes, likelihood: Likelihood | None
     sizes : LearntSizes
     likelihood : Likelihood, optional
         Of this case and these sizes, where it is at hand.
+    which : sequence of int, optional
+        Numbers of the hypotheses to weigh; all of them if left out.
     """
-    likelihood = likelihood or Likelihood(case.unknown, sizes)
-    known = {each.names: likelihood.projected(each.products) for each in case.sets}
-    return np.array([each.log_evidence(likelihood, known[each.names]) for each in hypotheses(case)])
+    likelihood, every = likelihood or Likelihood(case.unknown, sizes), hypotheses(case)
+    weighed = every if which is None else [every[k] for k in which]
+    asked_for = {each.names: each.effects for each in weighed}
+    known = {names: likelihood.projected(effects.products) for names, effects in asked_for.items()}
+    return np.array([each.log_evidence(likelihood, known[each.names]) for each in weighed])
 
 
 @dataclass(frozen=True)
