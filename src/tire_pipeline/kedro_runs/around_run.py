@@ -12,7 +12,7 @@ from kedro.framework.hooks import hook_impl
 from kedro.io.core import AbstractVersionedDataset
 from pydantic import Field, ValidationError
 
-from tire_pipeline.datasets.texts.text_folder import TextFolderDataset
+from tire_pipeline.datasets.text_files.text_folder import TextFolderDataset
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import check_before_replacing
 from tire_pipeline.files.objects import Objects

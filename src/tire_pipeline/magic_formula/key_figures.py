@@ -11,7 +11,7 @@ import numpy as np
 from tire_pipeline.channels import PLANE_FORCES
 from tire_pipeline.magic_formula.forces import tire_forces
 from tire_pipeline.magic_formula.parameters.points import OperatingPoints
-from tire_pipeline.magic_formula.parameters.tire import TireParameters
+from tire_pipeline.magic_formula.parameters.tire_parameters import TireParameters
 
 LARGEST_SLIP_ANGLE = np.deg2rad(15.0)
 LARGEST_SLIP_RATIO = 0.3

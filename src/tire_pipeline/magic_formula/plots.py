@@ -11,7 +11,7 @@ from tire_pipeline.channels import SHOWN_UNITS, SLIP_OF_FORCE, axis_label
 from tire_pipeline.magic_formula.forces import tire_forces
 from tire_pipeline.magic_formula.key_figures import forces_over, usual_loads
 from tire_pipeline.magic_formula.parameters.points import OperatingPoints
-from tire_pipeline.magic_formula.parameters.tire import TireParameters
+from tire_pipeline.magic_formula.parameters.tire_parameters import TireParameters
 from tire_pipeline.pages.drawing import colour_of, new_figure
 
 if TYPE_CHECKING:

@@ -14,10 +14,10 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.translation.base import check_target
 from tire_pipeline.translation.composition import Parts
 from tire_pipeline.translation.curves.bands import curve_bands, stiffness_band
-from tire_pipeline.translation.decode.decoder import COEFFICIENTS, Decoder
+from tire_pipeline.translation.decode.scores_to_coefficients import COEFFICIENTS, Decoder
 from tire_pipeline.translation.judge.effects import protocol_changes
 from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE, VerdictRules
-from tire_pipeline.translation.population.fit import PreparedTraining, fit_curve_mixed_model, prepare
+from tire_pipeline.translation.population.fit_model import PreparedTraining, fit_curve_mixed_model, prepare
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.base import Predictor
 from tire_pipeline.translation.predict.batch import BatchLearning
@@ -147,7 +147,7 @@ class CurveTranslator:
         training, target, seed
             As for every translator; the mixed model draws nothing.
         made : PreparedTraining, optional
-            What :func:`.population.fit.prepare` gave for ``training``, if it is there already.
+            What :func:`.population.fit_model.prepare` gave for ``training``, if it is there already.
 
         Raises
         ------

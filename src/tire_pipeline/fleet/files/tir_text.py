@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tire_pipeline.fleet.fits.formula import FITTED_ALIGNING, FITTED_LATERAL, FITTED_LONGITUDINAL
+from tire_pipeline.fleet.manufacturer_fits.formula import FITTED_ALIGNING, FITTED_LATERAL, FITTED_LONGITUDINAL
 
 _COMBINED_X = "RBX1 RBX2 RCX1 REX1 REX2 RHX1".split()
 _COMBINED_Y = "RBY1 RBY2 RBY3 RCY1 REY1 REY2 RHY1 RHY2 RVY1 RVY2 RVY3 RVY4 RVY5 RVY6".split()

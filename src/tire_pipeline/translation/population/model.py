@@ -138,7 +138,7 @@ class CurveMixedModel:
     def own_scores(self, source: np.ndarray, place: np.ndarray, here: list[np.ndarray]) -> list[np.ndarray]:
         """What is a tire's own in the scores of its kind, for each class (n, q), from its scores (n, p).
 
-        Where the category's spread is 1, as in :func:`.fit.prepare`: it is the tire's, whoever
+        Where the category's spread is 1, as in :func:`.fit_model.prepare`: it is the tire's, whoever
         measures.
         """
         if self.kinds is None:
