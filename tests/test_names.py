@@ -28,7 +28,20 @@ SEALED = ("concealed.second.", "concealed.open_world.")
 USUAL = {"T", "LOG"}
 """Names that each module gives to its own type variable and to its own logger."""
 
-METAPHORS = {"wish", "caution", "cautious", "doubt", "doubts", "doubtful", "bury", "shelf", "hand", "hands"}
+METAPHORS = {
+    "wish",
+    "caution",
+    "cautious",
+    "doubt",
+    "doubts",
+    "doubtful",
+    "bury",
+    "shelf",
+    "hand",
+    "hands",
+    "ledger",
+    "signpost",
+}
 
 
 @cache

@@ -130,8 +130,8 @@ def _fit_part(
     middle = _cell_medians(values, cell)
     mean = np.median(middle, axis=0)
     spread = np.maximum(1.4826 * np.median(np.abs(middle - mean), axis=0), 1e-6)
-    tame = np.clip(middle - mean, -6.0 * spread, 6.0 * spread)
-    _, _, axes = np.linalg.svd(tame, full_matrices=False)
+    clipped = np.clip(middle - mean, -6.0 * spread, 6.0 * spread)
+    _, _, axes = np.linalg.svd(clipped, full_matrices=False)
     axes = axes[: min(components, len(axes))]
     scores = (values - mean) @ axes.T
     location = _robust_location(scores, cell)
