@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.reporting.translation.translated import translated_page
+from tire_pipeline.reporting.translation.translated_files_page import translated_page
 from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
 
 CLICKS = 20

@@ -37,9 +37,9 @@ from tire_pipeline.translation.curves.pure_slip import (
     lateral_force,
     longitudinal_force,
 )
-from tire_pipeline.translation.curves.space import fit_curve_space
 from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
-from tire_pipeline.translation.population.fit import PreparedTraining, prepare
+from tire_pipeline.translation.population.fit_model import PreparedTraining, prepare
+from tire_pipeline.translation.population.fit_space import fit_curve_space
 from tire_pipeline.translation.result import TRANSLATED, TranslationResult
 from tire_pipeline.translation.translator import COEFFICIENTS, MixedModel
 

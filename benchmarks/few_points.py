@@ -21,7 +21,7 @@ from tire_pipeline.concealed.brush_rig.constants import draw_constants
 from tire_pipeline.concealed.brush_rig.recorded_run import BrushRig
 from tire_pipeline.concealed.brush_rig.schedule import CHANNELS
 from tire_pipeline.errors import TirePipelineError
-from tire_pipeline.magic_formula.fitting import fit_magic_formula, joint, stage_fit
+from tire_pipeline.magic_formula.fitting import fit_magic_formula, output_fit, stage_fit
 from tire_pipeline.magic_formula.fitting.setup.typical import SPREAD
 from tire_pipeline.tir import read_tir
 
@@ -83,7 +83,10 @@ def errors(seed: int, points: int) -> dict[str, float]:
     seen["fy"] += NOISE * largest * rng.standard_normal(len(seen))
     out = {}
     for name, instead in SETTINGS.items():
-        with patch.object(stage_fit, "most_typical", instead), patch.object(joint, "most_typical", instead):
+        with (
+            patch.object(stage_fit, "most_typical", instead),
+            patch.object(output_fit, "most_typical", instead),
+        ):
             model = fit_magic_formula(seen, nominal_load=constants.nominal_load).model
         out[name] = error(model, truth) / largest
     return out

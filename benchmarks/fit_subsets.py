@@ -38,7 +38,7 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula
 from tire_pipeline.magic_formula.fitting.least_squares.solve import Problem, quick
 from tire_pipeline.magic_formula.fitting.setup import given
-from tire_pipeline.magic_formula.fitting.setup.stages import BOUNDS, PRESSURE_BOUNDS, STAGES
+from tire_pipeline.magic_formula.fitting.setup.stage_definitions import BOUNDS, PRESSURE_BOUNDS, STAGES
 from tire_pipeline.magic_formula.fitting.setup.starts import typical_values
 from tire_pipeline.magic_formula.fitting.setup.typical import FEW_POINTS, pull
 from tire_pipeline.magic_formula.parameters.coefficients import family_of

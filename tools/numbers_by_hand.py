@@ -20,7 +20,7 @@ FOLDER = ROOT / "src" / "tire_pipeline" / "mismatch"
 COUNTING = {0, 1, 2, 3, 0.5}
 GUARD = 1e-6
 UNITS = {100, 1000, 60, 180, 273.15, 3.6}
-DRAWN = ("report/figures.py", "report/words.py", "report/sentences.py", "report/page.py")
+DRAWN = ("report/figures.py", "report/words.py", "report/sentences.py", "report/report_page.py")
 
 
 @dataclass(frozen=True)

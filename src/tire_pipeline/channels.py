@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from tire_pipeline.unit_definitions import DEGREE
+
 SLIP_AND_LOAD = ("slip_angle", "slip_ratio", "camber", "normal_load")
 """What every force depends on: rad, -, rad, N."""
 
@@ -55,13 +57,11 @@ class ShownUnit(NamedTuple):
     label: str
 
 
-_DEGREES_PER_RADIAN = 57.29577951308232
-
 SHOWN_UNITS = {
     "time": ShownUnit(1.0, "s", "time"),
-    "slip_angle": ShownUnit(_DEGREES_PER_RADIAN, "deg", "slip angle"),
+    "slip_angle": ShownUnit(1.0 / DEGREE, "deg", "slip angle"),
     "slip_ratio": ShownUnit(1.0, "", "slip ratio"),
-    "camber": ShownUnit(_DEGREES_PER_RADIAN, "deg", "camber"),
+    "camber": ShownUnit(1.0 / DEGREE, "deg", "camber"),
     "normal_load": ShownUnit(1e-3, "kN", "load"),
     "speed": ShownUnit(1.0, "m/s", "speed"),
     "pressure": ShownUnit(1e-3, "kPa", "pressure"),

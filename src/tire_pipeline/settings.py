@@ -3,7 +3,7 @@
 from omegaconf.resolvers import oc
 
 from tire_pipeline.cluster import ClusterHooks
-from tire_pipeline.kedro_runs.around_run import FolderHooks, RunLedgerHooks, SignpostHooks
+from tire_pipeline.kedro_runs.around_run import FolderHooks, OneRunHooks, OutcomeHooks
 from tire_pipeline.kedro_runs.front_page import FrontPageHooks
 from tire_pipeline.kedro_runs.newest_tables import NewestTablesHooks
 from tire_pipeline.kedro_runs.node_progress import NodeProgressHooks
@@ -13,11 +13,11 @@ from tire_pipeline.kedro_runs.unknown_parameters import UnknownParameterHooks
 HOOKS = (
     UnknownParameterHooks(),
     FolderHooks(),
-    RunLedgerHooks(),
+    OneRunHooks(),
     ClusterHooks(),
     NodeProgressHooks(),
     NewestTablesHooks(),
-    SignpostHooks(),
+    OutcomeHooks(),
     ThesisGridHooks(),
     FrontPageHooks(),
 )

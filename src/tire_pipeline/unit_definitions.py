@@ -1,5 +1,10 @@
 """Units that are not of SI, by their definitions (NIST Special Publication 811, appendix B)."""
 
+import math
+
+DEGREE = math.pi / 180.0
+"""rad."""
+
 POUND = 0.45359237
 """kg."""
 

@@ -7,7 +7,7 @@ import pytest
 
 from tire_pipeline.concealed import Answer, EffectTruth, score
 from tire_pipeline.concealed.effect_names import AMBIGUOUS_SETS
-from tire_pipeline.concealed.scoring.measures import calibration_error, interval_iou
+from tire_pipeline.concealed.scoring.overlap_and_calibration import calibration_error, interval_iou
 from tire_pipeline.concealed.scoring.score import covers, exact_set, false_physics, recovered
 from tire_pipeline.concealed.scoring.words import in_words, outcome
 from tire_pipeline.errors import DomainError

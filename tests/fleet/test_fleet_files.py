@@ -10,7 +10,7 @@ import pytest
 from tire_pipeline.errors import DomainError
 from tire_pipeline.fleet import FEATURES, FleetSettings, make_fleet, read_truth_tables, write_fleet
 from tire_pipeline.fleet.settings import FOUR_TIRE_CATEGORIES, MANUFACTURERS, file_counts
-from tire_pipeline.fleet.tires import COMPOUNDS
+from tire_pipeline.fleet.tire_population import COMPOUNDS
 from tire_pipeline.tir import read_tir
 
 pytestmark = pytest.mark.slow

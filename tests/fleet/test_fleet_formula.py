@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from tire_pipeline.fleet.fits import formula
-from tire_pipeline.fleet.fits.habits import HABITS, fit_setup
+from tire_pipeline.fleet.manufacturer_fits import formula
+from tire_pipeline.fleet.manufacturer_fits.habits import HABITS, fit_setup
 from tire_pipeline.magic_formula import TireModel
 
 PARTS = {

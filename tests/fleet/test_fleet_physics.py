@@ -8,7 +8,7 @@ import pandas as pd
 from tire_pipeline.fleet.rig.regimes import COMMON, MANUFACTURER_FIELDS, REGIMES, regime_of
 from tire_pipeline.fleet.rig.sweeps import Session, measure_lateral
 from tire_pipeline.fleet.rig.true_forces import Contact, in_contact, lateral, longitudinal
-from tire_pipeline.fleet.tires import COMPOUNDS, draw_tires, thermal_parameters
+from tire_pipeline.fleet.tire_population import COMPOUNDS, draw_tires, thermal_parameters
 
 COUNT = 40
 

@@ -121,6 +121,24 @@ def test_code_of_other_equations_is_not_taken(tmp_path, monkeypatch):
     assert just_now.exists()
 
 
+def test_old_code_is_deleted_also_where_the_code_is_there(tmp_path, monkeypatch):
+    """What was too new to be deleted when code was last written stayed for ever."""
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    monkeypatch.setenv("TIRE_PIPELINE_NO_NUMBA", "1")
+    file = Path(gradients_of.__wrapped__(5).__file__)
+    stale = [file.with_name("gradients_5_aaaa.py"), file.parent / "__pycache__" / "gradients_5_aaaa.loop.nbi"]
+    stale.append(file.with_name(".killed.part"))
+    other_family = file.with_name("gradients_6_aaaa.py")
+    stale[1].parent.mkdir(exist_ok=True)
+    for path in (*stale, other_family):
+        path.write_text("")
+        os.utime(path, (0, 0))
+    assert Path(gradients_of.__wrapped__(5).__file__) == file
+    assert [path for path in stale if path.exists()] == []
+    assert file.exists()
+    assert other_family.exists()  # goes when derivatives of its own family are asked for
+
+
 @pytest.mark.slow
 def test_the_wheel_builds_offline_and_holds_no_generated_code(tmp_path):
     source = tmp_path / "source"

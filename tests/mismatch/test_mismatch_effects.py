@@ -8,7 +8,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount_with_error
 from tire_pipeline.mismatch.model.candidates import derivatives
 from tire_pipeline.mismatch.model.forces import simulate
-from tire_pipeline.mismatch.recording.prepare import prepare
+from tire_pipeline.mismatch.preparation.prepare import own_relaxation, prepare
 
 PHYSICS = (
     "friction_scale stiffness_scale load_sensitivity camber combined_slip inflation_pressure temperature "
@@ -225,6 +225,34 @@ def test_no_tire_has_a_relaxation_length_beyond_what_its_size_allows(tire, recor
     effect = catalogue()["relaxation_length"]
     assert effect.outside(data, {**effect.zeros(data), "length": radii * data.radius})
     assert not effect.outside(data, {**effect.zeros(data), "length": 1.2 * data.radius})
+
+
+SCALED = {"LSGAL": 1.3, "LSGKP": 0.8, "LFZO": 0.9}
+
+
+def test_the_file_with_a_relaxation_put_in_gives_its_length_by_the_engines_formula(tire):
+    """Scale factors of relaxation were left out: the file's lengths were not those that were found."""
+    scaled = tire.replace(**SCALED, PTX2=0.4, PTX3=0.2)
+    found = {"length": 0.45, "load": 0.0, "along": 0.6, "fades": 0.0}
+    written = scaled.replace(**catalogue()["relaxation_length"].coefficients(scaled, found))
+    at_nominal = written.forces(normal_load=tire.coefficients["FNOMIN"], limits="ignore")
+    assert float(at_nominal.relaxation_lateral) == pytest.approx(0.45, rel=1e-12)
+    assert float(at_nominal.relaxation_longitudinal) == pytest.approx(0.27, rel=1e-12)
+
+
+def test_a_file_that_scales_its_relaxation_to_nothing_keeps_a_found_one_in_the_sidecar(tire):
+    found = {"length": 0.45, "load": 0.0, "along": 0.6, "fades": 0.0}
+    assert catalogue()["relaxation_length"].coefficients(tire.replace(LSGAL=0.0), found) == {}
+
+
+def test_the_relaxation_that_a_file_states_is_the_engines(tire):
+    stated = tire.replace(**SCALED, PTY1=1.5, PTY2=1.7, PTX1=1.2)
+    at_nominal = stated.forces(normal_load=tire.coefficients["FNOMIN"], limits="ignore")
+    assert own_relaxation(stated) == {
+        "slip_angle": float(at_nominal.relaxation_lateral),
+        "slip_ratio": float(at_nominal.relaxation_longitudinal),
+    }
+    assert own_relaxation(tire.replace(PTY1=0.0, PTX1=0.0)) is None
 
 
 def test_a_drift_that_settles_is_all_there_at_the_end(tire, record):

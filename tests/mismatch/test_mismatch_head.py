@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 
 from tire_pipeline.mismatch.corrected.as_recorded import with_unnamed, without_unnamed
+from tire_pipeline.mismatch.preparation.open_questions import Question
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
-from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit, PredictionError
 from tire_pipeline.mismatch.report.sentences import head, on_question, with_held_out, without_equation
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, UnnamedReport

@@ -28,7 +28,7 @@ from tire_pipeline.files.objects import ConflictError, Objects
 from tire_pipeline.retraining import Judged, Manifest, Store, judge
 from tire_pipeline.retraining.partition import Partition
 from tire_pipeline.retraining.release import ModelRegistry, Release
-from tire_pipeline.runs import LostTicketError, ObjectLedger, ObjectTicket, take_turn
+from tire_pipeline.runs import LostTicketError, ObjectTicket, OtherRunsOnObjects, take_turn
 from tire_pipeline.tire_table import from_models
 
 
@@ -263,9 +263,9 @@ def test_a_killed_runs_results_go_and_a_living_run_is_named(folder):
     with OtherRun(folder, place, "../other") as other:
         living = ObjectTicket.draw(folder, run="v2", beat_seconds=0.05)
         with pytest.raises(DomainError, match="is alive"):
-            take_turn(living, ledger=ObjectLedger(living, 5.0))
+            take_turn(living, others=OtherRunsOnObjects(living, 5.0))
         other.send(signal.SIGKILL)
-        take_turn(living, ledger=ObjectLedger(living, 0.5), wait_seconds=60)
+        take_turn(living, others=OtherRunsOnObjects(living, 0.5), wait_seconds=60)
     assert folder.names("07") == ["07/x.csv/v0/x.csv"]
     living.check()
     living.end()
@@ -276,13 +276,13 @@ def test_a_run_that_was_declared_dead_and_wakes_is_cleared_again(folder):
     with OtherRun(folder, place) as slept:
         slept.send(signal.SIGSTOP)
         second = ObjectTicket.draw(folder, run="v2", beat_seconds=0.05)
-        take_turn(second, ledger=ObjectLedger(second, 0.5))
+        take_turn(second, others=OtherRunsOnObjects(second, 0.5))
         slept.told_to_write(f"{place}/x.csv")
         slept.send(signal.SIGCONT)
         slept.has_written()
         second.end()
         third = ObjectTicket.draw(folder, run="v3", beat_seconds=0.05)
-        take_turn(third, ledger=ObjectLedger(third, 0.5))
+        take_turn(third, others=OtherRunsOnObjects(third, 0.5))
     assert folder.names("07") == []
     third.end()
 
@@ -291,7 +291,7 @@ def test_a_run_that_was_declared_dead_is_told_so(folder):
     first = ObjectTicket.draw(folder, run="v1")
     first.check()
     second = ObjectTicket.draw(folder, run="v2")
-    ObjectLedger(second, 0.5).declare_dead(first.note)
+    OtherRunsOnObjects(second, 0.5).declare_dead(first.note)
     with pytest.raises(LostTicketError):
         first.check()
     second.check()

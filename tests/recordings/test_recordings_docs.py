@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from tire_pipeline.recordings.conventions.channels import CANONICAL, FURTHER
+from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHER
 from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "recordings.md"

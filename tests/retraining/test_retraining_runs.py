@@ -174,7 +174,7 @@ def processes():
         [
             "kedro.framework.session",
             "tire_pipeline.kedro_runs.around_run",
-            "tire_pipeline.retraining.candidate",
+            "tire_pipeline.retraining.train_and_release",
         ]
     )
     return context

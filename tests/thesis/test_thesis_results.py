@@ -9,7 +9,7 @@ import pytest
 from tire_pipeline.thesis.agents import curves_of_forces, judged_agent, thinned_learning_curve
 from tire_pipeline.thesis.files import key_of, pack_frames, unpack_frames
 from tire_pipeline.thesis.pages.words import least_within, plus_minus, points, rank_agreement
-from tire_pipeline.thesis.results import over_seeds
+from tire_pipeline.thesis.result_tables import over_seeds
 from tire_pipeline.translation.thesis.grid import Cell, train_cell
 
 CELL = Cell("A2C", "reach_target_fast", "coefficients", 10)

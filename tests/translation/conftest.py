@@ -10,8 +10,9 @@ from tire_pipeline.fleet import FleetSettings, make_fleet
 from tire_pipeline.representations import make_representation
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.tire_table import dedupe_and_filter, normalize_table
-from tire_pipeline.tire_table.bins import Binning
-from tire_pipeline.translation.population.fit import fit_curve_space, prepare
+from tire_pipeline.tire_table.binning import Binning
+from tire_pipeline.translation.population.fit_model import prepare
+from tire_pipeline.translation.population.fit_space import fit_curve_space
 from tire_pipeline.translation.translator import MixedModel
 
 

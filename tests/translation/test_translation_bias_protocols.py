@@ -6,7 +6,7 @@ import pytest
 
 from tire_pipeline.translation.base import translator_from_state
 from tire_pipeline.translation.curves.features import LOADS
-from tire_pipeline.translation.population.fit import prepare
+from tire_pipeline.translation.population.fit_model import prepare
 from tire_pipeline.translation.result import (
     comment_lines,
 )

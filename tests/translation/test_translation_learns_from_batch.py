@@ -14,7 +14,7 @@ from tire_pipeline.tire_table import dedupe_and_filter, from_models, normalize_t
 from tire_pipeline.translation.base import translator_from_state
 from tire_pipeline.translation.judge.leave_one_out import leave_one_tire_out
 from tire_pipeline.translation.parameters import TranslateParameters
-from tire_pipeline.translation.population.fit import prepare
+from tire_pipeline.translation.population.fit_model import prepare
 from tire_pipeline.translation.population.mixed_effects import posterior_weights
 from tire_pipeline.translation.population.update import TaughtCells, learn_from, updated_weights
 from tire_pipeline.translation.result import comment_lines

@@ -7,7 +7,7 @@ import pytest
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.state_files import pack_state, unpack_state
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
-from tire_pipeline.tire_table.bins import Binning
+from tire_pipeline.tire_table.binning import Binning
 from tire_pipeline.translation import make_translator, translator_from_state
 from tire_pipeline.translation.thesis.batch_environment import BatchEnv
 from tire_pipeline.translation.thesis.policy import GreedyPolicy

@@ -13,7 +13,7 @@ import pytest
 from viz_browser import ROOT, browser, needs_browser
 
 from tire_pipeline.reporting.translation.drawn_files import DrawnFiles
-from tire_pipeline.reporting.translation.translated import translated_page
+from tire_pipeline.reporting.translation.translated_files_page import translated_page
 from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
 
 pytestmark = pytest.mark.slow

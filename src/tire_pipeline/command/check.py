@@ -172,7 +172,7 @@ def _page(
 
 def _figure(recording: pd.DataFrame) -> tuple[Any, str]:
     from tire_pipeline.pages.drawing import colour_of, new_figure
-    from tire_pipeline.recordings.conventions.channels import CANONICAL
+    from tire_pipeline.recordings.conventions.channel_names import CANONICAL
 
     units = {c.name: c.unit for c in CANONICAL if c.name != "time" and c.name in recording}
     step = max(1, len(recording) // _MOST_DRAWN)

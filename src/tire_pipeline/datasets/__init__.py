@@ -6,34 +6,34 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from tire_pipeline.datasets.models.model_state import StateDataset
-    from tire_pipeline.datasets.models.release import ReleaseDataset
     from tire_pipeline.datasets.tables.csv_table import CsvTableDataset
     from tire_pipeline.datasets.tables.frame_parts import FramePartsDataset
     from tire_pipeline.datasets.tables.ingest_store import IngestStoreDataset
     from tire_pipeline.datasets.tables.table_parts import TablePartsDataset
-    from tire_pipeline.datasets.texts.computed_folder import ComputedFolderDataset
-    from tire_pipeline.datasets.texts.html_page import HtmlPageDataset
-    from tire_pipeline.datasets.texts.made_files import MadeFilesDataset
-    from tire_pipeline.datasets.texts.text_folder import TextFolderDataset
+    from tire_pipeline.datasets.text_files.computed_folder import ComputedFolderDataset
+    from tire_pipeline.datasets.text_files.html_page import HtmlPageDataset
+    from tire_pipeline.datasets.text_files.made_files import MadeFilesDataset
+    from tire_pipeline.datasets.text_files.text_folder import TextFolderDataset
+    from tire_pipeline.datasets.trained_models.model_state import StateDataset
+    from tire_pipeline.datasets.trained_models.release import ReleaseDataset
     from tire_pipeline.datasets.users_files.folder import FolderDataset
     from tire_pipeline.datasets.users_files.recording_folder import RecordingFolderDataset
     from tire_pipeline.datasets.users_files.tir_file import TirDataset
     from tire_pipeline.datasets.users_files.tir_folder import TirFolderDataset
 
 _MODULES = {
-    "ComputedFolderDataset": "texts.computed_folder",
+    "ComputedFolderDataset": "text_files.computed_folder",
     "CsvTableDataset": "tables.csv_table",
     "FolderDataset": "users_files.folder",
     "FramePartsDataset": "tables.frame_parts",
-    "HtmlPageDataset": "texts.html_page",
+    "HtmlPageDataset": "text_files.html_page",
     "IngestStoreDataset": "tables.ingest_store",
-    "MadeFilesDataset": "texts.made_files",
+    "MadeFilesDataset": "text_files.made_files",
     "RecordingFolderDataset": "users_files.recording_folder",
-    "ReleaseDataset": "models.release",
-    "StateDataset": "models.model_state",
+    "ReleaseDataset": "trained_models.release",
+    "StateDataset": "trained_models.model_state",
     "TablePartsDataset": "tables.table_parts",
-    "TextFolderDataset": "texts.text_folder",
+    "TextFolderDataset": "text_files.text_folder",
     "TirDataset": "users_files.tir_file",
     "TirFolderDataset": "users_files.tir_folder",
 }

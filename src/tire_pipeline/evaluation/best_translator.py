@@ -98,11 +98,11 @@ def write_best(
     Parameters
     ----------
     translated_table : DataFrame
-        From :func:`.translate.translate_files`.
+        From :func:`.all_translators.translate_files`.
     best : dict
         From :func:`choose_best`.
     chosen : dict
-        From :func:`.translate.choose_sources`.
+        From :func:`.all_translators.choose_sources`.
     evaluation_sources, tir_files : mapping
     target_category : str
 

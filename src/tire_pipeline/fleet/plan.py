@@ -14,7 +14,7 @@ from tire_pipeline.fleet.settings import (
     FleetSettings,
     file_counts,
 )
-from tire_pipeline.fleet.tires import draw_tires
+from tire_pipeline.fleet.tire_population import draw_tires
 
 # The 11 lateral coefficients without camber; see docs/explanation/fleet.md for why PEY3 is not among them.
 FEATURES: tuple[str, ...] = (
@@ -43,7 +43,7 @@ class Plan:
     Attributes
     ----------
     tires : pandas.DataFrame
-        All physical tires (:func:`.tires.draw_tires`) with ``role``: ``training``, ``paired``,
+        All physical tires (:func:`.tire_population.draw_tires`) with ``role``: ``training``, ``paired``,
         ``four``, ``tuning`` or ``hidden``.
     measurements : pandas.DataFrame
         One row a fit: ``category``, ``tire``, ``pressure``, ``wear``, ``protocol``,

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.fleet.fits.fit import FitTask, fit_all
-from tire_pipeline.fleet.fits.habits import habit_of
+from tire_pipeline.fleet.manufacturer_fits.fit_sweeps import FitTask, fit_all
+from tire_pipeline.fleet.manufacturer_fits.habits import habit_of
 from tire_pipeline.fleet.plan import Plan
 from tire_pipeline.fleet.rig.regimes import Regime, regime_of
 from tire_pipeline.fleet.rig.sweeps import Sweeps, draw_sessions, measure_lateral, measure_longitudinal
 from tire_pipeline.fleet.settings import FleetSettings
-from tire_pipeline.fleet.tires import thermal_parameters
+from tire_pipeline.fleet.tire_population import thermal_parameters
 from tire_pipeline.progress import track
 
 INTERACTION = {"additive": 0.0, "interacting": 0.75, "drifting": 0.0}

@@ -53,7 +53,7 @@ def true_curves(tires: pd.DataFrame) -> dict[str, np.ndarray]:
     Parameters
     ----------
     tires : pandas.DataFrame
-        n rows of :func:`.tires.draw_tires`.
+        n rows of :func:`.tire_population.draw_tires`.
 
     Returns
     -------

@@ -12,7 +12,7 @@ from kedro.framework.hooks import hook_impl
 from kedro.io.core import AbstractVersionedDataset
 from pydantic import Field, ValidationError
 
-from tire_pipeline.datasets.texts.text_folder import TextFolderDataset
+from tire_pipeline.datasets.text_files.text_folder import TextFolderDataset
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import check_before_replacing
 from tire_pipeline.files.objects import Objects
@@ -20,8 +20,8 @@ from tire_pipeline.kedro_runs.data_place import data_place
 from tire_pipeline.kedro_runs.newest_tables import tables_place
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.runs import (
-    ObjectLedger,
     ObjectTicket,
+    OtherRunsOnObjects,
     Ticket,
     take_back,
     take_back_objects,
@@ -62,7 +62,7 @@ def _versions(catalog: Any, pipeline: Any, version: str, protocol: str) -> list[
     return folders
 
 
-class RunLedgerHooks:
+class OneRunHooks:
     """One run at a time on a data folder, and nothing left of a run that fails or is killed.
 
     A run draws a ticket in ``<data>/.runs`` (:mod:`tire_pipeline.runs`), waits for its turn, and takes back
@@ -93,11 +93,11 @@ class RunLedgerHooks:
     ) -> Generator[None, Any, Any]:
         """Take this run's turn before any other hook reads or writes."""
         self._end()  # of a run in this process that was interrupted
-        self._ticket, ledger = self._drawn(catalog, pipeline, run_params["run_id"])
+        self._ticket, others = self._drawn(catalog, pipeline, run_params["run_id"])
         try:
             take_turn(
                 self._ticket,
-                ledger=ledger,
+                others=others,
                 wait_seconds=self._turn.wait_seconds,
                 expiry_seconds=self._turn.expiry_seconds,
             )
@@ -109,7 +109,7 @@ class RunLedgerHooks:
 
     def _drawn(
         self, catalog: Any, pipeline: Any, version: str
-    ) -> tuple[Ticket | ObjectTicket, ObjectLedger | None]:
+    ) -> tuple[Ticket | ObjectTicket, OtherRunsOnObjects | None]:
         """A ticket on the data folder, and how the others there are watched."""
         common: dict[str, Any] = {"run": version, "alongside": self._turn.alongside}
         if isinstance(self._data, Objects):
@@ -119,7 +119,7 @@ class RunLedgerHooks:
             places = [str(each.relative_to(root)) for each in found if each.is_relative_to(root)]
             beat = min(BEAT_SECONDS, self._turn.expiry_seconds / 6.0)
             ticket = ObjectTicket.draw(self._data, places=places, beat_seconds=beat, **common)
-            return ticket, ObjectLedger(ticket, self._turn.expiry_seconds)
+            return ticket, OtherRunsOnObjects(ticket, self._turn.expiry_seconds)
         data = self._data
         local = [_relative(each, data) for each in _versions(catalog, pipeline, version, "file")]
         return Ticket.draw(data / ".runs", places=local, **common), None
@@ -221,13 +221,13 @@ def _duration(seconds: float) -> str:
     return f"{minutes} min {rest} s" if minutes else f"{rest} s"
 
 
-class SignpostHooks:
+class OutcomeHooks:
     """After a run, says what was done, how long it took, and where its results are."""
 
     OUTCOMES = ("evaluation_outcome", "translation_outcome", "mismatch_outcome")
     PAGES = ("retraining_report", "proof_report", "translation_page", "thesis_page")
     """Pages whose main message is the outcome of the run that makes them."""
-    SIGNS = (
+    RESULTS = (
         ("evaluation_report", "report"),
         ("translation_list", "page of the translated files"),
         ("translated_tir", "translated .tir files"),
@@ -268,7 +268,7 @@ class SignpostHooks:
                 print(*main_message(catalog.load(name)), sep="\n")
         if "ingest_summary" in made:
             print(_read(catalog.load("ingest_summary")))
-        for name, what in self.SIGNS:
+        for name, what in self.RESULTS:
             if name in made:
                 dataset = catalog.get(name)
                 if isinstance(dataset, TextFolderDataset) and dataset.empty:

@@ -9,7 +9,7 @@ from typing import Any
 
 from kedro.framework.hooks import hook_impl
 
-from tire_pipeline.datasets.texts.html_page import HtmlPageDataset
+from tire_pipeline.datasets.text_files.html_page import HtmlPageDataset
 from tire_pipeline.files.objects import Objects
 from tire_pipeline.kedro_runs.data_place import data_place
 

@@ -25,7 +25,7 @@ from tire_pipeline.magic_formula.parameters.points import (
     points_of,
     refuse_turn_slip,
 )
-from tire_pipeline.magic_formula.parameters.tire import TireParameters
+from tire_pipeline.magic_formula.parameters.tire_parameters import TireParameters
 
 _NEUTRAL = {version: pack_mapping({}, missing_defaults({}, version)) for version in ("5.2", "6.1")}
 

@@ -20,7 +20,7 @@ from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 from tire_pipeline.magic_formula.parameters import inputs
 from tire_pipeline.magic_formula.parameters.axes import Signs, is_mirrored, signs_of
 from tire_pipeline.magic_formula.parameters.points import OperatingPoints
-from tire_pipeline.magic_formula.parameters.tire import TireParameters
+from tire_pipeline.magic_formula.parameters.tire_parameters import TireParameters
 
 _BUFFER = 32768
 """Points at a time where the arguments have to be broadcast against each other."""

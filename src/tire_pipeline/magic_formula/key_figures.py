@@ -11,7 +11,8 @@ import numpy as np
 from tire_pipeline.channels import PLANE_FORCES
 from tire_pipeline.magic_formula.forces import tire_forces
 from tire_pipeline.magic_formula.parameters.points import OperatingPoints
-from tire_pipeline.magic_formula.parameters.tire import TireParameters
+from tire_pipeline.magic_formula.parameters.tire_parameters import TireParameters
+from tire_pipeline.unit_definitions import DEGREE
 
 LARGEST_SLIP_ANGLE = np.deg2rad(15.0)
 LARGEST_SLIP_RATIO = 0.3
@@ -71,7 +72,7 @@ def key_figures(model: TireParameters, normal_load: float | None = None) -> list
     ratio, pull = ahead["slip"], np.abs(ahead["fx"])
     torque = np.abs(side["mz"])
     return [
-        KeyFigure("cornering stiffness", abs(float(still.cornering_stiffness)) * np.pi / 180.0, "N/deg"),
+        KeyFigure("cornering stiffness", abs(float(still.cornering_stiffness)) * DEGREE, "N/deg"),
         KeyFigure("largest lateral friction", _peak(force) / load, ""),
         KeyFigure("slip angle of the peak", _at_peak(angle, force), "deg"),
         KeyFigure("slip stiffness", abs(float(still.slip_stiffness)), "N"),

@@ -22,7 +22,7 @@ from tire_pipeline.magic_formula.parameters.coefficients import (
     missing_defaults,
 )
 from tire_pipeline.magic_formula.parameters.points import OperatingPoints, PointFields, points_of
-from tire_pipeline.magic_formula.parameters.tire import TireParameters
+from tire_pipeline.magic_formula.parameters.tire_parameters import TireParameters
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

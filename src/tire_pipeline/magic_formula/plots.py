@@ -11,8 +11,9 @@ from tire_pipeline.channels import SHOWN_UNITS, SLIP_OF_FORCE, axis_label
 from tire_pipeline.magic_formula.forces import tire_forces
 from tire_pipeline.magic_formula.key_figures import forces_over, usual_loads
 from tire_pipeline.magic_formula.parameters.points import OperatingPoints
-from tire_pipeline.magic_formula.parameters.tire import TireParameters
+from tire_pipeline.magic_formula.parameters.tire_parameters import TireParameters
 from tire_pipeline.pages.drawing import colour_of, new_figure
+from tire_pipeline.unit_definitions import DEGREE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -71,7 +72,7 @@ def _stiffness(
         axis = np.linspace(0.1 * min(loads), 1.2 * max(loads), 200)
         points = OperatingPoints(normal_load=axis, camber=camber)
         found = tire_forces(model, points, limits="ignore", outputs=("cornering_stiffness",))
-        stiffness = np.abs(found.cornering_stiffness) * np.pi / 180.0
+        stiffness = np.abs(found.cornering_stiffness) * DEGREE
         if stiffness.max() > 0.0:
             panel.plot(axis / 1e3, stiffness, line, color="black", lw=1.4)
     for i, load in enumerate(loads):

@@ -9,7 +9,7 @@ import pandas as pd
 
 from tire_pipeline.channels import FORCE_CHANNELS, FORCE_OF_SLIP, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.conventions.channels import CANONICAL, FURTHER
+from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHER
 
 LEAST_GAP = 1.0
 """Least time between two recordings that are joined, s."""

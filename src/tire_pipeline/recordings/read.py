@@ -10,7 +10,7 @@ import pandas as pd
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.canonical import RawRecording, canonical_frame
-from tire_pipeline.recordings.conventions.names import split_unit
+from tire_pipeline.recordings.conventions.units_in_names import split_unit
 from tire_pipeline.recordings.readers.csv_file import read_csv
 from tire_pipeline.recordings.readers.mat_file import read_mat
 from tire_pipeline.recordings.readers.mdf_file import read_mdf

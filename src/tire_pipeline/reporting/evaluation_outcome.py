@@ -7,7 +7,7 @@ from typing import Any
 import pandas as pd
 
 from tire_pipeline.evaluation.all_translators import NO_CHANGE, OUR_AGENT, UNJUDGED
-from tire_pipeline.evaluation.judged import FLOOR
+from tire_pipeline.evaluation.compare_with_target import FLOOR
 from tire_pipeline.translation.result import TRANSLATED
 
 METRIC = "forces"

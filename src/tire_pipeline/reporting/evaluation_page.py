@@ -9,8 +9,8 @@ import pandas as pd
 
 from tire_pipeline.evaluation import curves_of
 from tire_pipeline.evaluation.all_translators import NO_CHANGE
+from tire_pipeline.evaluation.compare_with_target import FLOOR
 from tire_pipeline.evaluation.curves import EvaluationGrid
-from tire_pipeline.evaluation.judged import FLOOR
 from tire_pipeline.reporting import HOME, Figure, Links, Table, Text, colour_of, new_figure, render_page
 from tire_pipeline.reporting.training_figures import confusion_figure, learning_figure
 

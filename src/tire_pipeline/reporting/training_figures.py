@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.classifiers.scores import SPLITS
+from tire_pipeline.classifiers.score_on_splits import SPLITS
 from tire_pipeline.pages.drawing import colour_of, new_figure
 
 if TYPE_CHECKING:

@@ -168,9 +168,9 @@ def _inverse_square_shapes(r2: np.ndarray, r3: np.ndarray) -> np.ndarray:
     """Return both solutions 1/C^2 (smaller first), NaN where imaginary, shape (2, ...)."""
     s = 1 + r2
     inner = 1024 * s**2 - 160 * (r3 + 10 * s - 1)
-    # a hair below zero is the double root seen through rounding
-    hair = 1e-9 * (1024 * s**2 + np.abs(160 * (r3 + 10 * s - 1)))
-    root = np.sqrt(np.where(inner < -hair, np.nan, np.maximum(inner, 0.0)))
+    # a little below zero is the double root seen through rounding
+    rounding = 1e-9 * (1024 * s**2 + np.abs(160 * (r3 + 10 * s - 1)))
+    root = np.sqrt(np.where(inner < -rounding, np.nan, np.maximum(inner, 0.0)))
     both = np.stack([-32 * s - root, -32 * s + root]) / 80
     return np.where(both > 1e-9, both, np.nan)
 

@@ -67,7 +67,7 @@ class Partition:
     def with_rows(self, new: pd.DataFrame, gone: Iterable[str], scratch: Scratch) -> Partition:
         """The same with rows that are new or replace others, and without those of some files.
 
-        Only the parts to which these files belong are read and made anew.
+        Only the parts to which these files belong are read and made again.
         """
         added = self.split(new) if len(new) else {}
         removed: dict[int, list[str]] = {}

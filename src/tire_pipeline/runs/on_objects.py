@@ -102,7 +102,7 @@ class ObjectTicket:
 
 
 @dataclass
-class ObjectLedger:
+class OtherRunsOnObjects:
     """What other runs say of themselves, and what becomes of the dead.
 
     A run is alive if its beat changes, and dead if it stands still for ``expiry_seconds`` of this process's

@@ -100,7 +100,7 @@ class Watch:
         return self._beats.state(note, stamp)
 
 
-class Ledger(Protocol):
+class OtherRuns(Protocol):
     """What other runs on a data folder say of themselves, and what becomes of the dead."""
 
     @property
@@ -134,7 +134,7 @@ class OwnTicket(Protocol):
         ...
 
 
-class FolderLedger:
+class OtherRunsInFolder:
     """The notes in a folder of a local or mounted disk."""
 
     def __init__(
@@ -149,18 +149,18 @@ class FolderLedger:
         return self._watch.look()
 
     def declare_dead(self, note: Note) -> None:
-        """As in :class:`Ledger`."""
+        """As in :class:`OtherRuns`."""
         _declare_dead(self._folder, note)
 
     def again(self) -> None:
-        """As in :class:`Ledger`."""
+        """As in :class:`OtherRuns`."""
         _take_back_again(self._folder)
 
 
 def take_turn(
     ticket: OwnTicket,
     *,
-    ledger: Ledger | None = None,
+    others: OtherRuns | None = None,
     wait_seconds: float = 0.0,
     expiry_seconds: float = EXPIRY_SECONDS,
     monotonic: Callable[[], float] = time.monotonic,
@@ -174,7 +174,7 @@ def take_turn(
     ----------
     ticket : Ticket or ObjectTicket
         This run's own.
-    ledger : Ledger, optional
+    others : OtherRuns, optional
         Of the other runs; that of the ticket's folder if left out.
     wait_seconds : float
         How long to wait for a living run.
@@ -190,23 +190,23 @@ def take_turn(
     LostTicketError
         This process stood still for so long that another run has taken over.
     """
-    if ledger is None:
+    if others is None:
         assert isinstance(ticket, Ticket)
-        ledger = FolderLedger(ticket, expiry_seconds, monotonic)
+        others = OtherRunsInFolder(ticket, expiry_seconds, monotonic)
     last = monotonic() + wait_seconds
     said: set[str] = set()
     while True:
-        states = ledger.look()
+        states = others.look()
         for note in (note for note, state in states if state == DEAD):
-            ledger.declare_dead(note)
+            others.declare_dead(note)
         living = [n for n, state in states if state == ALIVE and not (n.alongside or ticket.note.alongside)]
         undecided = [note for note, state in states if state == UNDECIDED]
         if not living and not undecided:
             ticket.check()
-            ledger.again()
+            others.again()
             return
         if living and monotonic() >= last:
-            raise _refusal(living[0], ledger.where)
+            raise _refusal(living[0], others.where)
         line = f"Waiting for {living[0]} to end." if living else f"Is {undecided[0]} still alive? Watching."
         if line not in said:
             said.add(line)

@@ -10,7 +10,7 @@ from kedro.framework.startup import bootstrap_project
 
 from tire_pipeline.datasets import FolderDataset, IngestStoreDataset
 from tire_pipeline.retraining import FolderDifference, settled_difference
-from tire_pipeline.retraining.candidate import RetrainParameters
+from tire_pipeline.retraining.train_and_release import RetrainParameters
 
 
 class ArrivalSession(Protocol):

@@ -8,10 +8,10 @@ from typing import Any
 import pandas as pd
 
 from tire_pipeline.thesis.experiment_files import together
-from tire_pipeline.thesis.pages.page import thesis_page
+from tire_pipeline.thesis.pages.whole_page import thesis_page
 from tire_pipeline.thesis.parameters import ReproduceThesisParameters
 from tire_pipeline.thesis.result_files import result_files
-from tire_pipeline.thesis.results import Results
+from tire_pipeline.thesis.result_tables import Results
 
 Folder = Mapping[str, Callable[[], bytes]]
 #: Order of the experiments among the inputs of ``collect``.

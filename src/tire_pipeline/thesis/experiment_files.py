@@ -10,7 +10,7 @@ from typing import Any
 
 import pandas as pd
 
-from tire_pipeline.classifiers.scores import SPLITS, split_rows
+from tire_pipeline.classifiers.score_on_splits import SPLITS, split_rows
 from tire_pipeline.classifiers.tuning import (
     ANN_GRID,
     ann_combinations,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from tire_pipeline.pages.safe_csv import safe_table
 from tire_pipeline.reporting import inline_svg
 from tire_pipeline.thesis.pages.figures import all_figures
-from tire_pipeline.thesis.results import Results
+from tire_pipeline.thesis.result_tables import Results
 
 
 def result_files(results: Results) -> dict[str, str]:

@@ -1,6 +1,6 @@
 """Many tires as one table: what can be learned from, one nominal load, splits, bins."""
 
-from tire_pipeline.tire_table.bins import Binning
+from tire_pipeline.tire_table.binning import Binning
 from tire_pipeline.tire_table.dedupe import (
     IDENTICAL,
     NO_VALUE,

@@ -10,7 +10,7 @@ import pandas as pd
 
 from tire_pipeline.translation.curves.features import GROUPS, LOADS
 from tire_pipeline.translation.curves.space import PARTS, UNIT
-from tire_pipeline.translation.decode.decoder import COEFFICIENTS
+from tire_pipeline.translation.decode.scores_to_coefficients import COEFFICIENTS
 from tire_pipeline.translation.judge.effects import EFFECT_QUANTILE, KEY_PARTS, difference, mean_of_loads
 from tire_pipeline.translation.population.model import CurveMixedModel, columns_of
 from tire_pipeline.translation.translator import CurveTranslator

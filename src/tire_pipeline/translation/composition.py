@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.decode.decoder import Decoder
+from tire_pipeline.translation.decode.scores_to_coefficients import Decoder
 from tire_pipeline.translation.judge.verdict import VerdictRules
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.base import Predictor

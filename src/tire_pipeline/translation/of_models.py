@@ -12,7 +12,7 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.translation.base import Translator, judging
-from tire_pipeline.translation.decode.decoder import COEFFICIENTS
+from tire_pipeline.translation.decode.scores_to_coefficients import COEFFICIENTS
 from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE
 from tire_pipeline.translation.result import EDGE, TRANSLATED, TranslationResult, comment_lines
 

@@ -14,7 +14,7 @@ from tire_pipeline.errors import DomainError
 VERSION = "4"
 """Version of the translators, written into every translated file: another one where the same training files
 give another translation. 2: stiffness and shape are combined (:mod:`.population.fit_links`); 3:
-categories spread stiffness alike (:data:`.population.fit.SPREAD_WIDTH`); 4: spreads are bounded, and
+categories spread stiffness alike (:data:`.population.fit_model.SPREAD_WIDTH`); 4: spreads are bounded, and
 translators that learn from the batch."""
 
 TRANSLATED = "translated"

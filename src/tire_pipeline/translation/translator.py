@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self
 
@@ -14,10 +15,10 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.translation.base import check_target
 from tire_pipeline.translation.composition import Parts
 from tire_pipeline.translation.curves.bands import curve_bands, stiffness_band
-from tire_pipeline.translation.decode.decoder import COEFFICIENTS, Decoder
+from tire_pipeline.translation.decode.scores_to_coefficients import COEFFICIENTS, Decoder
 from tire_pipeline.translation.judge.effects import protocol_changes
 from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE, VerdictRules
-from tire_pipeline.translation.population.fit import PreparedTraining, fit_curve_mixed_model, prepare
+from tire_pipeline.translation.population.fit_model import PreparedTraining, fit_curve_mixed_model, prepare
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.base import Predictor
 from tire_pipeline.translation.predict.batch import BatchLearning
@@ -74,22 +75,12 @@ class CurveTranslator:
         self._predictor, self._options = predictor, options
         self._parts: Parts | None = None
 
-    @classmethod
-    def of_parts(cls, parts: Parts, options: CurveOptions) -> Self:
-        """Make a fitted translator of what it is composed of.
-
-        Parameters
-        ----------
-        parts : Parts
-        options : CurveOptions
-            Where they differ from the rules of the verdict, the rules hold.
-        """
-        translator = cls.__new__(cls)  # a subclass's constructor makes the predictor, which is there already
-        rules = parts.verdict
-        own = replace(options, gate=rules.gate, farthest=rules.farthest)
-        CurveTranslator.__init__(translator, parts.predictor, own)
-        translator._parts = parts
-        return translator
+    def _with_parts(self, parts: Parts, options: CurveOptions) -> Self:
+        """The same translator, composed of other parts; the rules of the verdict override options."""
+        other, rules = copy(self), parts.verdict
+        other._parts, other._predictor = parts, parts.predictor
+        other._options = replace(options, gate=rules.gate, farthest=rules.farthest)
+        return other
 
     @property
     def pairs(self) -> bool:
@@ -147,7 +138,7 @@ class CurveTranslator:
         training, target, seed
             As for every translator; the mixed model draws nothing.
         made : PreparedTraining, optional
-            What :func:`.population.fit.prepare` gave for ``training``, if it is there already.
+            What :func:`.population.fit_model.prepare` gave for ``training``, if it is there already.
 
         Raises
         ------
@@ -160,9 +151,8 @@ class CurveTranslator:
             made = made or prepare(training, pairs=self.pairs)
         with threadpool_limits(1):  # thousands of small matrices: threads would only wait for each other
             model = fit_curve_mixed_model(training, pairs=self.pairs, made=made)
-            found = MixedPredictor(options.trust).shortened(model, training, target)
             rules = VerdictRules.fit(
-                model, training, found, target, gate=options.gate, farthest=options.farthest
+                model, training, target, trust=options.trust, gate=options.gate, farthest=options.farthest
             )
         predictor = self._predictor.fit(model, training, target, seed)
         batch = BatchLearning.of(made, training) if self.learn_from_batch and made else None
@@ -182,7 +172,7 @@ class CurveTranslator:
             Such as ``farthest=1.5`` or ``gate=False``; with another ``target`` it translates to that one.
         """
         parts = replace(self.parts, verdict=replace(self.parts.verdict, **changes))
-        return self.of_parts(parts, self._options)
+        return self._with_parts(parts, self._options)
 
     def teaching(self, source: pd.DataFrame) -> tuple[np.ndarray, pd.DataFrame]:
         """Return what :meth:`taught` needs of some files of a batch: the tires, and the files that may teach.
@@ -216,7 +206,7 @@ class CurveTranslator:
             return self
         with threadpool_limits(1):
             learned = parts.batch.learn(parts.model, tires, teachers)
-        return self.of_parts(replace(parts, taught=learned), self._options)
+        return self._with_parts(replace(parts, taught=learned), self._options)
 
     def protocol_changes(self) -> pd.DataFrame:
         """Return the categories that changed how they measure, one row each."""
@@ -320,7 +310,9 @@ class CurveTranslator:
             Decoder(np.asarray(state["coefficient_limits"])),
             VerdictRules.from_state(state),
         )
-        return cls.of_parts(parts, CurveOptions(state["option_pairs"], learns, state["option_trust"]))
+        options = CurveOptions(state["option_pairs"], learns, state["option_trust"])
+        shared: dict[str, Any] = {"pairs": options.pairs}  # an option of every translator of curves
+        return cls(**shared)._with_parts(parts, options)
 
 
 def _among_all(band: Band, usable: np.ndarray, count: int) -> Band:

@@ -58,7 +58,7 @@ def choose(rng: np.random.Generator, kind: str) -> Choice:
     ----------
     rng : numpy.random.Generator
     kind : str
-        One of ``names.KINDS``.
+        One of ``effect_names.KINDS``.
     """
     if kind in ("nothing", "artefact", "unknown"):
         as_if = str(rng.choice(["single", "pair", "ambiguous"], p=[35 / 60, 15 / 60, 10 / 60]))

@@ -116,7 +116,7 @@ def make_case(seed: int, kind: str, settings: CaseSettings | None = None) -> tup
     ----------
     seed : int
     kind : str
-        One of ``names.KINDS``.
+        One of ``effect_names.KINDS``.
     settings : CaseSettings, optional
 
     Returns

@@ -54,7 +54,7 @@ class Answer:
     Attributes
     ----------
     case_id, kind : str
-        Kind as in ``names.KINDS``.
+        Kind as in ``effect_names.KINDS``.
     effects : tuple of EffectTruth
     acceptable : tuple of str
         Ambiguous cases: the names that the recording cannot separate; else empty.

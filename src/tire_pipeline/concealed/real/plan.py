@@ -164,7 +164,7 @@ class RealPlan:
 
 @dataclass(frozen=True)
 class Effects:
-    """What a case conceals; ``kind`` is the scorer's (``names.KINDS``)."""
+    """What a case conceals; ``kind`` is the scorer's (``effect_names.KINDS``)."""
 
     kind: str
     hidden: tuple[str, ...]

@@ -15,7 +15,7 @@ import numpy as np
 
 from tire_pipeline.concealed.cases.sealed_answers import Answer, EffectTruth
 from tire_pipeline.concealed.effect_names import ARTEFACTS, PHYSICS
-from tire_pipeline.concealed.scoring.measures import calibration_error, interval_iou
+from tire_pipeline.concealed.scoring.overlap_and_calibration import calibration_error, interval_iou
 from tire_pipeline.errors import DomainError
 
 STRENGTH_LIMIT = 0.6
@@ -181,7 +181,7 @@ def _name_scores(pairs: list[tuple[Report, Answer]]) -> list[dict[str, Any]]:
 
 
 def _by_first_key(answer: Answer) -> Answer:
-    """The answer as the first published proof's key had it: see ``names.AMBIGUOUS_SETS``."""
+    """The answer as the first published proof's key had it: see ``effect_names.AMBIGUOUS_SETS``."""
     if any(e.name == "camber_offset" for e in answer.effects):
         return answer
     return replace(answer, acceptable=tuple(n for n in answer.acceptable if n != "camber_offset"))

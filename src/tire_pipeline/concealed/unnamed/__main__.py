@@ -23,7 +23,7 @@ from tire_pipeline.concealed.open_world.mechanism import Mechanism
 from tire_pipeline.concealed.unnamed.baselines import ON_RESIDUAL
 from tire_pipeline.concealed.unnamed.cases import OpenCase, draw_open_case
 from tire_pipeline.concealed.unnamed.judge import judged, oracle_of, removed, squared
-from tire_pipeline.concealed.unnamed.table import table
+from tire_pipeline.concealed.unnamed.open_world_table import table
 from tire_pipeline.mismatch import explain_mismatch
 
 SEEDS = {"tuning": 20261124, "sealed": 20261129}

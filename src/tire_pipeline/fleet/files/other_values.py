@@ -37,7 +37,7 @@ def other_values(
     tires : pandas.DataFrame
         n physical tires.
     coefficients : pandas.DataFrame
-        n rows of :func:`.fits.fit.fit_all`.
+        n rows of :func:`.manufacturer_fits.fit_sweeps.fit_all`.
     regime : Regime
     condition : pandas.DataFrame
         n rows with ``pressure``.

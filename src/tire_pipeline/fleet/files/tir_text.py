@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tire_pipeline.fleet.fits.formula import FITTED_ALIGNING, FITTED_LATERAL, FITTED_LONGITUDINAL
+from tire_pipeline.fleet.manufacturer_fits.formula import FITTED_ALIGNING, FITTED_LATERAL, FITTED_LONGITUDINAL
+from tire_pipeline.unit_definitions import DEGREE
 
 _COMBINED_X = "RBX1 RBX2 RCX1 REX1 REX2 RHX1".split()
 _COMBINED_Y = "RBY1 RBY2 RBY3 RCY1 REY1 REY2 RHY1 RHY2 RVY1 RVY2 RVY3 RVY4 RVY5 RVY6".split()
@@ -210,7 +211,7 @@ class Template:
         if key in _PER_LENGTH and self.style.millimetres:
             return f"{value / 1000.0:.10g}"
         if key in _ANGLES and self.style.degrees:
-            return f"{value * 57.29577951308232:.8g}"
+            return f"{value / DEGREE:.8g}"
         if key in _PRESSURES and self.style.bar:
             return f"{value / 1e5:.8g}"
         return self.style.number % value if key in _COEFFICIENTS else f"{value:.8g}"

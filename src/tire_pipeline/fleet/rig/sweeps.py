@@ -100,7 +100,7 @@ def measure_lateral(
     Parameters
     ----------
     tires : pandas.DataFrame
-        n tires, parameters already blended by :func:`.tires.thermal_parameters`.
+        n tires, parameters already blended by :func:`.tire_population.thermal_parameters`.
     condition : pandas.DataFrame
         n rows with ``pressure`` (over nominal) and ``wear``.
     regime : Regime

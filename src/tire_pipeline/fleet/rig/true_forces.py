@@ -74,7 +74,7 @@ def in_contact(tires: pd.DataFrame, contact: Contact) -> TrueTires:
     Parameters
     ----------
     tires : pandas.DataFrame
-        n rows of :func:`.tires.draw_tires`.
+        n rows of :func:`.tire_population.draw_tires`.
     contact : Contact
         Arrays that broadcast to (n, cases).
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tire_pipeline.errors import TirValueError, TirVersionError
 from tire_pipeline.magic_formula.parameters.coefficients import NAMES_BY_FAMILY, family_of, is_possible
-from tire_pipeline.magic_formula.parameters.tire import Tire, TireParameters
+from tire_pipeline.magic_formula.parameters.tire_parameters import Tire, TireParameters
 
 _CAMBER_Y = {"PDY3": 2, "PEY4": 1, "PKY3": 1, "PHY3": 1, "PVY3": 1, "PVY4": 1}
 _CAMBER_Z = {"QBZ4": 1, "QBZ5": 1, "QDZ3": 1, "QDZ4": 2, "QDZ8": 1, "QDZ9": 1, "QEZ5": 1}

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.errors import TirValueError
-from tire_pipeline.magic_formula.parameters.tire import Tire
+from tire_pipeline.magic_formula.parameters.tire_parameters import Tire
 
 POLYNOMIALS: tuple[tuple[str, ...], ...] = (
     ("PDX1", "PDX2"),

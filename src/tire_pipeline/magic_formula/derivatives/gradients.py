@@ -41,7 +41,8 @@ def gradients_of(family: int) -> ModuleType:
     Notes
     -----
     The file bears :func:`.derive.source_stamp` in its name, so code of other equations is never taken for
-    these. It is put in place whole: processes that start at once write the same.
+    these. It is put in place whole: processes that start at once write the same. Each process deletes code of
+    other equations that is over a day old, and what killed processes left half written.
     """
     name = f"gradients_{family}_{source_stamp()}"
     for folder in cache_folders():
@@ -49,7 +50,7 @@ def gradients_of(family: int) -> ModuleType:
             path = folder / f"{name}.py"
             if not path.is_file():
                 _put(path, module_source(family))
-                _delete_old(folder, family, name)
+            _delete_old(folder, family, name)
             return _imported(name, path)
     return _in_memory(name, module_source(family))
 
@@ -84,7 +85,7 @@ def _put(path: Path, text: str) -> None:
 
 
 def _delete_old(folder: Path, family: int, name: str) -> None:
-    for pattern in (f"gradients_{family}_*", f"__pycache__/gradients_{family}_*"):
+    for pattern in (f"gradients_{family}_*", f"__pycache__/gradients_{family}_*", ".*.part"):
         for path in folder.glob(pattern):
             with contextlib.suppress(OSError):
                 if not path.name.startswith(name) and time.time() - path.stat().st_mtime > _OLD:

@@ -17,7 +17,7 @@ from tire_pipeline.magic_formula.equations.shapes import clamp
 from tire_pipeline.magic_formula.parameters.coefficients import INDEX, Coefficients
 from tire_pipeline.magic_formula.parameters.inputs import as_float_arrays
 from tire_pipeline.magic_formula.parameters.points import OperatingPoints, refuse_turn_slip
-from tire_pipeline.magic_formula.parameters.tire import TireParameters
+from tire_pipeline.magic_formula.parameters.tire_parameters import TireParameters
 
 _POINTS_AT_ONCE = 4096
 

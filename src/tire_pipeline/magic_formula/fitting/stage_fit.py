@@ -17,7 +17,7 @@ from tire_pipeline.magic_formula.fitting.least_squares.search import (
 )
 from tire_pipeline.magic_formula.fitting.least_squares.solve import Bounds, Problem
 from tire_pipeline.magic_formula.fitting.setup.coverage import noise_alone, open_coefficients
-from tire_pipeline.magic_formula.fitting.setup.stages import Stage
+from tire_pipeline.magic_formula.fitting.setup.stage_definitions import Stage
 from tire_pipeline.magic_formula.fitting.setup.starts import (
     bounds_of,
     first_values,

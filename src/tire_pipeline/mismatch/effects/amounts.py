@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 
+from tire_pipeline.unit_definitions import DEGREE
+
 _AMOUNTS = {
     "1": (100.0, "%"),
-    "rad": (57.29578, "deg"),
+    "rad": (1.0 / DEGREE, "deg"),
     "s": (1e3, "ms"),
-    "rad/N": (57.29578e3, "deg/kN"),
+    "rad/N": (1e3 / DEGREE, "deg/kN"),
     "rad/rad": (1.0, "deg/deg"),
 }
 

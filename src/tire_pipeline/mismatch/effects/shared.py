@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 try:
@@ -12,6 +14,9 @@ except ImportError:  # pragma: no cover - numba is a dependency; this keeps the 
         """Leave the function as it is."""
         return lambda function: function
 
+
+ASSUMED_RADIUS = 0.32
+"""Unloaded radius, m, of a tire whose file states none."""
 
 GAINS = (-0.8, 2.0)
 """Least and largest gain that a force channel may be wrong by."""
@@ -127,3 +132,24 @@ def delayed(time: np.ndarray, signal: np.ndarray, delay: float, start: np.ndarra
 def safe_log1p(x: np.ndarray | float) -> np.ndarray | float:
     """Return ``log(1 + x)`` with ``1 + x`` kept above 0.05."""
     return np.log(np.maximum(1.0 + np.asarray(x), 0.05))
+
+
+def relaxation_lengths(tire: Any) -> dict[str, float]:
+    """Return the relaxation lengths of a tire model at its nominal load, by the model's own formula.
+
+    Parameters
+    ----------
+    tire : TireModel
+
+    Returns
+    -------
+    dict
+        ``slip_angle`` and ``slip_ratio`` -> m; with ``ASSUMED_RADIUS`` where the model has no radius.
+    """
+    c = tire.coefficients
+    radius = c.get("UNLOADED_RADIUS", ASSUMED_RADIUS)
+    outputs = {"slip_angle": "relaxation_lateral", "slip_ratio": "relaxation_longitudinal"}
+    found = tire.replace(UNLOADED_RADIUS=radius).forces(
+        normal_load=c["FNOMIN"], limits="ignore", outputs=tuple(outputs.values())
+    )
+    return {slip: float(getattr(found, output)) for slip, output in outputs.items()}

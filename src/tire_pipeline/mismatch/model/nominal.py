@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
+from tire_pipeline.mismatch.effects.shared import ASSUMED_RADIUS
 from tire_pipeline.mismatch.model.channels import RecordedChannels
 from tire_pipeline.mismatch.model.forces import plain_forces
 
@@ -24,7 +25,7 @@ class NominalConditions(RecordedChannels):
     @cached_property
     def radius(self) -> float:
         """Unloaded radius, m."""
-        return float(self.tire.coefficients.get("UNLOADED_RADIUS", 0.32))
+        return float(self.tire.coefficients.get("UNLOADED_RADIUS", ASSUMED_RADIUS))
 
     def load_excess(self, load: Array) -> Array:
         """Return ``(Fz - Fz0) / Fz0``, which fades outside of the loads that the effects were fitted to.

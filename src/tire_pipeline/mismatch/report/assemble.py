@@ -21,6 +21,7 @@ from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.channels import one_sided
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.model.residual import residual, rms
+from tire_pipeline.mismatch.preparation.prepare import Prepared
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.left_out import each_left_out, shares_left
 from tire_pipeline.mismatch.proof.locate import everywhere, locate, when, where
@@ -29,7 +30,6 @@ from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.proof.noise_floor import noise_floors
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
-from tire_pipeline.mismatch.recording.prepare import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.result import MismatchReport

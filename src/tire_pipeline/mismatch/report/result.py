@@ -183,7 +183,7 @@ class MismatchReport(ReportContents):
         -------
         Path
         """
-        from tire_pipeline.mismatch.report.page import render
+        from tire_pipeline.mismatch.report.report_page import render
 
         path = Path(path)
         path.write_text(render(self, pages=pages), encoding="utf-8")

@@ -9,9 +9,9 @@ import numpy as np
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.preparation.open_questions import Question
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
-from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit
 from tire_pipeline.mismatch.report.equation_words import of_equation, on_unnamed
 from tire_pipeline.mismatch.report.head import Head
@@ -27,7 +27,7 @@ _HARDLY = 0.2
 anything of it."""
 
 _TRY_IT = "Next, test the corrected model on a recording that took no part before you use it."
-_RECORD_ANEW = "Next, correct the recording at its source and explain it again."
+_RECORD_AGAIN = "Next, correct the recording at its source and explain it again."
 _UNDECIDED = (
     "undecided: no cause stands out, and I can't tell a coarse fit or rig from a cause that this recording "
     "does not show"
@@ -309,7 +309,7 @@ def _next(effects: Sequence[EffectReport], experiment: str) -> str:
         return f"Next, {in_words(f'{experiment[:1].lower()}{experiment[1:]}')}"
     if not effects:
         return ""
-    return _TRY_IT if any(e.kind == "physics" for e in effects) else _RECORD_ANEW
+    return _TRY_IT if any(e.kind == "physics" for e in effects) else _RECORD_AGAIN
 
 
 def _to_both_sides(

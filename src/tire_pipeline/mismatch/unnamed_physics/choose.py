@@ -81,7 +81,7 @@ def choose(columns: Columns, kept: Array = EVERYTHING, *, refine: bool = True) -
     span = (float(time[0]), float(time[-1])) if time[-1] > time[0] else (0.0, 1.0)
     first = single_terms(problem.moves, problem.outputs, span) + _rolling(columns, kept)
     ranked = _screened(columns, first, problem.inflation, kept)
-    inflation = _calmer(columns, ranked)
+    inflation = _inflation_beside_the_best(columns, ranked)
     found = [ranked]
     factors = now_factors(problem.moves)
     for _ in range(2):
@@ -105,7 +105,7 @@ def _screened(columns: Columns, terms: Sequence[Term], inflation: float, kept: A
     return [(float(score[i]), live[i]) for i in np.argsort(-score)]
 
 
-def _calmer(columns: Columns, ranked: Ranked) -> float:
+def _inflation_beside_the_best(columns: Columns, ranked: Ranked) -> float:
     """The inflation of what the best terms leave: what is unexplained must not pass for coloured noise."""
     problem = columns.problem
     if problem.settled:

@@ -6,7 +6,7 @@ from tire_pipeline.cluster import given_map
 from tire_pipeline.pipelines.dedupe_filter import create_pipeline as dedupe_filter
 from tire_pipeline.pipelines.normalize import create_pipeline as normalize
 from tire_pipeline.reporting.retraining_page import build_retraining_report
-from tire_pipeline.retraining.candidate import (
+from tire_pipeline.retraining.train_and_release import (
     compare,
     decide,
     hold_out,

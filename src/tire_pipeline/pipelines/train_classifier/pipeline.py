@@ -2,7 +2,7 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.classifiers.scores import join_scores, score_classifiers, train_forest
+from tire_pipeline.classifiers.score_on_splits import join_scores, score_classifiers, train_forest
 from tire_pipeline.cluster import given_map
 from tire_pipeline.reporting.training_figures import confusion_figure
 

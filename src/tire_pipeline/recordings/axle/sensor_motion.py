@@ -98,10 +98,10 @@ def _lateral_speed(
             value = smoother.smooth(speed * np.tan(raw))
             return value, std * np.abs(speed), "lateral speed from the recorded sideslip"
     dt = smoother.dt
-    calm = np.abs(smoother.smooth(rate)) < _STRAIGHT_YAW_RATE
-    calm &= np.abs(smoother.smooth(ay)) < _STRAIGHT_ACCELERATION
+    steady = np.abs(smoother.smooth(rate)) < _STRAIGHT_YAW_RATE
+    steady &= np.abs(smoother.smooth(ay)) < _STRAIGHT_ACCELERATION
     width = max(1, round(_STRAIGHT_SECONDS / dt))
-    straight = np.convolve(calm, np.ones(width), "same") >= width - 0.5
+    straight = np.convolve(steady, np.ones(width), "same") >= width - 0.5
     if not straight.any():
         raise RecordingError(
             "no stretch of straight running, so the lateral speed cannot be integrated",

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.axis_systems import to_iso_w
-from tire_pipeline.recordings.conventions.channels import CANONICAL, Channel, find_channel
+from tire_pipeline.recordings.conventions.channel_names import CANONICAL, Channel, find_channel
 from tire_pipeline.recordings.conventions.units import find_unit
 
 _SI = {c.name: c.unit for c in CANONICAL}

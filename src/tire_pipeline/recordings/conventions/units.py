@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from tire_pipeline.unit_definitions import FOOT, GRAVITY, INCH, MILE, POUND_FORCE, PSI
-
-_DEG = math.pi / 180
+from tire_pipeline.unit_definitions import DEGREE, FOOT, GRAVITY, INCH, MILE, POUND_FORCE, PSI
 
 
 @dataclass(frozen=True)
@@ -32,7 +30,7 @@ UNITS_BY_NAME: dict[str, Unit] = {
     **_same("time", 60, "min", "minute", "minutes"),
     **_same("angle", 1, "rad", "radian", "radians"),
     **_same("angle", 1e-3, "mrad"),
-    **_same("angle", _DEG, "deg", "degree", "degrees", "°", "grad_deg"),
+    **_same("angle", DEGREE, "deg", "degree", "degrees", "°", "grad_deg"),
     **_same("force", 1, "n", "newton", "newtons"),
     **_same("force", 1e3, "kn"),
     **_same("force", 10, "dan"),
@@ -67,7 +65,7 @@ UNITS_BY_NAME: dict[str, Unit] = {
     **_same("length", INCH, "in", "inch", "inches", '"'),
     **_same("length", FOOT, "ft"),
     **_same("rate", 1, "rad/s", "1/s_rad"),
-    **_same("rate", _DEG, "deg/s", "°/s"),
+    **_same("rate", DEGREE, "deg/s", "°/s"),
     **_same("rate", 2 * math.pi / 60, "rpm", "1/min", "u/min", "rev/min"),
     **_same("rate", 2 * math.pi, "1/s", "rev/s", "hz"),
     **_same("acceleration", 1, "m/s2", "m/s**2"),

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.canonical import RawChannel, RawRecording
-from tire_pipeline.recordings.conventions.channels import find_channel
-from tire_pipeline.recordings.conventions.names import split_unit
+from tire_pipeline.recordings.conventions.channel_names import find_channel
 from tire_pipeline.recordings.conventions.units import find_unit
+from tire_pipeline.recordings.conventions.units_in_names import split_unit
 
 _HEAD_BYTES = (1 << 16, 1 << 20, 1 << 24)  # the next where no row of numbers is whole in the one before
 _MOST_PREAMBLE = 200

@@ -9,8 +9,8 @@ import scipy
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.canonical import RawChannel, RawRecording
-from tire_pipeline.recordings.conventions.channels import find_channel
-from tire_pipeline.recordings.conventions.names import split_unit
+from tire_pipeline.recordings.conventions.channel_names import find_channel
+from tire_pipeline.recordings.conventions.units_in_names import split_unit
 from tire_pipeline.recordings.readers.limits import check_expansion
 from tire_pipeline.recordings.readers.mat_elements import check_elements
 

@@ -10,7 +10,7 @@ from tire_pipeline.classifiers.open_set import LEAST_PROBABILITY, LEAST_TYPICALI
 from tire_pipeline.progress import track
 from tire_pipeline.reporting import Table
 from tire_pipeline.reporting.translation.drawn_files import DrawnFiles
-from tire_pipeline.reporting.translation.translated import translated_page
+from tire_pipeline.reporting.translation.translated_files_page import translated_page
 from tire_pipeline.translation.parameters import TranslateParameters
 from tire_pipeline.translation.result import EDGE, REFUSED, TRANSLATED, UNKNOWN
 from tire_pipeline.translation.translated_block import curves_in, has_tables, table_in

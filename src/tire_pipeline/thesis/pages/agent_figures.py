@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.reporting import colour_of, new_figure
-from tire_pipeline.thesis.results import Results, in_words
+from tire_pipeline.thesis.result_tables import Results, in_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as MplFigure

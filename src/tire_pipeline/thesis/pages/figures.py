@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.classifiers.scores import SPLITS
+from tire_pipeline.classifiers.score_on_splits import SPLITS
 from tire_pipeline.progress import track
 from tire_pipeline.reporting import MARKERS, colour_of, new_figure
 from tire_pipeline.thesis.pages.agent_figures import AGENT_FIGURES
-from tire_pipeline.thesis.results import Results, in_words
+from tire_pipeline.thesis.result_tables import Results, in_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as MplFigure

@@ -12,7 +12,7 @@ from tire_pipeline.reporting import Figure, Table, Text
 from tire_pipeline.thesis.pages.figures import BIN_FIGURES, CLASSIFIER_FIGURES, SPLITS
 from tire_pipeline.thesis.pages.words import least_within, listed, number, plus_minus, points
 from tire_pipeline.thesis.published import published_figure, published_table
-from tire_pipeline.thesis.results import Results, in_words, over_trainings
+from tire_pipeline.thesis.result_tables import Results, in_words, over_trainings
 
 Part = Text | Table | Figure
 CONDITION_COLUMNS = {

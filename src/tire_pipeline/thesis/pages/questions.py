@@ -8,7 +8,7 @@ import pandas as pd
 from tire_pipeline.reporting import Text
 from tire_pipeline.thesis.pages.page_agents import rising
 from tire_pipeline.thesis.pages.words import listed, number, rank_agreement
-from tire_pipeline.thesis.results import BETTER, CELL, Results, in_words, over_seeds, over_trainings
+from tire_pipeline.thesis.result_tables import BETTER, CELL, Results, in_words, over_seeds, over_trainings
 
 QUESTIONS = (
     "RQ1: Can supervised learning be used to classify tire property files?",

@@ -8,11 +8,10 @@ same, and the MF-Tyre manual asks for SI units throughout.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 
 from tire_pipeline.errors import TirValueError
-from tire_pipeline.unit_definitions import FOOT, GRAVITY, INCH, MILE, POUND, POUND_FORCE, PSI
+from tire_pipeline.unit_definitions import DEGREE, FOOT, GRAVITY, INCH, MILE, POUND, POUND_FORCE, PSI
 
 _NAMES: dict[str, dict[float, str]] = {
     "LENGTH": {
@@ -36,7 +35,7 @@ _NAMES: dict[str, dict[float, str]] = {
     },
     "ANGLE": {
         1.0: "RAD RADIAN RADIANS",
-        math.pi / 180: "DEG DEGREE DEGREES",
+        DEGREE: "DEG DEGREE DEGREES",
     },
     "MASS": {
         1.0: "KG KILOGRAM KILOGRAMS KILO",

@@ -9,7 +9,7 @@ import pandas as pd
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.translation.curves.space import PARTS
-from tire_pipeline.translation.population.fit import PreparedTraining, fit_curve_mixed_model, prepare
+from tire_pipeline.translation.population.fit_model import PreparedTraining, fit_curve_mixed_model, prepare
 from tire_pipeline.translation.population.mixed_effects import Design, posterior_weights
 from tire_pipeline.translation.population.model import CurveMixedModel
 from tire_pipeline.translation.population.update import TaughtCells, learn_from
@@ -39,7 +39,7 @@ def leave_one_tire_out(
     model : CurveMixedModel, optional
         Already fitted to ``training`` with the same ``pairs``: saves fitting it again.
     made : PreparedTraining, optional
-        What :func:`.population.fit.prepare` gave for the same.
+        What :func:`.population.fit_model.prepare` gave for the same.
     batch : DataFrame, optional
         Source files that are to be translated, and teach as in :mod:`.predict.batch`: tells whether to
         let them. Files of tires that are in ``training`` do not.

@@ -22,6 +22,7 @@ from tire_pipeline.translation.judge.gain import MOST_HARM, expected_gain, poole
 from tire_pipeline.translation.judge.reach import TrainingReach
 from tire_pipeline.translation.judge.words import describe_bias
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
+from tire_pipeline.translation.predict.shrinkage import shortened
 from tire_pipeline.translation.result import LEFT_ALONE, REFUSED, TRANSLATED, UNBIASED, UNKNOWN
 
 FARTHEST_DISTANCE = 3.0
@@ -67,13 +68,26 @@ class VerdictRules:
         cls,
         model: CurveMixedModel,
         training: pd.DataFrame,
-        found: Prediction,
         target: str,
         *,
+        trust: float,
         gate: bool,
         farthest: float,
     ) -> Self:
-        """Learn from the training files and their prediction ``found``."""
+        """Learn from the training files as the mixed model predicts them, whatever predicts the sources.
+
+        Parameters
+        ----------
+        model : CurveMixedModel
+        training : DataFrame
+            Tire table with ``category``.
+        target : str
+        trust : float
+            How far what is a file's own is drawn towards the expectation for such a tire.
+        gate, farthest
+            As in the class.
+        """
+        found = shortened(model, model.predict(training, target, trust=trust))
         harm = expected_gain(model, found)[1]
         category = training["category"].to_numpy(dtype=str)
         pooled = pooled_harm(harm, category, model.categories, target)

@@ -19,12 +19,12 @@ import pandas as pd
 
 from tire_pipeline.row_products import by_row
 from tire_pipeline.translation.curves.space import CurveSpace
-from tire_pipeline.translation.metadata import Metadata
 from tire_pipeline.translation.population.classes.search import with_classes
 from tire_pipeline.translation.population.classes.search_input import per_tire
 from tire_pipeline.translation.population.classes.tire_classes import TireClasses
 from tire_pipeline.translation.population.fit_links import FitLinks, linked_blocks
 from tire_pipeline.translation.population.kinds import TireKinds, with_kinds
+from tire_pipeline.translation.population.metadata import Metadata
 from tire_pipeline.translation.population.mixed_effects import Fitted
 from tire_pipeline.translation.population.protocols.of_files import NO_PROTOCOL_CHANGE, Protocols
 from tire_pipeline.translation.population.score_prediction import CategoryReading, predict_block
@@ -138,7 +138,7 @@ class CurveMixedModel:
     def own_scores(self, source: np.ndarray, place: np.ndarray, here: list[np.ndarray]) -> list[np.ndarray]:
         """What is a tire's own in the scores of its kind, for each class (n, q), from its scores (n, p).
 
-        Where the category's spread is 1, as in :func:`.fit.prepare`: it is the tire's, whoever
+        Where the category's spread is 1, as in :func:`.fit_model.prepare`: it is the tire's, whoever
         measures.
         """
         if self.kinds is None:

@@ -18,7 +18,7 @@ import pandas as pd
 
 from tire_pipeline.translation.population.category_spread import FREEDOM
 from tire_pipeline.translation.population.classes.search_input import per_tire
-from tire_pipeline.translation.population.fit import PreparedTraining, own_and_links
+from tire_pipeline.translation.population.fit_model import PreparedTraining, own_and_links
 from tire_pipeline.translation.population.mixed_effects import Fitted
 from tire_pipeline.translation.population.model import CurveMixedModel
 

@@ -9,7 +9,7 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.population.fit import PreparedTraining
+from tire_pipeline.translation.population.fit_model import PreparedTraining
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.population.update import TaughtCells, learn_from
 from tire_pipeline.translation.predict.base import Predictor

@@ -30,11 +30,8 @@ class MixedPredictor:
 
     def predict(self, model: CurveMixedModel, source: pd.DataFrame, target: str) -> Prediction:
         """Predict what the target would measure of n source files."""
-        return without_failed_fits(model, self.shortened(model, source, target))
-
-    def shortened(self, model: CurveMixedModel, source: pd.DataFrame, target: str) -> Prediction:
-        """Predict with uncertain moves shortened, failed fits as they are."""
-        return shortened(model, model.predict(source, target, trust=self.trust))
+        found = shortened(model, model.predict(source, target, trust=self.trust))
+        return without_failed_fits(model, found)
 
     def to_state(self) -> dict[str, Any]:
         """Return the option."""

@@ -107,7 +107,7 @@ class PolicyPredictor:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave; it moves alike, and trains anew."""
+        """Bring back what :meth:`to_state` gave; it moves alike, and can be trained again."""
         layers = tuple(np.asarray(state[f"policy_{k}"]) for k in range(4))
         return cls(int(state["option_updates"]), str(state["translator"]) == "curious_agent", layers)
 

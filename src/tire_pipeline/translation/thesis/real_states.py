@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.representations.base import CURVE_LOADS, Representation
-from tire_pipeline.tire_table.bins import Binning
+from tire_pipeline.tire_table.binning import Binning
 
 
 def real_states(representation: Representation, bins: Binning) -> tuple[np.ndarray, np.ndarray]:

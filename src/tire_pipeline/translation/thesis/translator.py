@@ -17,7 +17,7 @@ from tire_pipeline.representations import (
     make_representation,
     representation_from_state,
 )
-from tire_pipeline.tire_table.bins import Binning
+from tire_pipeline.tire_table.binning import Binning
 from tire_pipeline.translation.base import check_target
 from tire_pipeline.translation.result import TranslationResult, without_estimate
 from tire_pipeline.translation.thesis.policy import GreedyPolicy

@@ -10,7 +10,7 @@ import pandas as pd
 from tire_pipeline.channels import MOMENT_CHANNELS, SHOWN_UNITS, SLIP_OF_FORCE, axis_label
 from tire_pipeline.errors import DomainError
 from tire_pipeline.magic_formula.fitting.report.statistics import LOAD_STEP
-from tire_pipeline.magic_formula.fitting.setup.stages import PURE_SLIP_ANGLE, PURE_SLIP_RATIO
+from tire_pipeline.magic_formula.fitting.setup.stage_definitions import PURE_SLIP_ANGLE, PURE_SLIP_RATIO
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS, OperatingPoints
 from tire_pipeline.pages.drawing import colour_of, new_figure

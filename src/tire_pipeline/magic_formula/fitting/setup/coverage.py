@@ -6,7 +6,16 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from tire_pipeline.magic_formula.fitting.setup import stages
+from tire_pipeline.magic_formula.fitting.setup.stage_definitions import (
+    BY_PRESSURE,
+    BY_SPEED,
+    CAMBER,
+    CAMBER_AND_LOAD,
+    LOAD,
+    LOAD_SQUARED,
+    ONE_SIDED_RATIO,
+    ONE_SIDED_SLIP,
+)
 
 MIN_LOAD_SPREAD = 0.15
 """Spread of loads, over the nominal one, from which they count as different: a flat belt that holds one load
@@ -46,26 +55,30 @@ def open_coefficients(
     tilted = np.abs(camber) > MIN_CAMBER
     loads_differ = _spread(load) > share * MIN_LOAD_SPREAD * nominal_load
     rules = [
-        (not tilted.any(), NO_CAMBER, stages.CAMBER | stages.CAMBER_AND_LOAD),
-        (not loads_differ, "one load only", stages.LOAD | stages.LOAD_SQUARED | stages.CAMBER_AND_LOAD),
-        (_levels(load, nominal_load) < 3, "fewer than three loads", stages.LOAD_SQUARED),
+        (not tilted.any(), NO_CAMBER, CAMBER | CAMBER_AND_LOAD),
+        (
+            not loads_differ,
+            "one load only",
+            LOAD | LOAD_SQUARED | CAMBER_AND_LOAD,
+        ),
+        (_levels(load, nominal_load) < 3, "fewer than three loads", LOAD_SQUARED),
         (
             tilted.any() and _spread(load[tilted]) <= share * MIN_LOAD_SPREAD * nominal_load,
             "one load only at camber",
-            stages.CAMBER_AND_LOAD,
+            CAMBER_AND_LOAD,
         ),
-        (_one_sided(points["slip_angle"]), "slip angles of one sign only", stages.ONE_SIDED_SLIP),
-        (_one_sided(points["slip_ratio"]), "slip ratios of one sign only", stages.ONE_SIDED_RATIO),
+        (_one_sided(points["slip_angle"]), "slip angles of one sign only", ONE_SIDED_SLIP),
+        (_one_sided(points["slip_ratio"]), "slip ratios of one sign only", ONE_SIDED_RATIO),
         (
             _spread(points["pressure"])
             <= share * MIN_PRESSURE_SPREAD * max(np.median(points["pressure"]), 1.0),
             "one pressure only",
-            stages.BY_PRESSURE,
+            BY_PRESSURE,
         ),
         (
             _spread(points["speed"]) <= share * MIN_SPEED_SPREAD * max(np.median(points["speed"]), 1.0),
             "one speed only",
-            stages.BY_SPEED,
+            BY_SPEED,
         ),
     ]
     found: dict[str, list[str]] = {}

@@ -9,8 +9,11 @@ import pandas as pd
 
 from tire_pipeline.channels import FORCE_CHANNELS
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.magic_formula.fitting.setup import stages
-from tire_pipeline.magic_formula.fitting.setup.stages import Stage
+from tire_pipeline.magic_formula.fitting.setup.stage_definitions import (
+    PURE_SLIP_ANGLE,
+    PURE_SLIP_RATIO,
+    Stage,
+)
 from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.coefficients import family_of
 from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
@@ -119,8 +122,8 @@ def choose(stage: Stage, points: Mapping[str, np.ndarray], measured: np.ndarray)
 
 def pure(points: Mapping[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """Which points roll freely, and which have no slip angle."""
-    rolling = np.abs(points["slip_ratio"]) <= stages.PURE_SLIP_RATIO
-    return rolling, np.abs(points["slip_angle"]) <= stages.PURE_SLIP_ANGLE
+    rolling = np.abs(points["slip_ratio"]) <= PURE_SLIP_RATIO
+    return rolling, np.abs(points["slip_angle"]) <= PURE_SLIP_ANGLE
 
 
 def braking_alone(points: Mapping[str, np.ndarray], fy: np.ndarray, most: int) -> np.ndarray:

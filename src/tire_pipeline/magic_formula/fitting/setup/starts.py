@@ -8,7 +8,7 @@ import numpy as np
 from numpy.random import Generator
 
 from tire_pipeline.channels import SLIP_OF_FORCE, TANGENTIAL_FORCES
-from tire_pipeline.magic_formula.fitting.setup.stages import BOUNDS, PRESSURE_BOUNDS, Stage
+from tire_pipeline.magic_formula.fitting.setup.stage_definitions import BOUNDS, PRESSURE_BOUNDS, Stage
 from tire_pipeline.magic_formula.model import TireModel
 
 _NO_SLIP = 1e-6

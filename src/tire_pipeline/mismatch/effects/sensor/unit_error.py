@@ -9,13 +9,12 @@ import numpy as np
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.repairs import Simulate, best_repair
 from tire_pipeline.recordings.check import LARGEST_PLAUSIBLE, in_another_unit
-from tire_pipeline.unit_definitions import GRAVITY, POUND_FORCE, PSI
+from tire_pipeline.unit_definitions import DEGREE, GRAVITY, POUND_FORCE, PSI
 
-_DEG = 180.0 / np.pi
 _FORCE_FACTORS = {POUND_FORCE: "pound-force for newton", 1e3: "kN for N", GRAVITY: "kgf for N"}
 _FACTORS_BY_CHANNEL: dict[str, dict[float, str]] = {
-    "slip_angle": {_DEG: "degree for radian"},
-    "camber": {_DEG: "degree for radian"},
+    "slip_angle": {1.0 / DEGREE: "degree for radian"},
+    "camber": {1.0 / DEGREE: "degree for radian"},
     "slip_ratio": {100.0: "percent for 1"},
     "normal_load": _FORCE_FACTORS,
     "fx": _FORCE_FACTORS,
@@ -115,7 +114,7 @@ def _pressure(channels: Mapping[str, Array]) -> list[Finding]:
     ]
 
 
-_OF_UNIT = {"deg": _DEG, "%": 100.0}
+_OF_UNIT = {"deg": 1.0 / DEGREE, "%": 100.0}
 
 
 def _impossible(channels: Mapping[str, Array]) -> list[Finding]:

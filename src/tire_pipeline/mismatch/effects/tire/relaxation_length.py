@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
-from tire_pipeline.mismatch.effects.shared import first_order
+from tire_pipeline.mismatch.effects.shared import first_order, relaxation_lengths
 
 _IN_RADII = (0.1, 4.0)
 """Length over the unloaded radius that a tire can have: about 0.5 to 3 for the lateral force, less along."""
@@ -82,13 +82,14 @@ class RelaxationLength(Effect):
 
         Nothing where the length was found to change with load.
         """
-        c = tire.coefficients  # type: ignore[attr-defined]
         if str(getattr(tire, "version", "5.2")).startswith("6") or p["load"]:
             return {}
-        radius = c.get("UNLOADED_RADIUS", 0.3)
-        at_nominal = float(np.sin(2.0 * np.arctan(0.5)))
-        return {
-            "PTY1": p["length"] / (radius * at_nominal),
-            "PTY2": 2.0,
-            "PTX1": p["along"] * p["length"] / radius,
-        }
+        zero, unit = (
+            relaxation_lengths(tire.replace(PTY1=one, PTY2=2.0, PTX1=one))  # type: ignore[attr-defined]
+            for one in (0.0, 1.0)
+        )
+        across, along = (unit[slip] - zero[slip] for slip in ("slip_angle", "slip_ratio"))
+        if not (across > 0.0 and along > 0.0):  # a scale factor of 0: no coefficient helps
+            return {}
+        sought = p["along"] * p["length"]
+        return {"PTY1": p["length"] / across, "PTY2": 2.0, "PTX1": (sought - zero["slip_ratio"]) / along}

@@ -83,12 +83,12 @@ def find_classes(question: ClassSearchInput, seed: int = 0) -> tuple[TireClasses
     count = best.probability.shape[1]
     if count == 1:
         return None, np.ones((len(question.response), 1))
-    best = _laid_anew(question, best)
+    best = _laid_again(question, best)
     usual = best.probability.mean(axis=0)
     return TireClasses(question.scores, best.shares, usual, best.own), best.probability
 
 
-def _laid_anew(question: ClassSearchInput, state: ClassState) -> ClassState:
+def _laid_again(question: ClassSearchInput, state: ClassState) -> ClassState:
     """Forget, one category after the other, which tires are of which class, and climb again."""
     organisation = question.design.blocks["category"].argmax(axis=1)
     for category in track(np.unique(organisation), "sorting the tires of each organisation again"):

@@ -8,8 +8,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.progress import track
-from tire_pipeline.translation.curves.space import PARTS, Cells, CurveSpace, fit_curve_space
-from tire_pipeline.translation.metadata import Metadata
+from tire_pipeline.translation.curves.space import PARTS, CurveSpace
 from tire_pipeline.translation.population.category_spread import (
     FEWEST_SHARED,
     Residuals,
@@ -20,7 +19,9 @@ from tire_pipeline.translation.population.classes.search import find_classes, wi
 from tire_pipeline.translation.population.classes.search_input import ClassSearchInput
 from tire_pipeline.translation.population.classes.tire_classes import TireClasses
 from tire_pipeline.translation.population.fit_links import Deviations, FitLinks, find_links, linked_blocks
+from tire_pipeline.translation.population.fit_space import Cells, fit_curve_space
 from tire_pipeline.translation.population.kinds import TIRE_BLOCKS, TireKinds, tire_regressors, with_kinds
+from tire_pipeline.translation.population.metadata import Metadata
 from tire_pipeline.translation.population.mixed_effects import Design, Fitted, fit_mixed_effects
 from tire_pipeline.translation.population.model import CurveMixedModel, design_blocks
 from tire_pipeline.translation.population.protocols.of_files import NO_PROTOCOL_CHANGE, Protocols, days_of

@@ -12,14 +12,15 @@ import pandas as pd
 from tire_pipeline.channels import OPERATING_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.effects.base import Finding
+from tire_pipeline.mismatch.effects.shared import relaxation_lengths
 from tire_pipeline.mismatch.model.data import Data
-from tire_pipeline.mismatch.recording.cleaning import Cleaning, clean
-from tire_pipeline.mismatch.recording.exact import open_axes, repair
-from tire_pipeline.mismatch.recording.given import check_tire, numeric
-from tire_pipeline.mismatch.recording.identity import another_tire
-from tire_pipeline.mismatch.recording.open_questions import Question
-from tire_pipeline.mismatch.recording.surrogate import stand_in
-from tire_pipeline.mismatch.recording.usable import judge, leave_out_still_slip
+from tire_pipeline.mismatch.preparation.cleaning import Cleaning, clean
+from tire_pipeline.mismatch.preparation.exact import open_axes, repair
+from tire_pipeline.mismatch.preparation.given import check_tire, numeric
+from tire_pipeline.mismatch.preparation.identity import another_tire
+from tire_pipeline.mismatch.preparation.open_questions import Question
+from tire_pipeline.mismatch.preparation.surrogate import stand_in
+from tire_pipeline.mismatch.preparation.usable import judge, leave_out_still_slip
 from tire_pipeline.recordings.check import BRIDGED, LEAST_POINTS, LEAST_SAMPLES, LEAST_WHOLE
 
 Array = np.ndarray
@@ -364,10 +365,11 @@ def own_relaxation(tire: Any) -> dict[str, float] | None:
     """Return the relaxation lengths that the file itself states, m."""
     c = tire.coefficients
     missing = getattr(tire, "defaulted", {})
-    radius = c.get("UNLOADED_RADIUS", 0.3)
-    out = {}
+    stated = set()
     if c.get("PTY1", 0.0) > 0.0 and "PTY1" not in missing and c.get("PTY2", 0.0) > 0.0:
-        out["slip_angle"] = float(c["PTY1"] * np.sin(2.0 * np.arctan(1.0 / c["PTY2"])) * radius)
+        stated.add("slip_angle")
     if c.get("PTX1", 0.0) > 0.0 and "PTX1" not in missing:
-        out["slip_ratio"] = float(c["PTX1"] * radius)
-    return out or None
+        stated.add("slip_ratio")
+    if not stated:
+        return None
+    return {slip: length for slip, length in relaxation_lengths(tire).items() if slip in stated}

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.fleet.fits.formula import (
+from tire_pipeline.fleet.manufacturer_fits.formula import (
     FITTED_ALIGNING,
     FITTED_LATERAL,
     FITTED_LONGITUDINAL,
@@ -17,7 +17,7 @@ from tire_pipeline.fleet.fits.formula import (
     lateral,
     longitudinal,
 )
-from tire_pipeline.fleet.fits.habits import Habit, fit_setup, nominal_loads
+from tire_pipeline.fleet.manufacturer_fits.habits import Habit, fit_setup, nominal_loads
 from tire_pipeline.fleet.rig.sweeps import Sweeps
 from tire_pipeline.levenberg_marquardt import LeastSquares, solve
 from tire_pipeline.progress import track

@@ -9,7 +9,7 @@ from tire_pipeline.thesis.pages.page_agents import agent_parts
 from tire_pipeline.thesis.pages.page_classifiers import Part, classifier_parts
 from tire_pipeline.thesis.pages.questions import answers
 from tire_pipeline.thesis.pages.words import number
-from tire_pipeline.thesis.results import BETTER, Results, over_seeds, over_trainings
+from tire_pipeline.thesis.result_tables import BETTER, Results, over_seeds, over_trainings
 
 THESIS_FILES = 2061
 PAGES = (*HOME, ("report.html", "The translation, judged"))

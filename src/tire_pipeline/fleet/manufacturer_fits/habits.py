@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tire_pipeline.fleet.fits.formula import FITTED_ALIGNING, FITTED_LATERAL, FITTED_LONGITUDINAL
+from tire_pipeline.fleet.manufacturer_fits.formula import FITTED_ALIGNING, FITTED_LATERAL, FITTED_LONGITUDINAL
 
 # coefficient: start, expected spread (for the weak penalty), lower bound, upper bound
 _LATERAL_TABLE: dict[str, tuple[float, float, float, float]] = {

@@ -16,7 +16,7 @@ from tire_pipeline.mismatch.effects.base import Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.sign_convention import excludes_sae, turned
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, SLOW, moves
 from tire_pipeline.mismatch.model.forces import plain_forces
-from tire_pipeline.mismatch.recording.open_questions import Question
+from tire_pipeline.mismatch.preparation.open_questions import Question
 
 Array = np.ndarray
 
@@ -104,15 +104,15 @@ def open_axes(
     signs = [f for f in findings if f.axes and f.channel != "normal_load"]
     if signs:
         said = "; ".join(f.text for f in signs)
-        return Question(f"the recording agrees with the model only in other axes: {said}", _READ_ANEW)
+        return Question(f"the recording agrees with the model only in other axes: {said}", _READ_AGAIN)
     some = {n: a[:: max(1, a.size // 4000)] for n, a in arrays.items()}
     if against and not excludes_sae(some, partial(_run, tire)):
         both = "the forces do not tell whether slip_angle and fy have the other sign too"
-        return Question(f"{against}, and {both}", _READ_ANEW)
+        return Question(f"{against}, and {both}", _READ_AGAIN)
     return None
 
 
-_READ_ANEW = (
+_READ_AGAIN = (
     'read the file with axes="SAE" or axes="ISO", whichever holds, or turn the channel at its source, and '
     "explain again"
 )

@@ -10,8 +10,15 @@ from typing import Any
 
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.datasets.texts import text_objects
-from tire_pipeline.datasets.texts.text_objects import HEAD, MARKER, NEVER_DELETED, Content, as_bytes, parted
+from tire_pipeline.datasets.text_files import text_objects
+from tire_pipeline.datasets.text_files.text_objects import (
+    HEAD,
+    MARKER,
+    NEVER_DELETED,
+    Content,
+    as_bytes,
+    parted,
+)
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import replaced_folder
 from tire_pipeline.files.objects import Objects, is_remote

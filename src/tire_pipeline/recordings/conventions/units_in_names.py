@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from tire_pipeline.recordings.conventions.channels import find_channel
+from tire_pipeline.recordings.conventions.channel_names import find_channel
 from tire_pipeline.recordings.conventions.units import find_unit
 
 _BRACKETS = re.compile(r"^(.*?)\s*[\[(]([^\[\]()]*)[\])]\s*$")

@@ -12,12 +12,12 @@ import pandas as pd
 from threadpoolctl import threadpool_limits
 
 from tire_pipeline.magic_formula.equations.equations_61 import cornering_stiffness
-from tire_pipeline.magic_formula.fitting.joint import fit_together
+from tire_pipeline.magic_formula.fitting.output_fit import fit_together
 from tire_pipeline.magic_formula.fitting.report.result import FitResult
 from tire_pipeline.magic_formula.fitting.report.statistics import relative_rms, residual_table
 from tire_pipeline.magic_formula.fitting.report.verdict import PoorFitWarning, poor_outputs
 from tire_pipeline.magic_formula.fitting.setup import given
-from tire_pipeline.magic_formula.fitting.setup.stages import STAGES, Stage
+from tire_pipeline.magic_formula.fitting.setup.stage_definitions import STAGES, Stage
 from tire_pipeline.magic_formula.fitting.setup.typical import FEW_POINTS
 from tire_pipeline.magic_formula.fitting.stage_fit import Options, Outcome, fit_stage
 from tire_pipeline.magic_formula.model import TireModel

@@ -11,8 +11,8 @@ from kedro.io.core import AbstractDataset
 
 from tire_pipeline.cluster import work_map
 from tire_pipeline.datasets.storage.files_at import Files, files_at
-from tire_pipeline.datasets.texts.text_folder import inside
-from tire_pipeline.datasets.texts.text_objects import NEVER_DELETED
+from tire_pipeline.datasets.text_files.text_folder import inside
+from tire_pipeline.datasets.text_files.text_objects import NEVER_DELETED
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import Objects
 from tire_pipeline.tasks import LostTaskError

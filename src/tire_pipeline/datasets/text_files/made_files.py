@@ -7,7 +7,7 @@ from typing import Any, NoReturn
 
 from kedro.io.core import AbstractDataset
 
-from tire_pipeline.datasets.texts.text_folder import made_at
+from tire_pipeline.datasets.text_files.text_folder import made_at
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import is_remote
 
