@@ -47,20 +47,22 @@ def track(
 
 
 @contextmanager
-def under_way(what: str) -> Iterator[None]:
+def under_way(what: str, now_at: Callable[[], str] | None = None) -> Iterator[None]:
     """Show how long the block has taken, where nothing can be counted.
 
     Parameters
     ----------
     what : str
         What is being done, for the label.
+    now_at : callable, optional
+        Returns what of it is under way at the moment, for the label.
 
     Examples
     --------
     >>> with under_way("thinking"):
     ...     pass
     """
-    activity = Activity(what, counted=False)
+    activity = Activity(what, counted=False, now_at=now_at)
     DISPLAY.enter(activity)
     try:
         yield

@@ -14,6 +14,7 @@ from click.testing import CliRunner
 
 from tire_pipeline.command.cli import COMMANDS, tire
 from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.progress_display import DISPLAY
 from tire_pipeline.tir import read_tir, write_tir
 
 pytestmark = pytest.mark.slow
@@ -94,6 +95,23 @@ def test_python_m_runs_the_command(folder):
     call = [sys.executable, "-m", "tire_pipeline.command", "show", "a.tir", "--no-page"]
     done = subprocess.run(call, capture_output=True, text=True, check=True)
     assert "Magic Formula 5.2, nominal load 4 kN" in done.stdout
+
+
+@pytest.mark.parametrize(
+    "call", [("show", "a.tir"), ("compare", "a.tir", "b.tir"), ("convert", "a.tir", "--to", "6.1")]
+)
+def test_a_subcommand_that_lasts_shows_that_it_works(folder, monkeypatch, call):
+    write_tir(TireModel.from_coefficients(COEFFICIENTS).replace(PKY1=-20.0), "b.tir")
+    shown = []
+
+    def slowly(*arguments, **options):
+        shown.extend(activity.label() for activity in DISPLAY._active)
+        return read_tir(*arguments, **options)
+
+    monkeypatch.setattr("tire_pipeline.tir.read_tir", slowly)
+    run(*call, "--no-page")
+    assert shown[0] == f"tire ({call[0]})"
+    assert not DISPLAY._active
 
 
 def test_show_says_version_ranges_and_what_is_missing(folder):

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from functools import partial
+from unittest.mock import ANY
 
 import numpy as np
 import pandas as pd
 import pytest
 
+from tire_pipeline.datasets import ComputedFolderDataset, TextFolderDataset
 from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.row_products import by_row
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.translation import translated_folder
+from tire_pipeline.translation.chosen_files import choose_files
 from tire_pipeline.translation.parameters import TranslateParameters
 from tire_pipeline.translation.translated_block import TABLES, table_in, texts_in
 from tire_pipeline.translation.translated_folder import join_translated, translate_each
@@ -50,7 +53,7 @@ def _blocks(monkeypatch, size, translator, files, training):
 
 
 def _translated(blocks, translator):
-    files, report, *tables, _ = join_translated(blocks, translator.to_state())
+    files, report, *tables, _ = join_translated(blocks, translator.to_state(), TranslateParameters())
     frames = {"report": report}
     for name, loads in zip(("sources", "coefficients", "bands"), tables, strict=True):
         frame = pd.concat([part for part in (load() for load in loads) if len(part)], ignore_index=True)
@@ -116,12 +119,33 @@ class Same:
         return "as it was"
 
 
+def test_a_run_for_some_files_keeps_what_was_translated_of_the_others(mixed, files, training, tmp_path):
+    folder = TextFolderDataset(path=str(tmp_path / "translated"))
+    blocks = ComputedFolderDataset(path=str(tmp_path / "blocks"), one_after_another=True, only_the_last=True)
+    state = mixed.to_state()
+
+    def run(files, **asked):
+        parameters = TranslateParameters(farthest=3.0, **asked)
+        chosen = choose_files(files, parameters)
+        blocks.save(translate_each(state, chosen, training, parameters, NORMALIZE, 0))
+        folder.save(join_translated(blocks.load(), state, parameters)[0])
+        return {*folder.load()}, {path.name for path in (tmp_path / "blocks").rglob("*.zip")}
+
+    everything, stored = run(files)
+    first, *others = sorted(everything)
+    broken = {**files, first: _broken}
+    assert run(broken, only=[first, others[0]])[0] == {*others}
+    assert run(files, only=[first]) == (everything, ANY)
+    assert stored < run(files, trials=2)[1]
+    assert run({name: files[name] for name in (*others, "nobody/1.tir")})[0] == {*others}
+
+
 def test_no_file_can_be_read(mixed, monkeypatch, training):
     blocks = _blocks(monkeypatch, 3, mixed, {"A/broken.tir": _broken}, training)
     with pytest.raises(
         DomainError, match="none of 1 files could be read; the first: cannot be read: A/broken"
     ):
-        join_translated(blocks, mixed.to_state())
+        join_translated(blocks, mixed.to_state(), TranslateParameters())
 
 
 @pytest.mark.parametrize("count", [1, 2, 31, 32, 33, 250])

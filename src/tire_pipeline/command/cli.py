@@ -58,8 +58,10 @@ class OnDemand(click.Group):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run a subcommand; what the user can put right is one line and exit code 2."""
+        from tire_pipeline.progress import under_way  # not needed by the help
+
         try:
-            with warnings.catch_warnings():
+            with warnings.catch_warnings(), under_way("tire", lambda: ctx.invoked_subcommand or ""):
                 warnings.showwarning = _OneLine()
                 return super().invoke(ctx)
         except TirePipelineError as error:

@@ -64,6 +64,11 @@ class TranslateParameters(Parameters):
         return self
 
     @property
+    def restricted(self) -> bool:
+        """Whether not all files are translated."""
+        return bool(self.only or self.trials)
+
+    @property
     def options(self) -> dict[str, Any]:
         """What the translator is made with."""
         if self.translator == "likelihood_agent":

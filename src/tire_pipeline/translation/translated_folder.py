@@ -15,6 +15,7 @@ import pandas as pd
 from tire_pipeline.classifiers.suppliers import KnownSuppliers
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.added import Added
 from tire_pipeline.files.state_files import state_digest
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
@@ -73,7 +74,7 @@ def translate_each(
     Returns
     -------
     dict
-        Name of a task -> the task.
+        Name of a task -> the task; :class:`.Added` if not all files were asked for.
 
     Raises
     ------
@@ -90,10 +91,11 @@ def translate_each(
         given = replace(given, translator=_taught(given, blocks, work))
         common.append("".join(digests.values()).encode())
     salt = hashlib.sha256(b"\0".join(common)).hexdigest()[:16]
-    return {
+    tasks = {
         f"{code_hash('.')}/{salt}/{number:06d}-{digests[number]}.zip": TranslateBlock(block, given)
         for number, block in blocks.items()
     }
+    return Added(tasks) if parameters.restricted else tasks
 
 
 def _depends_on(given: Given, normalized_table: pd.DataFrame, seed: int) -> list[bytes]:
@@ -116,9 +118,9 @@ def _taught(given: Given, blocks: Mapping[int, Files], work: Map) -> JudgingTran
 
 
 def join_translated(
-    parts: Parts, translator: dict[str, Any]
+    parts: Parts, translator: dict[str, Any], parameters: TranslateParameters
 ) -> tuple[
-    dict[str, Callable[[], bytes]],
+    dict[str, Callable[[], bytes] | None],
     pd.DataFrame,
     list[Callable[[], pd.DataFrame]],
     list[Callable[[], pd.DataFrame]],
@@ -133,11 +135,14 @@ def join_translated(
         What :func:`translate_each` gave, done.
     translator : dict
         State of the translator.
+    parameters : TranslateParameters
+        If they do not ask for all files, what earlier runs made of the others stays.
 
     Returns
     -------
     files : dict
-        The translated ``.tir`` files, no others, by the function that reads each.
+        The translated ``.tir`` files, no others, by the function that reads each. If not all files were asked
+        for they are :class:`.Added`, with None for each of those asked for that was not translated.
     report : DataFrame
         One row a file: how its supplier is known, verdict, reason, distance, expected RMS error over that of
         the unchanged file, band of the bias, and that in words with what it usually comes from.
@@ -153,7 +158,7 @@ def join_translated(
     DomainError
         If not one file could be read.
     """
-    files, last = dict[str, Callable[[], bytes]](), _LastTexts()
+    files, last = dict[str, Callable[[], bytes] | None](), _LastTexts()
     reports, unreadable = list[pd.DataFrame](), list[dict[str, str]]()
     read = list[Callable[[], bytes]]()
     for load in track(parts.values(), "joining what was translated", total=len(parts)):
@@ -164,6 +169,8 @@ def join_translated(
             reports.append(table_in(part, "report"))
             files |= {file: partial(last.text, load, file) for file in translated_in(part)}
     report = _joined_report(reports, unreadable)
+    if parameters.restricted:
+        files = Added(dict.fromkeys(report["file"]) | files)
     protocols = judging(translator_from_state(translator)).protocol_changes()
     sources, coefficients, bands = (
         [_table_of(load, name) for load in read] for name in ("sources", "coefficients", "bands")

@@ -35,7 +35,7 @@ def create_pipeline(**_: object) -> Pipeline:
             ),
             Node(
                 join_translated,
-                inputs=["translated_blocks", "translator"],
+                inputs=["translated_blocks", "translator", "params:translate"],
                 outputs=[
                     "translation_files",
                     "translation_report",

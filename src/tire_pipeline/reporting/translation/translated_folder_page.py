@@ -91,8 +91,8 @@ def _outcome(report: pd.DataFrame, own: set[str], target: str, parameters: Trans
             lines.append(f"{whose} {files}: {_counted(report[rows], target)}.")
     if asked:
         lines.append(
-            f"This run was restricted: {asked}. This page and 07_model_output/translated hold these files "
-            "alone; a run without the restriction translates all."
+            f"This run was restricted: {asked}. This page shows these files only. Other files that earlier "
+            "runs translated stay in 07_model_output/translated until a run without the restriction."
         )
     translated = report[report["verdict"] == TRANSLATED]
     if len(translated):
