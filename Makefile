@@ -14,7 +14,7 @@ TWO := -n 2 --dist loadfile --no-loadscope-reorder
 .PHONY: run cluster quick test checks test-and-checks docs lint long bench coverage audit build sbom viz viz-page schedule install
 
 run: install
-	@if [ -z "$$(find $(DATA)/01_raw/tir -iname '*.tir' -print -quit 2>/dev/null)" ]; then \
+	@if [ -z "$$(find -L $(DATA)/01_raw/tir -iname '*.tir' -print -quit 2>/dev/null)" ]; then \
 		echo "No .tir files in $(DATA)/01_raw/tir: making the demonstration fleet"; \
 		$(BIN)/kedro run --pipeline make_fleet; \
 	fi

@@ -5,8 +5,9 @@ from __future__ import annotations
 import logging
 import sys
 import warnings
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import BrokenExecutor
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, cast
@@ -21,6 +22,10 @@ _T = TypeVar("_T")
 _T_co = TypeVar("_T_co", covariant=True)
 _LOG = logging.getLogger(__name__)
 _LABELS_SHOWN = 4
+_DIED = "the process that did it died three times"
+_CURE = "take it out, or run where there is more memory"
+DEATHS = 3
+"""How often the process of a task may die before the task is set aside."""
 _WAITING: set[int] = set()
 """How many processes wait for more tasks."""
 
@@ -161,6 +166,11 @@ def in_processes(count: int) -> Map:
     ----------
     count : int
         One: :func:`in_turn`.
+
+    Notes
+    -----
+    A process that dies (the system has no memory left, a compiled reader crashes) costs nothing but time:
+    what was under way is done again, each task alone, and one whose process dies again is set aside.
     """
     if count <= 1:
         return in_turn
@@ -169,18 +179,94 @@ def in_processes(count: int) -> Map:
         if len(tasks) <= 1:
             yield from in_turn(tasks, what)
             return
-        from joblib import Parallel, delayed
-
-        # joblib replaces a process whose memory has grown; no task is lost by it
-        warnings.filterwarnings("ignore", message="A worker stopped while some jobs", category=UserWarning)
-        _WAITING.add(count)
-        parallel = Parallel(n_jobs=count, return_as="generator_unordered")
-        one_each = len(tasks) <= count  # how many are done says nothing until the end
-        doing = attempt if one_each else attempt_in_silence
-        done = parallel(delayed(doing)(name, task) for name, task in tasks.items())
-        yield from shown(done, what, tasks, count)
+        yield from shown(_surviving(tasks, what, count), what, tasks, count)
 
     return work
+
+
+def _surviving(tasks: Mapping[str, Task[_T]], what: str, count: int) -> Iterator[Done[_T]]:
+    one_each = len(tasks) <= count  # how many are done says nothing until the end
+    doing = attempt if one_each else attempt_in_silence
+    waiting, lost = iter(tasks), list[str]()
+    going = True
+    while going:
+        begun: dict[str, None] = {}
+        try:
+            for done in _in_pool(doing, tasks, _noted(waiting, begun), count):
+                del begun[done.name]
+                yield done
+            going = False
+        except BrokenExecutor:
+            _LOG.warning("%s: a process died; what was under way is tried again, each alone", what)
+            lost += begun
+    for name in lost:
+        yield done_alone(name, tasks[name], _in_own_process, what)
+
+
+def _noted(names: Iterator[str], begun: dict[str, None]) -> Iterator[str]:
+    for name in names:
+        begun[name] = None
+        yield name
+
+
+def _in_pool(
+    doing: Callable[[str, Task[_T]], Done[_T]],
+    tasks: Mapping[str, Task[_T]],
+    names: Iterable[str],
+    count: int,
+) -> Iterator[Done[_T]]:
+    """Do tasks in up to ``count`` processes, at least two, of this machine.
+
+    Raises
+    ------
+    concurrent.futures.BrokenExecutor
+        One of them died.
+    """
+    from joblib import Parallel, delayed
+
+    # joblib replaces a process whose memory has grown; no task is lost by it
+    warnings.filterwarnings("ignore", message="A worker stopped while some jobs", category=UserWarning)
+    _WAITING.add(count)
+    parallel = Parallel(n_jobs=count, return_as="generator_unordered")
+    yield from parallel(delayed(doing)(name, tasks[name]) for name in names)
+
+
+def _in_own_process(name: str, task: Task[_T]) -> Done[_T] | None:
+    """As :func:`done_alone` asks for."""
+    for _ in range(DEATHS):
+        with suppress(BrokenExecutor):
+            return next(_in_pool(attempt_in_silence, {name: task}, [name], 2))
+    return None
+
+
+def done_alone(
+    name: str, task: Task[_T], try_it: Callable[[str, Task[_T]], Done[_T] | None], what: str
+) -> Done[_T]:
+    """Do a task whose process died with no other task under way, so that the death is its own.
+
+    A task of several files is divided, until the file is found.
+
+    Parameters
+    ----------
+    name : str
+    task : callable
+    try_it : callable
+        Does a task; None if its process died :data:`DEATHS` times.
+    what : str
+        Is said of it.
+    """
+    parts: Mapping[str, Task[_T]] = getattr(task, "split", dict)()
+    if len(parts) > 1:
+        done = [done_alone(each, part, try_it, what).result() for each, part in parts.items()]
+        return Done(name, task.join(done))  # type: ignore[attr-defined]
+    outcome = try_it(name, task)
+    if outcome is not None:
+        return outcome
+    only = next(iter(parts), name)
+    _LOG.warning("%s: %s is set aside: %s", what, only, _DIED)
+    if hasattr(task, "lost"):
+        return Done(name, task.lost(f"{_DIED} -> {_CURE}"))
+    return Done(name, error=LostTaskError(_DIED, where=only, todo=_CURE))
 
 
 def end_processes() -> None:

@@ -34,7 +34,7 @@ class Processes:
         self._wait_for_port()
         self.workers = self._start(
             "worker", self.address, "--nworkers", "2", "--nthreads", "1",
-            "--local-directory", str(folder), "--death-timeout", "20",
+            "--local-directory", str(folder), "--death-timeout", "120",
         )  # fmt: skip
 
     def _start(self, what: str, *arguments: str) -> subprocess.Popen[bytes]:

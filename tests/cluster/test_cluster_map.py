@@ -44,25 +44,30 @@ def test_an_error_crosses_with_all_that_it_says(where, request):
     assert (error.line, str(error)) == (3, "a.tir:3: no tire -> mend it")
 
 
-def test_a_worker_that_dies_is_replaced_and_all_is_done(work, tmp_path):
+@pytest.fixture(params=["processes", "cluster"])
+def any_work(request):
+    return in_processes(2) if request.param == "processes" else request.getfixturevalue("work")
+
+
+def test_a_worker_that_dies_is_replaced_and_all_is_done(any_work, tmp_path):
     wanted = {str(n): partial(tasks.dies_once, tmp_path / "once", n) for n in range(20)}
-    assert sorted(d.result() for d in work(wanted, "counting")) == list(range(20))
+    assert sorted(d.result() for d in any_work(wanted, "counting")) == list(range(20))
     assert (tmp_path / "once").read_text()
 
 
-def test_a_task_that_kills_its_worker_is_set_aside_by_its_name(work, tmp_path):
+def test_a_task_that_kills_its_worker_is_set_aside_by_its_name(any_work, tmp_path):
     wanted = {str(n): partial(tasks.double, n) for n in range(20)}
     wanted["killer"] = partial(tasks.dies, tmp_path / "log")
-    done = all_done(work, wanted, "counting")
+    done = all_done(any_work, wanted, "counting")
     assert [done[str(n)].result() for n in range(20)] == [2 * n for n in range(20)]
     assert isinstance(done["killer"].error, LostTaskError)
     assert "killer" in str(done["killer"].error)
 
 
-def test_the_one_killer_of_a_block_is_found_and_the_others_are_done(work, tmp_path):
+def test_the_one_killer_of_a_block_is_found_and_the_others_are_done(any_work, tmp_path):
     wanted = {str(n): partial(tasks.double, n) for n in range(7)}
     wanted["3"] = partial(tasks.dies, tmp_path / "log")
-    done = {d.name: d for d in in_blocks(work, wanted, "counting", size=4)}
+    done = {d.name: d for d in in_blocks(any_work, wanted, "counting", size=4)}
     assert [done[n].result() for n in wanted if n != "3"] == [0, 2, 4, 8, 10, 12]
     assert isinstance(done["3"].error, LostTaskError)
 

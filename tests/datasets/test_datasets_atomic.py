@@ -2,6 +2,8 @@
 
 import errno
 import os
+import subprocess
+import sys
 
 import pytest
 
@@ -72,9 +74,61 @@ def test_a_failure_leaves_the_old_folder(tmp_path):
     assert content(tmp_path) == {"made/a": b"old"}
 
 
+KILLED = """
+import sys
+from tire_pipeline.files import atomic
+
+if sys.argv[2] == "two renamings":
+    atomic.swapped = lambda *_: False
+atomic.shutil.rmtree = lambda *_, **__: os._exit(9)
+renamings = int(sys.argv[3])
+
+def kill(event, arguments):
+    global renamings
+    if event == "os.rename":
+        if renamings == 0:
+            os._exit(9)
+        renamings -= 1
+
+import os
+sys.addaudithook(kill)
+with atomic.replaced_folder(sys.argv[1]) as temporary:
+    (temporary / "a").write_bytes(b"new")
+"""
+
+
+@pytest.mark.parametrize("renamings", [0, 1, 2])
+@pytest.mark.parametrize("how", ["swapped", "two renamings"])
+def test_a_kill_loses_no_folder_and_the_next_call_tidies(tmp_path, how, renamings):
+    made = tmp_path / "made"
+    with replaced_folder(made) as temporary:
+        (temporary / "a").write_bytes(b"old")
+    killed = subprocess.run([sys.executable, "-c", KILLED, str(made), how, str(renamings)], check=False)
+    assert killed.returncode == 9
+    assert len(list(tmp_path.iterdir())) == 2  # or nothing was killed in the middle
+    if how == "swapped":
+        assert content(made) == {"a": b"new"}
+    (tmp_path / ".made.mine.old").mkdir()
+    with replaced_folder(made) as temporary:
+        assert content(made)["a"] == (b"new" if how == "swapped" or renamings == 2 else b"old")
+        (temporary / "b").write_bytes(b"2")
+    assert content(made) == {"b": b"2"}
+    assert sorted(p.name for p in tmp_path.iterdir()) == [".made.mine.old", "made"]
+
+
+def test_a_folder_behind_a_link_is_replaced_there(tmp_path):
+    (tmp_path / "disk").mkdir()
+    (tmp_path / "made").symlink_to("disk")
+    with replaced_folder(tmp_path / "made") as temporary:
+        (temporary / "a").write_bytes(b"1")
+    assert (tmp_path / "made").is_symlink()
+    assert content(tmp_path / "disk") == {"a": b"1"}
+
+
 def test_a_failed_second_renaming_is_undone(tmp_path, monkeypatch):
     with replaced_folder(tmp_path / "made") as temporary:
         (temporary / "a").write_bytes(b"old")
+    monkeypatch.setattr("tire_pipeline.files.atomic.swapped", lambda *_: False)
     rename = type(tmp_path).rename
 
     def stop_at_the_new(self, target):

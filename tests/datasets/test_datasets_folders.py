@@ -37,6 +37,37 @@ def test_files_of_the_user_are_never_replaced(tmp_path):
     assert mine.read_text() == "mine"
 
 
+def _link_to_folder(place, elsewhere):
+    (elsewhere / "mine.tir").write_text("mine")
+    place.symlink_to(elsewhere)
+
+
+@pytest.mark.parametrize(
+    "put",
+    [
+        pytest.param(_link_to_folder, id="a link to a folder"),
+        pytest.param(lambda place, _: place.symlink_to(place), id="a link to itself"),
+        pytest.param(lambda place, _: os.mkfifo(place), id="a FIFO"),
+    ],
+)
+def test_what_is_no_file_belongs_to_the_user_too(tmp_path, put):
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "out" / "A").mkdir(parents=True)
+    mine = tmp_path / "out" / "A" / "mine"
+    put(mine, tmp_path / "elsewhere")
+    with pytest.raises(DatasetError, match="not made by this project"):
+        TextFolderDataset(path=str(tmp_path / "out")).save({"A/b.tir": "yours"})
+    assert os.path.lexists(mine)
+
+
+def test_folders_that_hold_nothing_are_replaced(tmp_path):
+    (tmp_path / "out" / "A" / "empty").mkdir(parents=True)
+    (tmp_path / "out" / ".gitkeep").touch()
+    dataset = TextFolderDataset(path=str(tmp_path / "out"))
+    dataset.save({"A/b.tir": "1"})
+    assert dataset.load()["A/b.tir"] == b"1"
+
+
 @pytest.mark.parametrize("name", ["../escape.tir", "/tmp/escape.tir", "A/../../escape.tir"])
 def test_nothing_is_written_outside(tmp_path, name):
     dataset = TextFolderDataset(path=str(tmp_path / "out"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import socket
@@ -24,6 +25,7 @@ from tire_pipeline.file_names import name_on_disk, path_of, shown_name
 from tire_pipeline.files.folder_walk import walk
 from tire_pipeline.files.packed import unpack
 from tire_pipeline.files.regular_file import NotRegularError, open_regular
+from tire_pipeline.recordings.readers import limits
 from tire_pipeline.reporting.explained_recordings import ExplainParameters, explain_each
 from tire_pipeline.retraining import Manifest, Store, difference, ingest, look_at, settled_difference
 from tire_pipeline.retraining.places import UNREADABLE, fingerprint
@@ -443,3 +445,36 @@ def test_recordings_too(tmp_path):
         found["a/pipe.csv"]()
     with pytest.raises(RecordingError, match=r"no \.tir file"):
         found["a/run.csv"]()
+
+
+class Unread(io.BufferedReader):
+    def read(self, *_):
+        raise AssertionError("it is read")
+
+    readinto = read
+
+
+def test_a_recording_larger_than_the_memory_is_told_and_not_read(tmp_path, monkeypatch):
+    for name in ("a.tdx", "a.tir"):
+        with (tmp_path / name).open("wb") as stream:
+            stream.truncate(1 << 40)  # a terabyte that takes no room
+    (load,) = RecordingFolderDataset(path=str(tmp_path)).load().values()
+    module = "tire_pipeline.datasets.users_files.recording_folder.open_regular"
+    monkeypatch.setattr(module, lambda path: Unread(io.FileIO(path)))
+    before = load.fingerprint()
+    assert load.fingerprint() == before
+    with pytest.raises(RecordingError, match=r"1024\.0 GiB, too many for the memory"):
+        load()
+    os.truncate(tmp_path / "a.tdx", (1 << 40) + 1)
+    assert load.fingerprint() != before
+
+
+def test_the_memory_of_a_container_counts(tmp_path, monkeypatch):
+    group = tmp_path / "memory.max"
+    monkeypatch.setattr(limits, "_GROUP_LIMITS", (str(tmp_path / "absent"), str(group)))
+    whole = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    for text, most in (("max\n", whole / 2), ("4096\n", 2048.0)):
+        group.write_text(text)
+        limits.most_bytes.cache_clear()
+        assert limits.most_bytes() == most
+    limits.most_bytes.cache_clear()

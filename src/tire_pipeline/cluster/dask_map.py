@@ -13,11 +13,12 @@ import os
 import uuid
 from collections.abc import Iterator, Mapping
 from concurrent.futures import CancelledError
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 from urllib.parse import urlsplit
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.tasks import Done, LostTaskError, Map, Task, attempt_in_silence, shown
+from tire_pipeline.tasks import Done, Map, Task, attempt_in_silence, done_alone, shown
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -30,8 +31,6 @@ _AHEAD = 3
 """So many tasks a thread are with the scheduler at once; a million of them would fill its memory."""
 _COMPUTING = ("numpy", "pandas", "pyarrow", "scikit-learn", "scipy", "numba", "torch")
 _OPEN: dict[ClusterParameters, Client] = {}
-_DEATHS = "its worker died three times while doing it"
-_CURE = "take it out, or give the workers more memory"
 
 
 def dask_map(chosen: ClusterParameters) -> Map:
@@ -199,7 +198,7 @@ class _DaskMap:
             for future in list(futures.futures):
                 future.cancel()
         for name in lost:
-            yield self._alone(name, tasks[name], what)
+            yield done_alone(name, tasks[name], partial(self._on_a_worker, what=what), what)
 
     def _room(self, running: Mapping[str, str]) -> int:
         try:
@@ -243,22 +242,9 @@ class _DaskMap:
             todo="start it again, then run again: what was stored is not done again",
         )
 
-    def _alone(self, name: str, task: Task[_T], what: str) -> Done[_T]:
-        """Do a task whose worker died with no other task under way, so that the death is its own.
-
-        A task of several files is divided, until the file is found.
-        """
+    def _on_a_worker(self, name: str, task: Task[_T], what: str) -> Done[_T] | None:
+        """Do a task; None if each worker that took it died."""
         from distributed import KilledWorker
 
-        parts: Mapping[str, Task[_T]] = getattr(task, "split", dict)()
-        if len(parts) > 1:
-            done = [self._alone(each, part, what).result() for each, part in parts.items()]
-            return Done(name, task.join(done))  # type: ignore[attr-defined]
         outcome = self._outcome(name, self._future(name, task, what))
-        if not isinstance(outcome.error, KilledWorker):
-            return outcome
-        only = next(iter(parts), name)
-        _LOG.warning("%s: %s is set aside: %s", what, only, _DEATHS)
-        if hasattr(task, "lost"):
-            return Done(name, task.lost(f"{_DEATHS} -> {_CURE}"))
-        return Done(name, error=LostTaskError(_DEATHS, where=only, todo=_CURE))
+        return None if isinstance(outcome.error, KilledWorker) else outcome

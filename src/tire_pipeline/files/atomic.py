@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import contextlib
+import glob
 import os
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from tire_pipeline.files.swapped_names import swapped
+
+_NEW, _OLD = ".part", ".old"
 _CHECKS: list[Callable[[], None]] = []
 
 
@@ -92,20 +96,24 @@ def replaced_file(path: str | os.PathLike[str], *, parents: bool = True) -> Iter
 def replaced_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Return a temporary folder beside ``path`` that takes its place if the block ends well.
 
-    Between two renamings ``path`` is absent; if the second fails the first is undone.
+    Where the system can swap two names in one step, ``path`` is there at every moment. Elsewhere it is absent
+    between two renamings; if the process is killed there, the next call puts the old folder back. That call
+    also removes what a killed process left beside ``path``: two processes must not replace it at once.
     """
-    path = Path(path)
+    path = Path(os.path.realpath(path))
     check_now()
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = Path(tempfile.mkdtemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent))
-    old = temporary.with_suffix(".old")
+    _tidy(path)
+    temporary = Path(tempfile.mkdtemp(prefix=_beside(path), suffix=_NEW, dir=path.parent))
+    old = temporary.with_suffix(_OLD)
     try:
         yield temporary
         temporary.chmod(0o755)
         check_now()
-        if path.exists():
+        if path.exists() and not swapped(temporary, path):
             path.rename(old)
-        temporary.rename(path)
+        if old.exists() or not path.exists():
+            temporary.rename(path)
     except BaseException:
         if old.exists() and not path.exists():
             old.rename(path)
@@ -113,3 +121,18 @@ def replaced_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
         shutil.rmtree(old, ignore_errors=True)
+
+
+def _tidy(path: Path) -> None:
+    """What a process that was killed in :func:`replaced_folder` left beside ``path``."""
+    left = path.parent.glob(f"{glob.escape(_beside(path))}*")
+    for each in [each for each in left if each.suffix in (_NEW, _OLD)]:
+        if each.suffix == _OLD and not path.exists():
+            each.rename(path)
+        else:
+            shutil.rmtree(each, ignore_errors=True)
+
+
+def _beside(path: Path) -> str:
+    """How the names of temporary folders begin: no folder of the user is called so."""
+    return f".{path.name}.tire_pipeline-"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import stat
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 
 from tire_pipeline.errors import DomainError
@@ -78,6 +78,32 @@ def walk(folder: str | os.PathLike[str], wanted: Callable[[str], bool]) -> Found
     found = search.found
     found.files = dict(sorted(found.files.items()))
     return found
+
+
+def holds_anything(folder: str | os.PathLike[str], *, but: Collection[str] = ()) -> bool:
+    """Whether anything but folders lies below a folder: files, links, FIFOs..., or what may not be looked at.
+
+    Parameters
+    ----------
+    folder : path
+        It may be absent.
+    but : collection of str
+        Names of files that do not count.
+    """
+    left = [os.fspath(folder)]
+    while left:
+        try:
+            with os.scandir(left.pop()) as entries:
+                for entry in entries:
+                    if entry.is_dir(follow_symlinks=False):
+                        left.append(entry.path)
+                    elif entry.name not in but:
+                        return True
+        except FileNotFoundError:
+            continue
+        except OSError:
+            return True
+    return False
 
 
 class _Search:

@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.folder_walk import holds_anything
 from tire_pipeline.fleet.make import Fleet, make_fleet
 from tire_pipeline.fleet.parameters import FleetParameters
 from tire_pipeline.fleet.settings import FleetSettings
@@ -64,7 +65,7 @@ def write_fleet(fleet: Fleet, raw_folder: str | Path) -> dict[str, Path]:
     """
     raw = Path(raw_folder)
     tir = raw / "tir"
-    if tir.exists() and any(p.is_file() and p.name != ".gitkeep" for p in tir.rglob("*")):
+    if holds_anything(tir, but=[".gitkeep"]):
         raise DomainError(
             "the folder for the fleet already holds files",
             where=str(tir),

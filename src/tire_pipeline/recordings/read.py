@@ -12,6 +12,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.canonical import RawRecording, canonical_frame
 from tire_pipeline.recordings.conventions.units_in_names import split_unit
 from tire_pipeline.recordings.readers.csv_file import read_csv
+from tire_pipeline.recordings.readers.limits import check_size
 from tire_pipeline.recordings.readers.mat_file import read_mat
 from tire_pipeline.recordings.readers.mdf_file import read_mdf
 from tire_pipeline.recordings.readers.parquet_file import read_parquet
@@ -99,6 +100,7 @@ def read_recording(
     if not file.is_file():
         what = "this is a folder" if file.is_dir() else "no such file"
         raise RecordingError(what, where=str(file), todo="give the path of a recording")
+    check_size(file)
     kind = _format(file, format)
     try:
         raw = READERS[kind](file)

@@ -22,6 +22,7 @@ from tire_pipeline.datasets.text_files.text_objects import (
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.added import Added
 from tire_pipeline.files.atomic import replaced_folder
+from tire_pipeline.files.folder_walk import holds_anything
 from tire_pipeline.files.objects import Objects, is_remote
 from tire_pipeline.progress import track
 
@@ -118,9 +119,7 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], dict[str, 
 
 
 def _belongs_to_user(folder: Path) -> bool:
-    if not folder.exists() or (folder / MARKER).exists():
-        return False
-    return any(p.is_file() and p.name not in NEVER_DELETED for p in folder.rglob("*"))
+    return not (folder / MARKER).exists() and holds_anything(folder, but=NEVER_DELETED)
 
 
 def made_here(folder: Path) -> set[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -21,8 +22,11 @@ from tire_pipeline.files.regular_file import open_regular
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.recordings.read import SUFFIXES
+from tire_pipeline.recordings.readers.limits import most_bytes
 from tire_pipeline.tir import read_tir
+from tire_pipeline.tir.text.decode import MOST_FILE_BYTES
 
+_PART_BYTES = 1 << 20
 Pair = tuple[TireModel | None, pd.DataFrame]
 
 
@@ -112,9 +116,11 @@ class RecordingLoader:
         stated = [self.path.parent / tir, self.root / tir] if tir else []
         beside = sorted(p for p in self.path.parent.iterdir() if p.suffix.lower() == ".tir")
         total = hashlib.sha256()
-        for path in (self.path, *stated, *beside):
+        total.update(_content_hash(self.path, most_bytes()).encode())
+        for path in (*stated, *beside):
             for each in (path, Path(f"{path}.sidecar.json")):
-                total.update(f"{each.name}\0{_content_hash(each)}\0".encode(errors="surrogateescape"))
+                content = _content_hash(each, MOST_FILE_BYTES)
+                total.update(f"{each.name}\0{content}\0".encode(errors="surrogateescape"))
         return total.hexdigest()
 
 
@@ -169,12 +175,20 @@ def _on_objects(folder: Objects) -> dict[str, Callable[..., Pair]]:
     return found
 
 
-def _content_hash(path: Path) -> str:
+def _content_hash(path: Path, most: float) -> str:
+    """Of a file as large as it was when it was opened; one that is too large to be read is not read here."""
+    total = hashlib.sha256()
     try:
         with open_regular(path) as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
+            left = os.fstat(file.fileno()).st_size
+            if left > most:
+                return f"{left} bytes"
+            while left > 0 and (part := file.read(min(left, _PART_BYTES))):
+                total.update(part)
+                left -= len(part)
     except OSError as error:
         return f"errno {error.errno}"
+    return total.hexdigest()
 
 
 def read_pair(

@@ -1,7 +1,9 @@
-"""How much a file may grow when it is read."""
+"""How large a file may be, and how much it may grow when it is read."""
 
 from __future__ import annotations
 
+import os
+from functools import cache
 from pathlib import Path
 
 from tire_pipeline.errors import RecordingError
@@ -10,6 +12,40 @@ from tire_pipeline.errors import RecordingError
 # is refused.
 _MOST_FACTOR = 200.0
 _SMALL = float(1 << 26)
+_MEMORY_SHARE = 0.5  # for what is read, and for the table that is made of it
+_GROUP_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
+
+
+@cache
+def most_bytes() -> float:
+    """The largest file that could be read here: half as large as the memory of the machine or container."""
+    most = float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    for place in map(Path, _GROUP_LIMITS):
+        try:
+            most = min(most, float(place.read_text(encoding="ascii")))
+        except (OSError, ValueError):  # another system, or no limit
+            continue
+    return _MEMORY_SHARE * most
+
+
+def check_size(path: Path) -> None:
+    """Refuse a file that would fill the memory: the system would end the process, and all else with it.
+
+    Parameters
+    ----------
+    path : Path
+
+    Raises
+    ------
+    RecordingError
+    """
+    size = path.stat().st_size
+    if size > most_bytes():
+        raise RecordingError(
+            f"the file has {size / 2**30:.1f} GiB, too many for the memory of this machine",
+            where=str(path),
+            todo=f"cut it into files of less than {most_bytes() / 2**30:.1f} GiB, or use a larger machine",
+        )
 
 
 def check_expansion(path: Path, size: float) -> None:
