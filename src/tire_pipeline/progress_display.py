@@ -116,7 +116,7 @@ class Display:
 
     def _reset(self) -> None:
         self._changed = threading.Condition(threading.RLock())
-        self._active: list[Activity] = []
+        self.active: list[Activity] = []
         self._over = threading.Event()
         self._began = self._ended = self._said = -PAUSE_SECONDS
         self._thread: threading.Thread | None = None
@@ -130,9 +130,9 @@ class Display:
             return
         with self._changed:
             now = time.monotonic()
-            if not self._active and now - self._ended > PAUSE_SECONDS:
+            if not self.active and now - self._ended > PAUSE_SECONDS:
                 self._began = self._said = now
-            self._active.append(activity)
+            self.active.append(activity)
             if self._thread is None or not self._thread.is_alive():
                 self._thread = threading.Thread(target=self._watch, name="progress", daemon=True)
                 self._thread.start()
@@ -143,8 +143,8 @@ class Display:
         if self._over.is_set():
             return
         with self._changed, suppress(ValueError):  # a generator of a forked process may end one of its parent
-            self._active.remove(activity)
-            if not self._active:
+            self.active.remove(activity)
+            if not self.active:
                 self._hide()
                 self._ended = time.monotonic()
 
@@ -153,7 +153,7 @@ class Display:
         with suppress(OSError, ValueError):
             while True:
                 with self._changed:
-                    while not self._active and not self._over.is_set():
+                    while not self.active and not self._over.is_set():
                         self._changed.wait()
                     if self._over.is_set():
                         return
@@ -167,7 +167,7 @@ class Display:
             self._console = _console()
         drawn = self._console.is_terminal and current_process().name == "MainProcess"
         least = TICK_SECONDS if drawn else SHOW_AFTER_SECONDS
-        lasting = [each for each in self._active if now - each.began > least]
+        lasting = [each for each in self.active if now - each.began > least]
         if lasting and drawn:
             self._draw_row(self._console, lasting[-1], now)
         elif lasting:

@@ -105,13 +105,13 @@ def test_a_subcommand_that_lasts_shows_that_it_works(folder, monkeypatch, call):
     shown = []
 
     def slowly(*arguments, **options):
-        shown.extend(activity.label() for activity in DISPLAY._active)
+        shown.extend(activity.label() for activity in DISPLAY.active)
         return read_tir(*arguments, **options)
 
     monkeypatch.setattr("tire_pipeline.tir.read_tir", slowly)
     run(*call, "--no-page")
     assert shown[0] == f"tire ({call[0]})"
-    assert not DISPLAY._active
+    assert not DISPLAY.active
 
 
 def test_show_says_version_ranges_and_what_is_missing(folder):

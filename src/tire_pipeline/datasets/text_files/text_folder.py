@@ -20,7 +20,7 @@ from tire_pipeline.datasets.text_files.text_objects import (
     parted,
 )
 from tire_pipeline.errors import DomainError
-from tire_pipeline.files.added import Added
+from tire_pipeline.files.added import AddedFiles
 from tire_pipeline.files.atomic import replaced_folder
 from tire_pipeline.files.folder_walk import holds_anything
 from tire_pipeline.files.objects import Objects, is_remote
@@ -32,9 +32,9 @@ _LONGEST = 255
 class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], dict[str, bytes]]):
     """Saves ``{relative path: text, or a function that gives it}`` as files; loads them back as bytes.
 
-    The folder is replaced whole. With ``keep``, or if the texts are :class:`.Added`, what earlier runs made
-    stays beside what is new; ``None`` instead of a text then takes the file of an earlier run away. A folder
-    that holds anything this project did not make is never touched.
+    The folder is replaced whole. With ``keep``, or if the texts are :class:`.AddedFiles`, what earlier runs
+    made stays beside what is new; ``None`` instead of a text then takes the file of an earlier run away. A
+    folder that holds anything this project did not make is never touched.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], dict[str, 
     def save(self, data: Mapping[str, Content | None]) -> None:
         """Write all files, or none."""
         self.check()
-        keep = self._keep or isinstance(data, Added)
+        keep = self._keep or isinstance(data, AddedFiles)
         texts, gone = parted({str(inside(name)): text for name, text in data.items()}, keep=keep)
         if is_remote(self._path):
             text_objects.save(Objects(self._path), texts, gone=gone, keep=keep)

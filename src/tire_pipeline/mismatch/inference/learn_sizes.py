@@ -30,7 +30,7 @@ from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 Array = np.ndarray
 Names = tuple[str, ...]
 Map = Callable[[Callable[["Tuning"], Array], Iterable["Tuning"]], Iterable[Array]]
-STEP = 1.6
+_STEP = 1.6
 _ROUNDS = 4
 _FACTORS = ("independent", "form_error", "prior", "error", "spread", "wide")
 _ODDS = ("effect", "further", "unnamed")
@@ -144,7 +144,7 @@ def log_scores(cases: Sequence[Tuning], sizes: LearntSizes) -> Array:
 
 
 def learn(
-    evidences: Evidences, start: LearntSizes, *, step: float = STEP, without: str | None = None
+    evidences: Evidences, start: LearntSizes, *, step: float = _STEP, without: str | None = None
 ) -> Learnt:
     """Return the sizes with the best mean log score, each source of cases counting alike.
 
@@ -157,7 +157,7 @@ def learn(
     without : str, optional
         A source whose cases are left out.
     """
-    search = _Search(evidences, start, step, without)
+    search = _SizeSearch(evidences, start, step, without)
     at: dict[str, int] = {}
     best, sizes = search.best(at)
     names = [*_FACTORS, *start.background] if step > 1.0 else []
@@ -171,7 +171,7 @@ def learn(
     return Learnt(sizes, best, search.score(start), search.curvature(names, at, best, sizes))
 
 
-class _Search:
+class _SizeSearch:
     """Sizes on a grid of steps about a start, and how well they do with the odds that are best for them."""
 
     def __init__(self, evidences: Evidences, start: LearntSizes, step: float, without: str | None) -> None:
