@@ -18,6 +18,10 @@ from kedro.framework.startup import bootstrap_project
 from tire_pipeline.cli import cli
 
 ROOT = Path(__file__).resolve().parents[2]
+SHORT_TRAINING = ",".join(
+    ("train_agent.total_steps=1280", "train_agent.likelihood_updates=2", "train_classifier.ann.epochs=10")
+)
+"""How good agents and networks become is no matter of a whole run's tests."""
 Run = Callable[..., subprocess.CompletedProcess[str]]
 
 
@@ -88,7 +92,7 @@ def small_run(tmp_path_factory: pytest.TempPathFactory, small_fleet: Path) -> Pa
     """The folder of one whole small run: fleet, then the eight pipelines."""
     folder = tmp_path_factory.mktemp("small_run")
     shutil.copytree(small_fleet / "data", folder / "data")
-    done = kedro(folder)
+    done = kedro(folder, "--params", SHORT_TRAINING)
     assert done.returncode == 0, done.stdout + done.stderr
     (folder / "stdout.txt").write_text(done.stdout)
     return folder
