@@ -2,6 +2,8 @@
 
 import json
 import math
+import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -28,6 +30,19 @@ def _sizes(tire, recording):
 
 def test_every_effect_of_the_catalogue_has_a_row(clean):
     assert {row.name for row in clean.visible} == set(catalogue())
+
+
+def test_sizes_are_weighed_once_and_go_with_a_copy_of_the_report(tire, record):
+    """They take most of the time of an explanation, and not everyone asks for them."""
+    report = explain_mismatch(tire, record(21).iloc[:400])
+    times = []
+    weighed = report.find_visible
+    report.find_visible = lambda: times.append(1) or weighed()
+    copied, replaced = pickle.loads(pickle.dumps(report)), replace(report, notes=[])
+    assert times == [1]
+    assert report.visible
+    assert repr(report.visible) == repr(copied.visible) == repr(replaced.visible)
+    assert times == [1]
 
 
 def test_what_was_not_varied_is_said_so(clean):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -118,9 +119,9 @@ def assembled(it: Explained) -> MismatchReport:
         candidates=_candidates(analysis, answer),
         series=_series(analysis, noise),
         assumed=prepared.assumed,
-        visible=[]
+        find_visible=list
         if prepared.stopped
-        else visible(analysis, it.sets, answer.named, unexplained=left.significant),
+        else partial(visible, analysis, it.sets, answer.named, unexplained=left.significant),
         withheld=withheld,
         probabilities=_probabilities(answer),
     )

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
@@ -11,6 +13,8 @@ from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder, Visible
 from tire_pipeline.mismatch.report.head import Head
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
+from tire_pipeline.progress import under_way
+from tire_pipeline.tasks import one_thread
 
 VERDICTS = (
     "agrees",
@@ -183,10 +187,21 @@ class ReportContents:
     recordings: tuple[str, ...] = ()
     held_out: HeldOutFit | None = None
     assumed: list[str] = field(default_factory=list)
-    visible: list[Visible] = field(default_factory=list)
+    find_visible: Callable[[], list[Visible]] = field(default=list, repr=False, compare=False)
     unnamed: UnnamedReport | None = None
     withheld: tuple[str, ...] = ()
     probabilities: list[tuple[tuple[str, ...], float]] = field(default_factory=list)
+
+    @property
+    def visible(self) -> list[Visible]:
+        """How large each effect would have had to be to be seen; weighed when it is first asked for."""
+        with one_thread(), under_way("weighing what could have been seen"):
+            found = self.find_visible()
+        self.find_visible = partial(list, found)  # what it was weighed with is needed no more
+        return found
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "find_visible": partial(list, self.visible)}
 
     @property
     def summary(self) -> str:

@@ -51,8 +51,8 @@ class MismatchReport(ReportContents):
         Errors in the recording that was held out.
     assumed : list of str
         What was taken for granted because the recording does not say it.
-    visible : list of Visible
-        How large each effect would have had to be to be seen.
+    find_visible : callable
+        Returns :attr:`visible`, which takes longer than all else: it is called when that is asked for.
     unnamed : UnnamedReport, optional
         What the part that is left follows, if anything is left.
     withheld : tuple of str
