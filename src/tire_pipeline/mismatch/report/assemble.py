@@ -24,7 +24,7 @@ from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.left_out import each_left_out, shares_left
 from tire_pipeline.mismatch.proof.locate import everywhere, locate, when, where
-from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
+from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder, Visible
 from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.proof.noise_floor import noise_floors
 from tire_pipeline.mismatch.proof.remainder import remainder
@@ -37,6 +37,7 @@ from tire_pipeline.mismatch.report.sentences import head, on_expected, on_questi
 from tire_pipeline.mismatch.report.words import not_looked_for
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.search import more_than_usual, unnamed_physics
+from tire_pipeline.progress import under_way
 
 Array = np.ndarray
 _SOMETHING_LEFT = ("unexplained", "partly explained")
@@ -118,9 +119,7 @@ def assembled(it: Explained) -> MismatchReport:
         candidates=_candidates(analysis, answer),
         series=_series(analysis, noise),
         assumed=prepared.assumed,
-        visible=[]
-        if prepared.stopped
-        else visible(analysis, it.sets, answer.named, unexplained=left.significant),
+        visible=[] if prepared.stopped else _visible(it, left),
         withheld=withheld,
         probabilities=_probabilities(answer),
     )
@@ -213,9 +212,15 @@ def _unnamed(
     beside_names = named and not it.prepared.stopped and more_than_usual(it.analysis)
     if plainly and not beside_names:
         return None, model, fit
-    found, model = never_worse(unnamed_physics(it.analysis, plainly=plainly), model, it.recording)
+    with under_way("looking for an equation of the residual"):
+        found, model = never_worse(unnamed_physics(it.analysis, plainly=plainly), model, it.recording)
     fit = with_unnamed(fit, found)
     return None if plainly and found.physics is None else found, model, fit
+
+
+def _visible(it: Explained, left: Remainder) -> list[Visible]:
+    with under_way("weighing what could have been seen"):
+        return visible(it.analysis, it.sets, it.answer.named, unexplained=left.significant)
 
 
 def _following(it: Explained, verdict: str, plain: CorrectedModel) -> str:
