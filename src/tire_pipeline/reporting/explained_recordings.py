@@ -148,7 +148,7 @@ def collect_explained(
     pages : dict
         One HTML page a report, by the function that reads it: they are never in memory together.
     corrected : dict
-        In the same way, ``.tir`` files with the missing physics put in, and sidecars for what the format
+        In the same way, ``.tir`` files with the missing physics added, and sidecars for what the format
         cannot hold. None in place of a file that a recording no longer has, because no physics is missing or
         a question is open on which all of it rests (its axes): that of an earlier run would be wrong.
 

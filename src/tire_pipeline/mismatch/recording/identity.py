@@ -172,7 +172,7 @@ class _Similar:
 
 
 def _fit(model: _Similar, recorded: Array, free: Array) -> tuple[Array, Array, Array]:
-    """Gauss-Newton with halved steps; return parameters, what is left, and the columns of the last step."""
+    """Gauss-Newton with halved steps; return parameters, the residual, and the columns of the last step."""
     p = np.zeros(5)
     force = model(p)
     left = _centred(recorded - force)

@@ -162,7 +162,7 @@ def _to_one_side(it: Explained, put_in: Fit) -> str:
 def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Fit, dict[str, Array]]:
     """Put the named effects into the model, without those that make sweeps worse.
 
-    What was put in, and what is left of unseen sweeps, come second and third.
+    What was added, and the residual of unseen sweeps, come second and third.
     """
     fit, left = harmless(it.analysis, it.sets, it.level)
     model = _model(it, fit.changes)
@@ -207,7 +207,7 @@ def _model(it: Explained, changes: Sequence[Any]) -> CorrectedModel:
 def _unnamed(
     it: Explained, verdict: str, named: bool, model: CorrectedModel, fit: dict[str, OutputFit]
 ) -> tuple[UnnamedReport | None, CorrectedModel, dict[str, OutputFit]]:
-    """Look for an equation of what is left, and put it in where it proves right."""
+    """Look for an equation of the residual, and put it in where it proves right."""
     plainly = verdict not in _SOMETHING_LEFT
     beside_names = named and not it.prepared.stopped and more_than_usual(it.analysis)
     if plainly and not beside_names:
@@ -315,7 +315,7 @@ def _candidates(analysis: Analysis, answer: SetAnswer) -> list[dict[str, Any]]:
         if name in analysis.absent:
             gain, why = None, analysis.absent[name]
         elif gain is None:
-            why = "is looked for in the channels themselves" if not effect.parameters else "screened out"
+            why = "detected directly in the channels" if not effect.parameters else "screened out"
         elif name in likely and name not in answer.names:
             why = "is an alternative to what is named"
         elif name not in likely:

@@ -1,4 +1,4 @@
-"""Figures of a fit: what was measured, what was fitted, and what is left."""
+"""Figures of a fit: what was measured, what was fitted, and the residual."""
 
 from __future__ import annotations
 
