@@ -92,8 +92,8 @@ PICTURES = (
     (
         "confusion_matrix.png",
         "Share of the files of each organisation (rows) for which the classifier predicts each organisation "
-        "(columns). Right predictions are on the diagonal. The classifier has not seen these files. On the "
-        "left it may have learned from another organisation's file of the same tire; on the right it has not.",
+        "(columns). Right predictions are on the diagonal. The classifier has not seen these files. Left: "
+        "it may have learned from another organisation's file of the same tire. Right: it has not.",
     ),
 )
 
