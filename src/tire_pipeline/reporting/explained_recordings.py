@@ -102,7 +102,7 @@ class ExplainParameters(Parameters):
 
 
 def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, ExplainTask]:
-    """Say how each recording is explained; what is stored and has not changed is not explained again.
+    """Explain each recording; what is stored and has not changed is not explained again.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, 
 def collect_explained(
     explained: Mapping[str, Read],
 ) -> tuple[dict[str, Any], pd.DataFrame, dict[str, Read], dict[str, Read | None]]:
-    """Put together what was explained.
+    """Collect what was found in each recording.
 
     Parameters
     ----------
