@@ -58,7 +58,7 @@ class CalibrateMismatchParameters(Parameters):
 
 
 def reduce_cases(parameters: CalibrateMismatchParameters) -> Work:
-    """Say how each tuning case is made and reduced to what its sets say; done once for each code."""
+    """Make each tuning case and keep the evidence of its sets; done once for each version of the code."""
     code = code_hash("mismatch", "calibration", "concealed", "magic_formula")
     made = plans(
         Path(parameters.recordings), parameters.real, parameters.first, parameters.second, parameters.unnamed

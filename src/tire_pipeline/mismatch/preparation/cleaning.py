@@ -49,9 +49,8 @@ class Cleaning:
 
     def text(self) -> str:
         """Say in words what was done and why."""
-        share = (
-            "the force does not tell" if np.isnan(self.felt) else f"the force follows {self.felt:.0%} of it"
-        )
+        felt = np.clip(self.felt, 0.0, 1.0)
+        share = "the force does not tell" if np.isnan(felt) else f"the force follows {felt:.0%} of it"
         done = "sensor noise was removed" if self.smoothed else "used as recorded"
         factor, unit, _ = shown_unit(self.channel, self.removed)
         size = f"{self.removed * factor:.2g} {unit}".strip()

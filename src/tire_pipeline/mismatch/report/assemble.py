@@ -26,7 +26,7 @@ from tire_pipeline.mismatch.preparation.prepare import Prepared
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.left_out import each_left_out, shares_left
 from tire_pipeline.mismatch.proof.locate import everywhere, locate, when, where
-from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
+from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder, Visible
 from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.proof.noise_floor import noise_floors
 from tire_pipeline.mismatch.proof.remainder import remainder
@@ -38,6 +38,7 @@ from tire_pipeline.mismatch.report.sentences import head, on_expected, on_questi
 from tire_pipeline.mismatch.report.words import not_looked_for
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.search import more_than_usual, unnamed_physics
+from tire_pipeline.progress import under_way
 
 Array = np.ndarray
 _SOMETHING_LEFT = ("unexplained", "partly explained")
@@ -119,9 +120,13 @@ def assembled(it: Explained) -> MismatchReport:
         candidates=_candidates(analysis, answer),
         series=_series(analysis, noise),
         assumed=prepared.assumed,
+<<<<<<< HEAD
         find_visible=list
         if prepared.stopped
         else partial(visible, analysis, it.sets, answer.named, unexplained=left.significant),
+=======
+        visible=[] if prepared.stopped else _visible(it, left),
+>>>>>>> w-25-36
         withheld=withheld,
         probabilities=_probabilities(answer),
     )
@@ -164,7 +169,7 @@ def _to_one_side(it: Explained, put_in: Fit) -> str:
 def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Fit, dict[str, Array]]:
     """Put the named effects into the model, without those that make sweeps worse.
 
-    What was put in, and what is left of unseen sweeps, come second and third.
+    What was added, and the residual of unseen sweeps, come second and third.
     """
     fit, left = harmless(it.analysis, it.sets, it.level)
     model = _model(it, fit.changes)
@@ -209,14 +214,20 @@ def _model(it: Explained, changes: Sequence[Any]) -> CorrectedModel:
 def _unnamed(
     it: Explained, verdict: str, named: bool, model: CorrectedModel, fit: dict[str, OutputFit]
 ) -> tuple[UnnamedReport | None, CorrectedModel, dict[str, OutputFit]]:
-    """Look for an equation of what is left, and put it in where it proves right."""
+    """Look for an equation of the residual, and put it in where it proves right."""
     plainly = verdict not in _SOMETHING_LEFT
     beside_names = named and not it.prepared.stopped and more_than_usual(it.analysis)
     if plainly and not beside_names:
         return None, model, fit
-    found, model = never_worse(unnamed_physics(it.analysis, plainly=plainly), model, it.recording)
+    with under_way("looking for an equation of the residual"):
+        found, model = never_worse(unnamed_physics(it.analysis, plainly=plainly), model, it.recording)
     fit = with_unnamed(fit, found)
     return None if plainly and found.physics is None else found, model, fit
+
+
+def _visible(it: Explained, left: Remainder) -> list[Visible]:
+    with under_way("weighing what could have been seen"):
+        return visible(it.analysis, it.sets, it.answer.named, unexplained=left.significant)
 
 
 def _following(it: Explained, verdict: str, plain: CorrectedModel) -> str:
@@ -311,7 +322,7 @@ def _candidates(analysis: Analysis, answer: SetAnswer) -> list[dict[str, Any]]:
         if name in analysis.absent:
             gain, why = None, analysis.absent[name]
         elif gain is None:
-            why = "is looked for in the channels themselves" if not effect.parameters else "screened out"
+            why = "detected directly in the channels" if not effect.parameters else "screened out"
         elif name in likely and name not in answer.names:
             why = "is an alternative to what is named"
         elif name not in likely:
