@@ -11,8 +11,8 @@ from tire_pipeline.mismatch.corrected.as_recorded import with_unnamed, without_u
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
-from tire_pipeline.mismatch.preparation.cleaning import Cleaning
-from tire_pipeline.mismatch.preparation.open_questions import Question
+from tire_pipeline.mismatch.recording.cleaning import Cleaning
+from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit, PredictionError
 from tire_pipeline.mismatch.report.report_page import percent
 from tire_pipeline.mismatch.report.sentences import head, on_question, with_held_out, without_equation

@@ -14,7 +14,7 @@ from tire_pipeline.mismatch.corrected.as_recorded import without_unnamed
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.explain import Explainer
 from tire_pipeline.mismatch.model.residual import rms
-from tire_pipeline.mismatch.preparation.prepare import INPUTS
+from tire_pipeline.mismatch.recording.prepare import INPUTS
 from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import with_held_out, without_equation

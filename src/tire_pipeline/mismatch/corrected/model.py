@@ -17,10 +17,10 @@ from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate, simulate_moments
 from tire_pipeline.mismatch.model.residual import rms
-from tire_pipeline.mismatch.preparation.given import numeric
-from tire_pipeline.mismatch.preparation.open_questions import Question
-from tire_pipeline.mismatch.preparation.prepare import ASSUMED_ZERO, INPUTS, own_relaxation
-from tire_pipeline.mismatch.preparation.smoothing import denoise
+from tire_pipeline.mismatch.recording.given import numeric
+from tire_pipeline.mismatch.recording.open_questions import Question
+from tire_pipeline.mismatch.recording.prepare import ASSUMED_ZERO, INPUTS, own_relaxation
+from tire_pipeline.mismatch.recording.smoothing import denoise
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
 from tire_pipeline.mismatch.unnamed_physics.symbols import table_of
 

@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_limits
 
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.residual import share_above_noise
-from tire_pipeline.mismatch.preparation.prepare import INPUTS
+from tire_pipeline.mismatch.recording.prepare import INPUTS
 
 if TYPE_CHECKING:
     from sklearn.gaussian_process import GaussianProcessRegressor

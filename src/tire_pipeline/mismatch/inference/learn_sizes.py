@@ -32,7 +32,7 @@ Array = np.ndarray
 Names = tuple[str, ...]
 Map = Callable[[Callable[["Tuning"], Array], Iterable["Tuning"]], Iterable[Array]]
 _STEP = 1.6
-_MOST_CENTRES = 3
+_ROUNDS_OF_LEARNING = 3
 _TRUSTED = (2.0, 1.0, 0.5)
 """Steps from a centre within which the parabolas are believed; fewer where they promise too much."""
 _DIFFERENCE = 0.1
@@ -143,7 +143,7 @@ def learn(cases: Sequence[Tuning], start: LearntSizes, *, step: float = _STEP, m
     shares = _shares(cases)
     best, score = start, float(shares @ log_scores(cases, start, mapped))
     before = score
-    for _ in range(_MOST_CENTRES):
+    for _ in range(_ROUNDS_OF_LEARNING):
         around = _Parabolas(cases, best, step, mapped)
         for within in _TRUSTED:
             there, farthest = around.best(within)

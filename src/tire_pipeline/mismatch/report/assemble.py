@@ -22,15 +22,15 @@ from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.channels import one_sided
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.model.residual import residual, rms
-from tire_pipeline.mismatch.preparation.prepare import Prepared
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.left_out import each_left_out, shares_left
 from tire_pipeline.mismatch.proof.locate import everywhere, locate, when, where
-from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder, Visible
+from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.proof.noise_floor import noise_floors
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
+from tire_pipeline.mismatch.recording.prepare import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.result import MismatchReport
@@ -120,13 +120,9 @@ def assembled(it: Explained) -> MismatchReport:
         candidates=_candidates(analysis, answer),
         series=_series(analysis, noise),
         assumed=prepared.assumed,
-<<<<<<< HEAD
         find_visible=list
         if prepared.stopped
         else partial(visible, analysis, it.sets, answer.named, unexplained=left.significant),
-=======
-        visible=[] if prepared.stopped else _visible(it, left),
->>>>>>> w-25-36
         withheld=withheld,
         probabilities=_probabilities(answer),
     )
@@ -223,11 +219,6 @@ def _unnamed(
         found, model = never_worse(unnamed_physics(it.analysis, plainly=plainly), model, it.recording)
     fit = with_unnamed(fit, found)
     return None if plainly and found.physics is None else found, model, fit
-
-
-def _visible(it: Explained, left: Remainder) -> list[Visible]:
-    with under_way("weighing what could have been seen"):
-        return visible(it.analysis, it.sets, it.answer.named, unexplained=left.significant)
 
 
 def _following(it: Explained, verdict: str, plain: CorrectedModel) -> str:

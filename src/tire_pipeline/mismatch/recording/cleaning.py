@@ -16,7 +16,7 @@ import numpy as np
 from tire_pipeline.channels import POINT_CHANNELS, SLIP_AND_LOAD, shown_unit
 from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.model.residual import rms
-from tire_pipeline.mismatch.preparation.smoothing import denoise
+from tire_pipeline.mismatch.recording.smoothing import denoise
 
 Array = np.ndarray
 _EVIDENCE_TO_SMOOTH = float(np.log(20.0))

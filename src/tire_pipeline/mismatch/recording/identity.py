@@ -12,8 +12,8 @@ from tire_pipeline.channels import SLIP_AND_LOAD, SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.model.channels import moves
 from tire_pipeline.mismatch.model.forces import plain_forces
-from tire_pipeline.mismatch.preparation.open_questions import Question
-from tire_pipeline.mismatch.preparation.usable import Drive
+from tire_pipeline.mismatch.recording.open_questions import Question
+from tire_pipeline.mismatch.recording.usable import Drive
 
 Array = np.ndarray
 
