@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import json
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -116,25 +117,20 @@ def test_no_physical_tire_is_on_both_sides(small_run):
 
 def test_shuffled_truth_leaves_every_translated_file_as_it_was(small_run, tmp_path):
     """The sealed truth never reaches what is judged."""
-    data = small_run / "data"
+    data = shutil.copytree(small_run / "data", tmp_path / "data")
     translated = data / "07_model_output" / "tir"
     before = {p.relative_to(translated): p.read_bytes() for p in sorted(translated.rglob("*.tir"))}
-    scores = _latest(small_run, "07_model_output", "evaluation_summary.csv").read_text()
+    scores = _latest(tmp_path, "07_model_output", "evaluation_summary.csv").read_text()
     sets = data / "01_raw" / "truth" / "first"
     truth = sorted(p for name in ("four", "hidden") for p in (sets / name).rglob("*.tir"))
     texts = [p.read_bytes() for p in truth]
     for path, text in zip(truth, texts[1:] + texts[:1], strict=True):
         path.write_bytes(text)
-    try:
-        done = kedro_here(small_run, "--pipeline", "evaluate")
-        assert done.returncode == 0, done.stdout + done.stderr
-        after = {p.relative_to(translated): p.read_bytes() for p in sorted(translated.rglob("*.tir"))}
-        assert after == before
-        assert _latest(small_run, "07_model_output", "evaluation_summary.csv").read_text() != scores
-    finally:
-        for path, text in zip(truth, texts, strict=True):
-            path.write_bytes(text)
-        kedro_here(small_run, "--pipeline", "evaluate")  # others read the page of the run as it was
+    done = kedro_here(tmp_path, "--pipeline", "evaluate")
+    assert done.returncode == 0, done.stdout + done.stderr
+    after = {p.relative_to(translated): p.read_bytes() for p in sorted(translated.rglob("*.tir"))}
+    assert after == before
+    assert _latest(tmp_path, "07_model_output", "evaluation_summary.csv").read_text() != scores
 
 
 def test_its_report_and_the_front_page_lead_to_each_other_in_a_browser(small_run, tmp_path):
