@@ -17,6 +17,7 @@ from doc_tables import markdown, write_between
 
 from tire_pipeline.concealed.real.published import published, published_text
 from tire_pipeline.concealed.scoring.words import in_words, outcome
+from tire_pipeline.reporting.proof_tables import METHODS
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benchmarks" / "results"
@@ -64,7 +65,7 @@ def goals(simulated: pd.DataFrame, real: pd.DataFrame) -> str:
 def table(scores: pd.DataFrame) -> str:
     """Own scores with interval and goal, the baselines' values beside them."""
     own, others = scores[scores["method"] == OWN], _beside(scores).drop(columns=OWN)
-    head = ["score", "value", "95% interval", "cases", "goal", "result", *others.columns]
+    head = ["score", "value", "95% interval", "cases", "goal", "result", *map(_method, others.columns)]
     rows = [[*_own(row), *(_cell(value, 2) for value in others.loc[row.name])] for row in own.itertuples()]
     return markdown(head, rows)
 
@@ -80,7 +81,7 @@ def real_tables(scores: pd.DataFrame, made: dict) -> str:
     by_source = [
         [
             in_words(name),
-            *(f"{_cell(mine.loc[(name, s), 'value'], 3)} ({mine.loc[(name, s), 'n']:.0f})" for s in sources),
+            *(_with_count(mine.loc[(name, s)]) for s in sources),
         ]
         for name in own["name"]
     ]
@@ -99,9 +100,18 @@ def real_tables(scores: pd.DataFrame, made: dict) -> str:
             "By source, with the number of cases:",
             markdown(["score", *sources], by_source),
             "The other methods on the same cases:",
-            markdown(["score", *others.columns], beside),
+            markdown(["score", *map(_method, others.columns)], beside),
         ]
     )
+
+
+def _method(name: str) -> str:
+    return METHODS.get(name, name)
+
+
+def _with_count(row: Any) -> str:
+    """A score and its number of cases; nothing where there is none."""
+    return f"{_cell(row['value'], 3)} ({row['n']:.0f})" if row["n"] else ""
 
 
 def _beside(scores: pd.DataFrame) -> pd.DataFrame:
@@ -115,7 +125,7 @@ def _own(row: Any) -> list[str]:
     return [
         in_words(str(row.name)),
         _cell(row.value, 3),
-        f"{_cell(row.low, 3)} to {_cell(row.high, 3)}" if row.n else "",
+        f"{_cell(row.low, 3)} to {_cell(row.high, 3)}" if row.low < row.high else "",
         f"{row.n:.0f}",
         row.target if isinstance(row.target, str) else "",
         outcome(row._asdict()),

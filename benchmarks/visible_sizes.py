@@ -39,9 +39,9 @@ from tire_pipeline.concealed import Case, CaseSettings, make_case
 from tire_pipeline.concealed.real import RealPlan, make_real_case
 from tire_pipeline.errors import DomainError, RecordingError
 from tire_pipeline.mismatch import Explainer, explain_mismatch
-from tire_pipeline.mismatch.preparation.prepare import prepare
 from tire_pipeline.mismatch.proof.trial import put_in
 from tire_pipeline.mismatch.proof.visible import Sight, sights
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.assemble import Explained
 
 RECORDINGS = Path(__file__).resolve().parents[2] / "shared" / "recordings"

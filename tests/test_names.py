@@ -110,9 +110,11 @@ DIFFERENT_WORDS = {
     ("head", "read"),
     ("pipeline", "pipelines"),
     ("read", "real"),
+    ("recording", "recordings"),
     ("tir", "tire"),
 }
-"""Pairs of modules that nobody takes for each other; ``pipeline`` and ``pipelines`` are Kedro's."""
+"""Pairs of modules that nobody takes for each other. ``pipeline`` and ``pipelines`` are Kedro's;
+``recordings`` reads files, and ``mismatch/recording`` prepares one for its explanation."""
 
 
 def _names_of_modules(modules: Iterable[str]) -> set[str]:

@@ -1,6 +1,6 @@
 """Check a recording before anything is explained.
 
-Two faults are put into a copy of the rig run: a gap of two seconds, and a block without numbers.
+A copy of the rig run gets two faults: a gap of two seconds, and a block without numbers.
 """
 
 import numpy as np

@@ -8,7 +8,7 @@ from small_rig import schedule
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import Explainer, explain_mismatch, explain_recordings
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.preparation.prepare import prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.words import interval, place
 
 

@@ -8,7 +8,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount_with_error
 from tire_pipeline.mismatch.model.candidates import derivatives
 from tire_pipeline.mismatch.model.forces import simulate
-from tire_pipeline.mismatch.preparation.prepare import own_relaxation, prepare
+from tire_pipeline.mismatch.recording.prepare import own_relaxation, prepare
 
 PHYSICS = (
     "friction_scale stiffness_scale load_sensitivity camber combined_slip inflation_pressure temperature "

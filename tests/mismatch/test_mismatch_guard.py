@@ -10,8 +10,8 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.fit import linearised
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.residual import residual
-from tire_pipeline.mismatch.preparation.prepare import prepare
 from tire_pipeline.mismatch.proof.never_worse import harmless
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 
 

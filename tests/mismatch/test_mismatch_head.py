@@ -8,10 +8,13 @@ from dataclasses import replace
 import pytest
 
 from tire_pipeline.mismatch.corrected.as_recorded import with_unnamed, without_unnamed
-from tire_pipeline.mismatch.preparation.open_questions import Question
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
+from tire_pipeline.mismatch.recording.cleaning import Cleaning
+from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit, PredictionError
+from tire_pipeline.mismatch.report.report_page import percent
 from tire_pipeline.mismatch.report.sentences import head, on_question, with_held_out, without_equation
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues
@@ -60,11 +63,35 @@ def test_three_sentences_of_which_the_last_says_what_to_do(case):
 def test_an_equation_is_in_the_middle_and_its_drivers_beside_it():
     told = HEADS["unexplained, with an equation"]
     assert "an equation in speed takes the RMS error of Fy from 300 N to 120 N" in sentences(told.text)[1]
-    assert any("it follows speed best" in remark for remark in told.remarks)
+    assert any("it depends most on speed" in remark for remark in told.remarks)
     assert any(
-        "removes of the remaining RMS error 60%" in r
+        "removes 60% of the remaining RMS error of Fy" in r
         for r in HEADS["partly explained, with an equation"].remarks
     )
+
+
+def test_what_an_equation_predicts_of_unseen_sweeps_was_no_noise():
+    noisy = {"fy": replace(FIT["fy"], noise_floor=100.0), "fx": OutputFit(30.0, 25.0, 25.0, 24.0, 26.0)}
+    told = with_unnamed(noisy, FOUND)
+    assert told["fy"].noise_floor == told["fy"].rms_after == pytest.approx(48.0)
+    assert told["fx"] is noisy["fx"]
+
+
+def test_all_that_is_above_the_noise_is_a_hundred_percent_and_no_dash():
+    shares = (1.0, 0.996, 0.5, -1.0, 0.0, 1.7, float("nan"))
+    assert [percent(share) for share in shares] == ["100%", "100%", "50%", "-100%", "–", "–", "–"]
+
+
+@pytest.mark.parametrize(("felt", "said"), [(-0.24, "0%"), (-0.001, "0%"), (0.4, "40%"), (1.22, "100%")])
+def test_a_share_that_a_force_follows_lies_between_nothing_and_all(felt, said):
+    told = Cleaning("camber", smoothed=True, removed=1e-4, felt=felt, evidence=3.0).text()
+    assert f"the force follows {said} of it" in told
+
+
+@pytest.mark.parametrize("effect", catalogue().values(), ids=catalogue())
+def test_what_to_do_next_is_something_to_do(effect):
+    first = effect.experiment.split(" ")[0]
+    assert first in ("", "record", "repeat", "hang", "look", "drive", "turn")
 
 
 def test_an_open_question_comes_before_what_was_found_and_says_what_to_do():

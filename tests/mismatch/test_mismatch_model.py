@@ -10,8 +10,8 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import harmonic_power
 from tire_pipeline.mismatch.inference.analysis import analyse
 from tire_pipeline.mismatch.model.forces import simulate
-from tire_pipeline.mismatch.preparation.prepare import prepare
 from tire_pipeline.mismatch.proof.trial import put_in
+from tire_pipeline.mismatch.recording.prepare import prepare
 
 
 def test_play_follows_only_when_pushed():

@@ -13,9 +13,9 @@ from tire_pipeline.magic_formula import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.model.blocks import sweeps
-from tire_pipeline.mismatch.preparation.prepare import prepare
 from tire_pipeline.mismatch.proof.locate import locate
 from tire_pipeline.mismatch.proof.measured import Remainder
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.sentences import head
 from tire_pipeline.recordings import DART_CAR, axle_recording, read_dart, read_recording
 from tire_pipeline.tir import read_tir

@@ -7,9 +7,9 @@ from mismatch_rates import flat_belt, free_drive, second_session
 
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.model.blocks import sweeps
-from tire_pipeline.mismatch.preparation.prepare import prepare
 from tire_pipeline.mismatch.proof.locate import everywhere, locate
 from tire_pipeline.mismatch.proof.measured import Remainder
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.sentences import head
 
 

@@ -16,13 +16,13 @@ from tire_pipeline.mismatch.explain import Explainer
 from tire_pipeline.mismatch.inference.analysis import analyse
 from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_posterior, log_prior
 from tire_pipeline.mismatch.inference.evidence.likelihood import Weights
-from tire_pipeline.mismatch.inference.learn_sizes import Evidences, Tuning, learn, log_scores, pruned
+from tire_pipeline.mismatch.inference.learn_sizes import Tuning, learn, log_scores, pruned
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.mismatch.inference.one_sided import log_possible
 from tire_pipeline.mismatch.inference.priors import prior
 from tire_pipeline.mismatch.inference.sets.answer import answered
 from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets
-from tire_pipeline.mismatch.preparation.prepare import prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 
 
 @pytest.fixture(scope="module")
@@ -173,7 +173,7 @@ def tuning(cases):
 
 
 def test_learning_betters_the_log_score(tuning):
-    found = learn(Evidences(tuning), replace(learnt(), error=0.03))
+    found = learn(tuning, replace(learnt(), error=0.03))
     assert log_scores(tuning, found.sizes).mean() == pytest.approx(found.score)
     assert found.score > found.start
     assert set(found.curvature) >= {"error", "side", "effect"}
@@ -181,9 +181,9 @@ def test_learning_betters_the_log_score(tuning):
 
 def test_a_source_that_is_left_out_teaches_nothing(tuning):
     nothing, friction = tuning
-    without = learn(Evidences(tuning), learnt(), step=1.0, without=friction.source).sizes
-    assert without == learn(Evidences([nothing]), learnt(), step=1.0).sizes
-    assert without != learn(Evidences(tuning), learnt(), step=1.0).sizes
+    without = learn(tuning, learnt(), step=1.0).without[friction.source]
+    assert without.effect == pytest.approx(learn([nothing], learnt(), step=1.0).sizes.effect)
+    assert without.effect != pytest.approx(learn(tuning, learnt(), step=1.0).sizes.effect)
 
 
 def test_hypotheses_without_mass_change_no_score(cases, tuning):

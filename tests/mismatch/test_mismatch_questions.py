@@ -11,7 +11,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
-from tire_pipeline.mismatch.preparation.prepare import prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.recordings import DART_CAR, axle_recording, read_dart, read_recording
 from tire_pipeline.tir import read_tir
 

@@ -20,7 +20,7 @@ from mismatch_rates import (
 
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
-from tire_pipeline.mismatch.preparation.prepare import prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 
 HIDDEN = ("nothing", "pressure", "camber", "camber pressure")
 NOTHING_PUT_IN = (("force_gain", {"fy": 0.0, "fx": 0.0}),)

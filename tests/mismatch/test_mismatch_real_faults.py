@@ -5,7 +5,7 @@ import pytest
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
-from tire_pipeline.mismatch.preparation.prepare import prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 
 
 @pytest.mark.parametrize("value", [0.0, 100.0])

@@ -9,7 +9,7 @@ import pytest
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.explain import Explainer
 from tire_pipeline.mismatch.inference.thinning import MOST_SAMPLES, portions, refit_on_all
-from tire_pipeline.mismatch.preparation.prepare import prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 
 FILE = Path(__file__).resolve().parents[2] / "benchmarks" / "bench_mismatch.py"
 

@@ -6,7 +6,7 @@ import pytest
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.discrepancy.gaussian_form import gaussian_form
 from tire_pipeline.mismatch.model.blocks import sweeps
-from tire_pipeline.mismatch.preparation.prepare import prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.words import gaussian
 
 

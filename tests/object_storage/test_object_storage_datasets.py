@@ -23,9 +23,9 @@ from tire_pipeline.datasets import (
     TextFolderDataset,
     TirFolderDataset,
 )
-from tire_pipeline.errors import DomainError
+from tire_pipeline.errors import DomainError, RecordingError, TirError
 from tire_pipeline.files.objects import ConflictError, Objects
-from tire_pipeline.retraining import Judged, Manifest, Store, judge
+from tire_pipeline.retraining import Judged, Manifest, Store, difference, judge
 from tire_pipeline.retraining.partition import Partition
 from tire_pipeline.retraining.release import ModelRegistry, Release
 from tire_pipeline.runs import LostTicketError, ObjectTicket, OtherRunsOnObjects, take_turn
@@ -215,6 +215,45 @@ def test_a_recording_of_a_bucket_finds_its_tire(folder):
     assert len(recording) > 100
     with pytest.raises(Exception, match=f"{folder}/alone/run.csv: no .tir file"):
         loaders["alone/run.csv"]()
+
+
+def test_a_name_that_leads_out_of_its_folder_writes_nothing_here_and_is_told(folder, tmp_path):
+    outside = tmp_path / "outside"
+    outside.mkdir()
+    folder.write("rig/run.csv", b"time,slip_angle\n0,0.1\n")
+    folder.write(f"{outside}/evil.csv", b"time,slip_angle\n0,0.1\n")  # begins with a slash
+    folder.write("rig//run.csv", b"time,slip_angle\n0,0.2\n")
+    loaders = RecordingFolderDataset(path=str(folder)).load()
+    assert len(loaders) == 3
+    for name, load in loaders.items():
+        said = "no .tir file lies beside" if name == "rig/run.csv" else "its name holds an empty part"
+        with pytest.raises(RecordingError, match=said):
+            load()
+    assert not list(outside.iterdir())
+
+
+def test_a_tir_object_whose_name_is_no_path_is_told(folder):
+    for name in ("/A/one.tir", "A//one.tir", "A/one.tir"):
+        folder.write(name, b"no tire")
+    loaders = TirFolderDataset(path=str(folder)).load()
+    said = {}
+    for name, load in loaders.items():
+        with pytest.raises(TirError) as raised:
+            load()
+        said[name] = "empty part" in str(raised.value)
+    assert said == {"/A/one.tir": True, "A//one.tir": True, "A/one.tir": False}
+    found = difference(folder, Manifest())
+    assert set(found.added) == {"A/one.tir"}
+    assert set(found.aside) == {"/A/one.tir", "A//one.tir"}
+
+
+def test_a_recording_of_a_bucket_that_is_too_large_is_not_fetched(folder, monkeypatch):
+    monkeypatch.setattr("tire_pipeline.recordings.readers.limits.most_bytes", lambda: 10.0)
+    folder.write("rig/run.csv", b"time,slip_angle\n0,0.1\n")
+    (load,) = RecordingFolderDataset(path=str(folder)).load().values()
+    monkeypatch.setattr(Objects, "read", lambda *_: pytest.fail("it is fetched"))
+    with pytest.raises(RecordingError, match="too many for the memory"):
+        load()
 
 
 class OtherRun:

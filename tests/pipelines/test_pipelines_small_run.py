@@ -140,7 +140,7 @@ def test_its_report_and_the_front_page_lead_to_each_other_in_a_browser(small_run
     with browser(tmp_path) as driver:
         driver.get((small_run / "data" / "08_reporting" / "index.html").as_uri())
         assert outcome[0] in driver.find_element("css selector", "body").text
-        driver.find_element("link text", "The translation, judged").click()
+        driver.find_element("link text", "How well the translation works").click()
         head = driver.find_element("css selector", ".main").text
         assert [line for line in outcome if line not in head] == []
         assert driver.find_elements("css selector", "figure svg, figure img")

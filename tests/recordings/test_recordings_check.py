@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.mismatch.preparation.prepare import prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.recordings import check_recording
 from tire_pipeline.tir import read_tir
 

@@ -39,7 +39,7 @@ def test_each_follows_the_one_before_after_a_gap():
 
 def test_the_engine_sees_each_as_a_piece_of_its_own():
     from tire_pipeline.magic_formula import TireModel
-    from tire_pipeline.mismatch.preparation.prepare import prepare
+    from tire_pipeline.mismatch.recording.prepare import prepare
 
     coefficients = {"FNOMIN": 4000.0, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -15.0, "PKY2": 2.0}
     tire = TireModel.from_coefficients(coefficients)

@@ -45,6 +45,12 @@ def test_numbers_are_rounded_and_long_tables_counted():
     assert "3 further rows" in page
 
 
+def test_coefficients_have_the_digits_that_they_were_given():
+    frame = pd.DataFrame({"coefficient": ["R0", "CZ", "LONGVL"], "value": [0.376, 175000.0, 16.7]})
+    cells = [row[1][0] for row, _ in Table(frame, digits=8, unlike=True).rows]
+    assert cells == ["0.376", "175,000", "16.7"]
+
+
 def test_a_column_has_one_number_of_decimals_unless_a_small_value_would_be_lost():
     frame = pd.DataFrame(
         {"ratio": [0.143, 0.1304, 1.03], "mixed": [250.0, 0.02, 3.0], "name": ["a", "b", "c"]}

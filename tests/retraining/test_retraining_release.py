@@ -132,8 +132,10 @@ def test_the_same_files_and_settings_are_not_judged_twice():
 def test_rolling_back_further_than_the_first_is_an_error():
     with pytest.raises(DomainError, match="no model was released yet"):
         roll_back(Release(), time="t")
-    with pytest.raises(DomainError, match="only m1 was released"):
+    with pytest.raises(DomainError, match="m1 is the only one on record"):
         roll_back(_release("m1"), time="t")
+    with pytest.raises(DomainError, match="m1 is the only one on record"):  # m2 was released, too
+        roll_back(roll_back(_release("m1", "m2"), time="t"), time="t")
 
 
 def test_models_with_other_held_out_tires_are_not_compared():

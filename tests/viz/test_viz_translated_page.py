@@ -136,6 +136,15 @@ def click_file(driver, name: str):
     return wait(driver, lambda: driver.find_elements("css selector", "tr.detail td.detail"))[0]
 
 
+def test_a_click_anywhere_in_a_row_opens_and_closes_it(driver):
+    reset(driver)
+    cell = driver.find_element("css selector", "#files tbody tr:not(.detail) td:nth-child(3)")
+    driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", cell)
+    for is_open in (True, False):
+        cell.click()
+        wait(driver, lambda: bool(driver.find_elements("css selector", "tr.detail")) is is_open)  # noqa: B023
+
+
 def test_the_users_own_files_come_first_and_every_file_can_be_reached(driver):
     files = shown(driver)
     assert files[1] == "new/mine.tir"

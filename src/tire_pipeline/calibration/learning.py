@@ -20,14 +20,13 @@ from tire_pipeline.code_hash import code_hash
 from tire_pipeline.concealed.scoring.measures import calibration_error
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.mismatch.inference.analysis import analyse
-from tire_pipeline.mismatch.inference.learn_sizes import Evidences, Learnt, Tuning, learn, log_scores, pruned
+from tire_pipeline.mismatch.inference.learn_sizes import Learnt, Tuning, learn, log_scores, pruned
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes, learnt
 from tire_pipeline.mismatch.inference.sets.answer import answered
 from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets
 from tire_pipeline.mismatch.inference.thinning import thinned
-from tire_pipeline.mismatch.preparation.prepare import prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.parameters import Parameters
-from tire_pipeline.progress import track
 
 Work = dict[str, Callable[[], bytes]]
 Folder = Mapping[str, Callable[[], bytes]]
@@ -59,7 +58,7 @@ class CalibrateMismatchParameters(Parameters):
 
 
 def reduce_cases(parameters: CalibrateMismatchParameters) -> Work:
-    """Say how each tuning case is made and reduced to what its sets say; done once for each code."""
+    """Make each tuning case and keep the evidence of its sets; done once for each version of the code."""
     code = code_hash("mismatch", "calibration", "concealed", "magic_formula")
     made = plans(
         Path(parameters.recordings), parameters.real, parameters.first, parameters.second, parameters.unnamed
@@ -104,17 +103,13 @@ def learn_sizes(
         Of :func:`judged`, a row for each source.
     """
     cases = [t for read in reduced_cases.values() if (t := pickle.loads(read())) is not None]
-    evidences, start = Evidences(cases, _Mapped(parameters.processes)), learnt()
-    found = learn(evidences, start, step=parameters.step)
+    found = learn(cases, learnt(), step=parameters.step, mapped=_Mapped(parameters.processes))
     rows = []
-    sources = sorted({t.source for t in cases})
-    for source in track(sources, "judging each source by the others", len(sources)):
+    for source, sizes in found.without.items():
         own = [each for each in cases if each.source == source]
-        others = found if len(sources) == 1 else learn(evidences, start, step=parameters.step, without=source)
-        rows.append({"source": source, **judged(own, others.sizes, found.sizes)})
-    return {"sizes": found.sizes.to_dict(), "provenance": _made_with(cases, found, parameters)}, pd.DataFrame(
-        rows
-    )
+        rows.append({"source": source, **judged(own, sizes, found.sizes)})
+    made = {"sizes": found.sizes.to_dict(), "provenance": _made_with(cases, found, parameters)}
+    return made, pd.DataFrame(rows)
 
 
 class _Mapped:

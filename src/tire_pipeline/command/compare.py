@@ -149,5 +149,5 @@ def _page(
     frame = pd.DataFrame(changed, columns=["coefficient", "A", "B"])
     if len(frame):
         said = "SI units; a dash: the version does not use it, or the file lacks it."
-        parts.append(Table(frame, said, "Coefficients that differ", digits=6, most_rows=1000))
+        parts.append(Table(frame, said, "Coefficients that differ", digits=6, unlike=True, most_rows=1000))
     return render_page(title or " and ".join(models), parts, footer=f"tire compare {' '.join(models)}")

@@ -15,7 +15,7 @@ from tire_pipeline.command.options import (
     read_runs,
     reading_options,
 )
-from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
+from tire_pipeline.command.outcome import CommandOutcome, Grid, digits, finish
 from tire_pipeline.errors import RecordingError, TirePipelineError
 
 if TYPE_CHECKING:
@@ -67,6 +67,7 @@ def command(
 ) -> None:
     """Explain a mismatch."""
     from tire_pipeline.mismatch import Explainer, explain_recordings
+    from tire_pipeline.recordings.conventions.canonical import notes_beside_assumed
     from tire_pipeline.tir import read_tir
 
     if corrected is not None:
@@ -80,7 +81,7 @@ def command(
     held_out = by_path[_among(hold_out, runs)] if hold_out else None
     report = explain_recordings(tire, read, held_out=held_out, explainer=Explainer(without=without))
     if len(read) == 1:
-        report.notes[:0] = next(iter(read.values())).attrs.get("notes", [])
+        report.notes[:0] = notes_beside_assumed(next(iter(read.values())))
     written, refusal = [], None
     if corrected:
         try:
@@ -118,7 +119,7 @@ def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Command
                 fit.noise_floor,
                 fit.rms_before,
                 fit.rms_after,
-                f"{fit.rms_after_low:.3g} to {fit.rms_after_high:.3g}",
+                f"{digits(fit.rms_after_low)} to {digits(fit.rms_after_high)}",
                 "N m" if name.startswith("m") else "N",
             )
             for name, fit in report.fit.items()

@@ -159,7 +159,8 @@ def _page(
         parts.append(Text(odd, heading="What is unusual in the file"))
     headings = ("Key figures", "Ranges")
     for grid, heading in zip(grids, headings, strict=False):
-        parts.append(Table(pd.DataFrame(grid.rows, columns=list(grid.header)), grid.title, heading))
+        frame = pd.DataFrame(grid.rows, columns=list(grid.header))
+        parts.append(Table(frame, grid.title, heading, digits=4, unlike=True))
     if len(absent):
         parts.append(
             Table(
@@ -170,5 +171,5 @@ def _page(
             )
         )
     for section, given in _by_section(model).items():
-        parts.append(Table(given, "SI units.", section, digits=8))
+        parts.append(Table(given, "SI units.", section, digits=8, unlike=True))
     return render_page(file.name, parts, footer=f"tire show {file.name}")

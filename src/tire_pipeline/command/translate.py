@@ -151,5 +151,6 @@ def _page(
     parts.append(Figure(*draw_translation(model, translated, result.bands), heading="Curves"))
     if grid.rows:
         frame = pd.DataFrame(grid.rows, columns=list(grid.header))
-        parts.append(Table(frame, f"{grid.title}.", "Coefficients that moved", digits=5, most_rows=400))
+        said, heading = f"{grid.title}.", "Coefficients that moved"
+        parts.append(Table(frame, said, heading, digits=5, unlike=True, most_rows=400))
     return render_page(file.name, parts, footer=f"tire translate {file.name}")

@@ -29,7 +29,7 @@ def choose_sources(
     parameters: EvaluateParameters,
     target_category: str,
 ) -> dict[str, Any]:
-    """Say which files are translated: the evaluation tires, or the user's own where there are none.
+    """Choose the files to translate: the evaluation tires, or the user's own if there are none.
 
     Evaluation tires of which no organisation is among the user's (those of the demonstration fleet, beside
     own files) say nothing about the translation and do not count.

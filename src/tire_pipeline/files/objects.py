@@ -50,6 +50,21 @@ def is_remote(path: object) -> bool:
     return "://" in text and not text.startswith("file://")
 
 
+def no_place(name: str) -> str:
+    """Why no file below a folder could be called as an object is; empty if one could.
+
+    As the path of a file such a name would lead out of its folder, or to the file of another object.
+
+    Examples
+    --------
+    >>> no_place("/etc/a.tir")
+    'its name holds an empty part: no file below a folder is called so'
+    """
+    if "" in name.split("/"):
+        return "its name holds an empty part: no file below a folder is called so"
+    return ""
+
+
 class Objects:
     """The objects below an address.
 

@@ -18,10 +18,10 @@ from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer, answe
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated, enumerate_sets
 from tire_pipeline.mismatch.inference.thinning import thinned
 from tire_pipeline.mismatch.model.residual import residual
-from tire_pipeline.mismatch.preparation.given import numeric
-from tire_pipeline.mismatch.preparation.prepare import Prepared, prepare
 from tire_pipeline.mismatch.proof.left_out import shares_left
 from tire_pipeline.mismatch.proof.measured import OutputFit
+from tire_pipeline.mismatch.recording.given import numeric
+from tire_pipeline.mismatch.recording.prepare import Prepared, prepare
 from tire_pipeline.mismatch.report.assemble import Explained, assembled
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.progress import track, under_way

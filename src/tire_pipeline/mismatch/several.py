@@ -14,10 +14,11 @@ from tire_pipeline.mismatch.corrected.as_recorded import without_unnamed
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.explain import Explainer
 from tire_pipeline.mismatch.model.residual import rms
-from tire_pipeline.mismatch.preparation.prepare import INPUTS
+from tire_pipeline.mismatch.recording.prepare import INPUTS
 from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import with_held_out, without_equation
+from tire_pipeline.recordings.conventions.canonical import notes_beside_assumed
 from tire_pipeline.recordings.join import join_recordings
 
 Array = np.ndarray
@@ -99,7 +100,7 @@ def explain_recordings(
         joined, notes = only, []
     else:
         joined = join_recordings(explained)
-        notes = list(joined.attrs["notes"])
+        notes = notes_beside_assumed(joined)
     try:
         report = (explainer or Explainer()).explain(tire, joined)
     except RecordingError as error:

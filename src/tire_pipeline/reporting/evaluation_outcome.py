@@ -21,7 +21,7 @@ def say_outcome(
     best: dict[str, Any],
     target_category: str,
 ) -> list[str]:
-    """Say what the files became by the best translator, beside the floor; then what the others did.
+    """Sum up the best translator's result beside the floor, then that of the others.
 
     Parameters
     ----------

@@ -102,7 +102,7 @@ class ExplainParameters(Parameters):
 
 
 def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, ExplainTask]:
-    """Say how each recording is explained; what is stored and has not changed is not explained again.
+    """Explain each recording; what is stored and has not changed is not explained again.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, 
 def collect_explained(
     explained: Mapping[str, Read],
 ) -> tuple[dict[str, Any], pd.DataFrame, dict[str, Read], dict[str, Read | None]]:
-    """Put together what was explained.
+    """Collect what was found in each recording.
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ def collect_explained(
     pages : dict
         One HTML page a report, by the function that reads it: they are never in memory together.
     corrected : dict
-        In the same way, ``.tir`` files with the missing physics put in, and sidecars for what the format
+        In the same way, ``.tir`` files with the missing physics added, and sidecars for what the format
         cannot hold. None in place of a file that a recording no longer has, because no physics is missing or
         a question is open on which all of it rests (its axes): that of an earlier run would be wrong.
 

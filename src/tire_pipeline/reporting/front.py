@@ -13,7 +13,7 @@ FRONT = "index.html"
 _MAIN = re.compile(r'<div class="main">(.*?)</div>', re.S)
 _PARAGRAPH = re.compile(r"<p[^>]*>(.*?)</p>", re.S)
 LEADS = (
-    ("report.html", "The translation, judged"),
+    ("report.html", "How well the translation works"),
     ("translated_files.html", "Your files, translated"),
     ("mismatch.html", "Your recordings"),
 )
@@ -85,15 +85,15 @@ REPORTS = (
 PICTURES = (
     (
         "force_curves.png",
-        "Lateral force over slip angle: solid as each source measured, dashed as translated. Where the "
-        "target measured the tires, too: thick as it measured, and in a second row the differences from it, "
-        "where dashed lines should lie near zero.",
+        "Lateral force over slip angle. Solid: measured by each source. Dashed: translated. If the target "
+        "measured the tires too, its curve is the thick one, and the second row shows the differences from "
+        "it: dashed lines should lie near zero.",
     ),
     (
         "confusion_matrix.png",
-        "Share of the files of each organisation (rows) for which the classifier predicts each (columns); it "
-        "has not seen these files, and the diagonal is right. Left, another organisation's file of the same "
-        "tire may be among those it learned from; right, none is.",
+        "Share of the files of each organisation (rows) for which the classifier predicts each organisation "
+        "(columns). Right predictions are on the diagonal. The classifier has not seen these files. Left: "
+        "it may have learned from another organisation's file of the same tire. Right: it has not.",
     ),
 )
 
@@ -132,7 +132,7 @@ def _what_matters(folder: Path) -> list[Text | Links | Picture]:
     parts: list[Text | Links | Picture] = []
     if said:
         links = [(name, dict(LEADS)[name], text) for name, text in said]
-        parts.append(Links(links, heading="What came out"))
+        parts.append(Links(links, heading="Results"))
     for name, caption in PICTURES:
         found = _newest(folder / name)
         if found is not None:

@@ -54,6 +54,8 @@ class Table:
         would lose by it.
     decimals : int, optional
         Of all floats, small ones too: for shares of one or of a hundred.
+    unlike : bool
+        A column holds quantities of different kinds, such as coefficients: each number has its own digits.
     most_rows : int
         Further rows are counted, not shown.
     below : str
@@ -65,6 +67,7 @@ class Table:
     heading: str = ""
     digits: int = 3
     decimals: int | None = None
+    unlike: bool = False
     most_rows: int = 200
     below: str = ""
     kind: str = field(default="table", init=False)
@@ -78,10 +81,7 @@ class Table:
     def rows(self) -> list[tuple[list[tuple[str, bool]], str]]:
         """Cells as (text, is a number), and the text below."""
         shown = self.frame.head(self.most_rows)
-        decimals = [
-            _decimals(shown[name].tolist(), self.digits) if self.decimals is None else self.decimals
-            for name in self.columns
-        ]
+        decimals = [self._decimals_of(shown[name]) for name in self.columns]
         heads = self.heads
         cells = [
             [
@@ -96,6 +96,11 @@ class Table:
             [_cell(value, self.digits)[0] for value in shown[self.below]] if self.below else [""] * len(cells)
         )
         return list(zip(cells, below, strict=True))
+
+    def _decimals_of(self, column: pd.Series) -> int | None:
+        if self.unlike or self.decimals is not None:
+            return self.decimals
+        return _decimals(column.tolist(), self.digits)
 
     @property
     def heads(self) -> list[tuple[str, bool]]:

@@ -70,7 +70,7 @@ def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -
     by_source = ", ".join(f"{n} from {source}" for source, n in made["by_source"].items())
     lines += [
         f"{made['cases']} cases made from real recordings ({by_source}): physics hidden from the model by "
-        f"what it was fitted to, known effects put in by their mechanism, or nothing. "
+        f"what it was fitted to, known effects added by their mechanism, or nothing. "
         f"{_goals(own[own['source'] == 'all'])}",
         f"Seed {made['seed']}, code {made['code']}, {made['date']}. The answers were sealed before anything "
         f"was explained: SHA-256 {made['sha256']}. They are made from {made['sealed_sweeps']} sweeps. None "

@@ -10,8 +10,8 @@ import pandas as pd
 from tire_pipeline.reporting.page_parts import Table, without_empty_columns
 
 METHODS = {
-    "bic_stepwise": "stepwise by BIC",
-    "pysindy": "PySINDy",
+    "bic_stepwise": "stepwise regression",
+    "pysindy": "sparse regression",
     "gaussian_process": "Gaussian process",
     "refitted_formula": "refitted formula",
 }

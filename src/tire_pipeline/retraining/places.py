@@ -13,7 +13,7 @@ from typing import Protocol
 
 from tire_pipeline.file_names import name_on_disk, path_of, shown_name
 from tire_pipeline.files.folder_walk import Found, walk
-from tire_pipeline.files.objects import Objects
+from tire_pipeline.files.objects import Objects, no_place
 from tire_pipeline.files.regular_file import open_regular
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tasks import Task
@@ -148,16 +148,19 @@ class ObjectPlace:
     def look(self) -> tuple[dict[str, Look], Found]:
         """As :meth:`Place.look`."""
         listing = self.root.listing()
-        looks = {}
+        looks, aside = dict[str, Look](), dict[str, str]()
         for name, own in listing.items():
             hidden = any(part.startswith(".") for part in name.split("/"))
             if hidden or not name.lower().endswith(".tir"):
+                continue
+            if reason := no_place(name):
+                aside[shown_name(name)] = reason
                 continue
             both = [own, *([listing[name + SUFFIX]] if name + SUFFIX in listing else [])]
             written = max(round(each.written * 1e9) for each in both)
             stamp = " ".join(each.stamp for each in both)
             looks[shown_name(name)] = Look(sum(each.size for each in both), written, 0, stamp)
-        return looks, Found()
+        return looks, Found(aside=aside)
 
     def fingerprints(self, names: Iterable[str]) -> Iterator[tuple[str, str]]:
         """As :meth:`Place.fingerprints`; many are read at once.

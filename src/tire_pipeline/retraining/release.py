@@ -197,7 +197,7 @@ def _nothing_left(release: Release, broken: Mapping[str, str]) -> DomainError:
         return DomainError(f"there is no model left to go back to: {wrong}", todo=WITHOUT_ANY_MODEL)
     have = "no model was released yet"
     if len(release.models) == 1:
-        have = f"only {release.current} was released"
+        have = f"{release.current} is the only one on record"
     elif release.models:
         have = "; ".join(f"{name} is {broken[name]}" for name in reversed(release.models[:-1]))
     todo = "run `kedro run --pipeline retrain`"

@@ -53,7 +53,7 @@ def translate_each(
     *,
     work: Map = in_turn,
 ) -> dict[str, TranslateBlock]:
-    """Return the tasks that translate the files, some hundred each.
+    """Translate the files, some hundred at a time; what is stored and unchanged is not translated again.
 
     A task's name says all that its result depends on: what is stored under that name is not done again.
 
@@ -127,7 +127,9 @@ def join_translated(
     list[Callable[[], pd.DataFrame]],
     pd.DataFrame,
 ]:
-    """Put together what was translated. Of all files only the rows of the report are in memory.
+    """Join what was translated: files, report and tables.
+
+    Of all files only the rows of the report are in memory.
 
     Parameters
     ----------

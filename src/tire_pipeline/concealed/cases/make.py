@@ -352,7 +352,7 @@ def _oracle(
     held_frame: pd.DataFrame,
     time0: float,
 ) -> dict[str, dict[str, float]]:
-    """Error on the held-out run of the model as it is, and of one with the true effects put in.
+    """Error on the held-out run of the model as it is, and of one with the true effects added.
 
     The oracle's error is the recorded noise and the model's misfit without effects.
     """

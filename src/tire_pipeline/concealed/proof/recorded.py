@@ -33,7 +33,7 @@ Work = dict[str, Callable[[], bytes]]
 
 
 def real_cases_to_make(parameters: ProveConcealedParameters) -> Work:
-    """Say how each case is made from the sealed sweeps; none where the recordings are not there."""
+    """Make the cases from the sealed sweeps; none if the recordings are not available."""
     real = parameters.real
     folder = Path(real.recordings)
     if not available(folder):
@@ -48,12 +48,12 @@ def real_cases_to_make(parameters: ProveConcealedParameters) -> Work:
 
 
 def part_real_cases(made: Folder) -> tuple[Work, Work, dict[str, Any]]:
-    """Part what is shown, what is held out, and the answers, which are sealed by a hash."""
+    """Separate what is shown, what is held out, and the answers, which are sealed by a hash."""
     return part_cases(made, RealAnswer)
 
 
 def explain_real_cases(shown: Folder) -> Work:
-    """Explain every case from real recordings; neither answers nor held-out forces are at hand here."""
+    """Explain every case from real recordings; neither answers nor held-out forces are available here."""
     return explain_cases(shown)
 
 

@@ -50,7 +50,7 @@ class ProveConcealedParameters(Parameters):
 
 
 def cases_to_make(parameters: ProveConcealedParameters) -> dict[str, Callable[[], bytes]]:
-    """Say how each case is made; the dataset makes those that are not there."""
+    """Make the cases; those that exist already are not made again."""
     code = code_hash("concealed", "magic_formula")
     return {
         f"{code}/{seed:010d}_{kind}.zip": Labelled(f"case {seed}", partial(files.made_case, seed, kind))
@@ -61,7 +61,7 @@ def cases_to_make(parameters: ProveConcealedParameters) -> dict[str, Callable[[]
 def part_cases(
     made: Folder, form: type[Answer] = Answer
 ) -> tuple[dict[str, Callable[[], bytes]], dict[str, Callable[[], bytes]], dict[str, Any]]:
-    """Part what is shown, what is held out, and the answers, which are sealed by a hash.
+    """Separate what is shown, what is held out, and the answers, which are sealed by a hash.
 
     The names of the shown files are numbers only: the kind of a case does not reach who explains it.
     """
@@ -79,7 +79,7 @@ def part_cases(
 
 
 def explain_cases(shown: Folder) -> dict[str, Callable[[], bytes]]:
-    """Explain every case; neither answers nor held-out forces are at hand here."""
+    """Explain every case; neither answers nor held-out forces are available here."""
     code = code_hash("mismatch", "magic_formula", "tir")
     return {
         f"{code}/{name}": Labelled(_case(name), partial(files.explained, read, METHOD))

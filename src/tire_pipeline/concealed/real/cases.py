@@ -30,7 +30,7 @@ from tire_pipeline.magic_formula import TireModel
 
 AGREES = 1.3
 """A model knows what it is shown if it leaves at most so much of the best formula's misfit on these rows.
-Known before any effect is put in; other draws are taken again."""
+Known before any effect is added; other draws are taken again."""
 
 MOST_MISFIT = 0.05
 """Largest misfit of the formula, on what is shown and what is held out, as a share of the largest force:
@@ -81,7 +81,7 @@ class _UnfitSweeps(Exception):
 
 @dataclass(frozen=True)
 class _RealBench:
-    """Sweeps, model and formula of one draw, before anything is put in."""
+    """Sweeps, model and formula of one draw, before anything is added."""
 
     layout: Layout
     tire: TireModel

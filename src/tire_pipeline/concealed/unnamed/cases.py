@@ -51,7 +51,7 @@ class OpenCase:
     recording, held_out : pandas.DataFrame
         Canonical columns; the held-out rows follow the recording.
     added : tuple of Added
-        What was put in, sealed.
+        What was added, sealed.
     named : tuple of str
         Causes of the second simulator's catalogue that are in, too.
     held_with, held_without : ndarray, shape (rows, 3)

@@ -44,7 +44,7 @@ def removed(
 
 
 def oracle_of(case: OpenCase) -> tuple[dict[str, float], dict[str, float]]:
-    """Squared errors of the model as it came, and with the true change put in."""
+    """Squared errors of the model as it came, and with the true change added."""
     plain = pd.DataFrame(model_forces(case.tire, case.held_out), columns=list(TANGENTIAL_FORCES))
     change = (case.held_with - case.held_without)[:, :2]
     return squared(case, plain), squared(case, plain + change)

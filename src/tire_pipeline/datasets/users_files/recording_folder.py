@@ -16,13 +16,14 @@ import pandas as pd
 from kedro.io.core import AbstractDataset
 
 from tire_pipeline.errors import DomainError, RecordingError, TirePipelineError
+from tire_pipeline.file_names import shown_name
 from tire_pipeline.files.folder_walk import walk
-from tire_pipeline.files.objects import Objects, is_remote
+from tire_pipeline.files.objects import Objects, is_remote, no_place
 from tire_pipeline.files.regular_file import open_regular
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.recordings.read import SUFFIXES
-from tire_pipeline.recordings.readers.limits import most_bytes
+from tire_pipeline.recordings.readers.limits import most_bytes, too_large
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tir.text.decode import MOST_FILE_BYTES
 
@@ -164,14 +165,20 @@ class ObjectRecording:
 
 
 def _on_objects(folder: Objects) -> dict[str, Callable[..., Pair]]:
-    stamps = folder.stamps()
-    tirs = [name for name in stamps if name.lower().endswith((".tir", ".tir.sidecar.json"))]
+    listing = folder.listing()
+    tirs = [name for name in listing if name.lower().endswith((".tir", ".tir.sidecar.json"))]
     found: dict[str, Callable[..., Pair]] = {}
-    for name in stamps:
+    for name, own in listing.items():
         place = PurePosixPath(name)
-        if place.suffix.lower() in SUFFIXES and not any(part.startswith(".") for part in place.parts):
-            near = [each for each in tirs if PurePosixPath(each).parent in (place.parent, PurePosixPath("."))]
-            found[name] = ObjectRecording(folder, name, tuple((each, stamps[each]) for each in [name, *near]))
+        if place.suffix.lower() not in SUFFIXES or any(part.startswith(".") for part in place.parts):
+            continue
+        if reason := no_place(name) or too_large(own.size):
+            found[shown_name(name)] = partial(_refuse, f"{folder}/{name}", reason)
+            continue
+        near = [each for each in tirs if PurePosixPath(each).parent in (place.parent, PurePosixPath("."))]
+        near = [each for each in near if not no_place(each) and listing[each].size <= MOST_FILE_BYTES]
+        stamps = tuple((each, listing[each].stamp) for each in [name, *near])
+        found[shown_name(name)] = ObjectRecording(folder, name, stamps)
     return found
 
 

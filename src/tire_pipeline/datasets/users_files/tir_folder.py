@@ -14,7 +14,7 @@ from tire_pipeline.datasets.users_files.tir_file import TirDataset
 from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.file_names import shown_name
 from tire_pipeline.files.folder_walk import walk
-from tire_pipeline.files.objects import Objects
+from tire_pipeline.files.objects import Objects, no_place
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tir.sidecar import SUFFIX
@@ -80,11 +80,14 @@ class TirFolderDataset(PartitionedDataset):
     def _remote(self) -> dict[str, Callable[[], Any]]:
         folder = Objects(self._path)
         stamps = folder.stamps()
-        return {
-            shown_name(name): ObjectLoader(folder, name, stamp, stamps.get(name + SUFFIX))
-            for name, stamp in stamps.items()
-            if _is_tir(name) and not any(part.startswith(".") for part in name.split("/"))
-        }
+        found: dict[str, Callable[[], Any]] = {}
+        for name, stamp in stamps.items():
+            if _is_tir(name) and not any(part.startswith(".") for part in name.split("/")):
+                reason = no_place(name)
+                sidecar = stamps.get(name + SUFFIX)
+                load = ObjectLoader(folder, name, stamp, sidecar)
+                found[shown_name(name)] = Refused(f"{folder}/{name}", reason) if reason else load
+        return found
 
     def save(self, data: dict[str, Any]) -> None:
         """Refuse: the files are the user's."""

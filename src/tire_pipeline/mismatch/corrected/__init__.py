@@ -1,1 +1,1 @@
-"""The model with the missing physics put in."""
+"""The model with the missing physics added."""

@@ -102,12 +102,18 @@ def _inside(condition: str, recording: pd.DataFrame) -> Array | None:
 
 
 def with_unnamed(fit: dict[str, OutputFit], found: UnnamedReport) -> dict[str, OutputFit]:
-    """Return the errors with an unnamed equation put in, by what it does on sweeps it has not seen."""
-    return _times(fit, {o: after / max(before, 1e-300) for o, (before, after) in _unseen(found).items()})
+    """Return the errors with an unnamed equation in the model, by what it does on sweeps it has not seen.
+
+    What it predicts of these was no noise: the noise is never more than the error that remains.
+    """
+    ratios = {o: after / max(before, 1e-300) for o, (before, after) in _unseen(found).items()}
+    smaller = _times(fit, ratios)
+    capped = {o: min(smaller[o].noise_floor, smaller[o].rms_after) for o in ratios}
+    return {**smaller, **{o: replace(smaller[o], noise_floor=noise) for o, noise in capped.items()}}
 
 
 def without_unnamed(fit: dict[str, OutputFit], found: UnnamedReport) -> dict[str, OutputFit]:
-    """Return the errors that stood there before :func:`with_unnamed`."""
+    """Return the errors that stood there before :func:`with_unnamed`; the noise stays."""
     return _times(fit, {o: before / max(after, 1e-300) for o, (before, after) in _unseen(found).items()})
 
 

@@ -1,4 +1,4 @@
-"""The model with the missing physics put in."""
+"""The model with the missing physics added."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate, simulate_moments
 from tire_pipeline.mismatch.model.residual import rms
-from tire_pipeline.mismatch.preparation.given import numeric
-from tire_pipeline.mismatch.preparation.open_questions import Question
-from tire_pipeline.mismatch.preparation.prepare import ASSUMED_ZERO, INPUTS, own_relaxation
-from tire_pipeline.mismatch.preparation.smoothing import denoise
+from tire_pipeline.mismatch.recording.given import numeric
+from tire_pipeline.mismatch.recording.open_questions import Question
+from tire_pipeline.mismatch.recording.prepare import ASSUMED_ZERO, INPUTS, own_relaxation
+from tire_pipeline.mismatch.recording.smoothing import denoise
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
 from tire_pipeline.mismatch.unnamed_physics.symbols import table_of
 
@@ -38,7 +38,7 @@ class CorrectedModel:
     tire : TireModel
         The model as it came; None where it stands in for another simulator.
     changes : tuple of (name, parameters)
-        Effects of the catalogue, with their parameters in SI, in the order they are put in.
+        Effects of the catalogue, with their parameters in SI, in the order they are added.
     reference : dict
         Nominal pressure and speed, and what work, heat and time are measured by.
     outputs : tuple of str
@@ -55,13 +55,13 @@ class CorrectedModel:
     question : Question, optional
         What has to be settled before a file may be written from it.
     cleaned : dict of str to float
-        Input channel that is cleaned of sensor noise before the effects are put in -> RMS of that noise, SI.
+        Input channel that is cleaned of sensor noise before the effects are added -> RMS of that noise, SI.
     unnamed : UnnamedPhysics, optional
         An equation of unnamed physics, put in last.
 
     See Also
     --------
-    explain_mismatch : Finds what to put in: ``report.corrected``.
+    explain_mismatch : Finds what to add: ``report.corrected``.
 
     Notes
     -----
@@ -98,16 +98,16 @@ class CorrectedModel:
     def __repr__(self) -> str:
         put_in = [name for name, _ in self.changes]
         put_in += ["an empirical equation of the residual"] if self.unnamed is not None else []
-        return f"CorrectedModel({' and '.join(self.outputs)}, with {', '.join(put_in) or 'nothing put in'})"
+        return f"CorrectedModel({' and '.join(self.outputs)}, with {', '.join(put_in) or 'nothing added'})"
 
     @property
     def _changed(self) -> bool:
-        """Whether anything is put in."""
+        """Whether anything is added."""
         return bool(self.changes) or self.unnamed is not None
 
     @property
     def as_it_came(self) -> CorrectedModel:
-        """The model with nothing put in and nothing repaired: ``predict`` gives ``tire.forces``."""
+        """The model with nothing added and nothing repaired: ``predict`` gives ``tire.forces``."""
         return replace(self, changes=(), factors={}, limits={}, cleaned={}, unnamed=None)
 
     def predict(self, recording: pd.DataFrame) -> pd.DataFrame:
@@ -122,7 +122,7 @@ class CorrectedModel:
         -------
         pandas.DataFrame
             ``fx``, ``fy`` in N and ``mx``, ``my``, ``mz`` in N m (those that were recorded when the
-            model was corrected), index as the recording's. Artefacts are put in, too, wrong signs and
+            model was corrected), index as the recording's. Artefacts are added, too, wrong signs and
             units and clipping as well: this is what would be recorded. Without effects and repairs it is
             what ``tire.forces`` gives at the rows as they are. ``attrs["notes"]`` says where physics without
             a name was outside of its range and faded.

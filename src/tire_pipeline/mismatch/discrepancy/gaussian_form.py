@@ -1,4 +1,4 @@
-"""A form without an equation for what is left: a Gaussian process over the channels in which it lives."""
+"""A form without an equation for the residual: a Gaussian process over the channels in which it lives."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_limits
 
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.residual import share_above_noise
-from tire_pipeline.mismatch.preparation.prepare import INPUTS
+from tire_pipeline.mismatch.recording.prepare import INPUTS
 
 if TYPE_CHECKING:
     from sklearn.gaussian_process import GaussianProcessRegressor
@@ -27,7 +27,7 @@ _NOT_THERE = 30.0
 
 @dataclass(frozen=True)
 class GaussianForm:
-    """A Gaussian process for what is left of one output; it has no name.
+    """A Gaussian process for the residual of one output; it has no name.
 
     Parameters
     ----------
@@ -37,9 +37,9 @@ class GaussianForm:
     lengths : dict
         Channel (or ``rate of <channel>``, per second) -> length over which it changes, SI.
     explained : float
-        Share of what is left, as a square, that it predicts on sweeps left out of its fit.
+        Share of the residual, as a square, that it predicts on sweeps left out of its fit.
     recovered : float
-        The same of what is left above the noise.
+        The same of the residual above the noise.
     points : int
         Samples it was fitted to.
     """
@@ -54,7 +54,7 @@ class GaussianForm:
 
 
 def gaussian_form(data: Data, rest: Array, output: str, block: Array, floor: float) -> GaussianForm | None:
-    """Fit a Gaussian process to what is left of one output, and test it on sweeps left out.
+    """Fit a Gaussian process to the residual of one output, and test it on sweeps left out.
 
     Parameters
     ----------

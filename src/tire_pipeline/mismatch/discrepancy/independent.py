@@ -29,15 +29,15 @@ def measured_apart(data: Data) -> float:
 
 
 def independent(left: Array, orders: Sequence[Array]) -> float:
-    """Return how many samples are independent, by the correlation of what is left.
+    """Return how many samples are independent, by the correlation of the residual.
 
-    Sums over stretches of white noise have the variance of their length; what is left has more. The stretch
+    Sums over stretches of white noise have the variance of their length; the residual has more. The stretch
     at which the excess is largest counts, in the order in which neighbours are more alike.
 
     Parameters
     ----------
     left : ndarray, shape (n,)
-        What is left of one output.
+        The residual of one output.
     orders : sequence of ndarray of int, shape (n,)
         Of :func:`orders_of`.
     """

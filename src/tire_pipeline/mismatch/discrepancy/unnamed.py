@@ -45,7 +45,7 @@ def constant_form(data: Data, changes: list[Change]) -> Columns:
 
 
 def forms(data: Data, changes: list[Change]) -> Iterator[Columns]:
-    """Yield all forms that the recording can show, around a model with some effects put in.
+    """Yield all forms that the recording can show, around a model with some effects added.
 
     The rate of a slip comes twice: where slip and load are the same, and everywhere.
     """

@@ -1,14 +1,15 @@
 """Learn the sizes of the posterior from cases whose answer is known, by the log score of the true set.
 
-Each size is tried a step larger and a step smaller, with the odds that are best for it, until no step betters
-the score. What the cases say at one choice of sizes is worked out once: searches that leave one source out
-pass mostly through the same choices.
+The log evidence of every hypothesis is a smooth function of the sizes. It is worked out at a centre and at a
+step to either side along each size, and taken for a parabola in between. The best sizes and odds of these
+parabolas are found by gradient, for all sources of cases and for any choice of them without further work.
+They are the next centre, until they stay within a step of it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -31,16 +32,17 @@ Array = np.ndarray
 Names = tuple[str, ...]
 Map = Callable[[Callable[["Tuning"], Array], Iterable["Tuning"]], Iterable[Array]]
 _STEP = 1.6
-_ROUNDS = 4
+_ROUNDS_OF_LEARNING = 3
+_TRUSTED = (2.0, 1.0, 0.5)
+"""Steps from a centre within which the parabolas are believed; fewer where they promise too much."""
+_DIFFERENCE = 0.1
+_NONE = -1e6
 _FACTORS = ("independent", "form_error", "prior", "error", "spread", "wide")
 _ODDS = ("effect", "further", "unnamed")
 _SURPRISES = 0.01
 """Share of cases whose answer is as likely as any other: what the posterior cannot know must not rule it."""
 _NEAR = 12.0
 """Log odds to the likeliest hypothesis beyond which one has no mass, nor near these sizes."""
-_GAIN = 1e-4
-"""Gain in mean log score below which a step is not taken: a hundredth of what a single case in a hundred
-gives."""
 
 
 @dataclass(frozen=True)
@@ -94,28 +96,6 @@ def pruned(each: Tuning, sizes: LearntSizes) -> Tuning:
     return replace(each, case=smaller, kept=tuple(kept))
 
 
-class Evidences:
-    """Log evidence of the hypotheses of many cases, for each choice of sizes worked out once.
-
-    Parameters
-    ----------
-    cases : sequence of Tuning
-    mapped : callable
-        ``map``, or one that spreads the work.
-    """
-
-    def __init__(self, cases: Sequence[Tuning], mapped: Map = map) -> None:
-        self.cases, self._mapped = tuple(cases), mapped
-        self._known: dict[str, list[Array]] = {}
-
-    def at(self, sizes: LearntSizes) -> list[Array]:
-        """Return it by some sizes, case by case, each of shape (h,); odds have no part in it."""
-        key = repr(replace(sizes, effect=0.0, further=0.0, unnamed=0.0, left=(0.0, 0.0)))
-        if key not in self._known:
-            self._known[key] = list(self._mapped(_EvidenceBy(sizes), self.cases))
-        return self._known[key]
-
-
 @dataclass(frozen=True)
 class Learnt:
     """What was learnt.
@@ -128,119 +108,154 @@ class Learnt:
     start : float
         The same of the sizes at which learning began, with their own odds.
     curvature : dict of float
-        Number -> how much mean log score a step from the best costs: half the second derivative, by the
-        logarithm of a size and by odds themselves. The odds are the best ones beside each size.
+        Number -> second derivative of the mean log score, its sign turned, by the logarithm of a size and by
+        odds themselves, where the others stay.
+    without : dict of LearntSizes
+        Source of cases -> the sizes that the others teach.
     """
 
     sizes: LearntSizes
     score: float
     start: float
-    curvature: Mapping[str, float] = field(default_factory=dict)
+    curvature: Mapping[str, float]
+    without: Mapping[str, LearntSizes]
 
 
-def log_scores(cases: Sequence[Tuning], sizes: LearntSizes) -> Array:
+def log_scores(cases: Sequence[Tuning], sizes: LearntSizes, mapped: Map = map) -> Array:
     """Return the log probability of the right answer of each case, shape (cases,)."""
-    return _Weighed(cases, Evidences(cases).at(sizes)).scores(sizes)
+    weighed = _Weighed(cases)
+    evidence = weighed.padded(list(mapped(_EvidenceBy(sizes), cases)))
+    return weighed.scores(evidence + weighed.odds(sizes))[0]
 
 
-def learn(
-    evidences: Evidences, start: LearntSizes, *, step: float = _STEP, without: str | None = None
-) -> Learnt:
+def learn(cases: Sequence[Tuning], start: LearntSizes, *, step: float = _STEP, mapped: Map = map) -> Learnt:
     """Return the sizes with the best mean log score, each source of cases counting alike.
 
     Parameters
     ----------
-    evidences : Evidences
+    cases : sequence of Tuning
     start : LearntSizes
     step : float
-        Factor by which each size is tried larger and smaller; 1 to learn the odds alone.
-    without : str, optional
-        A source whose cases are left out.
+        Factor by which each size is moved to see what it does; 1 to learn the odds alone.
+    mapped : callable
+        ``map``, or one that spreads the work.
     """
-    search = _SizeSearch(evidences, start, step, without)
-    at: dict[str, int] = {}
-    best, sizes = search.best(at)
-    names = [*_FACTORS, *start.background] if step > 1.0 else []
-    for _ in range(_ROUNDS):
-        before = best
-        for name in names:
-            at, best, sizes = search.along(name, at, best, sizes)
-        if best == before:
-            break
-    sizes = replace(sizes, left=learnt_left(search.cases, sizes))
-    return Learnt(sizes, best, search.score(start), search.curvature(names, at, best, sizes))
-
-
-class _SizeSearch:
-    """Sizes on a grid of steps about a start, and how well they do with the odds that are best for them."""
-
-    def __init__(self, evidences: Evidences, start: LearntSizes, step: float, without: str | None) -> None:
-        self.evidences, self.start, self.step = evidences, start, step
-        self.chosen = [k for k, each in enumerate(evidences.cases) if each.source != without]
-        self.cases = [evidences.cases[k] for k in self.chosen]
-        sources = [each.source for each in self.cases]
-        self.shares = np.array([1.0 / sources.count(s) / len(set(sources)) for s in sources])
-
-    def weighed(self, sizes: LearntSizes) -> _Weighed:
-        """Return the cases as they are weighed by some sizes."""
-        every = self.evidences.at(sizes)
-        return _Weighed(self.cases, [every[k] for k in self.chosen])
-
-    def score(self, sizes: LearntSizes) -> float:
-        """Return the mean log score of some sizes with their own odds."""
-        return float(self.shares @ self.weighed(sizes).scores(sizes))
-
-    def best(self, at: Mapping[str, int]) -> tuple[float, LearntSizes]:
-        """Return the best mean log score so many steps from the start, and the sizes with the odds for it."""
-        sizes = _moved(self.start, self.step, at)
-        weighed = self.weighed(sizes)
-        begin = np.array([getattr(sizes, name) for name in _ODDS])
-        found = scipy.optimize.minimize(
-            lambda x: -float(self.shares @ weighed.scores(_with_odds(sizes, x))),
-            begin,
-            method="Nelder-Mead",
-            options={"initial_simplex": np.vstack([begin, begin + np.eye(begin.size)]), "fatol": _GAIN / 10},
-        )
-        return -float(found.fun), _with_odds(sizes, found.x)
-
-    def along(
-        self, name: str, at: dict[str, int], best: float, sizes: LearntSizes
-    ) -> tuple[dict[str, int], float, LearntSizes]:
-        """Go along one size as long as it helps."""
-        for sign in (1, -1):
-            here = at
-            while True:
-                trial = {**at, name: at.get(name, 0) + sign}
-                tried, there = self.best(trial)
-                if tried <= best + _GAIN:
-                    break
-                at, best, sizes = trial, tried, there
-            if at is not here:
+    shares = _shares(cases)
+    best, score = start, float(shares @ log_scores(cases, start, mapped))
+    before = score
+    for _ in range(_ROUNDS_OF_LEARNING):
+        around = _Parabolas(cases, best, step, mapped)
+        for within in _TRUSTED:
+            there, farthest = around.best(within)
+            tried = float(shares @ log_scores(cases, there, mapped))
+            if tried > score:
                 break
-        return at, best, sizes
-
-    def curvature(
-        self, names: Sequence[str], at: Mapping[str, int], best: float, sizes: LearntSizes
-    ) -> dict[str, float]:
-        """Return half the second derivative of the score at the best sizes and odds, its sign turned."""
-        out = {}
-        for name in names:
-            beside = [self.best({**at, name: at.get(name, 0) + sign})[0] for sign in (1, -1)]
-            out[name] = (best - 0.5 * sum(beside)) / np.log(self.step) ** 2
-        weighed = self.weighed(sizes)
-        for name in _ODDS:
-            moved = [replace(sizes, **{name: getattr(sizes, name) + d}) for d in (1.0, -1.0)]
-            out[name] = best - 0.5 * sum(float(self.shares @ weighed.scores(each)) for each in moved)
-        return {name: float(value) for name, value in out.items()}
+        else:
+            break
+        best, score = there, tried
+        if farthest < 1.0:
+            break
+    sources = sorted({each.source for each in cases})
+    without = {s: around.best(within, s)[0] for s in sources if len(sources) > 1}
+    sizes = replace(best, left=learnt_left(cases, best))
+    return Learnt(sizes, score, before, around.curvature(best), without)
 
 
-def _moved(start: LearntSizes, step: float, at: Mapping[str, int]) -> LearntSizes:
-    """Return the sizes so many steps from a start; no part is larger than the whole."""
-    factor = {name: step**count for name, count in at.items()}
-    own: dict[str, Any] = {name: getattr(start, name) * factor.get(name, 1.0) for name in _FACTORS}
+def _shares(cases: Sequence[Tuning], without: str | None = None) -> Array:
+    """Return the weight of each case: each source counts alike, one that is left out not at all."""
+    sources = np.array([each.source for each in cases])
+    shares = np.array([0.0 if s == without else 1.0 / np.sum(sources == s) for s in sources])
+    return np.asarray(shares / shares.sum())
+
+
+class _Parabolas:
+    """The log evidence of all cases about some sizes: a parabola along each of them, for each hypothesis.
+
+    Parameters
+    ----------
+    cases : sequence of Tuning
+    centre : LearntSizes
+    step : float
+        Factor between the sizes through which the parabolas go.
+    mapped : callable
+    """
+
+    def __init__(self, cases: Sequence[Tuning], centre: LearntSizes, step: float, mapped: Map) -> None:
+        self.cases, self.centre, self.step = list(cases), centre, step
+        self.names = (*_FACTORS, *centre.background) if step > 1.0 else ()
+        self.weighed = _Weighed(self.cases)
+        self.counts = self.weighed.counts(centre)
+        self.middle = self._at({}, mapped)
+        sides = [[self._at({n: sign}, mapped) for sign in (1.0, -1.0)] for n in self.names]
+        self.slope = [0.5 * (more - less) for more, less in sides]
+        self.bend = [0.5 * (more + less) - self.middle for more, less in sides]
+
+    def _at(self, steps: Mapping[str, float], mapped: Map) -> Array:
+        by = _EvidenceBy(moved(self.centre, self.step, steps))
+        return self.weighed.padded(list(mapped(by, self.cases)))
+
+    def best(self, within: float, without: str | None = None) -> tuple[LearntSizes, float]:
+        """Return the best sizes and odds within some steps, and how many steps the farthest of them went.
+
+        Parameters
+        ----------
+        within : float
+        without : str, optional
+            A source whose cases are left out.
+        """
+        shares = _shares(self.cases, without)
+
+        def loss(x: Array) -> tuple[float, Array]:
+            value, slope = self._score(x, shares)
+            return -value, -slope
+
+        count = len(self.names)
+        bounds = [(-within, within)] * count + [(None, 0.0)] * len(_ODDS)
+        begin = np.r_[np.zeros(count), [min(getattr(self.centre, name), 0.0) for name in _ODDS]]
+        x = scipy.optimize.minimize(loss, begin, jac=True, method="L-BFGS-B", bounds=bounds).x
+        found = moved(self.centre, self.step, dict(zip(self.names, x[:count], strict=True)))
+        return _with_odds(found, x[count:]), float(np.max(np.abs(x[:count]), initial=0.0))
+
+    def curvature(self, sizes: LearntSizes) -> dict[str, float]:
+        """Return :attr:`Learnt.curvature` at the best sizes near the centre."""
+        x, shares, out = self._place(sizes), _shares(self.cases), {}
+        for k, name in enumerate([*self.names, *_ODDS]):
+            unit = np.eye(x.size)[k] * _DIFFERENCE
+            slopes = [self._score(x + sign * unit, shares)[1][k] for sign in (1.0, -1.0)]
+            per = np.log(self.step) if k < len(self.names) else 1.0
+            out[name] = float((slopes[1] - slopes[0]) / (2.0 * _DIFFERENCE * per**2))
+        return out
+
+    def _place(self, sizes: LearntSizes) -> Array:
+        steps = [np.log(_size(sizes, n) / _size(self.centre, n)) / np.log(self.step) for n in self.names]
+        return np.array([*steps, *(getattr(sizes, name) for name in _ODDS)])
+
+    def _score(self, x: Array, shares: Array) -> tuple[float, Array]:
+        """Return the mean log score some steps from the centre, and its derivatives."""
+        count = len(self.names)
+        evidence = self.middle + sum(
+            (t * a + t**2 * b for t, a, b in zip(x[:count], self.slope, self.bend, strict=True)), 0.0
+        )
+        odds = self.weighed.odds(_with_odds(self.centre, x[count:]))
+        scores, slopes = self.weighed.scores(evidence + odds)
+        by = shares[:, None] * slopes
+        sizes = [
+            np.sum(by * (a + 2.0 * t * b)) for t, a, b in zip(x[:count], self.slope, self.bend, strict=True)
+        ]
+        return float(shares @ scores), np.array([*sizes, *(np.sum(by * c) for c in self.counts)])
+
+
+def _size(sizes: LearntSizes, name: str) -> float:
+    return float(sizes.background[name] if name in sizes.background else getattr(sizes, name))
+
+
+def moved(sizes: LearntSizes, step: float, steps: Mapping[str, float]) -> LearntSizes:
+    """Return sizes so many steps away; no part is larger than the whole."""
+    factor = {name: float(step**count) for name, count in steps.items()}
+    own: dict[str, Any] = {name: getattr(sizes, name) * factor.get(name, 1.0) for name in _FACTORS}
     own["independent"] = min(own["independent"], 1.0)
-    own["background"] = {f: s * factor.get(f, 1.0) for f, s in start.background.items()}
-    return replace(start, **own)
+    own["background"] = {f: s * factor.get(f, 1.0) for f, s in sizes.background.items()}
+    return replace(sizes, **own)
 
 
 def _with_odds(sizes: LearntSizes, odds: Array) -> LearntSizes:
@@ -249,26 +264,43 @@ def _with_odds(sizes: LearntSizes, odds: Array) -> LearntSizes:
 
 
 class _Weighed:
-    """The evidence of the hypotheses of many cases, padded to one length, with what their odds need."""
+    """What the odds and the score of many cases need, padded to one length."""
 
-    def __init__(self, cases: Sequence[Tuning], evidences: Sequence[Array]) -> None:
-        self.count = np.array([each.size for each in evidences])
+    def __init__(self, cases: Sequence[Tuning]) -> None:
+        rights = [each.rights() for each in cases]
+        self.count = np.array([each.size for each in rights])
         shape = (len(cases), int(self.count.max()))
-        self.evidence = np.full(shape, -np.inf)
         self.right, self.wide = np.zeros(shape, bool), np.zeros(shape, bool)
         self.effects, self.expected, self.forms = (np.zeros(shape, int) for _ in range(3))
-        for k, (each, found) in enumerate(zip(cases, evidences, strict=True)):
-            odds, here = asked(each.case), (k, slice(found.size))
-            self.evidence[here], self.right[here] = found, each.rights()
+        for k, (each, right) in enumerate(zip(cases, rights, strict=True)):
+            odds, here = asked(each.case), (k, slice(right.size))
+            self.right[here] = right
             self.effects[here], self.expected[here] = each.weighed(odds.effects), each.weighed(odds.expected)
             self.wide[here], self.forms[here] = each.weighed(odds.wide), each.weighed(odds.forms)
 
-    def scores(self, sizes: LearntSizes) -> Array:
-        """Return the log probability of what is right in each case, shape (cases,)."""
-        prior = sizes.log_prior(self.effects, self.expected, unnamed=self.wide, forms=self.forms)
-        mass = scipy.special.softmax(self.evidence + prior, axis=1)
+    def counts(self, sizes: LearntSizes) -> list[Array]:
+        """Return how often each of the odds stands in those of a hypothesis, each of shape (cases, h)."""
+        nothing = self.odds(_with_odds(sizes, np.zeros(len(_ODDS))))
+        return [self.odds(_with_odds(sizes, unit)) - nothing for unit in np.eye(len(_ODDS))]
+
+    def odds(self, sizes: LearntSizes) -> Array:
+        """Return the log odds of each hypothesis, shape (cases, h)."""
+        return sizes.log_prior(self.effects, self.expected, unnamed=self.wide, forms=self.forms)
+
+    def padded(self, evidences: Sequence[Array]) -> Array:
+        """Return the evidence of all cases as one array; what is not there has none."""
+        out = np.full(self.right.shape, _NONE)
+        for k, each in enumerate(evidences):
+            out[k, : each.size] = each - each.max()
+        return out
+
+    def scores(self, value: Array) -> tuple[Array, Array]:
+        """Return the log probability of what is right in each case, and its derivatives by each log odds."""
+        mass = scipy.special.softmax(value, axis=1)
         right = np.where(self.right, mass, 0.0).sum(axis=1)
-        return np.log((1.0 - _SURPRISES) * right + _SURPRISES / self.count)
+        held = (1.0 - _SURPRISES) * right + _SURPRISES / self.count
+        slopes = ((1.0 - _SURPRISES) / held)[:, None] * mass * (self.right - right[:, None])
+        return np.log(held), slopes
 
 
 @dataclass(frozen=True)

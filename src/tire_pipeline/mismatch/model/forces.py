@@ -1,4 +1,4 @@
-"""The model with effects put in: channels -> slips at the tire -> forces -> what is recorded."""
+"""The model with effects added: channels -> slips at the tire -> forces -> what is recorded."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def plain_forces(
 
 
 def simulate(data: Any, changes: Sequence[Change] = ()) -> dict[str, Array]:
-    """Simulate the recording with effects put in.
+    """Simulate the recording with effects added.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def simulate(data: Any, changes: Sequence[Change] = ()) -> dict[str, Array]:
 
 
 def simulate_moments(data: Any, changes: Sequence[Change], names: Sequence[str]) -> dict[str, Array]:
-    """Simulate moments with effects put in.
+    """Simulate moments with effects added.
 
     Effects act on the slips and on the tire; those on recorded forces (gain, offset, delay) leave the
     moments as they are. Friction m and stiffness k turn M(s) into m M(s k / m), with the lateral pair of

@@ -1,1 +1,1 @@
-"""What holds on sweeps that the fit has not seen, what is left and where, and what could be seen at all."""
+"""What holds on unseen sweeps, the size and place of the residual, and what could have been seen."""

@@ -32,7 +32,7 @@ def prove(
     ----------
     analysis : Analysis
     after : dict of ndarray, shape (n,)
-        What is left of each output, N: :class:`~tire_pipeline.mismatch.proof.nested.RepeatedChoice`. In the
+        The residual of each output, N: :class:`~tire_pipeline.mismatch.proof.nested.RepeatedChoice`. In the
         held-out condition the effects are locked, and the parameters are fitted to the sweeps outside of it.
     noise : mapping of float
         Output -> RMS of the recording's noise, N (:func:`.proof.noise_floor.noise_floors`).

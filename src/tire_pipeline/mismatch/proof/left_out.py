@@ -12,7 +12,7 @@ Array = np.ndarray
 
 
 def shares_left(after: dict[str, Array], before: dict[str, Array]) -> dict[str, float]:
-    """Mean square of what is left over that of the mismatch, by output."""
+    """Mean square of the residual over that of the mismatch, by output."""
     return {o: float(np.mean(after[o] ** 2) / max(float(np.mean(before[o] ** 2)), 1e-300)) for o in after}
 
 
@@ -41,7 +41,7 @@ def each_left_out(analysis: Analysis, fit: Fit) -> dict[str, Array]:
 def step_without(fit: Fit, dropped: Array) -> Array:
     """Return the change of the parameters when some sweeps (bool, by number) are left out.
 
-    What is left says little of some parameters: these go to where their priors have them. A moment in time
+    The residual says little of some parameters: these go to where their priors have them. A moment in time
     and a wheel's radius are locked: one sweep determines them, and a linear step says nothing about them
     without it.
     """

@@ -1,4 +1,4 @@
-"""What is measured of an explanation: errors on sweeps left out, what is left, what could be seen."""
+"""What is measured of an explanation: errors on sweeps left out, the residual, what could be seen."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ class Visible:
 
 @dataclass(frozen=True)
 class Remainder:
-    """The unexplained residual: what is left above the noise.
+    """The unexplained residual: the residual above the noise.
 
     Parameters
     ----------

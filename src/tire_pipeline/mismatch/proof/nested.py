@@ -41,7 +41,7 @@ class Unseen:
 
 
 class RepeatedChoice:
-    """The choice made again without each fold; asked as often as what is put in changes.
+    """The choice made again without each fold; asked as often as what is added changes.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class RepeatedChoice:
         Parameters
         ----------
         withheld : collection of str
-            Effects whose correction is not put in: nothing is predicted of them.
+            Effects whose correction is not added: nothing is predicted of them.
         """
         left = residual(self._data, [])
         chosen: list[Names] = []
@@ -122,7 +122,7 @@ class ByFold:
         return replace(self.each, products=products)
 
     def predicted(self, likelihood: Likelihood, seen: OfSet) -> dict[str, Array]:
-        """Return what is left of all rows, N, with parameters by the rows that were seen.
+        """Return the residual of all rows, N, with parameters by the rows that were seen.
 
         From where the fit to all rows ended, they go as far as the likeliest parameters go when rows are left
         out. The linear step is asked for that change only: where a fit ended elsewhere than a linear model

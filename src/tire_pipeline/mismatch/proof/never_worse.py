@@ -1,4 +1,4 @@
-"""The one guard beside the posterior: what does not surely help on unseen sweeps is not put in.
+"""The one guard beside the posterior: what does not surely help on unseen sweeps is not added.
 
 It can withhold a correction, never choose a name.
 """
@@ -23,7 +23,7 @@ SURE = 0.95
 def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, dict[str, Array]]:
     """Return the named set without those effects whose correction does not surely help on unseen sweeps.
 
-    Both have to help there: the whole choice, made again without them, and the very effects that are put in,
+    Both have to help there: the whole choice, made again without them, and the very effects that are added,
     fitted without them. The effect goes first without which the others leave least.
 
     Parameters
@@ -37,10 +37,10 @@ def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, d
     Returns
     -------
     Fit
-        What is put in.
+        What is added.
     dict of ndarray, shape (n,)
-        Output -> what is left, N, of sweeps that neither the choice of what is put in nor its fit has seen;
-        by what is put in, fitted without them, if that leaves more: a repeated choice can be another one.
+        Output -> the residual, N, of sweeps that neither the choice of what is added nor its fit has seen;
+        by what is added, fitted without them, if that leaves more: a repeated choice can be another one.
     """
     fit = analysis.fit
     if not fit.names:

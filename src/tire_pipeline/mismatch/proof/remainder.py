@@ -1,4 +1,4 @@
-"""What is left above the noise after the effects: where, how large, and an unnamed form."""
+"""The residual above the noise after the effects: where, how large, and an unnamed form."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Whether an effect of some size would be named: by its own equation, beside all that resembles it.
 
-The effect is put into what is left. Its set is weighed where it is true, with the columns that any fitted set
+The effect is added to the residual. Its set is weighed where it is true, with the columns that any fitted set
 has: all of its parameters, moments and lags among them, and what its form may get wrong. Its rivals are every
 other effect in every form of it, linear as in the screen, every unnamed form, and nothing. The names follow
 by the rules of ``answer.py``.
@@ -83,7 +83,7 @@ class Rivals:
     def _rivals(self, rest: Mapping[str, Array], truth: Evidence, least: float) -> dict[str, float]:
         """Return log evidence and odds of each rival; nothing and all unnamed forms together are "".
 
-        Of an effect the form counts whose columns take most from what is left, as precisely as the truth
+        Of an effect the form counts whose columns take most from the residual, as precisely as the truth
         leaves it. Rivals are left out that stay below ``least`` even so.
         """
         beside = self.beside

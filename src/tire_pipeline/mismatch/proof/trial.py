@@ -12,7 +12,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.effects import State, catalogue
 from tire_pipeline.mismatch.effects.base import Effect
 from tire_pipeline.mismatch.model.forces import simulate
-from tire_pipeline.mismatch.preparation.prepare import prepare
+from tire_pipeline.mismatch.recording.prepare import prepare
 
 
 def put_in(tire: Any, recording: pd.DataFrame, name: str, parameters: Mapping[str, float]) -> pd.DataFrame:

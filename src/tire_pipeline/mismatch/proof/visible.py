@@ -1,6 +1,6 @@
 """How large an effect would have to be to be seen in a recording, and what size is ruled out.
 
-Each size of each parameter is put into what is left. The log evidence of the set with the effect is compared
+Each size of each parameter is added to the residual. The log evidence of the set with the effect is compared
 with that of the set without it, by the same likelihood and the same odds by which names are found. A size is
 said to be seen only if the effect's own equation then beats its rivals, too: ``rivals.py``.
 """
@@ -55,7 +55,7 @@ class Sight:
         Smallest size that is named in 95% of repetitions; infinite if none within the bounds is.
     told : float
         The size that a likelihood-ratio test sees in 95% of the same repetitions which knows the form and the
-        size of what is left, at the level ``FALSE`` over all of the catalogue; none
+        size of the residual, at the level ``FALSE`` over all of the catalogue; none
         that no tire has.
     value, error : float
         Estimate beside what is named, and its standard error.
@@ -285,7 +285,7 @@ def visible(analysis: Analysis, enumerated: Enumerated, named: OfSet, *, unexpla
         if name in said or name in fit.names:
             continue
         if not effect.parameters:
-            text = "is looked for in the channels themselves, whatever its size"
+            text = "detected directly in the channels, whatever its size"
         else:
             text = f"{analysis.absent.get(name, 'this recording does not show it')}, nothing can be said"
         out.append(Visible(name, "", "", np.nan, np.nan, f"{effect.title}: {text}"))

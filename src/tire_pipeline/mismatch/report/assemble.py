@@ -22,7 +22,6 @@ from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.channels import one_sided
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.model.residual import residual, rms
-from tire_pipeline.mismatch.preparation.prepare import Prepared
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.left_out import each_left_out, shares_left
 from tire_pipeline.mismatch.proof.locate import everywhere, locate, when, where
@@ -31,6 +30,7 @@ from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.proof.noise_floor import noise_floors
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
+from tire_pipeline.mismatch.recording.prepare import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.result import MismatchReport
@@ -38,6 +38,7 @@ from tire_pipeline.mismatch.report.sentences import head, on_expected, on_questi
 from tire_pipeline.mismatch.report.words import not_looked_for
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.search import more_than_usual, unnamed_physics
+from tire_pipeline.progress import under_way
 
 Array = np.ndarray
 _SOMETHING_LEFT = ("unexplained", "partly explained")
@@ -164,7 +165,7 @@ def _to_one_side(it: Explained, put_in: Fit) -> str:
 def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Fit, dict[str, Array]]:
     """Put the named effects into the model, without those that make sweeps worse.
 
-    What was put in, and what is left of unseen sweeps, come second and third.
+    What was added, and the residual of unseen sweeps, come second and third.
     """
     fit, left = harmless(it.analysis, it.sets, it.level)
     model = _model(it, fit.changes)
@@ -209,12 +210,13 @@ def _model(it: Explained, changes: Sequence[Any]) -> CorrectedModel:
 def _unnamed(
     it: Explained, verdict: str, named: bool, model: CorrectedModel, fit: dict[str, OutputFit]
 ) -> tuple[UnnamedReport | None, CorrectedModel, dict[str, OutputFit]]:
-    """Look for an equation of what is left, and put it in where it proves right."""
+    """Look for an equation of the residual, and put it in where it proves right."""
     plainly = verdict not in _SOMETHING_LEFT
     beside_names = named and not it.prepared.stopped and more_than_usual(it.analysis)
     if plainly and not beside_names:
         return None, model, fit
-    found, model = never_worse(unnamed_physics(it.analysis, plainly=plainly), model, it.recording)
+    with under_way("looking for an equation of the residual"):
+        found, model = never_worse(unnamed_physics(it.analysis, plainly=plainly), model, it.recording)
     fit = with_unnamed(fit, found)
     return None if plainly and found.physics is None else found, model, fit
 
@@ -311,7 +313,7 @@ def _candidates(analysis: Analysis, answer: SetAnswer) -> list[dict[str, Any]]:
         if name in analysis.absent:
             gain, why = None, analysis.absent[name]
         elif gain is None:
-            why = "is looked for in the channels themselves" if not effect.parameters else "screened out"
+            why = "detected directly in the channels" if not effect.parameters else "screened out"
         elif name in likely and name not in answer.names:
             why = "is an alternative to what is named"
         elif name not in likely:

@@ -13,18 +13,18 @@ def on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
     first = verdict in ("unexplained", "partly explained")
     what = "The unexplained residual" if first else "The remaining residual"
     text = (
-        f"{what} is of no effect of the catalogue. Of what was recorded, it follows {_drivers(found)} best. "
-        "An equation of it is in the corrected model"
+        f"{what} does not look like any effect of the catalogue. Of what was recorded, it depends most on "
+        f"{_drivers(found)}. The corrected model contains an equation for it"
     )
     if verdict in ("unexplained", "undecided"):
         return f"{text}."
     shares = " and ".join(
-        f"{100.0 * (1.0 - after / before):.0f}% of that of {o.capitalize()}"
+        f"{100.0 * (1.0 - after / before):.0f}% of the remaining RMS error of {o.capitalize()}"
         for o, (before, after, _) in _unseen(found).items()
     )
     return (
-        f"{text}: on sweeps that neither its choice nor its fit has seen, it removes of the remaining RMS "
-        f"error {shares}; the errors above include that."
+        f"{text}. It removes {shares} on sweeps that took no part in choosing or fitting it. The errors "
+        "above include the equation."
     )
 
 

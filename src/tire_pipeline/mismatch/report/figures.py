@@ -13,6 +13,7 @@ from matplotlib.figure import Figure, FigureBase
 
 from tire_pipeline.channels import SHOWN_UNITS, SLIP_OF_FORCE, axis_label
 from tire_pipeline.mismatch.report.contents import ReportContents
+from tire_pipeline.mismatch.report.words import short_equation
 from tire_pipeline.pages.drawing import captioned, svg_element
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
@@ -181,16 +182,16 @@ def drawings(report: ReportContents) -> list[dict[str, Any]]:
 
 
 def unnamed_curve(report: ReportContents) -> Markup | None:
-    """Draw what is left over the first factor of the equation without a name, beside the equation."""
+    """Draw the residual over the first factor of the equation without a name, beside the equation."""
     curve = None if report.unnamed is None else report.unnamed.curve
     if not curve:
         return None
     with matplotlib.rc_context(_STYLE):
         figure = Figure(figsize=(9.0, 2.9), layout="constrained")
         axes = figure.subplots()
-        axes.plot(curve["x"], curve["left"], "o", ms=3.5, color=_BEFORE, label="left unexplained")
+        axes.plot(curve["x"], curve["left"], "o", ms=3.5, color=_BEFORE, label="unexplained residual")
         axes.plot(curve["x"], curve["fitted"], color=_AFTER, label="equation")
-        axes.set_xlabel(curve["label"])
+        axes.set_xlabel(short_equation(curve["label"]))
         axes.set_ylabel(f"{curve['output'].capitalize()} along the force (N)")
         axes.legend(frameon=False)
     return svg(figure)

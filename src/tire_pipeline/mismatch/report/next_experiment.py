@@ -48,7 +48,7 @@ def next_experiment(analysis: Analysis, answer: SetAnswer, model: CorrectedModel
     analysis : Analysis
     answer : SetAnswer
     model : CorrectedModel
-        Of the recording, with nothing put in.
+        Of the recording, with nothing added.
     """
     rivals = _rivals(answer)
     if len(rivals) < 2:

@@ -16,7 +16,7 @@ from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import Visible
 from tire_pipeline.mismatch.report.contents import EffectReport, ReportContents
 from tire_pipeline.mismatch.report.figures import drawings, unnamed_curve
-from tire_pipeline.mismatch.report.words import condition, gaussian, in_words, interval
+from tire_pipeline.mismatch.report.words import condition, gaussian, in_words, interval, short_equation
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.pages.drawing import page_style
 from tire_pipeline.pages.safe_page import page_environment, policy
@@ -37,7 +37,7 @@ def render(report: ReportContents, *, pages: Sequence[tuple[str, str]] = ()) -> 
     own = files("tire_pipeline.mismatch.report").joinpath("templates", "report.css").read_text("utf-8")
     style = page_style() + own
     environment.filters |= {"number": number, "percent": percent, "log_evidence": log_evidence}
-    environment.filters["condition"] = condition
+    environment.filters |= {"condition": condition, "short_equation": short_equation}
     errors = [(o, f) for o, f in report.fit.items() if math.isfinite(f.rms_before)]
     seen, silent = _visible(report.visible)
     name = ", ".join(PurePath(each).name for each in report.recordings) or "Simulation and recording"
@@ -88,7 +88,10 @@ def log_evidence(value: float | str | None) -> str:
 
 def percent(share: float) -> str:
     """Return a share of something, a dash where it is none or more than all of it."""
-    return f"{100.0 * share:#.2g}".rstrip(".") + "%" if 0.0 < abs(share) < 0.995 else "–"
+    if not 0.0 < abs(share) <= 1.0:
+        return "–"
+    size = f"{abs(100.0 * share):#.2g}".rstrip(".") if abs(share) < 0.995 else "100"
+    return f"{'-' if share < 0.0 else ''}{size}%"
 
 
 def _located(report: ReportContents) -> list[tuple[str, str, float, str, float, float]]:

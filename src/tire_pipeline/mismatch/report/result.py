@@ -32,13 +32,13 @@ class MismatchReport(ReportContents):
     next_experiment : str
         What to record next, in words.
     corrected : CorrectedModel
-        The model with what was found put in.
+        The model with what was found added.
     head : Head
         What is said first: ``head.text``, or ``summary``, is three sentences; ``head.remarks`` are beside it.
     located : list of Located
         Stretches of time and of channels (SI) in which recorded and simulated force differ.
     remainder : Remainder
-        What is left above the noise.
+        The residual above the noise.
     notes : list of str
         What was done to the recording, and what it lacks.
     candidates : list of dict

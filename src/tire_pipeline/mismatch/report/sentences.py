@@ -9,9 +9,9 @@ import numpy as np
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.preparation.open_questions import Question
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
+from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit
 from tire_pipeline.mismatch.report.equation_words import of_equation, on_unnamed
 from tire_pipeline.mismatch.report.head import Head

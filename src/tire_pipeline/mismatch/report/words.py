@@ -55,9 +55,23 @@ def gaussian(form: GaussianForm) -> str:
     low = form.explained < 0.2
     return (
         f"{form.output.capitalize()}: {newtons(form.size)} N, changing with {where}{share}"
-        + (" of what is left on sweeps that its fit has not seen" if share else "")
+        + (" of the residual on sweeps that its fit has not seen" if share else "")
         + (": it depends on something that is not recorded, or lives in time as well" if low else "")
     )
+
+
+_LONG_NUMBER = re.compile(r"(?<![\w.])\d+\.\d+(?:e[+-]?\d+)?", re.IGNORECASE)
+
+
+def short_equation(text: str) -> str:
+    """Return an equation whose numbers have the digits that a reader needs.
+
+    Examples
+    --------
+    >>> short_equation("(-0.794313400734)*fy_slip*(lag(s, 0.0144927536232) - s)")
+    '(-0.7943)*fy_slip*(lag(s, 0.01449) - s)'
+    """
+    return _LONG_NUMBER.sub(lambda found: f"{float(found[0]):.4g}", text)
 
 
 def newtons(value: float) -> str:
@@ -82,7 +96,7 @@ def condition(text: str) -> str:
 
 
 def not_looked_for(absent: Mapping[str, str]) -> str:
-    """Return in one sentence what could not be looked for, by reason; nothing if that is nothing.
+    """Return in one sentence which effects could not be tested, by reason; "" if all could.
 
     Parameters
     ----------
@@ -94,7 +108,7 @@ def not_looked_for(absent: Mapping[str, str]) -> str:
         if type(catalogue()[name]).detect is Effect.detect:
             by_reason.setdefault(why, []).append(catalogue()[name].title)
     reasons = [f"{', '.join(titles)} ({why})" for why, titles in by_reason.items()]
-    return f"could not be looked for: {'; '.join(reasons)}" if reasons else ""
+    return f"effects that could not be tested: {'; '.join(reasons)}" if reasons else ""
 
 
 def place(axis: str, low: float, high: float, ranges: Mapping[str, tuple[float, float]]) -> str:

@@ -66,7 +66,7 @@ class ChosenModels:
 
 
 def choose(columns: Columns, kept: Array = EVERYTHING, *, refine: bool = True) -> ChosenModels:
-    """Look for an equation of what is left.
+    """Look for an equation of the residual.
 
     Parameters
     ----------

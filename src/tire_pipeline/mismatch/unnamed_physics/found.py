@@ -49,7 +49,7 @@ class UnnamedPhysics:
 
     @property
     def channels(self) -> tuple[str, ...]:
-        """Channels without which it cannot be put in."""
+        """Channels without which it cannot be added."""
         used = frozenset[str]().union(*(parse(text).symbols for text in self.equations.values()))
         needed = {CHANNEL[s] for s in (*used, *self.ranges) if s in CHANNEL}
         needed |= {"time", "speed"} & ({"time", "speed"} if "way" in used or self._by_way else set())

@@ -1,4 +1,4 @@
-"""What an engine hands over: what is left, and the likelihood in which it was weighed."""
+"""What an engine hands over: the residual, and the likelihood in which it was weighed."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _A_SWEEP = 8.0
 
 @dataclass(frozen=True)
 class Unexplained:
-    """What is left unexplained and how it is weighed; all that the search for unnamed physics is given.
+    """The unexplained residual and how it is weighed; all that the search for unnamed physics is given.
 
     Parameters
     ----------

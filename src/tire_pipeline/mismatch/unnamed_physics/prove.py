@@ -26,7 +26,7 @@ _NEAR_MOST = 0.95
 _PLAIN_SHARE = 0.1
 _PLAIN_LEVEL = 0.001
 _SAME_DRIVERS = 4
-"""The same where what is left might be the formula's usual misfit, and in how many folds the choice must
+"""The same where the residual might be the formula's usual misfit, and in how many folds the choice must
 name the drivers that it names with all sweeps."""
 
 
@@ -60,7 +60,7 @@ class Proven:
     drivers: tuple[frozenset[str], ...] = ()
 
     def plain(self, drivers: frozenset[str]) -> bool:
-        """Whether it is kept where what is left might be the formula's usual misfit."""
+        """Whether it is kept where the residual might be the formula's usual misfit."""
         return bool(
             self.holds
             and self.share >= _PLAIN_SHARE

@@ -49,7 +49,7 @@ def unnamed_physics(analysis: Analysis, *, plainly: bool = False) -> UnnamedRepo
     analysis : Analysis
         After the analysis.
     plainly : bool
-        Ask for more, because what is left might be the formula's usual misfit.
+        Ask for more, because the residual might be the formula's usual misfit.
     """
     problem = problem_of(analysis)
     return find(problem, coarsely(problem, analysis), plainly=plainly)
@@ -203,7 +203,7 @@ def _unseen(
 
 
 def _curve(columns: Columns, choice: ChosenModels, model: Model) -> dict[str, object]:
-    """Means of what is left and of the fitted form over the equation's first factor."""
+    """Means of the residual and of the fitted form over the equation's first factor."""
     problem = columns.problem
     forces = forces_of(columns, choice, model.terms)
     output = max(forces, key=lambda o: float(np.mean(forces[o] ** 2)))

@@ -8,7 +8,7 @@ from tire_pipeline.retraining import ModelRegistry, roll_back
 
 
 def restore_previous(registry: ModelRegistry) -> ModelRegistry:
-    """Put the last earlier model back whose file is whole, and say so."""
+    """Put the newest earlier model back whose file is intact."""
     now = datetime.datetime.now(datetime.UTC).isoformat(timespec="milliseconds")
     release = roll_back(registry.release, time=now, unusable=registry.unusable)
     print(f"model in use: {release.current} ({registry.release.current} taken back)")

@@ -16,6 +16,7 @@ from tire_pipeline.recordings.conventions.channel_names import CANONICAL, Channe
 from tire_pipeline.recordings.conventions.units import find_unit
 
 _SI = {c.name: c.unit for c in CANONICAL}
+_SI_ASSUMED = "no unit given, SI assumed"
 
 
 @dataclass
@@ -36,6 +37,11 @@ class RawRecording:
     constants: dict[str, dict[str, object]] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     comments: list[str] = field(default_factory=list)
+
+
+def notes_beside_assumed(recording: pd.DataFrame) -> list[str]:
+    """Return the notes of a recording that ``attrs["assumed"]`` does not say as well."""
+    return [note for note in recording.attrs.get("notes", []) if _SI_ASSUMED not in note]
 
 
 def canonical_frame(
@@ -80,13 +86,14 @@ def canonical_frame(
             unit_names[column] = unit
         columns[column], origin[column] = values, item.name
     if unsaid:
-        notes.append(f"no unit given, SI assumed: {', '.join(unsaid)}")
+        notes.append(f"{_SI_ASSUMED}: {', '.join(unsaid)}")
         assumed.append(f"SI units of {', '.join(unsaid)}, for which the file gives none")
     if not any(name in _SI for name in columns):
         raise RecordingError(
             f"no channel is recognised among {', '.join(c.name for c in raw.channels[:12])!r}",
             where=source,
-            todo="name them with names={'their name': 'slip_angle', ...}",
+            todo="name them with names={'their name': 'slip_angle', ...}, on the command line with --name "
+            "'their name=slip_angle'",
         )
     frame = _ordered(columns)
     axes_said, against = to_iso_w(frame, origin, raw.constants, axes, notes, conversions, source)

@@ -28,8 +28,21 @@ def most_bytes() -> float:
     return _MEMORY_SHARE * most
 
 
+def too_large(size: int) -> str:
+    """Why a file of so many bytes is not read; empty if it is.
+
+    It would fill the memory, and the system would end the process and all else that it does.
+    """
+    if size <= most_bytes():
+        return ""
+    return (
+        f"the file has {size / 2**30:.1f} GiB, too many for the memory of this machine, "
+        f"which takes {most_bytes() / 2**30:.1f} GiB"
+    )
+
+
 def check_size(path: Path) -> None:
-    """Refuse a file that would fill the memory: the system would end the process, and all else with it.
+    """Refuse a file that is :func:`too_large`.
 
     Parameters
     ----------
@@ -39,13 +52,8 @@ def check_size(path: Path) -> None:
     ------
     RecordingError
     """
-    size = path.stat().st_size
-    if size > most_bytes():
-        raise RecordingError(
-            f"the file has {size / 2**30:.1f} GiB, too many for the memory of this machine",
-            where=str(path),
-            todo=f"cut it into files of less than {most_bytes() / 2**30:.1f} GiB, or use a larger machine",
-        )
+    if reason := too_large(path.stat().st_size):
+        raise RecordingError(reason, where=str(path), todo="cut it into parts, or use a larger machine")
 
 
 def check_expansion(path: Path, size: float) -> None:

@@ -95,7 +95,6 @@
     button.type = "button";
     button.setAttribute("aria-expanded", "false");
     button.append(element("bdi", cells[at.file]));
-    button.addEventListener("click", () => toggle(row));
     name.append(button);
     if (cells[at.own] && mixed) name.append(element("span", "yours", "badge"));
     made.append(name);
@@ -105,6 +104,9 @@
       made.append(cell);
     }
     made.append(element("td", number(cells[at.distance]), "number"), element("td", percent(cells[at.ratio]), "number"));
+    made.addEventListener("click", () => { // of the button, too; a text that is being marked is no click
+      if (getSelection().isCollapsed) toggle(row);
+    });
     return row.line = made;
   }
   let mixed = false;

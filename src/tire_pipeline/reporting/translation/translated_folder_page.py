@@ -99,7 +99,7 @@ def _outcome(report: pd.DataFrame, own: set[str], target: str, parameters: Trans
         middle = translated["expected_rms_ratio"].median()
         lines.append(
             f"The RMS error of the translated files is expected to shrink to {middle:.0%} of the unchanged "
-            "files' (median, the translator's own estimate; nobody has judged it on these files)."
+            "files' (median, the translator's own estimate; it has not been checked on these files)."
         )
     return lines
 

@@ -12,7 +12,7 @@ from tire_pipeline.thesis.pages.words import number
 from tire_pipeline.thesis.result_tables import BETTER, Results, over_seeds, over_trainings
 
 THESIS_FILES = 2061
-PAGES = (*HOME, ("report.html", "The translation, judged"))
+PAGES = (*HOME, ("report.html", "How well the translation works"))
 
 
 def thesis_page(results: Results) -> str:

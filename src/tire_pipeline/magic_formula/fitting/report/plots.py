@@ -1,4 +1,4 @@
-"""Figures of a fit: what was measured, what was fitted, and what is left."""
+"""Figures of a fit: what was measured, what was fitted, and the residual."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 _MOST_LOADS = 5
 _MOST_DRAWN_POINTS = 3000
 _FEWEST_DRAWN = 5
+_DRAWN_LARGE = 300
 
 
 def draw_fit(model: TireModel, measured: pd.DataFrame | None) -> tuple[Figure, str]:
@@ -53,8 +54,8 @@ def draw_fit(model: TireModel, measured: pd.DataFrame | None) -> tuple[Figure, s
         _draw(row, model, output, part)
     caption = (
         "Points: measured at pure slip, grouped by load. Lines: the fitted model at each group's median load "
-        "and pressure and its most frequent camber. Right: model minus measured at each point; what has a "
-        "shape there is misfit, what has none is noise."
+        "and pressure and its most frequent camber. Right: model minus measured at each point; a pattern "
+        "there is misfit, scatter without one is noise."
     )
     return figure, caption
 
@@ -86,7 +87,7 @@ def _draw(row: Any, model: TireModel, output: str, part: pd.DataFrame) -> None:
         label = f"{typical['normal_load']:,.0f} N, {round(np.degrees(typical['camber']), 1) + 0.0:.1f} deg"
         fitted = _forces(model, output, **{slip: x}, **typical)
         there = _forces(model, output, **{n: own[n].to_numpy() for n in POINT_CHANNELS})
-        dots: Any = {"ls": "", "marker": ".", "ms": 3, "alpha": 0.4, "color": colour_of(i), "mew": 0}
+        dots: Any = {"ls": "", "marker": ".", "color": colour_of(i), "mew": 0, **_size(len(part))}
         row[0].plot(own[slip] * factor, own[output], **dots)
         row[0].plot(x * factor, fitted, color=colour_of(i), lw=1.5, label=label)
         row[1].plot(own[slip] * factor, there - own[output], **dots)
@@ -95,6 +96,11 @@ def _draw(row: Any, model: TireModel, output: str, part: pd.DataFrame) -> None:
     for panel, text in zip(row, (f"{name} ({unit})", f"{name}, model - measured ({unit})"), strict=True):
         panel.set_xlabel(axis_label(slip))
         panel.set_ylabel(text)
+
+
+def _size(points: int) -> dict[str, float]:
+    """Few points are drawn large: steady points are some hundred, a run has thousands."""
+    return {"ms": 9.0, "alpha": 0.8} if points <= _DRAWN_LARGE else {"ms": 3.0, "alpha": 0.4}
 
 
 def _most_frequent(x: pd.Series) -> pd.Series:

@@ -26,7 +26,7 @@ class CamberOffset(Effect):
         "camber": "the effect of camber is nothing at camber zero",
         "slip_angle_offset": "camber thrust is there where the tire slides, too",
     }
-    experiment = "the same sweep at camber of both signs"
+    experiment = "record the same sweep at camber of both signs"
     order = 10
 
     def absent(self, data: object) -> str | None:

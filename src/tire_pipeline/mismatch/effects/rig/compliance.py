@@ -33,7 +33,7 @@ class Compliance(Effect):
         "crosstalk": "crosstalk is there without a side force too, and where the tire slides",
         "relaxation_length": "relaxation needs slip that changes",
     }
-    experiment = "small-slip sweeps at three loads or more, one with brakes; or measure the toe at the wheel"
+    experiment = "record small-slip sweeps at three loads or more, one with brakes; or measure the toe"
     order = 20
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:

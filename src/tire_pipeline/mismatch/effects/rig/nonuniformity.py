@@ -40,7 +40,7 @@ class Nonuniformity(Effect):
         Parameter("radius", "m", 0.01, 2.0, 1e-5, form=True, kept=True),
     )
     looks_like = {"time_delay": "a delay needs slip that changes"}
-    experiment = "straight rolling at two steady speeds: the frequency must follow the speed"
+    experiment = "record straight rolling at two steady speeds: the frequency must follow the speed"
     order = 15
 
     def absent(self, data: object) -> str | None:

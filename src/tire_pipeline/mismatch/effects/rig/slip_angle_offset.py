@@ -27,7 +27,7 @@ class SlipAngleOffset(Effect):
         ),
         "force_offset": "a force offset shows where the tire slides, too",
     }
-    experiment = "a sweep to full sliding on both sides; turn the tire on its rim"
+    experiment = "record a sweep to full sliding on both sides; turn the tire on its rim"
     order = 10
 
     def inputs(self, state: State, data: object, p: Parameters) -> None:

@@ -35,7 +35,7 @@ class Crosstalk(Effect):
         "plysteer_conicity": "a leak of the load stays on the rig when the tire is turned on its rim",
         "force_offset": "an offset is the same at every load",
     }
-    experiment = "a pure brake ramp, a pure slip-angle sweep, and straight rolling at three loads"
+    experiment = "record a pure brake ramp, a pure slip-angle sweep, and straight rolling at three loads"
     order = 86
 
     def absent(self, data: object) -> str | None:

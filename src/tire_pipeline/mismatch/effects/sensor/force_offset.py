@@ -29,7 +29,7 @@ class ForceOffset(Effect):
         "slip_angle_offset": "an offset of slip angle does not show where the tire slides",
         "sensor_drift": "drift changes over time",
     }
-    experiment = "straight rolling at three loads; read the load cell with the wheel lifted"
+    experiment = "record straight rolling at three loads; read the load cell with the wheel lifted"
     order = 85
 
     def outputs(self, state: State, data: object, p: Parameters) -> None:

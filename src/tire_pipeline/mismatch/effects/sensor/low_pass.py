@@ -31,7 +31,7 @@ class LowPass(Effect):
         "relaxation_length": "the lag of relaxation is shorter at speed",
         "time_delay": "a delay keeps the amplitude",
     }
-    experiment = "the same slip-angle sine at two speeds and up to a frequency where the amplitude falls"
+    experiment = "record the same slip-angle sine at two speeds, up to where its amplitude falls"
     order = 94
 
     def starts(self, data: object) -> list[dict[str, float]]:

@@ -43,7 +43,7 @@ class SensorDrift(Effect):
         "temperature": "temperature scales the force and is nothing at zero slip",
         "force_offset": "an offset is there from the start",
     }
-    experiment = "straight rolling at the start and at the end"
+    experiment = "record straight rolling at the start and at the end"
     order = 85
 
     def starts(self, data: object) -> list[dict[str, float]]:

@@ -22,7 +22,7 @@ _SIGN_GAINS = (1.0 / 3.0, 3.0)
 _EXPLAINED = 0.85
 _LEFT = 0.2
 """Where the signs that were given explain less of a force, the model may have the other sign everywhere. Then
-turned ones must explain so much, and leave at most this part of what is left without."""
+turned ones must explain so much, and leave at most this part of the residual without."""
 
 _FORM = 0.15
 """How wrong the form of the model's answer to a channel may be, as a part of it."""
@@ -198,7 +198,7 @@ def _likelier(recorded: Array, base: Array, other: Array, beside: Array, *, size
     ``recorded - base`` is fitted by a gain, an offset, ``beside`` (what an offset of the slip changes) and b
     times the difference: b is 0 if ``base`` is right and 1 if ``other`` is. Gain and offsets are as far off
     as sensors are: with a free one the ply steer of the other side would be an offset. b's error is the
-    scatter of what is left over stretches of rows, what these may be off, and the form error. With ``sized``
+    scatter of the residual over stretches of rows, what these may be off, and the form error. With ``sized``
     nothing is returned (-inf) where a b of any size is likelier than one of exactly 1.
     """
     part = other - base

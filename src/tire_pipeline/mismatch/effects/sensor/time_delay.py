@@ -28,7 +28,7 @@ class TimeDelay(Effect):
         "relaxation_length": "the lag of relaxation is shorter at speed",
         "low_pass": "a filter takes amplitude at high frequency",
     }
-    experiment = "the same slip-angle sine at two speeds; or tap the load cell and look at both channels"
+    experiment = "record the same slip-angle sine at two speeds; or tap the load cell and compare channels"
     order = 95
 
     def starts(self, data: object) -> list[dict[str, float]]:

@@ -42,7 +42,7 @@ class Camber(Effect):
         "slip_angle_offset": "an offset does not change sign with camber",
         "plysteer_conicity": "conicity does not change with camber",
     }
-    experiment = "the same slip sweep at camber of both signs and at zero"
+    experiment = "record the same slip sweep at camber of both signs and at zero"
     order = 40
 
     def expected(self, data: object) -> bool:

@@ -40,7 +40,7 @@ class CombinedSlip(Effect):
         "force_gain": "a gain acts on pure slip too",
         "temperature": "heat acts on pure slip too",
     }
-    experiment = "brake ramps at three slip angles or more"
+    experiment = "record brake ramps at three slip angles or more"
     order = 40
 
     def absent(self, data: object) -> str | None:

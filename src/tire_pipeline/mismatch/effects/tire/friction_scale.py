@@ -28,7 +28,7 @@ class FrictionScale(Effect):
         "stiffness_scale": "stiffness moves the slope and leaves the peak",
         "temperature": "temperature follows the tread temperature",
     }
-    experiment = "one sweep to full sliding at small and at large load, with both forces recorded"
+    experiment = "record one sweep to full sliding at small and at large load, with both forces recorded"
     order = 40
 
     def tire(self, state: State, data: object, p: Parameters) -> None:

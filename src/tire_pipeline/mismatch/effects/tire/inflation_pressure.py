@@ -40,7 +40,7 @@ class InflationPressure(Effect):
         Parameter("reference", "Pa", 0.0, 5e6, 100.0, form=True, kept=True),
     )
     looks_like = {"temperature": "temperature lags; pressure steps show at once"}
-    experiment = "the same sweep at three pressures, in an order that is not the order of time"
+    experiment = "record the same sweep at three pressures, in an order that is not the order of time"
     order = 40
 
     def starts(self, data: object) -> list[dict[str, float]]:

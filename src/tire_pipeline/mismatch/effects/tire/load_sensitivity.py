@@ -40,7 +40,7 @@ class LoadSensitivity(Effect):
         "stiffness_scale": "a stiffness factor is the same at every load",
         "compliance": "compliance costs stiffness at small loads, too, and none where the tire slides",
     }
-    experiment = "sweeps to full sliding at four loads or more"
+    experiment = "record sweeps to full sliding at four loads or more"
     order = 40
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:

@@ -41,7 +41,7 @@ class PlysteerConicity(Effect):
         "camber_offset": "an offset of camber looks like conicity: turn the tire on its rim",
         "crosstalk": "a leak of the load looks like conicity: turn the tire on its rim",
     }
-    experiment = "straight rolling at three loads, then with the tire turned on its rim"
+    experiment = "record straight rolling at three loads, then with the tire turned on its rim"
     order = 12
     needed = ("conicity", "pseudo_camber", "thrust")
 

@@ -43,7 +43,7 @@ class RelaxationLength(Effect):
         "time_delay": "a delay is the same at every speed",
         "low_pass": "a filter is the same at every speed",
     }
-    experiment = "the same slip-angle sine at two speeds that differ by a factor of two or more"
+    experiment = "record the same slip-angle sine at two speeds that differ by a factor of two or more"
     order = 30
 
     def starts(self, data: object) -> list[dict[str, float]]:

@@ -44,7 +44,7 @@ class SpeedDependence(Effect):
         "temperature": "temperature lags behind a change of speed",
         "relaxation_length": "relaxation needs slip that changes",
     }
-    experiment = "the same sweep at three speeds, with pauses to cool"
+    experiment = "record the same sweep at three speeds, with pauses to cool"
     order = 40
 
     def starts(self, data: object) -> list[dict[str, float]]:

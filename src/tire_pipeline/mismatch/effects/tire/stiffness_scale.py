@@ -30,7 +30,7 @@ class StiffnessScale(Effect):
         "force_gain": "a gain also moves the peak",
         "unit_error": "a wrong unit is an exact ratio",
     }
-    experiment = "small-slip sweeps at three loads, and one sweep to full sliding"
+    experiment = "record small-slip sweeps at three loads, and one sweep to full sliding"
     order = 40
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:

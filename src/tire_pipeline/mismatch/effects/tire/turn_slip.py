@@ -26,7 +26,7 @@ class TurnSlip(Effect):
         Parameter("friction_loss", "1", 0.0, 3.0, 0.02, prior=0.5),
     )
     looks_like = {"camber": "camber acts on a straight path too"}
-    experiment = "the same slip angles on paths of two radii"
+    experiment = "record the same slip angles on paths of two radii"
     order = 40
 
     def tire(self, state: State, data: object, p: Parameters) -> None:

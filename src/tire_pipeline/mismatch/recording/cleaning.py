@@ -16,7 +16,7 @@ import numpy as np
 from tire_pipeline.channels import POINT_CHANNELS, SLIP_AND_LOAD, shown_unit
 from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.model.residual import rms
-from tire_pipeline.mismatch.preparation.smoothing import denoise
+from tire_pipeline.mismatch.recording.smoothing import denoise
 
 Array = np.ndarray
 _EVIDENCE_TO_SMOOTH = float(np.log(20.0))
@@ -49,9 +49,8 @@ class Cleaning:
 
     def text(self) -> str:
         """Say in words what was done and why."""
-        share = (
-            "the force does not tell" if np.isnan(self.felt) else f"the force follows {self.felt:.0%} of it"
-        )
+        felt = np.clip(self.felt, 0.0, 1.0)
+        share = "the force does not tell" if np.isnan(felt) else f"the force follows {felt:.0%} of it"
         done = "sensor noise was removed" if self.smoothed else "used as recorded"
         factor, unit, _ = shown_unit(self.channel, self.removed)
         size = f"{self.removed * factor:.2g} {unit}".strip()

@@ -12,7 +12,7 @@ from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, moves
 from tire_pipeline.mismatch.model.forces import plain_forces
-from tire_pipeline.mismatch.preparation.open_questions import Question
+from tire_pipeline.mismatch.recording.open_questions import Question
 
 Array = np.ndarray
 

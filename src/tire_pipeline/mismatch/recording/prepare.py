@@ -14,13 +14,13 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.effects.shared import relaxation_lengths
 from tire_pipeline.mismatch.model.data import Data
-from tire_pipeline.mismatch.preparation.cleaning import Cleaning, clean
-from tire_pipeline.mismatch.preparation.exact import open_axes, repair
-from tire_pipeline.mismatch.preparation.given import check_tire, numeric
-from tire_pipeline.mismatch.preparation.identity import another_tire
-from tire_pipeline.mismatch.preparation.open_questions import Question
-from tire_pipeline.mismatch.preparation.surrogate import stand_in
-from tire_pipeline.mismatch.preparation.usable import judge, leave_out_still_slip
+from tire_pipeline.mismatch.recording.cleaning import Cleaning, clean
+from tire_pipeline.mismatch.recording.exact import open_axes, repair
+from tire_pipeline.mismatch.recording.given import check_tire, numeric
+from tire_pipeline.mismatch.recording.identity import another_tire
+from tire_pipeline.mismatch.recording.open_questions import Question
+from tire_pipeline.mismatch.recording.surrogate import stand_in
+from tire_pipeline.mismatch.recording.usable import judge, leave_out_still_slip
 from tire_pipeline.recordings.check import BRIDGED, LEAST_POINTS, LEAST_SAMPLES, LEAST_WHOLE
 
 Array = np.ndarray

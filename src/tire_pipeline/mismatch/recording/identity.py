@@ -12,8 +12,8 @@ from tire_pipeline.channels import SLIP_AND_LOAD, SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.model.channels import moves
 from tire_pipeline.mismatch.model.forces import plain_forces
-from tire_pipeline.mismatch.preparation.open_questions import Question
-from tire_pipeline.mismatch.preparation.usable import Drive
+from tire_pipeline.mismatch.recording.open_questions import Question
+from tire_pipeline.mismatch.recording.usable import Drive
 
 Array = np.ndarray
 
@@ -82,9 +82,9 @@ class Figures:
         """The figures that are off, in words."""
         parts = []
         for i in np.flatnonzero(self.off):
-            per = " where the load doubles from its median" if i in LOADED else ""
-            parts.append(f"{FIGURES[i]} by {100.0 * np.expm1(self.values[i]):+.0f}%{per}")
-        return f"in {self.output.capitalize()} {', '.join(parts)}"
+            per = " (from the median load to twice that)" if i in LOADED else ""
+            parts.append(f"{FIGURES[i]} {100.0 * np.expm1(self.values[i]):+.0f}%{per}")
+        return f"of {self.output.capitalize()} {', '.join(parts)}"
 
 
 def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -> Question | None:
@@ -104,8 +104,9 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
     said = "; ".join(f.in_words for f in found)
     gone = min(f.removed for f in found)
     return Question(
-        f"this seems not to be the file of this tire (or not of its state: pressure, rim): {said} are off "
-        f"at once, and with these set right {100.0 * gone:.0f}% of the squared mismatch is gone",
+        "this seems not to be the file of this tire, or not of its state (pressure, rim): several properties "
+        f"differ from the file at once, {said}. Together they explain {100.0 * gone:.0f}% of the squared "
+        "difference",
         "compare the name of the file, the size and the inflation pressure with what was on the rig, or fit "
         "a model to this recording (fit_magic_formula)",
         "another tire",
@@ -171,7 +172,7 @@ class _Similar:
 
 
 def _fit(model: _Similar, recorded: Array, free: Array) -> tuple[Array, Array, Array]:
-    """Gauss-Newton with halved steps; return parameters, what is left, and the columns of the last step."""
+    """Gauss-Newton with halved steps; return parameters, the residual, and the columns of the last step."""
     p = np.zeros(5)
     force = model(p)
     left = _centred(recorded - force)
