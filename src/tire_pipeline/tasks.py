@@ -22,6 +22,7 @@ _T = TypeVar("_T")
 _T_co = TypeVar("_T_co", covariant=True)
 _LOG = logging.getLogger(__name__)
 _LABELS_SHOWN = 4
+_LABEL_LENGTH = 60
 _DIED = "the process that did it died three times"
 _CURE = "take it out, or run where there is more memory"
 DEATHS = 3
@@ -129,7 +130,7 @@ def shown(
     at_once : int
         How many are under way at the same time; zero if it is not known which.
     """
-    waiting = {name: getattr(task, "label", name) for name, task in tasks.items()}
+    waiting = {name: shortened(getattr(task, "label", name)) for name, task in tasks.items()}
 
     def now_at() -> str:
         named = list(waiting.values())[:at_once] if at_once <= _LABELS_SHOWN else []
@@ -140,6 +141,17 @@ def shown(
         if each.error is not None:
             _LOG.warning("%s: %s: %s", what, each.name, each.error)
         yield each
+
+
+def shortened(label: str) -> str:
+    """Leave out the middle of a label that would fill the line of progress.
+
+    Examples
+    --------
+    >>> shortened("A/one.tir"), shortened("x" * 300)
+    ('A/one.tir', 'xxxxxxxxxxxxxxxxxxxx...xxxxxxxxxxxxxxxxxxxx')
+    """
+    return label if len(label) <= _LABEL_LENGTH else f"{label[:20]}...{label[-20:]}"
 
 
 def in_turn(tasks: Mapping[str, Task[_T]], what: str) -> Iterator[Done[_T]]:

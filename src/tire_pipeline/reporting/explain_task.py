@@ -20,6 +20,7 @@ from tire_pipeline.files.packed import Passing, pack
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch import Explainer, MismatchReport, explain_recordings
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes, learnt
+from tire_pipeline.reporting.result_names import result_place
 from tire_pipeline.tir.sidecar import sidecar_path
 
 COLUMNS = ("recording", "verdict", "summary", "effects", "alternatives", "held_out", "problem")
@@ -110,8 +111,7 @@ def _reason(error: Exception, recording: str) -> str:
 
 def corrected_files(recording: str) -> tuple[str, str]:
     """The corrected ``.tir`` file of a recording, and the sidecar beside it, relative to their folder."""
-    place = PurePosixPath(recording)
-    tir = str(place.parent / f"{place.stem}_corrected.tir")
+    tir = result_place(recording, "_corrected.tir")
     return tir, sidecar_path(tir).as_posix()
 
 
@@ -143,8 +143,9 @@ def _files(
         files: dict[str, bytes] = {}
         physics = [effect for effect in report.effects if effect.kind == "physics"]
         if tire is not None and physics and report.corrected.question is None:
-            target = Path(folder) / "tir" / PurePosixPath(corrected_files(str(place))[0]).name
-            target.parent.mkdir()
+            target = Path(folder) / "corrected.tir"
             report.corrected.to_tir(target)
-            files = {str(place.parent / p.name): p.read_bytes() for p in target.parent.iterdir()}
+            written = (target, sidecar_path(target))
+            named = zip(corrected_files(str(place)), written, strict=True)
+            files = {name: path.read_bytes() for name, path in named if path.exists()}
     return text, files

@@ -21,6 +21,7 @@ from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.progress import track
 from tire_pipeline.recordings.groups import by_folder, matching
 from tire_pipeline.reporting.explain_task import COLUMNS, PAGE, ExplainTask, Load, corrected_files
+from tire_pipeline.reporting.result_names import result_place
 
 Pairs = Mapping[str, Load]
 Read = Callable[[], bytes]
@@ -167,7 +168,7 @@ def collect_explained(
             continue
         reports[row["recording"]] = report
         del members[PAGE]
-        pages[str(PurePosixPath(row["recording"]).with_suffix(".html"))] = partial(_member, read, PAGE)
+        pages[result_place(row["recording"], ".html")] = partial(_member, read, PAGE)
         corrected |= dict.fromkeys(corrected_files(row["recording"]))
         corrected |= {name: partial(_member, read, name) for name in members}
     _check_any(reports, rows)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import datetime
 import json
 from collections.abc import Iterable, Mapping
-from pathlib import PurePosixPath
 
 import pandas as pd
 
 from tire_pipeline.mismatch.report.words import in_words
 from tire_pipeline.reporting import HOME, Links, Table, Text, render_page
 from tire_pipeline.reporting.page_parts import without_empty_columns
+from tire_pipeline.reporting.result_names import result_place
 
 _HEADS = {
     "recording": "Recording",
@@ -48,7 +48,7 @@ def rows_to_keep(overview: pd.DataFrame) -> dict[str, str]:
     """
     now = f"{datetime.datetime.now():%Y-%m-%d %H:%M}"
     return {
-        _place(row["recording"], ".json"): json.dumps({**row, "run": now})
+        result_place(row["recording"], ".json"): json.dumps({**row, "run": now})
         for row in _texts(overview)
         if row["verdict"]
     }
@@ -76,7 +76,7 @@ def draw_overview(
         The last lines of a run.
     """
     last = [
-        {**row, "run": "last", "page": _place(row["recording"], ".html") if row["verdict"] else ""}
+        {**row, "run": "last", "page": result_place(row["recording"], ".html") if row["verdict"] else ""}
         for row in _texts(overview)
     ]
     earlier = _earlier(last, pages, rows)
@@ -101,10 +101,6 @@ def _texts(overview: pd.DataFrame) -> list[dict[str, str]]:
     return overview.astype(object).fillna("").astype(str).to_dict("records")
 
 
-def _place(recording: str, suffix: str) -> str:
-    return str(PurePosixPath(recording).with_suffix(suffix))
-
-
 def _earlier(
     last: list[dict[str, str]], pages: Iterable[str], rows: Mapping[str, bytes | str]
 ) -> list[dict[str, str]]:
@@ -112,7 +108,7 @@ def _earlier(
     found = []
     for page in sorted(set(pages) - {row["page"] for row in last}):
         unknown = {"recording": page.removesuffix(".html"), "run": "earlier", "summary": _NO_ROW}
-        kept = rows.get(_place(page, ".json"))
+        kept = rows.get(f"{page.removesuffix('.html')}.json")
         row = unknown if kept is None else json.loads(kept)
         found.append({**dict.fromkeys(_HEADS, ""), **row, "page": page})
     return sorted(found, key=_date, reverse=True)
