@@ -41,7 +41,7 @@ _FACTORS = ("independent", "form_error", "prior", "error", "spread", "wide")
 _ODDS = ("effect", "further", "unnamed")
 _SURPRISES = 0.01
 """Share of cases whose answer is as likely as any other: what the posterior cannot know must not rule it."""
-_NEAR = 12.0
+_NEAR = 8.0
 """Log odds to the likeliest hypothesis beyond which one has no mass, nor near these sizes."""
 
 
