@@ -471,7 +471,7 @@ def test_a_recording_larger_than_the_memory_is_told_and_not_read(tmp_path, monke
 
 def test_the_memory_of_a_container_counts(tmp_path, monkeypatch):
     group = tmp_path / "memory.max"
-    monkeypatch.setattr(limits, "_GROUP_LIMITS", (str(tmp_path / "absent"), str(group)))
+    monkeypatch.setattr(limits, "GROUP_LIMITS", (str(tmp_path / "absent"), str(group)))
     whole = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     for text, most in (("max\n", whole / 2), ("4096\n", 2048.0)):
         group.write_text(text)

@@ -13,14 +13,15 @@ from tire_pipeline.errors import RecordingError
 _MOST_FACTOR = 200.0
 _SMALL = float(1 << 26)
 _MEMORY_SHARE = 0.5  # for what is read, and for the table that is made of it
-_GROUP_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
+GROUP_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
+"""Where the system says how much memory a container has."""
 
 
 @cache
 def most_bytes() -> float:
     """The largest file that could be read here: half as large as the memory of the machine or container."""
     most = float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
-    for place in map(Path, _GROUP_LIMITS):
+    for place in map(Path, GROUP_LIMITS):
         try:
             most = min(most, float(place.read_text(encoding="ascii")))
         except (OSError, ValueError):  # another system, or no limit
