@@ -14,6 +14,7 @@ _MOST_FACTOR = 200.0
 _SMALL = float(1 << 26)
 _MEMORY_SHARE = 0.5  # for what is read, and for the table that is made of it
 GROUP_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
+"""Where the system says how much memory a container has."""
 
 
 @cache
