@@ -15,7 +15,7 @@ import pandas as pd
 from tire_pipeline.classifiers.suppliers import KnownSuppliers
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import DomainError
-from tire_pipeline.files.added import Added
+from tire_pipeline.files.added_files import AddedFiles
 from tire_pipeline.files.state_files import state_digest
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
@@ -74,7 +74,7 @@ def translate_each(
     Returns
     -------
     dict
-        Name of a task -> the task; :class:`.Added` if not all files were asked for.
+        Name of a task -> the task; :class:`.AddedFiles` if not all files were asked for.
 
     Raises
     ------
@@ -95,7 +95,7 @@ def translate_each(
         f"{code_hash('.')}/{salt}/{number:06d}-{digests[number]}.zip": TranslateBlock(block, given)
         for number, block in blocks.items()
     }
-    return Added(tasks) if parameters.restricted else tasks
+    return AddedFiles(tasks) if parameters.restricted else tasks
 
 
 def _depends_on(given: Given, normalized_table: pd.DataFrame, seed: int) -> list[bytes]:
@@ -144,7 +144,7 @@ def join_translated(
     -------
     files : dict
         The translated ``.tir`` files, no others, by the function that reads each. If not all files were asked
-        for they are :class:`.Added`, with None for each of those asked for that was not translated.
+        for they are :class:`.AddedFiles`, with None for each of those asked for that was not translated.
     report : DataFrame
         One row a file: how its supplier is known, verdict, reason, distance, expected RMS error over that of
         the unchanged file, band of the bias, and that in words with what it usually comes from.
@@ -172,7 +172,7 @@ def join_translated(
             files |= {file: partial(last.text, load, file) for file in translated_in(part)}
     report = _joined_report(reports, unreadable)
     if parameters.restricted:
-        files = Added(dict.fromkeys(report["file"]) | files)
+        files = AddedFiles(dict.fromkeys(report["file"]) | files)
     protocols = judging(translator_from_state(translator)).protocol_changes()
     sources, coefficients, bands = (
         [_table_of(load, name) for load in read] for name in ("sources", "coefficients", "bands")

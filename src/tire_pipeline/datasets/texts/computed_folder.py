@@ -14,7 +14,7 @@ from tire_pipeline.datasets.storage.files_at import Files, files_at
 from tire_pipeline.datasets.texts.text_folder import inside
 from tire_pipeline.datasets.texts.text_objects import NEVER_DELETED
 from tire_pipeline.errors import DomainError
-from tire_pipeline.files.added import Added
+from tire_pipeline.files.added_files import AddedFiles
 from tire_pipeline.files.objects import Objects
 from tire_pipeline.tasks import LostTaskError
 
@@ -41,7 +41,7 @@ class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Com
         starting processes.
     only_the_last : bool
         Delete files of other names: for results that are no longer wanted when what they depend on changes.
-        :class:`.Added` functions delete none.
+        :class:`.AddedFiles` functions delete none.
     metadata : dict, optional
         For kedro-viz.
     """
@@ -76,7 +76,7 @@ class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Com
             what += f" ({len(places) - len(missing)} of {len(places)} are there already)"
         self._compute(folder, missing, places, what)
         folder.write(self._INDEX, "\n".join(data).encode("utf-8"))
-        if self._only_the_last and not isinstance(data, Added):
+        if self._only_the_last and not isinstance(data, AddedFiles):
             kept = {*places.values(), self._INDEX, self._AGAIN}
             folder.delete(name for name in there - kept if name.rsplit("/", 1)[-1] not in NEVER_DELETED)
 

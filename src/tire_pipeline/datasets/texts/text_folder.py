@@ -13,7 +13,7 @@ from kedro.io.core import AbstractDataset
 from tire_pipeline.datasets.texts import text_objects
 from tire_pipeline.datasets.texts.text_objects import HEAD, MARKER, NEVER_DELETED, Content, as_bytes, parted
 from tire_pipeline.errors import DomainError
-from tire_pipeline.files.added import Added
+from tire_pipeline.files.added_files import AddedFiles
 from tire_pipeline.files.atomic import replaced_folder
 from tire_pipeline.files.objects import Objects, is_remote
 from tire_pipeline.progress import track
@@ -24,9 +24,9 @@ _LONGEST = 255
 class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], dict[str, bytes]]):
     """Saves ``{relative path: text, or a function that gives it}`` as files; loads them back as bytes.
 
-    The folder is replaced whole. With ``keep``, or if the texts are :class:`.Added`, what earlier runs made
-    stays beside what is new; ``None`` instead of a text then takes the file of an earlier run away. A folder
-    that holds anything this project did not make is never touched.
+    The folder is replaced whole. With ``keep``, or if the texts are :class:`.AddedFiles`, what earlier runs
+    made stays beside what is new; ``None`` instead of a text then takes the file of an earlier run away. A
+    folder that holds anything this project did not make is never touched.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], dict[str, 
     def save(self, data: Mapping[str, Content | None]) -> None:
         """Write all files, or none."""
         self.check()
-        keep = self._keep or isinstance(data, Added)
+        keep = self._keep or isinstance(data, AddedFiles)
         texts, gone = parted({str(inside(name)): text for name, text in data.items()}, keep=keep)
         if is_remote(self._path):
             text_objects.save(Objects(self._path), texts, gone=gone, keep=keep)

@@ -7,11 +7,11 @@ from typing import TypeVar
 T = TypeVar("T")
 
 
-class Added(dict[str, T]):
+class AddedFiles(dict[str, T]):
     """Names and contents of files. A dataset that saves them keeps the other files of earlier runs.
 
     Examples
     --------
-    >>> Added({"B/one.tir": b"..."})
+    >>> AddedFiles({"B/one.tir": b"..."})
     {'B/one.tir': b'...'}
     """
