@@ -6,6 +6,7 @@ import json
 import re
 import subprocess
 import sys
+from contextlib import contextmanager
 
 import numpy as np
 import pandas as pd
@@ -14,7 +15,6 @@ from click.testing import CliRunner
 
 from tire_pipeline.command.cli import COMMANDS, tire
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.progress_display import DISPLAY
 from tire_pipeline.tir import read_tir, write_tir
 
 pytestmark = pytest.mark.slow
@@ -102,16 +102,23 @@ def test_python_m_runs_the_command(folder):
 )
 def test_a_subcommand_that_lasts_shows_that_it_works(folder, monkeypatch, call):
     write_tir(TireModel.from_coefficients(COEFFICIENTS).replace(PKY1=-20.0), "b.tir")
-    shown = []
+    under_way, shown = [], []
 
-    def slowly(*arguments, **options):
-        shown.extend(activity.label() for activity in DISPLAY.active)
+    @contextmanager
+    def watched(what, now_at):
+        under_way.append(lambda: f"{what} ({now_at()})")
+        yield
+        under_way.clear()
+
+    def reads(*arguments, **options):
+        shown.extend(label() for label in under_way)
         return read_tir(*arguments, **options)
 
-    monkeypatch.setattr("tire_pipeline.tir.read_tir", slowly)
+    monkeypatch.setattr("tire_pipeline.progress.under_way", watched)
+    monkeypatch.setattr("tire_pipeline.tir.read_tir", reads)
     run(*call, "--no-page")
     assert shown[0] == f"tire ({call[0]})"
-    assert not DISPLAY.active
+    assert not under_way
 
 
 def test_show_says_version_ranges_and_what_is_missing(folder):

@@ -12,6 +12,7 @@ from asammdf import MDF, Signal
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings import read_recording
+from tire_pipeline.recordings.conventions.canonical import notes_beside_assumed
 
 DEG = np.pi / 180
 N = 50
@@ -87,6 +88,8 @@ def test_unknown_units_are_si_and_said_so(tmp_path):
     recording = read_recording(file)
     np.testing.assert_allclose(recording["slip_angle"], SA)
     assert "no unit given, SI assumed: SA (rad), FZ (N), FY (N)" in recording.attrs["notes"]
+    assert any("SI units of SA (rad), FZ (N), FY (N)" in text for text in recording.attrs["assumed"])
+    assert not any("SA (rad)" in note for note in notes_beside_assumed(recording)), "said twice in a report"
     assert recording.attrs["steady_points"]
     told = read_recording(file, units={"SA": "deg", "FZ": "furlong"})
     np.testing.assert_allclose(told["slip_angle"], SA * DEG)

@@ -35,5 +35,6 @@ def test_files_that_were_asked_for_are_not_called_all():
     assert "1 file asked for" in own
     assert "2 files asked for" in demonstration
     assert "only A, mine" in asked
-    assert "these files only" in asked
+    assert "shows these files only" in asked
+    assert "stay in 07_model_output/translated" in asked
     assert "at most 3 files" in outcome(trials=3)[2]

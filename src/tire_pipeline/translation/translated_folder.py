@@ -15,7 +15,7 @@ import pandas as pd
 from tire_pipeline.classifiers.suppliers import KnownSuppliers
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import DomainError
-from tire_pipeline.files.added import AddedFiles
+from tire_pipeline.files.added_files import AddedFiles
 from tire_pipeline.files.state_files import state_digest
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track

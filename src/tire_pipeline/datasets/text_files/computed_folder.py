@@ -14,7 +14,7 @@ from tire_pipeline.datasets.storage.files_at import Files, files_at
 from tire_pipeline.datasets.text_files.text_folder import inside
 from tire_pipeline.datasets.text_files.text_objects import NEVER_DELETED
 from tire_pipeline.errors import DomainError
-from tire_pipeline.files.added import AddedFiles
+from tire_pipeline.files.added_files import AddedFiles
 from tire_pipeline.files.objects import Objects
 from tire_pipeline.tasks import LostTaskError
 

@@ -20,7 +20,7 @@ from tire_pipeline.datasets.text_files.text_objects import (
     parted,
 )
 from tire_pipeline.errors import DomainError
-from tire_pipeline.files.added import AddedFiles
+from tire_pipeline.files.added_files import AddedFiles
 from tire_pipeline.files.atomic import replaced_folder
 from tire_pipeline.files.folder_walk import holds_anything
 from tire_pipeline.files.objects import Objects, is_remote

@@ -315,9 +315,9 @@ def _candidates(analysis: Analysis, answer: SetAnswer) -> list[dict[str, Any]]:
         elif gain is None:
             why = "detected directly in the channels" if not effect.parameters else "screened out"
         elif name in likely and name not in answer.names:
-            why = "is an alternative to what is named"
+            why = "is an alternative to a named effect"
         elif name not in likely:
-            why = "is less likely than what is named" if answer.names else "does not pay for itself"
+            why = "is less likely than the named effects" if answer.names else "does not pay for itself"
         row = {"name": name, "kind": effect.kind, "accepted": name in answer.names, "gain": gain, "why": why}
         rows.append(row)
     return sorted(rows, key=lambda r: (not r["accepted"], -(r["gain"] if r["gain"] is not None else -1e9)))

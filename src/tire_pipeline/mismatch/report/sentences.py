@@ -145,7 +145,10 @@ def _next_after(fit: HeldOutFit) -> str:
         )
     if any(e.ratio_high < 1.0 for e in errors):
         return "Next, use the corrected model within the ranges of the explained recordings."
-    return f"Next, keep the model as it is for recordings like {fit.recording}: nothing is gained there."
+    return (
+        f"Next, keep the model as it is for recordings like {fit.recording}: the correction gains nothing "
+        "there."
+    )
 
 
 def _on_held_out(fit: HeldOutFit) -> str:

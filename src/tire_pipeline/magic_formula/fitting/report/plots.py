@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _MOST_LOADS = 5
 _MOST_DRAWN_POINTS = 3000
 _FEWEST_DRAWN = 5
-_DRAWN_LARGE = 300
+_FEW_DRAWN = 300
 
 
 def draw_fit(model: TireModel, measured: pd.DataFrame | None) -> tuple[Figure, str]:
@@ -100,7 +100,7 @@ def _draw(row: Any, model: TireModel, output: str, part: pd.DataFrame) -> None:
 
 def _size(points: int) -> dict[str, float]:
     """Few points are drawn large: steady points are some hundred, a run has thousands."""
-    return {"ms": 9.0, "alpha": 0.8} if points <= _DRAWN_LARGE else {"ms": 3.0, "alpha": 0.4}
+    return {"ms": 9.0, "alpha": 0.8} if points <= _FEW_DRAWN else {"ms": 3.0, "alpha": 0.4}
 
 
 def _most_frequent(x: pd.Series) -> pd.Series:
