@@ -171,7 +171,7 @@ def test_every_dataset_and_node_of_the_story_has_a_description():
     names = {node.name for node in story.nodes} | {d for d in story.datasets() if not d.startswith("param")}
     assert {name for name in names if not known["exact"].get(name)} == set()
     patterns = {re.sub(r"\\(.)", r"\1", pattern): text for pattern, text in known["patterns"]}
-    assert "fitted once a seed" in patterns["^representations.[^.]+$"]
+    assert "fitted once per seed" in patterns["^representations.[^.]+$"]
     assert all(re.compile(pattern) for pattern, _ in known["patterns"])
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pickle
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -103,13 +103,25 @@ def learn_sizes(
         Of :func:`judged`, a row for each source.
     """
     cases = [t for read in reduced_cases.values() if (t := pickle.loads(read())) is not None]
-    found = learn(cases, learnt(), step=parameters.step, mapped=_Mapped(parameters.processes))
+    mapped = _Mapped(parameters.processes)
+    found = learn(cases, learnt(), step=parameters.step, mapped=mapped)
     rows = []
     for source, sizes in found.without.items():
         own = [each for each in cases if each.source == source]
-        rows.append({"source": source, **judged(own, sizes, found.sizes)})
+        rows.append({"source": source, **judged(own, sizes, found.sizes, mapped)})
     made = {"sizes": found.sizes.to_dict(), "provenance": _made_with(cases, found, parameters)}
     return made, pd.DataFrame(rows)
+
+
+@dataclass(frozen=True)
+class _SaidBy:
+    """Confidence of each set of names that a case gets by some sizes, and whether it holds the truth."""
+
+    sizes: LearntSizes
+
+    def __call__(self, each: Tuning) -> list[tuple[float, bool]]:
+        right = {name for names in each.right for name in names}
+        return [(sure, bool(set(names) & right)) for names, sure in answered(each.case, self.sizes).sets]
 
 
 class _Mapped:
@@ -135,7 +147,9 @@ def _made_with(cases: list[Tuning], found: Learnt, parameters: CalibrateMismatch
     }
 
 
-def judged(cases: list[Tuning], without: LearntSizes, every: LearntSizes) -> dict[str, float]:
+def judged(
+    cases: list[Tuning], without: LearntSizes, every: LearntSizes, mapped: _Mapped
+) -> dict[str, float]:
     """Return how sizes that were learnt without a source do on its cases.
 
     Parameters
@@ -146,6 +160,8 @@ def judged(cases: list[Tuning], without: LearntSizes, every: LearntSizes) -> dic
         Learnt from the other sources.
     every : LearntSizes
         Learnt from all of them, this one, too: no sizes of this model do much better.
+    mapped : callable
+        Spreads the work.
 
     Returns
     -------
@@ -154,17 +170,14 @@ def judged(cases: list[Tuning], without: LearntSizes, every: LearntSizes) -> dic
         the sets of names how many there are, their mean confidence, how many hold the truth, and how far
         confidences are off (expected calibration error).
     """
-    said = [
-        (sure, bool(set(names) & {n for right in t.right for n in right}))
-        for t in cases
-        for names, sure in answered(t.case, without).sets
-    ]
+    said = [each for found in mapped(_SaidBy(without), cases) for each in found]
     sure, held = np.array(said, dtype=float).reshape(-1, 2).T
+    odds_alone = replace(without, independent=1e-6)
     return {
         "cases": len(cases),
-        "log_score": float(log_scores(cases, without).mean()),
-        "log_score_learnt_with_it": float(log_scores(cases, every).mean()),
-        "log_score_of_base_rates": float(log_scores(cases, replace(without, independent=1e-6)).mean()),
+        "log_score": float(log_scores(cases, without, mapped).mean()),
+        "log_score_learnt_with_it": float(log_scores(cases, every, mapped).mean()),
+        "log_score_of_base_rates": float(log_scores(cases, odds_alone, mapped).mean()),
         "sets": len(said),
         "mean_confidence": float(sure.mean()) if said else float("nan"),
         "hold_the_truth": float(held.mean()) if said else float("nan"),

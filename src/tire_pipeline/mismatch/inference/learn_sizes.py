@@ -2,8 +2,7 @@
 
 The log evidence of every hypothesis is a smooth function of the sizes. It is worked out at a centre and at a
 step to either side along each size, and taken for a parabola in between. The best sizes and odds of these
-parabolas are found by gradient, for all sources of cases and for any choice of them without further work.
-They are the next centre, until they stay within a step of it.
+parabolas are found by gradient, for all sources of cases and without each of them, and are measured.
 """
 
 from __future__ import annotations
@@ -32,7 +31,6 @@ Array = np.ndarray
 Names = tuple[str, ...]
 Map = Callable[[Callable[["Tuning"], Array], Iterable["Tuning"]], Iterable[Array]]
 _STEP = 1.6
-_ROUNDS_OF_LEARNING = 3
 _TRUSTED = (2.0, 1.0, 0.5)
 """Steps from a centre within which the parabolas are believed; fewer where they promise too much."""
 _DIFFERENCE = 0.1
@@ -41,7 +39,7 @@ _FACTORS = ("independent", "form_error", "prior", "error", "spread", "wide")
 _ODDS = ("effect", "further", "unnamed")
 _SURPRISES = 0.01
 """Share of cases whose answer is as likely as any other: what the posterior cannot know must not rule it."""
-_NEAR = 8.0
+_NEAR = 12.0
 """Log odds to the likeliest hypothesis beyond which one has no mass, nor near these sizes."""
 
 
@@ -129,36 +127,41 @@ def log_scores(cases: Sequence[Tuning], sizes: LearntSizes, mapped: Map = map) -
 
 
 def learn(cases: Sequence[Tuning], start: LearntSizes, *, step: float = _STEP, mapped: Map = map) -> Learnt:
-    """Return the sizes with the best mean log score, each source of cases counting alike.
+    """Return the sizes with the best mean log score about a start, each source of cases counting alike.
 
     Parameters
     ----------
     cases : sequence of Tuning
     start : LearntSizes
+        No size goes farther from it than two steps: beyond, learning is begun again where it ended.
     step : float
         Factor by which each size is moved to see what it does; 1 to learn the odds alone.
     mapped : callable
         ``map``, or one that spreads the work.
     """
-    shares = _shares(cases)
-    best, score = start, float(shares @ log_scores(cases, start, mapped))
-    before = score
-    for _ in range(_ROUNDS_OF_LEARNING):
-        around = _Parabolas(cases, best, step, mapped)
-        for within in _TRUSTED:
-            there, farthest = around.best(within)
-            tried = float(shares @ log_scores(cases, there, mapped))
-            if tried > score:
-                break
-        else:
-            break
-        best, score = there, tried
-        if farthest < 1.0:
-            break
+    around = _Parabolas(cases, start, step, mapped)
+    best, before, score = _bettered(around, mapped)
     sources = sorted({each.source for each in cases})
-    without = {s: around.best(within, s)[0] for s in sources if len(sources) > 1}
+    without = {s: _bettered(around, mapped, s)[0] for s in sources if len(sources) > 1}
     sizes = replace(best, left=learnt_left(cases, best))
     return Learnt(sizes, score, before, around.curvature(best), without)
+
+
+def _bettered(
+    around: _Parabolas, mapped: Map, without: str | None = None
+) -> tuple[LearntSizes, float, float]:
+    """Return the best sizes that keep what the parabolas promise, and the score at the centre and there.
+
+    They are the centre's own where no step betters the score.
+    """
+    shares = _shares(around.cases, without)
+    before = float(shares @ log_scores(around.cases, around.centre, mapped))
+    for within in _TRUSTED:
+        there = around.best(within, without)
+        score = float(shares @ log_scores(around.cases, there, mapped))
+        if score > before:
+            return there, before, score
+    return around.centre, before, before
 
 
 def _shares(cases: Sequence[Tuning], without: str | None = None) -> Array:
@@ -194,8 +197,8 @@ class _Parabolas:
         by = _EvidenceBy(moved(self.centre, self.step, steps))
         return self.weighed.padded(list(mapped(by, self.cases)))
 
-    def best(self, within: float, without: str | None = None) -> tuple[LearntSizes, float]:
-        """Return the best sizes and odds within some steps, and how many steps the farthest of them went.
+    def best(self, within: float, without: str | None = None) -> LearntSizes:
+        """Return the best sizes and odds within some steps of the centre, if the parabolas are right.
 
         Parameters
         ----------
@@ -214,7 +217,7 @@ class _Parabolas:
         begin = np.r_[np.zeros(count), [min(getattr(self.centre, name), 0.0) for name in _ODDS]]
         x = scipy.optimize.minimize(loss, begin, jac=True, method="L-BFGS-B", bounds=bounds).x
         found = moved(self.centre, self.step, dict(zip(self.names, x[:count], strict=True)))
-        return _with_odds(found, x[count:]), float(np.max(np.abs(x[:count]), initial=0.0))
+        return _with_odds(found, x[count:])
 
     def curvature(self, sizes: LearntSizes) -> dict[str, float]:
         """Return :attr:`Learnt.curvature` at the best sizes near the centre."""
