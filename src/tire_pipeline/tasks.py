@@ -200,17 +200,17 @@ def _surviving(tasks: Mapping[str, Task[_T]], what: str, count: int) -> Iterator
     one_each = len(tasks) <= count  # how many are done says nothing until the end
     doing = attempt if one_each else attempt_in_silence
     waiting, lost = iter(tasks), list[str]()
-    going = True
-    while going:
+    while True:
         begun: dict[str, None] = {}
         try:
             for done in _in_pool(doing, tasks, _noted(waiting, begun), count):
                 del begun[done.name]
                 yield done
-            going = False
         except BrokenExecutor:
             _LOG.warning("%s: a process died; what was under way is tried again, each alone", what)
             lost += begun
+        else:
+            break
     for name in lost:
         yield done_alone(name, tasks[name], _in_own_process, what)
 

@@ -43,10 +43,17 @@ def test_a_pressure_that_varied_is_expected_where_the_file_has_no_coefficient_of
 
 
 @pytest.mark.parametrize(
-    ("low", "high", "expected"), [(2900.0, 3100.0, True), (1800.0, 5500.0, False), (1500.0, 4000.0, False)]
+    ("low", "high", "expected"),
+    [
+        (2900.0, 3100.0, True),
+        (1800.0, 5500.0, False),
+        (1500.0, 4000.0, False),
+        (0.0, 0.0, False),
+        (5500.0, 1800.0, False),
+    ],
 )
 def test_another_change_with_load_is_expected_of_a_file_fitted_at_one_load(tire, record, low, high, expected):
-    """The recording's loads are 1.8 to 5.5 kN."""
+    """The recording's loads are 1.8 to 5.5 kN. Ends of no range at all are placeholders, and say nothing."""
     data = prepare(tire.replace(FZMIN=low, FZMAX=high), record(4)).data
     assert catalogue()["load_sensitivity"].expected(data) == expected
 

@@ -173,7 +173,7 @@ def tuning(cases):
 
 
 def test_learning_betters_the_log_score(tuning):
-    found = learn(tuning, replace(learnt(), error=0.03))
+    found = learn(tuning, replace(learnt(), error=0.03), step=1.6)
     assert log_scores(tuning, found.sizes).mean() == pytest.approx(found.score)
     assert found.score > found.start
     assert set(found.curvature) >= {"error", "side", "effect"}

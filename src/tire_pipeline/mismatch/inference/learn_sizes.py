@@ -15,7 +15,6 @@ import numpy as np
 import scipy
 
 from tire_pipeline.mismatch.inference.evidence.hypotheses import (
-    Hypothesis,
     asked,
     hypotheses,
     log_evidence,
@@ -30,11 +29,10 @@ from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 Array = np.ndarray
 Names = tuple[str, ...]
 Map = Callable[[Callable[["Tuning"], Array], Iterable["Tuning"]], Iterable[Array]]
-_STEP = 1.6
 _TRUSTED = (2.0, 1.0, 0.5)
 """Steps from a centre within which the parabolas are believed; fewer where they promise too much."""
 _DIFFERENCE = 0.1
-_NONE = -1e6
+"""Half the distance between the derivatives whose difference is the curvature."""
 _FACTORS = ("independent", "form_error", "prior", "error", "spread", "wide")
 _ODDS = ("effect", "further", "unnamed")
 _SURPRISES = 0.01
@@ -70,16 +68,14 @@ class Tuning:
     unnamed: tuple[bool, ...] = (False,)
     kept: tuple[int, ...] | None = None
 
-    def weighed(self, of: Sequence[Hypothesis] | Array) -> list[Hypothesis] | Array:
-        """Return those of a list over all hypotheses that are weighed."""
-        if isinstance(of, np.ndarray):
-            return of if self.kept is None else of[list(self.kept)]
-        return list(of) if self.kept is None else [of[k] for k in self.kept]
+    def weighed(self, of: Array) -> Array:
+        """Return what is said of the hypotheses that are weighed, from what is said of all, shape (h,)."""
+        return of if self.kept is None else of[list(self.kept)]
 
     def rights(self) -> Array:
         """Return which of the hypotheses that are weighed are right, shape (h,)."""
-        every = self.weighed(hypotheses(self.case))
-        return np.array([each.names in self.right and each.unnamed in self.unnamed for each in every])
+        every = hypotheses(self.case)
+        return self.weighed(np.array([h.names in self.right and h.unnamed in self.unnamed for h in every]))
 
 
 def pruned(each: Tuning, sizes: LearntSizes) -> Tuning:
@@ -122,11 +118,11 @@ class Learnt:
 def log_scores(cases: Sequence[Tuning], sizes: LearntSizes, mapped: Map = map) -> Array:
     """Return the log probability of the right answer of each case, shape (cases,)."""
     weighed = _Weighed(cases)
-    evidence = weighed.padded(list(mapped(_EvidenceBy(sizes), cases)))
+    evidence = weighed.evidence(sizes, mapped)
     return weighed.scores(evidence + weighed.odds(sizes))[0]
 
 
-def learn(cases: Sequence[Tuning], start: LearntSizes, *, step: float = _STEP, mapped: Map = map) -> Learnt:
+def learn(cases: Sequence[Tuning], start: LearntSizes, *, step: float, mapped: Map = map) -> Learnt:
     """Return the sizes with the best mean log score about a start, each source of cases counting alike.
 
     Parameters
@@ -155,7 +151,7 @@ def _bettered(
     They are the centre's own where no step betters the score.
     """
     shares = _shares(around.cases, without)
-    before = float(shares @ log_scores(around.cases, around.centre, mapped))
+    before = float(shares @ around.scores_at_centre())
     for within in _TRUSTED:
         there = around.best(within, without)
         score = float(shares @ log_scores(around.cases, there, mapped))
@@ -194,8 +190,11 @@ class _Parabolas:
         self.bend = [0.5 * (more + less) - self.middle for more, less in sides]
 
     def _at(self, steps: Mapping[str, float], mapped: Map) -> Array:
-        by = _EvidenceBy(moved(self.centre, self.step, steps))
-        return self.weighed.padded(list(mapped(by, self.cases)))
+        return self.weighed.evidence(moved(self.centre, self.step, steps), mapped)
+
+    def scores_at_centre(self) -> Array:
+        """Return the log probability of what is right in each case at the centre, shape (cases,)."""
+        return self.weighed.scores(self.middle + self.weighed.odds(self.centre))[0]
 
     def best(self, within: float, without: str | None = None) -> LearntSizes:
         """Return the best sizes and odds within some steps of the centre, if the parabolas are right.
@@ -236,15 +235,12 @@ class _Parabolas:
     def _score(self, x: Array, shares: Array) -> tuple[float, Array]:
         """Return the mean log score some steps from the centre, and its derivatives."""
         count = len(self.names)
-        evidence = self.middle + sum(
-            (t * a + t**2 * b for t, a, b in zip(x[:count], self.slope, self.bend, strict=True)), 0.0
-        )
+        along = list(zip(x[:count], self.slope, self.bend, strict=True))
+        evidence = self.middle + sum((t * a + t**2 * b for t, a, b in along), 0.0)
         odds = self.weighed.odds(_with_odds(self.centre, x[count:]))
         scores, slopes = self.weighed.scores(evidence + odds)
         by = shares[:, None] * slopes
-        sizes = [
-            np.sum(by * (a + 2.0 * t * b)) for t, a, b in zip(x[:count], self.slope, self.bend, strict=True)
-        ]
+        sizes = [np.sum(by * (a + 2.0 * t * b)) for t, a, b in along]
         return float(shares @ scores), np.array([*sizes, *(np.sum(by * c) for c in self.counts)])
 
 
@@ -270,9 +266,10 @@ class _Weighed:
     """What the odds and the score of many cases need, padded to one length."""
 
     def __init__(self, cases: Sequence[Tuning]) -> None:
-        rights = [each.rights() for each in cases]
+        self.cases, rights = list(cases), [each.rights() for each in cases]
         self.count = np.array([each.size for each in rights])
         shape = (len(cases), int(self.count.max()))
+        self.there = np.arange(shape[1]) < self.count[:, None]
         self.right, self.wide = np.zeros(shape, bool), np.zeros(shape, bool)
         self.effects, self.expected, self.forms = (np.zeros(shape, int) for _ in range(3))
         for k, (each, right) in enumerate(zip(cases, rights, strict=True)):
@@ -290,16 +287,16 @@ class _Weighed:
         """Return the log odds of each hypothesis, shape (cases, h)."""
         return sizes.log_prior(self.effects, self.expected, unnamed=self.wide, forms=self.forms)
 
-    def padded(self, evidences: Sequence[Array]) -> Array:
-        """Return the evidence of all cases as one array; what is not there has none."""
-        out = np.full(self.right.shape, _NONE)
-        for k, each in enumerate(evidences):
+    def evidence(self, sizes: LearntSizes, mapped: Map) -> Array:
+        """Return the log evidence of each hypothesis by some sizes, shape (cases, h), below the largest."""
+        out = np.zeros(self.right.shape)
+        for k, each in enumerate(mapped(_EvidenceBy(sizes), self.cases)):
             out[k, : each.size] = each - each.max()
         return out
 
     def scores(self, value: Array) -> tuple[Array, Array]:
         """Return the log probability of what is right in each case, and its derivatives by each log odds."""
-        mass = scipy.special.softmax(value, axis=1)
+        mass = scipy.special.softmax(np.where(self.there, value, -np.inf), axis=1)
         right = np.where(self.right, mass, 0.0).sum(axis=1)
         held = (1.0 - _SURPRISES) * right + _SURPRISES / self.count
         slopes = ((1.0 - _SURPRISES) / held)[:, None] * mass * (self.right - right[:, None])

@@ -53,6 +53,12 @@ class Data(States):
         """Coefficients of the model."""
         return self.tire.coefficients
 
+    @property
+    def load_range(self) -> tuple[float, float]:
+        """Least and largest load that the file says it holds for, N; infinite where it gives no range."""
+        *_, low, high = self.tire.ranges.get("normal_load", (-np.inf, np.inf))
+        return low, high
+
     @cached_property
     def has_combined(self) -> bool:
         """Whether both slips are large together in at least 0.5% of the samples (50 at least; 5 points)."""

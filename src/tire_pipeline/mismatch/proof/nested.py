@@ -126,8 +126,8 @@ class ByFold:
 
         From where the fit to all rows ended, they go as far as the likeliest parameters go when rows are left
         out. The linear step is asked for that change only: where a fit ended elsewhere than a linear model
-        has its optimum, no such optimum is promised. They are weighed as in the fit of a set: without errors
-        of form, the error of any size. Those that one sweep determines stay where they are.
+        has its optimum, no such optimum is promised. They are weighed without errors of form, with priors as
+        the effects state them and an error of any size. Those that one sweep determines stay where they are.
         """
         data, each = self.products.data, self.each
         labels, _ = columns_of(data, list(each.changes), list(each.free))

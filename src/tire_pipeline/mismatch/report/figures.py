@@ -182,7 +182,7 @@ def drawings(report: ReportContents) -> list[dict[str, Any]]:
 
 
 def unnamed_curve(report: ReportContents) -> Markup | None:
-    """Draw the residual over the first factor of the equation without a name, beside the equation."""
+    """Draw the residual over the first factor of the equation for unnamed physics, beside the equation."""
     curve = None if report.unnamed is None else report.unnamed.curve
     if not curve:
         return None

@@ -56,11 +56,7 @@ def open_coefficients(
     loads_differ = _spread(load) > share * MIN_LOAD_SPREAD * nominal_load
     rules = [
         (not tilted.any(), NO_CAMBER, CAMBER | CAMBER_AND_LOAD),
-        (
-            not loads_differ,
-            "one load only",
-            LOAD | LOAD_SQUARED | CAMBER_AND_LOAD,
-        ),
+        (not loads_differ, "one load only", LOAD | LOAD_SQUARED | CAMBER_AND_LOAD),
         (_levels(load, nominal_load) < 3, "fewer than three loads", LOAD_SQUARED),
         (
             tilted.any() and _spread(load[tilted]) <= share * MIN_LOAD_SPREAD * nominal_load,

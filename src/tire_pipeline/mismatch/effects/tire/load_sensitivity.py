@@ -54,8 +54,7 @@ class LoadSensitivity(Effect):
         No tire's friction and stiffness are known so far from the loads they were fitted to (Pacejka, 3rd
         ed., 4.3.2: PDY2 and PKY2 take several loads).
         """
-        limits, load = data.tire_coefficients, data.get("normal_load")  # type: ignore[attr-defined]
-        low, high = limits.get("FZMIN", -np.inf), limits.get("FZMAX", np.inf)
+        (low, high), load = data.load_range, data.get("normal_load")  # type: ignore[attr-defined]
         return bool(max(low - np.min(load), np.max(load) - high) > high - low)
 
     def tire(self, state: State, data: object, p: Parameters) -> None:

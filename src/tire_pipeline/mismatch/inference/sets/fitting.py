@@ -13,6 +13,7 @@ from tire_pipeline.mismatch.inference.fit import columns_of, moved
 from tire_pipeline.mismatch.inference.priors import Labels, prior
 from tire_pipeline.mismatch.inference.tails import cost, widening
 from tire_pipeline.mismatch.model.candidates import Variant
+from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import residual
 
@@ -58,9 +59,16 @@ def _cost(
     """Negative log posterior of the parameters, summed over the sizes of misfit and error."""
     rest = residual(products.data, changes)
     found = likelihood.evidence(products.of({o: r[:, None] for o, r in rest.items()}), np.zeros(0))
-    off, wide = prior(products.data, changes, _moving(changes, free))
-    wide = wide * likelihood.learnt.prior
+    off, wide = _learnt_prior(products.data, likelihood, changes, _moving(changes, free))
     return -found.value + float(np.sum(cost(off / wide)))
+
+
+def _learnt_prior(
+    data: Data, likelihood: Likelihood, changes: Sequence[Change], labels: Labels
+) -> tuple[Array, Array]:
+    """As :func:`prior`, with the learnt width."""
+    off, wide = prior(data, changes, labels)
+    return off, wide * likelihood.learnt.prior
 
 
 def _moving(changes: Sequence[Change], free: Sequence[tuple[str, ...]]) -> Labels:
@@ -85,8 +93,7 @@ def _step(
     """
     data = products.data
     labels, columns = columns_of(data, changes, list(free))
-    off, wide = prior(data, changes, labels)
-    wide = wide * likelihood.learnt.prior
+    off, wide = _learnt_prior(data, likelihood, changes, labels)
     rest = residual(data, changes)
     here = products.of({o: np.column_stack([columns[o] * wide, r]) for o, r in rest.items()})
     found = likelihood.evidence(here, np.ones(wide.size))
