@@ -47,6 +47,8 @@ _SECOND = {
 }
 """Causes of the second simulator -> names of the catalogue."""
 _LEFT_OUT = ("clipping", "unit error", "quantisation")
+_IN_ONE_CHANNEL = ("force offset", "force gain", "crosstalk", "load crosstalk", "drift")
+"""Causes of the second simulator that change the one channel that was drawn, be it the moment's."""
 _ROWS = 3000
 
 
@@ -163,11 +165,26 @@ def _second(seed: int, number: int) -> KnownCase:
         starts=2,
         loss="linear",
     ).model
-    pairs = zip(case.truth.causes, case.truth.strengths, strict=True)
-    effects = tuple((_SECOND.get(cause, "unknown"), float(size)) for cause, size in pairs)
+    pairs = zip(case.truth.causes, _sizes_in_forces(case.truth), strict=True)
+    effects = tuple((_SECOND.get(cause, "unknown"), size) for cause, size in pairs if size > 0.0)
     unknown = any(name == "unknown" for name, _ in effects)
     kind = "unknown" if unknown else ("single" if effects else "nothing")
     return KnownCase("second", kind, tire, case.recording, effects)
+
+
+def _sizes_in_forces(truth: Any) -> list[float]:
+    """Return how large each cause of the second simulator is in Fx and Fy, in misfits; 0 if only Mz shows it.
+
+    Its own strengths are of the force or moment that shows a cause most, and the explanation looks at no
+    moment. Of two causes that both show, each has the part that both together have.
+    """
+    change = np.sqrt(np.mean((truth.recording_with - truth.recording_without) ** 2, axis=0)) / truth.unit
+    in_forces, largest = float(np.max(change[:2])), float(np.max(change))
+    pairs = list(zip(truth.causes, truth.parameters, strict=True))
+    shows = [cause not in _IN_ONE_CHANNEL or p["channel"] != "mz" for cause, p in pairs]
+    if sum(shows) <= 1:
+        return [in_forces if here else 0.0 for here in shows]
+    return [float(size) * in_forces / largest for size in truth.strengths]
 
 
 def _unnamed(seed: int, number: int) -> KnownCase:
@@ -180,5 +197,8 @@ def _unnamed(seed: int, number: int) -> KnownCase:
     except ValueError as error:
         raise DomainError(str(error), todo="take another seed") from error
     beside = tuple((_SECOND[cause], 0.0) for cause in case.named)
-    effects = (*beside, *(("unknown", float(each.strength)) for each in case.added))
-    return KnownCase("unnamed", "unknown", case.tire, case.recording, effects)
+    shown = [np.sqrt(np.mean(each.change[: len(case.recording), :2] ** 2, axis=0)) for each in case.added]
+    sizes = [float(np.max(rms / case.unit[:2])) for rms in shown]
+    effects = (*beside, *(("unknown", size) for size in sizes if size > 0.0))
+    kind = "unknown" if any(sizes) else ("single" if beside else "nothing")
+    return KnownCase("unnamed", kind, case.tire, case.recording, effects)

@@ -58,6 +58,8 @@ class OpenCase:
         Forces of the held-out rows with and without the mechanisms, free of noise.
     change : ndarray, shape (rows, 3)
         What the mechanisms do in the shown rows.
+    unit : ndarray, shape (3,)
+        Noise and the formula's misfit together, of which strengths are multiples: N, N, N m.
     """
 
     tire: TireModel
@@ -68,6 +70,7 @@ class OpenCase:
     held_with: np.ndarray
     held_without: np.ndarray
     change: np.ndarray
+    unit: np.ndarray
     nominal: Nominal
 
 
@@ -137,6 +140,7 @@ def _drawn(
         held_with=(world.forces + change)[rows:],
         held_without=world.forces[rows:],
         change=change[:rows],
+        unit=one,
         nominal=world.nominal,
     )
 
