@@ -193,18 +193,21 @@ def test_a_file_fitted_at_one_load_has_another_stiffness_at_others(tire, record)
     assert report.fit["fy"].rms_after < 0.5 * report.fit["fy"].rms_before
 
 
-def test_a_leak_of_the_normal_load_into_both_forces_is_crosstalk(tire, record):
-    braked = tire.replace(PCX1=1.6, PDX1=1.1, PEX1=0.1, PKX1=22.0, RBX1=12.0, RCX1=1.0, RBY1=12.0, RCY1=1.0)
-    recording = record(8)
+def _braked(tire, recording):
+    """A model of both forces, and a recording of it at both slips."""
+    model = tire.replace(PCX1=1.6, PDX1=1.1, PEX1=0.1, PKX1=22.0, RBX1=12.0, RCX1=1.0, RBY1=12.0, RCY1=1.0)
     slip = 0.05 * np.sin(recording["time"].to_numpy())
     at = {n: recording[n].to_numpy() for n in ("slip_angle", "normal_load")}
-    forces = braked.forces(slip_ratio=slip, **at)
+    forces = model.forces(slip_ratio=slip, **at)
     noise = np.random.default_rng(8).normal(0.0, 25.0, (2, slip.size))
+    return model, recording.assign(slip_ratio=slip, fx=forces.fx + noise[0], fy=forces.fy + noise[1])
+
+
+def test_a_leak_of_the_normal_load_into_both_forces_is_crosstalk(tire, record):
+    model, recording = _braked(tire, record(8))
     load = recording["normal_load"]
-    recording = recording.assign(
-        slip_ratio=slip, fx=forces.fx + noise[0] - 0.02 * load, fy=forces.fy + noise[1] + 0.015 * load
-    )
-    answer, changes = _answer(braked, recording)
+    leaking = recording.assign(fx=recording["fx"] - 0.02 * load, fy=recording["fy"] + 0.015 * load)
+    answer, changes = _answer(model, leaking)
     assert answer.names == ("crosstalk",)
     found = changes["crosstalk"]
     assert found["load_into_fy"] == pytest.approx(0.015, abs=0.002)
@@ -213,9 +216,24 @@ def test_a_leak_of_the_normal_load_into_both_forces_is_crosstalk(tire, record):
     assert found["into_fx"] == pytest.approx(0.0, abs=0.002)
 
 
+def test_a_leak_between_forces_has_no_leak_of_the_load(tire, record):
+    model, recording = _braked(tire, record(8))
+    answer, changes = _answer(model, recording.assign(fx=recording["fx"] + 0.05 * recording["fy"]))
+    assert answer.names == ("crosstalk",)
+    assert set(answer.named.free[0]) == {"into_fx", "into_fy"}
+    assert changes["crosstalk"]["into_fx"] == pytest.approx(0.05, abs=0.005)
+
+
 def test_a_leak_of_the_load_into_one_force_is_not_told_from_conicity(tire, record):
     recording = record(9)
     answer, _ = _answer(tire, recording.assign(fy=recording["fy"] + 0.02 * recording["normal_load"]))
+    assert set(answer.sets[0][0]) >= {"crosstalk", "plysteer_conicity"}
+
+
+def test_nor_where_both_forces_are_recorded(tire, record):
+    """Crosstalk paid for the leaks between the forces that are not there: conicity alone was named."""
+    model, recording = _braked(tire, record(8))
+    answer, _ = _answer(model, recording.assign(fy=recording["fy"] + 0.02 * recording["normal_load"]))
     assert set(answer.sets[0][0]) >= {"crosstalk", "plysteer_conicity"}
 
 

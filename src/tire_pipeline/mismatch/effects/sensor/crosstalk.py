@@ -4,14 +4,19 @@ from __future__ import annotations
 
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 
+_OF_FORCES = ("into_fy", "into_fx")
+_OF_LOAD = ("load_into_fy", "load_into_fx")
+_HARDLY = 1e-9
+"""A leak too small to see: it says which leaks float."""
+
 
 class Crosstalk(Effect):
     """The load cell's axes are not quite square.
 
-    Covers the leak of the normal load into Fy and Fx, the largest force and so the most common leak, and
-    between Fx and Fy, each with a factor of its own. At one load a leak of the normal load is an offset of
-    the force, and is named so. Not covered: leaks into the normal load, which then is wrong as an input,
-    and of moments.
+    Covers the leak of the normal load into Fy and Fx, the largest force and so the most common leak, or the
+    leaks between Fx and Fy, or all of these, each with a factor of its own. At one load a leak of the normal
+    load is an offset of the force, and is named so. Not covered: leaks into the normal load, which then is
+    wrong as an input, and of moments.
     """
 
     name = "crosstalk"
@@ -41,18 +46,24 @@ class Crosstalk(Effect):
     def absent(self, data: object) -> str | None:
         """Ask for both forces, or for a load that varies."""
         missing = super().absent(data)
-        if missing is None and not self.free(data, {}):
+        if missing is None and not self.starts(data):
             missing = "only one force is recorded, and the load does not vary"
         return missing
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
-        """Leaks between the forces that are there, and of a load that varies."""
-        names: tuple[str, ...] = ()
-        if "fx" in data.outputs and "fy" in data.outputs:  # type: ignore[attr-defined]
-            names = ("into_fy", "into_fx")
+    def starts(self, data: object) -> list[dict[str, float]]:
+        """With leaks of a load that varies, with leaks between two forces, and with all of these."""
+        leaks: list[tuple[str, ...]] = []
         if data.varies("normal_load"):  # type: ignore[attr-defined]
-            names += ("load_into_fy", "load_into_fx")
-        return names
+            leaks.append(_OF_LOAD)
+        if "fx" in data.outputs and "fy" in data.outputs:  # type: ignore[attr-defined]
+            leaks.append(_OF_FORCES)
+        if len(leaks) > 1:
+            leaks.append((*_OF_FORCES, *_OF_LOAD))
+        return [{**self.zeros(data), **dict.fromkeys(names, _HARDLY)} for names in leaks]
+
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """Return the leaks that a start has."""
+        return tuple(p.name for p in self.parameters if start.get(p.name))
 
     def outputs(self, state: State, data: object, p: Parameters) -> None:
         """Mix the forces."""
