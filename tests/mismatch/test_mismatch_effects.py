@@ -237,6 +237,16 @@ def test_nor_where_both_forces_are_recorded(tire, record):
     assert set(answer.sets[0][0]) >= {"crosstalk", "plysteer_conicity"}
 
 
+@pytest.mark.parametrize(("seed", "change"), [(4, -0.06), (5, 0.06), (6, -0.1)])
+def test_a_heat_that_nobody_measured_may_change_friction_alone(tire, record, seed, change):
+    """It paid for a stiffness and an optimum that are not there; wear and another surface did not."""
+    heat = prepare(tire, record(seed)).data.heat(60.0)
+    answer, _ = _answer(tire, record(seed, friction=1.0 + change * (heat - 0.5)))
+    assert "temperature" in answer.sets[0][0]
+    alone = next(each for each in answer.case.sets if each.names == ("temperature",))
+    assert alone.free == (("friction", "reference", "lag"),)
+
+
 @pytest.mark.parametrize("radii", [0.05, 7.0])
 def test_no_tire_has_a_relaxation_length_beyond_what_its_size_allows(tire, record, radii):
     data = prepare(tire, record()).data

@@ -13,14 +13,17 @@ _USUALLY_OFF = 15.0
 """degC by which the temperature of the file's own test is usually off the middle of a recording."""
 _AROUND_BLIND = 0.6
 """The same in the unit of the integrated heat, whose 90% quantile is 1."""
+_HARDLY = 1e-9
+"""A change too small to see: it says that stiffness and the optimum float."""
 
 
 class Temperature(Effect):
     """Friction and stiffness follow the tread temperature, measured or integrated.
 
     Covers friction with an optimum, and stiffness, for both forces alike; without a channel one mass that
-    warms by friction power with a lag of 1 to 300 s, as treads do. Not covered: temperatures across the
-    tread, a carcass with a lag of its own, and heat that comes from the road or the brakes.
+    warms by friction power with a lag of 1 to 300 s, as treads do, and changes all of these or friction
+    alone. Not covered: temperatures across the tread, a carcass with a lag of its own, and heat that comes
+    from the road or the brakes.
     """
 
     name = "temperature"
@@ -74,25 +77,26 @@ class Temperature(Effect):
         return [*lost, "time"] if data.time is None else lost  # type: ignore[attr-defined]
 
     def starts(self, data: object) -> list[dict[str, float]]:
-        """Several references (where the model is right), and several lags if there is no channel.
+        """Several references (where the model is right); several lags and two forms if there is no channel.
 
         The last reference is warmer than the recording: a tire may be measured warm and recorded cold. The
-        last lag is much longer than it: a tire may keep its heat.
+        last lag is much longer than it: a tire may keep its heat. A heat that nobody measured may change
+        friction alone, as wear and another surface do.
         """
-        zero = {"friction": 0.0, "curvature": 0.0, "stiffness": 0.0}
+        friction = {"friction": 0.0, "curvature": 0.0, "stiffness": 0.0}
+        every = {"friction": 0.0, "curvature": _HARDLY, "stiffness": _HARDLY}
         if data.varies("tread_temperature"):  # type: ignore[attr-defined]
             t = data.smooth("tread_temperature")  # type: ignore[attr-defined]
             points = [*np.quantile(t, [0.02, 0.5, 0.95]), np.max(t) + _WARMER]
-            return [{**zero, "reference": float(v), "lag": 10.0} for v in points]
+            return [{**every, "reference": float(v), "lag": 10.0} for v in points]
         lags = [8.0, 20.0, 50.0, min(3.0 * data.scales["time_span"], 250.0)]  # type: ignore[attr-defined]
-        return [{**zero, "reference": r, "lag": lag} for lag in lags for r in (0.0, 0.5, 1.2)]
+        places = [{"reference": r, "lag": lag} for lag in lags for r in (0.0, 0.5, 1.2)]
+        return [{**form, **place} for form in (friction, every) for place in places]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
-        """Parameters that this recording lets float."""
-        names = ["friction", "curvature", "stiffness", "reference"]
-        if self.blind(data):
-            names.append("lag")
-        return tuple(names)
+        """Friction alone, or an optimum of it and stiffness, too; and what the channel does not say."""
+        more = ("curvature", "stiffness") if start["stiffness"] else ()
+        return ("friction", *more, "reference", *(("lag",) if self.blind(data) else ()))
 
     def usual(self, data: object, name: str) -> tuple[float, float]:
         """Place the reference, at which the model is right, near the middle of the recording."""
