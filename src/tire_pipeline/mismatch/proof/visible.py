@@ -19,8 +19,8 @@ from tire_pipeline.mismatch.effects.base import Parameter
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.evidence.likelihood import Projected
 from tire_pipeline.mismatch.inference.evidence.products import OfSet
-from tire_pipeline.mismatch.inference.fit import Fit
 from tire_pipeline.mismatch.inference.learnt.sizes import EXPECTED
+from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.inference.sets.screen import screened_forms
 from tire_pipeline.mismatch.model.candidates import Variant
