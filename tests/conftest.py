@@ -47,6 +47,9 @@ _LONGEST_FIRST = (
     "translation/test_translation_bias_translators.py",
     "translation/test_translation_learns_from_batch.py",
     "docs/test_docs_site.py",
+    "fleet/test_fleet_bias.py",
+    "cluster/test_cluster_map.py",
+    "magic_formula/test_magic_formula_gradients.py",
     "concealed/test_concealed_second.py",
 )
 """Files that take long, longest first: begun last, they would leave one process with nothing to do."""

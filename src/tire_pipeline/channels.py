@@ -18,6 +18,9 @@ ANGLE_CHANNELS = ("slip_angle", "camber")
 OPERATING_CHANNELS = (*POINT_CHANNELS, "tread_temperature")
 """What a recording may be looked at over: an operating point, and degC."""
 
+INPUT_CHANNELS = (*OPERATING_CHANNELS, "turn_slip")
+"""All that a force may depend on: the same, and 1/m."""
+
 TANGENTIAL_FORCES = ("fx", "fy")
 """Forces in the plane of the road, N."""
 
@@ -30,7 +33,7 @@ MOMENT_CHANNELS = ("mx", "my", "mz")
 FORCE_CHANNELS = (*TANGENTIAL_FORCES, *MOMENT_CHANNELS)
 """Forces (N) and moments (N m) in ISO W axes."""
 
-RECORDED_CHANNELS = ("time", *OPERATING_CHANNELS, "turn_slip", *FORCE_CHANNELS)
+RECORDED_CHANNELS = ("time", *INPUT_CHANNELS, *FORCE_CHANNELS)
 """Columns of a recording that have a meaning: s, an operating point, 1/m, forces and moments."""
 
 SLIP_OF_FORCE = {"fy": "slip_angle", "fx": "slip_ratio", "mz": "slip_angle"}

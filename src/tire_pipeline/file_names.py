@@ -8,7 +8,7 @@ from pathlib import Path
 
 _ODD = re.compile(r"[\udc80-\udcff]|[\x00-\x1f\x7f]|\\(?=x[0-9a-f]{2})")
 _NOT_UTF8 = re.compile(r"[\udc80-\udcff]")
-_ESCAPED = re.compile(rb"\\x([0-9a-f]{2})")
+_ESCAPED_BYTE = re.compile(rb"\\x([0-9a-f]{2})")
 
 
 def shown_name(name: str) -> str:
@@ -44,7 +44,7 @@ def name_on_disk(shown: str) -> str:
     """
     if "\\x" not in shown:
         return shown
-    return os.fsdecode(_ESCAPED.sub(lambda found: bytes([int(found[1], 16)]), shown.encode()))
+    return os.fsdecode(_ESCAPED_BYTE.sub(lambda found: bytes([int(found[1], 16)]), shown.encode()))
 
 
 def path_of(folder: str | os.PathLike[str], shown: str) -> Path:

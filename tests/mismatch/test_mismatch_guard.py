@@ -7,7 +7,7 @@ import pytest
 
 from tire_pipeline.mismatch import CorrectedModel, Explainer, explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.inference.fit import linearised
+from tire_pipeline.mismatch.inference.linearised_set import linearised
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.never_worse import harmless

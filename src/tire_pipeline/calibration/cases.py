@@ -46,10 +46,10 @@ _SECOND = {
     "drift": "sensor_drift",
 }
 """Causes of the second simulator -> names of the catalogue."""
-_LEFT_OUT = ("clipping", "unit error", "quantisation")
+_CAUSES_LEFT_OUT = ("clipping", "unit error", "quantisation")
 _IN_ONE_CHANNEL = ("force offset", "force gain", "crosstalk", "load crosstalk", "drift")
 """Causes of the second simulator that change the one channel that was drawn, be it the moment's."""
-_ROWS = 3000
+_CASE_ROWS = 3000
 
 
 @dataclass(frozen=True)
@@ -152,11 +152,11 @@ def _second(seed: int, number: int) -> KnownCase:
     """A case of the second simulator, with a formula fitted to its references; half have nothing missing."""
     from tire_pipeline.concealed.second import CAUSES, draw_case  # loads scipy.signal
 
-    names = [cause for cause in CAUSES if cause not in _LEFT_OUT]
+    names = [cause for cause in CAUSES if cause not in _CAUSES_LEFT_OUT]
     rng = np.random.default_rng([seed, number])
     several = rng.random() >= 0.3
     wanted = tuple(rng.choice(names, size=1 if rng.random() < 0.75 else 2, replace=False))
-    case = draw_case(rng, wanted if several else "nothing", rows=_ROWS)
+    case = draw_case(rng, wanted if several else "nothing", rows=_CASE_ROWS)
     points = pd.concat([table.iloc[::8] for table in case.references], ignore_index=True)
     tire = fit_magic_formula(
         points,
@@ -193,7 +193,7 @@ def _unnamed(seed: int, number: int) -> KnownCase:
     from tire_pipeline.concealed.unnamed.cases import draw_open_case
 
     try:
-        case = draw_open_case(seed * 1000 + number, [MECHANISMS[number % len(MECHANISMS)]], rows=_ROWS)
+        case = draw_open_case(seed * 1000 + number, [MECHANISMS[number % len(MECHANISMS)]], rows=_CASE_ROWS)
     except ValueError as error:
         raise DomainError(str(error), todo="take another seed") from error
     beside = tuple((_SECOND[cause], 0.0) for cause in case.named)

@@ -30,7 +30,7 @@ from tire_pipeline.parameters import Parameters
 
 Work = dict[str, Callable[[], bytes]]
 Folder = Mapping[str, Callable[[], bytes]]
-_NOTHING = pickle.dumps(None)
+_STOPPED_CASE = pickle.dumps(None)
 """Of a case that stops before the sets are weighed, or cannot be made."""
 
 
@@ -76,7 +76,7 @@ class _ReducedCase:
         try:
             return pickle.dumps(reduced(self.make()))
         except TirePipelineError:
-            return _NOTHING
+            return _STOPPED_CASE
 
 
 def reduced(known: KnownCase) -> Tuning | None:

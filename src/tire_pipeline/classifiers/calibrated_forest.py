@@ -11,7 +11,7 @@ from tire_pipeline.classifiers.methods.compiled_forest import CompiledForest, co
 from tire_pipeline.classifiers.methods.random_forest import RandomForest
 from tire_pipeline.errors import DomainError
 
-_KNOTS = 101
+_CURVE_KNOTS = 101
 
 
 class CalibratedForest:
@@ -49,7 +49,7 @@ class CalibratedForest:
         self.folds = folds
         self.classes_ = np.zeros(0, dtype=str)
         self.forest: CompiledForest | None = None
-        self.curves = np.zeros((0, _KNOTS))
+        self.curves = np.zeros((0, _CURVE_KNOTS))
 
     def fit(self, features: np.ndarray, labels: np.ndarray, *, seed: int) -> Self:
         """Train the forest and its calibration curves."""
@@ -67,7 +67,7 @@ class CalibratedForest:
         self.classes_ = np.asarray(calibrated.classes_).astype(str)
         inner = calibrated.calibrated_classifiers_[0]
         self.forest = compile_forest(inner.estimator.named_steps["estimator"])
-        knots = np.linspace(0, 1, _KNOTS)
+        knots = np.linspace(0, 1, _CURVE_KNOTS)
         curves = [calibrator.predict(knots) for calibrator in inner.calibrators]
         if len(curves) == 1:  # two classes share one curve, that of the second class
             curves = [1 - curves[0][::-1], curves[0]]
@@ -79,7 +79,7 @@ class CalibratedForest:
         if self.forest is None:
             raise DomainError("the forest is not trained", todo="call fit(...) first")
         raw = self.forest.sums(features)
-        knots = np.linspace(0, 1, _KNOTS)
+        knots = np.linspace(0, 1, _CURVE_KNOTS)
         curved = np.stack([np.interp(raw[:, k], knots, curve) for k, curve in enumerate(self.curves)], axis=1)
         total = curved.sum(axis=1, keepdims=True)
         return np.where(total > 0, curved / np.where(total > 0, total, 1.0), 1 / len(self.classes_))

@@ -15,7 +15,7 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.tasks import Done, Map, Task, end_processes, in_processes
 
 _T = TypeVar("_T")
-_CHOSEN = {"parameters": ClusterParameters()}
+_CHOSEN_CLUSTER = {"parameters": ClusterParameters()}
 
 
 def work_map(*, without_cluster: int | None = None) -> Map:
@@ -26,7 +26,7 @@ def work_map(*, without_cluster: int | None = None) -> Map:
     without_cluster : int, optional
         How many processes are used where there is no cluster; the run's parameter if left out.
     """
-    chosen = _CHOSEN["parameters"]
+    chosen = _CHOSEN_CLUSTER["parameters"]
     if chosen.scheduler:
         from tire_pipeline.cluster.dask_map import dask_map
 
@@ -66,7 +66,7 @@ class ClusterHooks:
         """Read the parameters; a wrong one stops the run before it begins."""
         given = context.config_loader["parameters"].get("cluster") or {}
         try:
-            _CHOSEN["parameters"] = ClusterParameters.model_validate(given)
+            _CHOSEN_CLUSTER["parameters"] = ClusterParameters.model_validate(given)
         except ValidationError as error:
             raise DomainError(
                 str(error), where="cluster", todo="correct it in conf/*/parameters.yml or --params"
@@ -89,7 +89,7 @@ class ClusterHooks:
 
     def _close(self) -> None:
         end_processes()
-        if _CHOSEN["parameters"].scheduler:
+        if _CHOSEN_CLUSTER["parameters"].scheduler:
             from tire_pipeline.cluster.dask_map import close
 
             close()

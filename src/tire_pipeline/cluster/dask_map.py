@@ -30,7 +30,7 @@ _LOG = logging.getLogger(__name__)
 _AHEAD = 3
 """So many tasks a thread are with the scheduler at once; a million of them would fill its memory."""
 _COMPUTING = ("numpy", "pandas", "pyarrow", "scikit-learn", "scipy", "numba", "torch")
-_OPEN: dict[ClusterParameters, Client] = {}
+_OPEN_CLIENTS: dict[ClusterParameters, Client] = {}
 
 
 def dask_map(chosen: ClusterParameters) -> Map:
@@ -46,16 +46,16 @@ def dask_map(chosen: ClusterParameters) -> Map:
         The address is neither on this machine nor encrypted, nothing answers there, there is no worker, or a
         worker runs another version of this project.
     """
-    client = _OPEN.get(chosen)
+    client = _OPEN_CLIENTS.get(chosen)
     if client is None or client.status != "running":
-        client = _OPEN[chosen] = _connected(chosen)
+        client = _OPEN_CLIENTS[chosen] = _connected(chosen)
     return _DaskMap(client, str(chosen.scheduler))
 
 
 def close() -> None:
     """Close all connections."""
-    while _OPEN:
-        _OPEN.popitem()[1].close(timeout=2)
+    while _OPEN_CLIENTS:
+        _OPEN_CLIENTS.popitem()[1].close(timeout=2)
 
 
 def check_address(chosen: ClusterParameters) -> bool:

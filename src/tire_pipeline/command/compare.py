@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from tire_pipeline.magic_formula import TireModel
     from tire_pipeline.magic_formula.compare import Difference
 
-_NOTHING = 1e-9
+_ROUNDING_SHARE = 1e-9
 """Share of the largest force below which a difference is that of rounding."""
 
 
@@ -104,7 +104,7 @@ def _lines(models: dict[str, TireModel], apart: list[Difference], changed: int) 
 def _row(difference: Difference) -> tuple[Any, ...]:
     unit = "N m" if difference.output.startswith("m") else "N"
     # The share is NaN where the first model has no such output: that is a difference, not rounding.
-    rounding = difference.share <= _NOTHING
+    rounding = difference.share <= _ROUNDING_SHARE
     rms, largest = (0.0 if rounding else x for x in (difference.rms, difference.largest))
     return difference.output.capitalize(), rms, largest, unit, _percent(difference.share)
 
@@ -112,7 +112,7 @@ def _row(difference: Difference) -> tuple[Any, ...]:
 def _percent(share: float) -> str:
     if not math.isfinite(share):
         return "–"
-    return f"{100 * share:.2g}%" if share > _NOTHING else "0%"
+    return f"{100 * share:.2g}%" if share > _ROUNDING_SHARE else "0%"
 
 
 def _change(before: float, after: float) -> str:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from tire_pipeline.magic_formula import TireModel
 
-_FEW = 12
+_NAMES_SHOWN = 12
 _SHAPE_AND_LEVEL = {"PCX1": "PDX1", "PCY1": "PDY1"}
 """The shape factor of a force, which means nothing without its level."""
 _MOMENT = ("QDZ", "SSZ")
@@ -108,8 +108,8 @@ def _replaced(model: TireModel) -> dict[str, float]:
 
 def _missing(missing: dict[str, float]) -> str:
     names = list(missing)
-    more = f" and {len(names) - _FEW} more" if len(names) > _FEW else ""
-    return f"{', '.join(names[:_FEW])}{more} (0 is used, or the value that changes nothing)"
+    more = f" and {len(names) - _NAMES_SHOWN} more" if len(names) > _NAMES_SHOWN else ""
+    return f"{', '.join(names[:_NAMES_SHOWN])}{more} (0 is used, or the value that changes nothing)"
 
 
 def _range(name: str, low: float, high: float) -> tuple[str, float, float, str]:

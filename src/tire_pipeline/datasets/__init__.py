@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from tire_pipeline.datasets.users_files.tir_file import TirDataset
     from tire_pipeline.datasets.users_files.tir_folder import TirFolderDataset
 
-_MODULES = {
+_MODULE_OF_DATASET = {
     "ComputedFolderDataset": "text_files.computed_folder",
     "CsvTableDataset": "tables.csv_table",
     "FolderDataset": "users_files.folder",
@@ -58,6 +58,6 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     """Import what is asked for, so that a run says that it starts before pandas and numba are loaded."""
-    if name in _MODULES:
-        return getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
+    if name in _MODULE_OF_DATASET:
+        return getattr(import_module(f"{__name__}.{_MODULE_OF_DATASET[name]}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -15,7 +15,7 @@ from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 ORACLE = "oracle"
 FLOOR = "floor"
 BIASED = (*DATASETS["lateral"], *DATASETS["longitudinal"])
-_COLUMNS = ["set", "translator", "metric", "rms", "ratio", "improved", "worst", "files"]
+_SUMMARY_COLUMNS = ["set", "translator", "metric", "rms", "ratio", "improved", "worst", "files"]
 
 
 def judge(
@@ -64,9 +64,10 @@ def judge(
         summaries += summary
         references.append(first.drop_duplicates("tire").assign(set=name))
     if not summaries:
-        return pd.DataFrame(columns=["set", "file"]), pd.DataFrame(columns=_COLUMNS), translated_table.head(0)
+        no_files = pd.DataFrame(columns=["set", "file"])
+        return no_files, pd.DataFrame(columns=_SUMMARY_COLUMNS), translated_table.head(0)
     found = [pd.concat(parts, ignore_index=True) for parts in (per_file, summaries, references)]
-    return found[0], found[1][_COLUMNS], found[2]
+    return found[0], found[1][_SUMMARY_COLUMNS], found[2]
 
 
 def _judge_set(

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from tire_pipeline.files.swapped_names import swapped
 
-_NEW, _OLD = ".part", ".old"
+_NEW_SUFFIX, _OLD_SUFFIX = ".part", ".old"
 _CHECKS: list[Callable[[], None]] = []
 
 
@@ -104,8 +104,8 @@ def replaced_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
     check_now()
     path.parent.mkdir(parents=True, exist_ok=True)
     _tidy(path)
-    temporary = Path(tempfile.mkdtemp(prefix=_beside(path), suffix=_NEW, dir=path.parent))
-    old = temporary.with_suffix(_OLD)
+    temporary = Path(tempfile.mkdtemp(prefix=_beside(path), suffix=_NEW_SUFFIX, dir=path.parent))
+    old = temporary.with_suffix(_OLD_SUFFIX)
     try:
         yield temporary
         temporary.chmod(0o755)
@@ -126,8 +126,8 @@ def replaced_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
 def _tidy(path: Path) -> None:
     """What a process that was killed in :func:`replaced_folder` left beside ``path``."""
     left = path.parent.glob(f"{glob.escape(_beside(path))}*")
-    for each in [each for each in left if each.suffix in (_NEW, _OLD)]:
-        if each.suffix == _OLD and not path.exists():
+    for each in [each for each in left if each.suffix in (_NEW_SUFFIX, _OLD_SUFFIX)]:
+        if each.suffix == _OLD_SUFFIX and not path.exists():
             each.rename(path)
         else:
             shutil.rmtree(each, ignore_errors=True)

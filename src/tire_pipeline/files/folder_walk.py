@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from tire_pipeline.errors import DomainError
 from tire_pipeline.file_names import shown_name
 
-_KINDS = {
+_KINDS_OF_FILE = {
     stat.S_IFIFO: "a FIFO",
     stat.S_IFSOCK: "a socket",
     stat.S_IFCHR: "a device",
@@ -194,7 +194,7 @@ class _Search:
                 self.found.again[name] = other
 
     def _not_regular(self, inner: _WalkedEntry, mode: int) -> None:
-        kind = _KINDS.get(stat.S_IFMT(mode), "of an unknown kind")
+        kind = _KINDS_OF_FILE.get(stat.S_IFMT(mode), "of an unknown kind")
         self.found.aside[inner.name] = f"{kind}, not a regular file"
 
     def _unknown(self, inner: _WalkedEntry, error: OSError) -> None:

@@ -14,7 +14,7 @@ from typing import Any
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import check_now
 
-_REFUSED = ("PreconditionFailed", "pre-conditions", "ConditionalRequestConflict")
+_WORDS_OF_CONFLICT = ("PreconditionFailed", "pre-conditions", "ConditionalRequestConflict")
 
 
 class ConflictError(Exception):
@@ -203,7 +203,7 @@ class Objects:
             try:
                 self._fs.call_s3("put_object", Bucket=bucket, Key=key, Body=content, IfMatch=stamp)
             except OSError as error:
-                if any(word in str(error) for word in _REFUSED):
+                if any(word in str(error) for word in _WORDS_OF_CONFLICT):
                     raise ConflictError(name) from error
                 raise
 

@@ -14,7 +14,7 @@ import numpy as np
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.packed import pack
 
-_PLAIN = "plain.json"
+_PLAIN_MEMBER = "plain.json"
 _SUM = "sha256"
 
 
@@ -64,7 +64,7 @@ def unpack_state(content: bytes, where: str = "model state") -> dict[str, Any]:
         expected = members.pop(_SUM).decode()
         if _checksum(members) != expected:
             raise DomainError("the model's checksum is wrong", where=where, todo=todo)
-        state: dict[str, Any] = json.loads(members.pop(_PLAIN))
+        state: dict[str, Any] = json.loads(members.pop(_PLAIN_MEMBER))
         for name, data in members.items():
             *groups, last = name.removesuffix(".npy").split("/")
             target = state
@@ -82,7 +82,7 @@ def _members(state: dict[str, Any]) -> dict[str, bytes]:
     members: dict[str, bytes] = {}
     plain: dict[str, Any] = {}
     _split(state, "", members, plain)
-    return {**members, _PLAIN: json.dumps(plain, sort_keys=True).encode()}
+    return {**members, _PLAIN_MEMBER: json.dumps(plain, sort_keys=True).encode()}
 
 
 def _split(state: dict[str, Any], prefix: str, members: dict[str, bytes], plain: dict[str, Any]) -> None:

@@ -13,7 +13,7 @@ from tire_pipeline.datasets.text_files.html_page import HtmlPageDataset
 from tire_pipeline.files.objects import Objects
 from tire_pipeline.kedro_runs.data_place import data_place
 
-_REPORTS = "08_reporting"
+_REPORT_FOLDER = "08_reporting"
 _BEGINNING = 40_000
 
 
@@ -36,7 +36,7 @@ class FrontPageHooks:
     def after_context_created(self, context: Any) -> None:
         """Remember where the reports lie."""
         data = data_place(context)
-        self._folder = data.below(_REPORTS) if isinstance(data, Objects) else data / _REPORTS
+        self._folder = data.below(_REPORT_FOLDER) if isinstance(data, Objects) else data / _REPORT_FOLDER
 
     @hook_impl(trylast=True)
     def after_pipeline_run(self) -> None:

@@ -20,7 +20,7 @@ _ADVICE = {
 }
 
 _LINK = re.compile(r"\s*For further information visit https?://\S+")
-_SECTION = re.compile(
+_ERROR_SECTION = re.compile(
     r"- Parameter '(\w+)': Failed to instantiate .* validation errors? for \w+$", re.MULTILINE
 )
 _GIVEN = re.compile(r"\s*\[type=(\w+), input_value=(.*), input_type=\w+\]$")
@@ -77,7 +77,7 @@ def wrong_parameters(text: str) -> str:
     ... )
     'translate.farthest: Input should be greater than 0 (given: -1)'
     """
-    _, *sections = _SECTION.split(_LINK.sub("", text))
+    _, *sections = _ERROR_SECTION.split(_LINK.sub("", text))
     if not sections:
         return text
     said = []

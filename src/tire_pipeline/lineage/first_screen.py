@@ -16,7 +16,7 @@ PREFERENCES = {
 }
 
 # The version stands over the time of the build in the same corner.
-_STYLE = "<style>.update-reminder-version-tag{display:none}</style>"
+_HIDDEN_REMINDER = "<style>.update-reminder-version-tag{display:none}</style>"
 
 
 def prepared(html: str) -> str:
@@ -33,7 +33,7 @@ def prepared(html: str) -> str:
     """
     html = re.sub(r"<link\b[^>]*fonts\.g(?:oogleapis|static)\.com[^>]*>", "", html)
     html = re.sub(r"<script[^>]*>\s*window\.heap.*?</script>", "", html, flags=re.S)  # telemetry
-    return html.replace("<head>", f"<head>\n<script>{_script()}</script>\n{_STYLE}", 1)
+    return html.replace("<head>", f"<head>\n<script>{_script()}</script>\n{_HIDDEN_REMINDER}", 1)
 
 
 def _script() -> str:

@@ -27,7 +27,7 @@ from tire_pipeline.magic_formula.parameters.points import (
 )
 from tire_pipeline.magic_formula.parameters.tire_parameters import TireParameters
 
-_NEUTRAL = {version: pack_mapping({}, missing_defaults({}, version)) for version in ("5.2", "6.1")}
+_NEUTRAL_OF_VERSION = {version: pack_mapping({}, missing_defaults({}, version)) for version in ("5.2", "6.1")}
 
 
 def pack(model: TireParameters) -> np.ndarray:
@@ -109,7 +109,7 @@ def pack_matrix(values: Any, names: Sequence[str], version: str = "5.2") -> np.n
             f"coefficients have shape {values.shape}, but there are {len(names)} names",
             todo="give one row a tire and one column a name",
         )
-    neutral = _NEUTRAL["5.2" if family_of(version) == 5 else "6.1"]
+    neutral = _NEUTRAL_OF_VERSION["5.2" if family_of(version) == 5 else "6.1"]
     matrix = np.tile(neutral, (len(values), 1))
     for column, name in enumerate(names):
         place = INDEX.get(name)

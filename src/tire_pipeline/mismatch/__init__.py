@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from tire_pipeline.mismatch.report.result import MismatchReport
     from tire_pipeline.mismatch.several import explain_recordings
 
-_MODULES = {
+_MODULE_OF_NAME = {
     "CorrectedModel": "corrected.model",
     "EffectReport": "report.contents",
     "Explainer": "explain",
@@ -38,6 +38,6 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     """Import what is asked for, and with it pandas, numba and SciPy, only when it is asked for."""
-    if name in _MODULES:
-        return getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
+    if name in _MODULE_OF_NAME:
+        return getattr(import_module(f"{__name__}.{_MODULE_OF_NAME[name]}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -27,7 +27,7 @@ from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.progress import track, under_way
 from tire_pipeline.tasks import one_thread
 
-_STAGES = ("check", "noise and misfit", "sets", "answer")
+_PROGRESS_STAGES = ("check", "noise and misfit", "sets", "answer")
 
 
 @dataclass(frozen=True)
@@ -126,7 +126,7 @@ class Explainer:
         """
         self._check()
         recording = numeric(recording)
-        steps = track(_STAGES, "explaining the mismatch")
+        steps = track(_PROGRESS_STAGES, "explaining the mismatch")
         step = next(steps)
         try:
             prepared = prepare(tire, recording)

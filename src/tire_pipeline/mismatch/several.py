@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.channels import INPUT_CHANNELS
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.as_recorded import without_unnamed
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.explain import Explainer
 from tire_pipeline.mismatch.model.residual import rms
-from tire_pipeline.mismatch.recording.prepare import INPUTS
 from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import with_held_out, without_equation
@@ -178,7 +178,7 @@ def predict_held_out(corrected: CorrectedModel, recording: pd.DataFrame, name: s
 
 
 def _finite(recording: pd.DataFrame) -> pd.DataFrame:
-    needed = [c for c in ("time", *INPUTS) if c in recording]
+    needed = [c for c in ("time", *INPUT_CHANNELS) if c in recording]
     rows = np.isfinite(recording[needed].to_numpy(dtype=float)).all(axis=1)
     if not rows.any():
         raise RecordingError("no sample has numbers in all channels", todo="drop the columns without numbers")

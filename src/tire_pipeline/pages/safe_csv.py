@@ -13,9 +13,9 @@ from tire_pipeline.pages.safe_page import visible
 # A spreadsheet that splits at another sign sees a new cell behind it; numbers stay numbers.
 _FORMULA = re.compile(r"(^|[;|\n])('*(?=[=+\-@＝＋－＠]))")
 _GUARDED = re.compile(r"(^|[;|\n])'('*[=+\-@＝＋－＠])")
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-](inf|nan)", re.I)
+_HARMLESS_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-](inf|nan)", re.I)
 _LOOKS_ESCAPED = re.compile(r"⟨(?=U\+[0-9A-F]{4,6}⟩)")
-_ESCAPED = re.compile(r"⟨U\+([0-9A-F]{4,6})⟩")
+_ESCAPED_CHARACTER = re.compile(r"⟨U\+([0-9A-F]{4,6})⟩")
 
 
 def safe_text(text: str) -> str:
@@ -26,7 +26,7 @@ def safe_text(text: str) -> str:
     >>> safe_text("=1+1"), safe_text("-0.5"), safe_text("\tx")
     ("'=1+1", '-0.5', '⟨U+0009⟩x')
     """
-    if _NUMBER.fullmatch(text):
+    if _HARMLESS_NUMBER.fullmatch(text):
         return text
     return _FORMULA.sub(r"\1'\2", visible(_LOOKS_ESCAPED.sub("⟨U+27E8⟩", text)))
 
@@ -39,7 +39,7 @@ def original_text(text: str) -> str:
     >>> original_text("'=1+1")
     '=1+1'
     """
-    return _ESCAPED.sub(lambda found: chr(int(found[1], 16)), _GUARDED.sub(r"\1\2", text))
+    return _ESCAPED_CHARACTER.sub(lambda found: chr(int(found[1], 16)), _GUARDED.sub(r"\1\2", text))
 
 
 def safe_table(table: pd.DataFrame) -> pd.DataFrame:

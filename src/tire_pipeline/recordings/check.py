@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import OPERATING_CHANNELS, RECORDED_CHANNELS, TANGENTIAL_FORCES
+from tire_pipeline.channels import INPUT_CHANNELS, RECORDED_CHANNELS, TANGENTIAL_FORCES
 
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
@@ -19,7 +19,7 @@ LEAST_WHOLE = 0.1
 """Part of the rows that must have a number in all channels."""
 BRIDGED = 3
 """Holes of so many samples in time are put on a straight line."""
-_USED = {*OPERATING_CHANNELS, "turn_slip", *TANGENTIAL_FORCES, "time"}
+_USED = {*INPUT_CHANNELS, *TANGENTIAL_FORCES, "time"}
 """Channels that a row must have to be used."""
 _GAP_FACTOR = 5.0
 _NAN_BLOCK = 10

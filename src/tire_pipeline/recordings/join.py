@@ -15,8 +15,8 @@ LEAST_GAP = 1.0
 """Least time between two recordings that are joined, s."""
 GAP_STEPS = 20.0
 """The same in sampling steps: enough to be an interruption wherever time is looked at."""
-_SURE = 0.5
-_SLIPS = {"slip_angle": 0.005, "camber": 0.008, "slip_ratio": 0.01}
+_SURE_CORRELATION = 0.5
+_ZERO_IF_MISSING = {"slip_angle": 0.005, "camber": 0.008, "slip_ratio": 0.01}
 """Inputs that count as zero where they are not recorded, and the size from which that is wrong, rad or 1."""
 _JOINED_CHANNELS = tuple(channel.name for channel in (*CANONICAL, *FURTHER) if channel.name != "time")
 
@@ -90,7 +90,7 @@ def _common(recordings: Mapping[str, pd.DataFrame], notes: list[str]) -> list[st
         if not 0 < len(lacking) < len(frames):
             continue
         moving = [name for name, frame in recordings.items() if channel in frame and _moves(frame, channel)]
-        if channel in _SLIPS and moving:
+        if channel in _ZERO_IF_MISSING and moving:
             raise RecordingError(
                 f"{channel} is not zero in {moving[0]}, and missing from {lacking[0]}: it would count as 0",
                 where=channel,
@@ -122,8 +122,8 @@ def _moves(frame: pd.DataFrame, channel: str) -> bool:
     if values.size == 0:
         return False
     low, high = np.quantile(values, [0.01, 0.99])
-    if channel in _SLIPS:
-        return bool(max(abs(low), abs(high)) > _SLIPS[channel])
+    if channel in _ZERO_IF_MISSING:
+        return bool(max(abs(low), abs(high)) > _ZERO_IF_MISSING[channel])
     return bool(high - low > 0.03 * max(abs(low), abs(high)))
 
 
@@ -139,7 +139,7 @@ def _one_axis_system(recordings: Mapping[str, pd.DataFrame]) -> None:
             if len(pair) < 3 or np.any(np.ptp(pair, axis=0) == 0.0):
                 continue
             together = float(np.corrcoef(pair.T)[0, 1])
-            if abs(together) > _SURE:
+            if abs(together) > _SURE_CORRELATION:
                 signs.setdefault(float(np.sign(together)), name)
         if len(signs) > 1:
             raise RecordingError(

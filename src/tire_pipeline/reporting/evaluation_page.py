@@ -17,7 +17,7 @@ from tire_pipeline.reporting.training_figures import confusion_figure, learning_
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as MplFigure
 
-_TABLES = [
+_TABLE_LINKS = [
     (
         "tables/evaluation_summary.csv",
         "evaluation_summary.csv",
@@ -29,7 +29,7 @@ _TABLES = [
     ("tables/classifier_scores.csv", "classifier_scores.csv", "accuracy of every classifier on both splits"),
 ]
 
-_METRICS = {
+_METRIC_WORDS = {
     "forces": "lateral force",
     "cornering_stiffness": "cornering stiffness",
     "peak_friction": "peak friction",
@@ -38,7 +38,7 @@ _METRICS = {
     "mz": "aligning moment",
 }
 _GRID = EvaluationGrid(loads=np.array([6000.0]))
-_CLASSIFIERS = {"ann": "neural network", "random_forest": "random forest", "naive_bayes": "naive Bayes"}
+_CLASSIFIER_WORDS = {"ann": "neural network", "random_forest": "random forest", "naive_bayes": "naive Bayes"}
 
 
 def force_figure(translated_table: pd.DataFrame, references: pd.DataFrame, best: dict[str, Any]) -> MplFigure:
@@ -129,7 +129,7 @@ def build_report(
             heading="The thesis' agent",
         ),
     ]
-    parts.append(Links(_TABLES, heading="Tables"))
+    parts.append(Links(_TABLE_LINKS, heading="Tables"))
     return render_page(f"Tires as {target_category} would have measured them", parts, pages=HOME)
 
 
@@ -181,7 +181,7 @@ def _classifier(table: pd.DataFrame, scores: pd.DataFrame, per_class: pd.DataFra
     )
     words = {"random": "random", "by_tire": "by physical tire"}
     shown = scores.assign(
-        split=scores["split"].map(words), classifier=scores["classifier"].replace(_CLASSIFIERS)
+        split=scores["split"].map(words), classifier=scores["classifier"].replace(_CLASSIFIER_WORDS)
     ).rename(columns={"accuracy_std": "± accuracy", "f1": "F1", "f1_std": "± F1", "smote": "SMOTE"})
     for name in ("accuracy", "± accuracy", "F1", "± F1"):
         shown[name] = shown[name].round(3)
@@ -214,5 +214,5 @@ def _translation(summary: pd.DataFrame, target: str, best: dict[str, Any]) -> li
     shown = wide[[best["name"], FLOOR, *order]].assign(
         improved=written["improved"].map("{:.0%}".format), files=written["files"]
     )
-    shown = shown.reset_index().replace({"metric": _METRICS})
+    shown = shown.reset_index().replace({"metric": _METRIC_WORDS})
     return [Table(shown, caption, heading=f"Translation to {target}")]

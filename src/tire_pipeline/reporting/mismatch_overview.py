@@ -22,8 +22,8 @@ _HEADS = {
     "held_out": "Held out",
     "problem": "Problem",
 }
-_ALWAYS = ("recording", "run", "verdict", "effects")
-_KEPT = (
+_ALWAYS_SHOWN = ("recording", "run", "verdict", "effects")
+_EARLIER_REPORTS = (
     "Reports of earlier runs stay in the folder mismatch beside this page until you delete them, and so do "
     "the corrected files that belong to them."
 )
@@ -85,7 +85,7 @@ def draw_overview(
         outcome += [f"{row['recording']}: {_said(row)}" for row in last]
     parts: list[Text | Table | Links] = [
         Text(outcome[:1], emphasis=True),
-        Text([_KEPT]),
+        Text([_EARLIER_REPORTS]),
         Links([_link(row) for row in last], heading="Recordings of the last run"),
     ]
     if earlier:
@@ -141,7 +141,7 @@ def _counted(overview: pd.DataFrame) -> str:
 
 
 def _in_one_table(rows: list[dict[str, str]]) -> Table:
-    table = without_empty_columns(pd.DataFrame(rows, columns=list(_HEADS)), _ALWAYS)
+    table = without_empty_columns(pd.DataFrame(rows, columns=list(_HEADS)), _ALWAYS_SHOWN)
     table = table.assign(
         **{name: table[name].map(in_words) for name in ("effects", "alternatives") if name in table}
     )

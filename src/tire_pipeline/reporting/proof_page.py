@@ -81,7 +81,8 @@ def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -
         *_drawn(scores[scores["source"] == "all"], "Real recordings"),
     ]
     for source in own["source"].unique():
-        parts.append(_table(own[own["source"] == source], f"Real recordings: {_SOURCES.get(source, source)}"))
+        words = _SOURCE_WORDS.get(source, source)
+        parts.append(_table(own[own["source"] == source], f"Real recordings: {words}"))
     parts.append(_beside(scores[scores["source"] == "all"], "Real recordings: beside the baselines"))
     parts += groups(details, "Real recordings: ", "the misfit")
     if len(misses):
@@ -90,7 +91,7 @@ def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -
     return parts
 
 
-_SOURCES = {
+_SOURCE_WORDS = {
     "all": "all sources",
     "calspan": "flat belt (calspan)",
     "dart": "driven car (dart)",

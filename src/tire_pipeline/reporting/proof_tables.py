@@ -17,7 +17,7 @@ METHODS = {
 }
 """Baselines as they are called on the page; other methods keep their names."""
 
-_KINDS = {
+_KIND_WORDS = {
     "single": "one effect",
     "pair": "two effects",
     "artefact": "fault of the recording",
@@ -93,7 +93,7 @@ def misses_table(misses: pd.DataFrame, caption: str, heading: str) -> Table:
 def _plain(table: pd.DataFrame) -> pd.DataFrame:
     shown = table.copy()
     if "kind" in shown:
-        shown["kind"] = shown["kind"].map(lambda kind: _KINDS.get(kind, kind))
+        shown["kind"] = shown["kind"].map(lambda kind: _KIND_WORDS.get(kind, kind))
     if "name" in shown:
         shown["name"] = shown["name"].map(lambda name: _SCORES.get(name, name))
     for name in shown.columns:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from pathlib import PurePosixPath
 
-_MOST_BYTES = 255 - len("_corrected.tir.sidecar.json")
+_MOST_NAME_BYTES = 255 - len("_corrected.tir.sidecar.json")
 
 
 def result_place(recording: str, ending: str) -> str:
@@ -27,7 +27,7 @@ def result_place(recording: str, ending: str) -> str:
     """
     place = PurePosixPath(recording)
     name = place.name.removesuffix(".csv")
-    if len(name.encode()) > _MOST_BYTES:
+    if len(name.encode()) > _MOST_NAME_BYTES:
         digest = hashlib.sha256(name.encode()).hexdigest()[:16]
-        name = f"{name.encode()[: _MOST_BYTES - len(digest) - 1].decode(errors='ignore')}-{digest}"
+        name = f"{name.encode()[: _MOST_NAME_BYTES - len(digest) - 1].decode(errors='ignore')}-{digest}"
     return str(place.parent / f"{name}{ending}")

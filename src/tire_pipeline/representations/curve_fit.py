@@ -9,9 +9,9 @@ from tire_pipeline.levenberg_marquardt import LeastSquares, Steps, solve
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
 from tire_pipeline.representations.lateral_curve import lateral_factors, lateral_force
 
-_CHUNK = 256
+_ROWS_TOGETHER = 256
 _MAX_DAMPING = 1e8
-_DIFFERENCE = 1e-6  # of a coefficient's size, for derivatives
+_JACOBIAN_STEP = 1e-6  # of a coefficient's size, for derivatives
 
 
 def fit_lateral(
@@ -50,8 +50,8 @@ def fit_lateral(
     values = source.loc[:, names].to_numpy(dtype=float, copy=True)
     finite = np.isfinite(curves).all(axis=(1, 2))
     rows = np.flatnonzero(finite)
-    for start in range(0, len(rows), _CHUNK):
-        chunk = rows[start : start + _CHUNK]
+    for start in range(0, len(rows), _ROWS_TOGETHER):
+        chunk = rows[start : start + _ROWS_TOGETHER]
         values[chunk] = _fit_chunk(curves[chunk], source.iloc[chunk], loads, slip_angles, steps)
     fitted[names] = values
     return fitted
@@ -92,8 +92,8 @@ def _fit_chunk(
         found = np.empty((len(rows), len(names), here.shape[1]))
         for index in range(len(names)):
             moved = moves.copy()
-            moved[:, index] += _DIFFERENCE
-            found[:, index] = (residuals(moved, rows) - here) / _DIFFERENCE
+            moved[:, index] += _JACOBIAN_STEP
+            found[:, index] = (residuals(moved, rows) - here) / _JACOBIAN_STEP
         return here, found
 
     zero = np.zeros_like(source_values)

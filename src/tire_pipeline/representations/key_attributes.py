@@ -16,7 +16,7 @@ from tire_pipeline.representations.lateral_curve import lateral_factors, lateral
 PEAK_SLIP_ANGLES = np.linspace(0.0, 0.25, 501)
 """Where the peak is looked for, rad: the positive half of the thesis' force curves."""
 
-_SLIP_STEP = 1e-4
+_SLIP_AT_ZERO = 1e-4
 _MOST_SHAPE = 50.0
 
 
@@ -42,8 +42,8 @@ class KeyAttributes:
     def encode(self, table: pd.DataFrame) -> np.ndarray:
         """Return the attributes, shape (n, 9): N/rad, N, rad."""
         factors = lateral_factors(table, CURVE_LOADS)
-        near = lateral_force(factors, np.array([-_SLIP_STEP, _SLIP_STEP]))
-        stiffness = (near[..., 1] - near[..., 0]) / (2 * _SLIP_STEP)
+        near = lateral_force(factors, np.array([-_SLIP_AT_ZERO, _SLIP_AT_ZERO]))
+        stiffness = (near[..., 1] - near[..., 0]) / (2 * _SLIP_AT_ZERO)
         curve = lateral_force(factors, PEAK_SLIP_ANGLES) * np.sign(stiffness)[..., None]
         top = curve.argmax(axis=-1)
         peak, slip = _parabola_top(curve, top)

@@ -14,7 +14,7 @@ from tire_pipeline.representations.base import CURVE_LOADS, CURVE_SLIP_ANGLES
 from tire_pipeline.representations.curve_fit import fit_lateral
 from tire_pipeline.representations.lateral_curve import lateral_factors, lateral_force
 
-_LAYERS = 6  # linear layers of encoder and decoder together
+_NETWORK_LAYERS = 6  # linear layers of encoder and decoder together
 
 
 class Latent:
@@ -77,12 +77,12 @@ class Latent:
     def encode(self, table: pd.DataFrame) -> np.ndarray:
         """Return the latent features, shape (n, n_features)."""
         self._check_fitted()
-        return _forward((_curves(table) - self.mean) / self.scale, self.layers[: _LAYERS // 2])
+        return _forward((_curves(table) - self.mean) / self.scale, self.layers[: _NETWORK_LAYERS // 2])
 
     def decode_curves(self, features: np.ndarray, source: pd.DataFrame) -> np.ndarray:
         """Return the decoder's own curves, N, shape (n, 3, 100): the thesis' jagged ones."""
         self._check_fitted()
-        flat = _forward(np.asarray(features, dtype=float), self.layers[_LAYERS // 2 :])
+        flat = _forward(np.asarray(features, dtype=float), self.layers[_NETWORK_LAYERS // 2 :])
         shape = (-1, len(CURVE_LOADS), len(CURVE_SLIP_ANGLES))
         return (flat * self.scale + self.mean).reshape(shape)
 

@@ -16,9 +16,9 @@ from tire_pipeline.magic_formula.parameters.coefficients import Coefficients, mi
 FACTOR_COLUMNS = ("PCY1", "PDY1", "PDY2", "PEY1", "PEY2", "PEY3", "PKY1", "PKY2")
 SHIFT_COLUMNS = ("PHY1", "PHY2", "PVY1", "PVY2")
 SCALE_COLUMNS = ("LFZO", "LCY", "LMUY", "LEY", "LKY", "LHY", "LVY")
-_USED = ("FNOMIN", *FACTOR_COLUMNS, "PKY4", *SHIFT_COLUMNS, *SCALE_COLUMNS)
-_NEUTRAL = Coefficients(*pack_mapping({}, missing_defaults({}, "6.1")).tolist())
-_DEFAULTS = {"PEY3": 0.0, "PKY4": 2.0, **dict.fromkeys(SHIFT_COLUMNS, 0.0)}
+_LATERAL_COLUMNS = ("FNOMIN", *FACTOR_COLUMNS, "PKY4", *SHIFT_COLUMNS, *SCALE_COLUMNS)
+_NEUTRAL_COEFFICIENTS = Coefficients(*pack_mapping({}, missing_defaults({}, "6.1")).tolist())
+_LATERAL_DEFAULTS = {"PEY3": 0.0, "PKY4": 2.0, **dict.fromkeys(SHIFT_COLUMNS, 0.0)}
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ def lateral_factors(table: pd.DataFrame | Mapping[str, np.ndarray], loads: np.nd
     """
 
     def column(name: str) -> np.ndarray:
-        neutral = 1.0 if name.startswith("L") else _DEFAULTS.get(name)
+        neutral = 1.0 if name.startswith("L") else _LATERAL_DEFAULTS.get(name)
         if name not in table:
             if neutral is None:
                 raise KeyError(name)
@@ -68,7 +68,7 @@ def lateral_factors(table: pd.DataFrame | Mapping[str, np.ndarray], loads: np.nd
         values = np.asarray(table[name], dtype=float).reshape(-1, 1)
         return values if neutral is None else np.where(np.isnan(values), neutral, values)
 
-    p: Any = _NEUTRAL._replace(**{name: column(name) for name in _USED})
+    p: Any = _NEUTRAL_COEFFICIENTS._replace(**{name: column(name) for name in _LATERAL_COLUMNS})
     loads = np.asarray(loads, dtype=float)[None, :]
     nominal = p.FNOMIN * p.LFZO
     dfz = (loads - nominal) / nominal

@@ -10,7 +10,7 @@ from tire_pipeline.parameters import Parameters
 from tire_pipeline.representations.encoded_tires import RepresentParameters, needed_coefficients
 from tire_pipeline.tire_table import TOO_SMALL, TableInPieces, usable_files
 
-_STATED = ("UNLOADED_RADIUS",)
+_STATED_IN_FILE = ("UNLOADED_RADIUS",)
 """What a file must state beside its features: without it moments have no value to learn from."""
 
 
@@ -61,7 +61,7 @@ def keep_usable(
     kept, report = usable_files(
         tire_table_raw,
         minimum_per_category=parameters.minimum_per_category,
-        features=[*needed_coefficients(represent), *_STATED],
+        features=[*needed_coefficients(represent), *_STATED_IN_FILE],
         most_files=parameters.most_files,
     )
     _check_categories(kept, report, target_category)

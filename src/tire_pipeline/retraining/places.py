@@ -24,7 +24,7 @@ from tire_pipeline.tire_table.object_files import MOST_BYTES, model_of
 
 UNREADABLE = "cannot be read: "
 """How the fingerprint of a file begins that could not be opened: it says nothing of the content."""
-_TOGETHER = 100
+_HASHED_TOGETHER = 100
 """So many objects are read at once to hash them."""
 
 
@@ -172,7 +172,7 @@ class ObjectPlace:
         """
         left = list(names)
         while left:
-            some, left = left[:_TOGETHER], left[_TOGETHER:]
+            some, left = left[:_HASHED_TOGETHER], left[_HASHED_TOGETHER:]
             content = self._contents([name_on_disk(name) for name in some])
             for name in some:
                 yield name, _digest(*content[name_on_disk(name)])

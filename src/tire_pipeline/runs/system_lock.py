@@ -8,7 +8,7 @@ from pathlib import Path
 from filelock import FileLock, Timeout
 
 _NO_LOCKS = {errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOLCK, errno.EINVAL}
-_PATIENCE = 0.3
+_LOCK_SECONDS = 0.3
 
 
 class Held(Exception):
@@ -53,7 +53,7 @@ def is_held(path: Path) -> bool | None:
     Asking takes the lock for a moment, so a lock counts as held only if it stays so for longer than that.
     """
     try:
-        lock = system_lock(path, wait_seconds=_PATIENCE)
+        lock = system_lock(path, wait_seconds=_LOCK_SECONDS)
     except Held:
         return True
     if lock is None:

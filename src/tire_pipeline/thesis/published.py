@@ -20,7 +20,7 @@ PUBLISHED_METRICS = {
 }
 """Columns of Tables 5.10 to 5.21 -> our names of the metrics."""
 
-_REPRESENTATIONS = {
+_PUBLISHED_REPRESENTATIONS = {
     "MF Coefficients": "coefficients",
     "Latent": "latent",
     "Power Series": "power_series",
@@ -112,7 +112,7 @@ def published_agents() -> pd.DataFrame:
         entry = _entry("tables", number)
         for name, *values in entry["rows"]:
             representation, _, algorithm = name.rpartition(" ")
-            if representation not in _REPRESENTATIONS:
+            if representation not in _PUBLISHED_REPRESENTATIONS:
                 continue  # the row of the untranslated files, 1 by definition
             for column, value in zip(entry["columns"][1:], values, strict=True):
                 rows.append(
@@ -121,7 +121,7 @@ def published_agents() -> pd.DataFrame:
                         "quantity": entry["quantity"],
                         "algorithm": algorithm,
                         "reward": entry["reward"],
-                        "representation": _REPRESENTATIONS[representation],
+                        "representation": _PUBLISHED_REPRESENTATIONS[representation],
                         "n_bins": entry["bins"],
                         "metric": PUBLISHED_METRICS[column],
                         "value": float(value),

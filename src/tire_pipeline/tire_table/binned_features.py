@@ -10,7 +10,7 @@ from pydantic import Field
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.tire_table import Binning, split_table
 
-_NAMES = ["file", "category", "tire_id"]
+_NAME_COLUMNS = ["file", "category", "tire_id"]
 
 
 class BinParameters(Parameters):
@@ -63,9 +63,9 @@ def bin_features(
 def _binned(
     features: pd.DataFrame, train: pd.Series, parameters: BinParameters
 ) -> tuple[pd.DataFrame, Binning]:
-    values = features.drop(columns=_NAMES)
+    values = features.drop(columns=_NAME_COLUMNS)
     binning = Binning.fit(
         values[train.to_numpy()].to_numpy(), parameters.bins, parameters.method, names=list(values.columns)
     )
     numbers = pd.DataFrame(binning.transform(values.to_numpy()), columns=values.columns, index=features.index)
-    return pd.concat([features[_NAMES], numbers], axis=1), binning
+    return pd.concat([features[_NAME_COLUMNS], numbers], axis=1), binning

@@ -17,7 +17,7 @@ NO_VALUE = "feature without a value"
 TOO_SMALL = "category too small"
 OVER_MOST = "more files than training takes"
 
-_FORCE_COEFFICIENT = re.compile(r"[PQRS][A-Z]+\d+|L[A-Z]{2,4}|FNOMIN").fullmatch
+_NAME_OF_FORCE_COLUMN = re.compile(r"[PQRS][A-Z]+\d+|L[A-Z]{2,4}|FNOMIN").fullmatch
 
 
 def dedupe_and_filter(
@@ -55,7 +55,7 @@ def dedupe_and_filter(
         A feature is no column of the table.
     """
     _refuse_unknown(features, table.columns)
-    force = [name for name in table.columns if _FORCE_COEFFICIENT(name)]
+    force = [name for name in table.columns if _NAME_OF_FORCE_COLUMN(name)]
     keys = _keys(table, force, list(features))
     reason, detail = _marks(keys, minimum_per_category)
     return table[(reason == "").to_numpy()].reset_index(drop=True), _report(keys, reason, detail)
@@ -85,7 +85,7 @@ def usable_files(
         As in :func:`dedupe_and_filter`, in the order of ``file``.
     """
     _refuse_unknown(features, table.numbers)
-    force = sorted(name for name in table.numbers if _FORCE_COEFFICIENT(name))
+    force = sorted(name for name in table.numbers if _NAME_OF_FORCE_COLUMN(name))
     parts = [_keys(part, force, list(features)) for part in table]
     keys = pd.concat(parts or [_keys(table.frame(), force, list(features))], ignore_index=True)
     keys = keys.sort_values("file", ignore_index=True)

@@ -11,7 +11,7 @@ SIZE_KEYS = ("WIDTH", "ASPECT_RATIO", "RIM_RADIUS", "UNLOADED_RADIUS", "MASS")
 """Metadata that belongs to the tire and not to who measured it. ``FNOMIN`` and the pressures are the
 measurer's choice, ``RIM_WIDTH`` the rim of the rig."""
 
-_STEPS = np.array([1e-6, 1e-5, 1e-6, 1e-6, 1e-4])
+_ROUNDED_TO = np.array([1e-6, 1e-5, 1e-6, 1e-6, 1e-4])
 
 
 def physical_tire_ids(table: pd.DataFrame) -> pd.Series:
@@ -41,7 +41,7 @@ def physical_tire_ids(table: pd.DataFrame) -> pd.Series:
     """
     values = table[list(SIZE_KEYS)].to_numpy(dtype=float)
     known = np.isfinite(values)
-    steps = np.where(known, np.round(np.where(known, values, 0.0) / _STEPS), -1.0)
+    steps = np.where(known, np.round(np.where(known, values, 0.0) / _ROUNDED_TO), -1.0)
     unique, place = np.unique(steps, axis=0, return_inverse=True)
     names = np.array([_name(row) for row in unique], dtype=object)[place.ravel()]
     nameless = ~known.any(axis=1)

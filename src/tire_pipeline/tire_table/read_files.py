@@ -18,7 +18,8 @@ from tire_pipeline.tire_table.in_pieces import Piece, TableInPieces, numbers_of
 from tire_pipeline.tire_table.read_blocks import ReadBlock, blocks_of, unpacked
 
 _LOG = logging.getLogger(__name__)
-_SAID = 20
+NAMED_IN_LOG = 20
+"""So many of the files that are set aside are named in the log; the report has them all."""
 
 
 class IngestParameters(Parameters):
@@ -79,7 +80,7 @@ def join_files(
     report = report.sort_values("file", ignore_index=True)
     summary = _summary(report)
     aside = report[report["status"] == "set aside"]
-    for file, reason in aside[["file", "reason"]].head(_SAID).itertuples(index=False):
+    for file, reason in aside[["file", "reason"]].head(NAMED_IN_LOG).itertuples(index=False):
         _LOG.warning("%s is set aside: %s", file, reason)
     if summary["set_aside"] > parameters.most_failed_share * summary["files"]:
         raise DomainError(

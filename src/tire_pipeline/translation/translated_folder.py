@@ -22,6 +22,7 @@ from tire_pipeline.progress import track
 from tire_pipeline.tasks import Map, all_done, in_turn
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
 from tire_pipeline.tire_table.read_blocks import digest_of, divided
+from tire_pipeline.tire_table.read_files import NAMED_IN_LOG
 from tire_pipeline.translation.base import JudgingTranslator, judging, translator_from_state
 from tire_pipeline.translation.parameters import TranslateParameters
 from tire_pipeline.translation.translated_block import (
@@ -38,7 +39,6 @@ from tire_pipeline.translation.translated_block import (
 Files = Mapping[str, Callable[[], TireModel]]
 Parts = Mapping[str, Callable[[], bytes]]
 _LOG = logging.getLogger(__name__)
-_SAID = 20
 TRANSLATED_TOGETHER = 500
 """So many files are translated together, two seconds' work."""
 
@@ -184,7 +184,7 @@ def _joined_report(reports: list[pd.DataFrame], unreadable: list[dict[str, str]]
     """One row a file, those that could not be read last; an error if there are no others."""
     aside = pd.DataFrame(unreadable, columns=["file", "source", "supplier_known", "verdict", "reason"])
     aside = aside.sort_values("file", ignore_index=True)
-    for file, reason in aside[["file", "reason"]].head(_SAID).itertuples(index=False):
+    for file, reason in aside[["file", "reason"]].head(NAMED_IN_LOG).itertuples(index=False):
         _LOG.warning("%s is refused: %s", file, reason)
     if not reports:
         raise DomainError(

@@ -8,12 +8,10 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import minimize
 
-from tire_pipeline.channels import OPERATING_CHANNELS
+from tire_pipeline.channels import INPUT_CHANNELS
 from tire_pipeline.concealed.baselines.report import BaselineReport, fit_entry
 from tire_pipeline.concealed.cases.clean_run import residual
 from tire_pipeline.magic_formula import TireModel
-
-_INPUTS = (*OPERATING_CHANNELS, "turn_slip")
 
 
 def _search(objective, start, bounds):  # type: ignore[no-untyped-def]
@@ -45,7 +43,7 @@ def explain_gaussian_process(
 
     rng = np.random.default_rng(seed)
     left = residual(tire, recording)
-    channels = [c for c in _INPUTS if c in recording]
+    channels = [c for c in INPUT_CHANNELS if c in recording]
     x = recording[channels].to_numpy()
     middle, extent = x.mean(axis=0), x.std(axis=0) + 1e-9
     pick = rng.choice(len(x), size=min(n_points, len(x)), replace=False)

@@ -12,7 +12,7 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 
 MOST_FITTED_ROWS = 2000
-_LEAST_SPREAD = {"camber": 0.01, "slip_ratio": 0.02, "pressure": 5e3}
+_LEAST_RANGES = {"camber": 0.01, "slip_ratio": 0.02, "pressure": 5e3}
 
 
 def explain_by_refit(tire: TireModel, recording: pd.DataFrame) -> BaselineReport:
@@ -29,7 +29,7 @@ def explain_by_refit(tire: TireModel, recording: pd.DataFrame) -> BaselineReport
         Without effects; verdict "unexplained" where the fit leaves less than the model.
     """
     rows = recording.iloc[:: max(len(recording) // MOST_FITTED_ROWS, 1)]
-    moving = [c for c, least in _LEAST_SPREAD.items() if c in rows and np.ptp(rows[c]) > least]
+    moving = [c for c, least in _LEAST_RANGES.items() if c in rows and np.ptp(rows[c]) > least]
     forces = [force for slip, force in FORCE_OF_SLIP.items() if slip == "slip_angle" or slip in moving]
     version = "6.1" if "pressure" in moving else "5.2"
     fitted = fit_magic_formula(rows[["slip_angle", "normal_load", *moving, *forces]], version).model

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-_WORDS = {
+_SCORE_WORDS = {
     "false physics, nothing missing": "False physics: nothing is missing from the model",
     "false physics, artefact only": "False physics: only a fault of the recording is there",
     "false physics": "False physics: both of these together",
@@ -37,13 +37,13 @@ _WORDS = {
     "refused": "Recordings that were refused",
 }
 _Z = 1.96
-_LEAST = 20
+_LEAST_CASES = 20
 """Cases that a goal needs if it is no share that a perfect score could show."""
 
 
 def in_words(name: str) -> str:
     """A score's name in the field's words; what has none stays as it is."""
-    return _WORDS.get(name, name)
+    return _SCORE_WORDS.get(name, name)
 
 
 def outcome(row: dict[str, Any]) -> str:
@@ -79,7 +79,7 @@ def outcome(row: dict[str, Any]) -> str:
     if n and (high < float(bound) if side == ">=" else low > float(bound)):
         return "missed"
     share = float(bound) if side == ">=" else 1.0 - float(bound)
-    enough = n / (n + _Z**2) >= share if 0.0 < share < 1.0 else n >= _LEAST
+    enough = n / (n + _Z**2) >= share if 0.0 < share < 1.0 else n >= _LEAST_CASES
     if not enough:
         return "too few cases"
     return "met" if str(row["met"]) == "True" else "missed"

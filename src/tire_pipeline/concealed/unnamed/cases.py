@@ -31,7 +31,7 @@ from tire_pipeline.concealed.second.strength import formula_misfit, sized, unit
 from tire_pipeline.concealed.second.tire import Tire, draw_tire
 from tire_pipeline.magic_formula import TireModel, fit_magic_formula
 
-_PRESSURES = 0.2
+_PRESSURE_CHANGE = 0.2
 """Either way, where a mechanism needs the pressure to change."""
 HELD_OUT_SHARE = 0.25
 """Rows that follow the recording and that nobody is shown, over those of the recording."""
@@ -123,7 +123,7 @@ def _drawn(
     course = driven(schedule.played(sections, tire), rig, tire, rng)
     levels = schedule.pattern(sections, rng)
     if pressures:
-        course = course._replace(pressure=course.pressure * (1.0 + _PRESSURES * levels))
+        course = course._replace(pressure=course.pressure * (1.0 + _PRESSURE_CHANGE * levels))
     run = Run(tire, rig, course, float(rng.choice([-15.0, 15.0])))
     placed = _placed(rng, run, levels, named)
     world = _world(run, placed)

@@ -16,14 +16,14 @@ from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, SymbolTable, evaluate, parse
 
-_TOGETHER = 0.95
+_MOVED_TOGETHER = 0.95
 """Correlation (size) from which on two channels count as moved together by the schedule."""
-_POINTS = 200
+_DRAWN_POINTS = 200
 _CLOSE = 0.01
 _SHOWS = 0.2
 """Least share of the squared held-out error that the true change removes, so that it can be judged."""
 _IN_CATALOGUE = {"inflation pressure": "inflation_pressure"}
-_SLOW = ("camber", "normal_load", "speed", "pressure", "tread_temperature", "time")
+_SLOW_CHANNELS = ("camber", "normal_load", "speed", "pressure", "tread_temperature", "time")
 
 
 def squared(case: OpenCase, predicted: pd.DataFrame) -> dict[str, float]:
@@ -52,8 +52,8 @@ def oracle_of(case: OpenCase) -> tuple[dict[str, float], dict[str, float]]:
 
 def same_channels(case: OpenCase) -> dict[str, str]:
     """Slow channel -> the first of those that the schedule moves together with it."""
-    live = [c for c in _SLOW if c in case.recording and float(np.std(case.recording[c])) > 0.0]
-    together = np.abs(np.corrcoef(case.recording[live].to_numpy().T)) > _TOGETHER
+    live = [c for c in _SLOW_CHANNELS if c in case.recording and float(np.std(case.recording[c])) > 0.0]
+    together = np.abs(np.corrcoef(case.recording[live].to_numpy().T)) > _MOVED_TOGETHER
     return {c: live[int(np.argmax(together[i]))] for i, c in enumerate(live)}
 
 
@@ -88,7 +88,7 @@ def _points(
     """The same 200 points in the symbols of the mechanism and of the equation."""
 
     def between(low: float, high: float) -> np.ndarray:
-        return rng.uniform(low, high, _POINTS)
+        return rng.uniform(low, high, _DRAWN_POINTS)
 
     own = found.physics.nominal if found.physics is not None else nominal
     at = {"s": between(-0.15, 0.15), "k": between(-0.1, 0.1), "g": between(-0.05, 0.05)}
@@ -112,12 +112,12 @@ def _points(
         "v": speed * nominal.speed / getattr(own, "V0", nominal.speed),
         "p": pressure * nominal.pressure / getattr(own, "P0", nominal.pressure),
         "h": warm + (nominal.temperature - getattr(own, "T0", nominal.temperature)) / 20.0,
-        "F0": np.full(_POINTS, nominal.load),
-        "R0": np.full(_POINTS, nominal.radius),
+        "F0": np.full(_DRAWN_POINTS, nominal.load),
+        "R0": np.full(_DRAWN_POINTS, nominal.radius),
     }
-    start = np.zeros(_POINTS, bool)
+    start = np.zeros(_DRAWN_POINTS, bool)
     start[0] = True
-    return true, SymbolTable(ours, np.zeros(_POINTS), np.zeros(_POINTS), start)
+    return true, SymbolTable(ours, np.zeros(_DRAWN_POINTS), np.zeros(_DRAWN_POINTS), start)
 
 
 def _alike(text: str, expression: str, true: Mapping[str, Any], ours: SymbolTable) -> bool:
@@ -131,7 +131,7 @@ def _alike(text: str, expression: str, true: Mapping[str, Any], ours: SymbolTabl
     named = {s: sympy.Symbol(s) for s in symbols}
     function = sympy.lambdify(list(named.values()), sympy.sympify(expression, locals=named), "numpy")
     try:
-        y = np.broadcast_to(function(*(true[s] for s in symbols)), (_POINTS,)).astype(float)
+        y = np.broadcast_to(function(*(true[s] for s in symbols)), (_DRAWN_POINTS,)).astype(float)
         x = evaluate(tree, ours)
     except EquationError:
         return False

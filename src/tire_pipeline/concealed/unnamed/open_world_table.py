@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 _STRONG_MISFITS, _CLEAR_MISFITS = 2.0, 1.0
-_COLUMNS = (
+_CASE_COLUMNS = (
     "case mechanism strength verdict names true_drivers drivers drivers_right equation_right removed worse "
     "seconds"
 ).split()
@@ -23,9 +23,9 @@ def table(rows: Sequence[dict[str, Any]], head: str) -> str:
     for name, values, goal in _scores(cases):
         value = f"{values:.2f}" if np.isfinite(values) else "–"
         lines.append(f"| {name[0]} | {value} | {name[1]} | {goal} |")
-    lines += ["", "| " + " | ".join(_COLUMNS) + " |", "|" + "---|" * len(_COLUMNS)]
+    lines += ["", "| " + " | ".join(_CASE_COLUMNS) + " |", "|" + "---|" * len(_CASE_COLUMNS)]
     for _, row in cases.iterrows():
-        lines.append("| " + " | ".join(_cell(row[c]) for c in _COLUMNS) + " |")
+        lines.append("| " + " | ".join(_cell(row[c]) for c in _CASE_COLUMNS) + " |")
     return "\n".join([*lines, ""])
 
 

@@ -12,8 +12,8 @@ from kedro.io.core import AbstractDataset
 
 from tire_pipeline.datasets.text_files import text_objects
 from tire_pipeline.datasets.text_files.text_objects import (
-    HEAD,
     MARKER,
+    MARKER_HEAD,
     NEVER_DELETED,
     Content,
     as_bytes,
@@ -26,7 +26,7 @@ from tire_pipeline.files.folder_walk import holds_anything
 from tire_pipeline.files.objects import Objects, is_remote
 from tire_pipeline.progress import track
 
-_LONGEST = 255
+_LONGEST_NAME = 255
 
 
 class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], dict[str, bytes]]):
@@ -107,7 +107,7 @@ class TextFolderDataset(AbstractDataset[Mapping[str, Content | None], dict[str, 
                 if (folder / name).exists():
                     shutil.copy2(folder / name, temporary / name)
             made = sorted({*texts, *(earlier - gone)})
-            (temporary / MARKER).write_text("\n".join([HEAD, *made, ""]), encoding="utf-8")
+            (temporary / MARKER).write_text("\n".join([MARKER_HEAD, *made, ""]), encoding="utf-8")
 
     def _exists(self) -> bool:
         if is_remote(self._path):
@@ -151,9 +151,9 @@ def inside(name: str) -> PurePosixPath:
 
 def _fitting(name: str) -> str:
     """A name that a file system takes: one over 255 bytes (an escaped one can be) ends in its hash."""
-    if len(name.encode()) <= _LONGEST:
+    if len(name.encode()) <= _LONGEST_NAME:
         return name
     suffix = "".join(PurePosixPath(name).suffixes)[-40:]
     digest = hashlib.sha256(name.encode()).hexdigest()[:16]
-    kept = name.encode()[: _LONGEST - len(digest) - 1 - len(suffix.encode())].decode(errors="ignore")
+    kept = name.encode()[: _LONGEST_NAME - len(digest) - 1 - len(suffix.encode())].decode(errors="ignore")
     return f"{kept}-{digest}{suffix}"

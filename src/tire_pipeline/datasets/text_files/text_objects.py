@@ -14,8 +14,8 @@ from tire_pipeline.files.objects import Objects
 from tire_pipeline.progress import track
 
 MARKER = ".made_by_tire_pipeline"
-HEAD = "Replaced as a whole on the next run. Made:"
-_TOGETHER = 50
+MARKER_HEAD = "Replaced as a whole on the next run. Made:"
+_WRITTEN_TOGETHER = 50
 NEVER_DELETED = (".gitkeep", "README.md")
 _BROKEN = "Being written. Nothing here counts until that is done. Of this project:"
 Content = str | bytes | Callable[[], bytes]
@@ -89,13 +89,13 @@ def save(folder: Objects, data: Mapping[str, Content], *, gone: set[str], keep: 
     kept = before if keep and not broken else {}
     made = {name: digest for name, digest in kept.items() if name not in gone}
     names = list(data)
-    some = [names[start : start + _TOGETHER] for start in range(0, len(names), _TOGETHER)]
+    some = [names[start : start + _WRITTEN_TOGETHER] for start in range(0, len(names), _WRITTEN_TOGETHER)]
     for part in track(some, f"writing {folder.root.rsplit('/', 1)[-1]}", total=len(some)):
         contents = {name: as_bytes(data[name]) for name in part}
         folder.write_many(contents)
         made |= {name: hashlib.sha256(plain).hexdigest() for name, plain in contents.items()}
     folder.delete(name for name in before if name not in made)
-    folder.write(MARKER, _marker_text(HEAD, made))
+    folder.write(MARKER, _marker_text(MARKER_HEAD, made))
 
 
 def _marker_text(head: str, made: Mapping[str, str]) -> bytes:

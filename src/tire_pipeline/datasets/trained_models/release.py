@@ -22,7 +22,7 @@ from tire_pipeline.retraining.release import (
 )
 
 _RECORD = "record.json"
-_NAME = re.compile(r"[0-9A-Za-z][0-9A-Za-z.\-]*").fullmatch
+_MODEL_NAME = re.compile(r"[0-9A-Za-z][0-9A-Za-z.\-]*").fullmatch
 
 
 class ReleaseDataset(AbstractDataset[ModelRegistry, ModelRegistry]):
@@ -123,7 +123,7 @@ class ReleaseDataset(AbstractDataset[ModelRegistry, ModelRegistry]):
             return Release(), None
         try:
             release = Release.from_dict(json.loads(content))
-            if not all(_NAME(name) for name in release.models):
+            if not all(_MODEL_NAME(name) for name in release.models):
                 raise ValueError("name")
         except (ValueError, KeyError, TypeError) as error:
             todo = "restore it from a backup, or move the folder away to start again"

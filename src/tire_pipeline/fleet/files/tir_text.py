@@ -9,7 +9,7 @@ from tire_pipeline.unit_definitions import DEGREE
 
 _COMBINED_X = "RBX1 RBX2 RCX1 REX1 REX2 RHX1".split()
 _COMBINED_Y = "RBY1 RBY2 RBY3 RCY1 REY1 REY2 RHY1 RHY2 RVY1 RVY2 RVY3 RVY4 RVY5 RVY6".split()
-_SCALE_FACTORS = (
+_WRITTEN_SCALE_FACTORS = (
     "LFZO LCX LMUX LEX LKX LHX LVX LGAX LCY LMUY LEY LKY LHY LVY LGAY "
     "LTR LRES LGAZ LXAL LYKA LVYKA LS LSGKP LSGAL LGYR LMX LVMX LMY"
 ).split()
@@ -212,9 +212,9 @@ class Template:
             return f"{value / 1000.0:.10g}"
         if key in _ANGLES and self.style.degrees:
             return f"{value / DEGREE:.8g}"
-        if key in _PRESSURES and self.style.bar:
+        if key in _PRESSURE_KEYS and self.style.bar:
             return f"{value / 1e5:.8g}"
-        return self.style.number % value if key in _COEFFICIENTS else f"{value:.8g}"
+        return self.style.number % value if key in _WRITTEN_COEFFICIENTS else f"{value:.8g}"
 
     def _line(self, key: str, value: str) -> str:
         style = self.style
@@ -259,7 +259,7 @@ class Template:
                 lines += [*self._section("SHAPE"), "{radial width}"]
                 lines += [" 1.0    0.0", " 1.0    0.4", " 1.0    0.9", " 0.9    1.0"]
         lines += self._section("SCALING_COEFFICIENTS")
-        lines += [self._line(key, "1") for key in _SCALE_FACTORS]
+        lines += [self._line(key, "1") for key in _WRITTEN_SCALE_FACTORS]
         for name, keys in WRITTEN_SECTIONS.items():
             lines += self._section(name)
             lines += [self._place(key) for key in keys]
@@ -279,5 +279,5 @@ _PLAIN_SECTIONS: dict[str, list[str]] = {
 _LENGTHS = {"UNLOADED_RADIUS", "WIDTH", "RIM_RADIUS", "RIM_WIDTH", "LONGVL", "VXLOW"}
 _PER_LENGTH = {"VERTICAL_STIFFNESS", "VERTICAL_DAMPING"}
 _ANGLES = {"ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX"}
-_PRESSURES = {"INFLPRES", "NOMPRES"}
-_COEFFICIENTS = {key for keys in WRITTEN_SECTIONS.values() for key in keys}
+_PRESSURE_KEYS = {"INFLPRES", "NOMPRES"}
+_WRITTEN_COEFFICIENTS = {key for keys in WRITTEN_SECTIONS.values() for key in keys}

@@ -29,12 +29,12 @@ from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.coefficients import INDEX
 from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
 
-_EXACT = 1e-4
+_EXACT_SHARE = 1e-4
 """A misfit below this share of the largest force is no misfit."""
 _POSITIVE_AT_EVERY_LOAD = 2.0
 """Largest PKY4 with which the cornering stiffness, a sine of PKY4 times an arc tangent of the load, is
 positive at every load: at one load the rows say nothing of it."""
-_LEAST = 1.5
+_TYPICAL_OVER_LEAST = 1.5
 """What has to be positive and the recording's ranges cannot tell is no less than its typical value over this:
 with PKY2 below 1 the cornering stiffness would fall with load."""
 
@@ -109,7 +109,7 @@ class _StageProblem:
         low, high = bounds_of(list(free), self.first)
         drawn = pull(free, self.typical, (low, high))
         unseen = np.isin(free, sorted(self.known)) & (low > 0.0)
-        low = np.where(unseen, np.maximum(low, np.minimum(drawn.centre / _LEAST, high)), low)
+        low = np.where(unseen, np.maximum(low, np.minimum(drawn.centre / _TYPICAL_OVER_LEAST, high)), low)
         untold = np.isin(free, sorted(self.known & {"PKY4"}))
         bounds = low, np.where(untold, np.maximum(drawn.centre, _POSITIVE_AT_EVERY_LOAD), high)
         family, output = self.model.family, self.stage.output
@@ -176,7 +176,7 @@ def fit_stage(
     problem, bounds = setup.problem(free)
     best = least(problem, bounds, setup.starts(problem, bounds, options.starts))
     reached = lowest = problem.misfit(best)
-    exact = _EXACT * float(np.abs(measured).max())
+    exact = _EXACT_SHARE * float(np.abs(measured).max())
     released: dict[str, list[str]] = {}
     if known - silent and reached > exact and not are_few(problem):
         every = [name for name in names if name not in silent]

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import SLIP_AND_LOAD
+from tire_pipeline.channels import INPUT_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
@@ -19,7 +19,7 @@ from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate, 
 from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.recording.given import numeric
 from tire_pipeline.mismatch.recording.open_questions import Question
-from tire_pipeline.mismatch.recording.prepare import ASSUMED_ZERO, INPUTS, own_relaxation
+from tire_pipeline.mismatch.recording.prepare import ASSUMED_ZERO, own_relaxation
 from tire_pipeline.mismatch.recording.smoothing import denoise
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
 from tire_pipeline.mismatch.unnamed_physics.symbols import table_of
@@ -205,7 +205,7 @@ class CorrectedModel:
         channels = {
             str(c): recording[c].to_numpy(dtype=float, na_value=np.nan) * self.factors.get(str(c), 1.0)
             for c in recording.columns
-            if c in INPUTS
+            if c in INPUT_CHANNELS
         }
         time = recording["time"].to_numpy(dtype=float) if "time" in recording else None
         start = _pieces(time, n)

@@ -21,7 +21,7 @@ UNNAMED = "unnamed"
 """Family of what has no name: rates, memory, play, what repeats along the road."""
 _MOST_DIRECTIONS = 12
 _LEAST_OF_FIRST = 0.02
-_NOTHING = 1e-9
+_NO_COLUMN = 1e-9
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ def principal(columns: Sequence[Columns], largest: Mapping[str, float]) -> dict[
     outputs = list(columns[0])
     joined = np.vstack([np.hstack([c[o] / largest[o] for c in columns]) for o in outputs])
     size = np.sqrt(np.mean(joined**2, axis=0))
-    joined = joined[:, size > _NOTHING] / size[size > _NOTHING]
+    joined = joined[:, size > _NO_COLUMN] / size[size > _NO_COLUMN]
     if joined.shape[1] == 0:
         return None
     values, vectors = np.linalg.eigh(joined.T @ joined / joined.shape[0])

@@ -12,7 +12,7 @@ from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 
 Array = np.ndarray
-_KNOTS = 12
+_TIME_KNOTS = 12
 _USUAL = 0.15
 """How wrong a form usually is, as a share of it: what half a sample of shift is measured by."""
 _IMAGINED = 4.0
@@ -63,8 +63,8 @@ def _hats(data: Data) -> list[Array]:
     """Triangles over time whose sum is one."""
     time = data.time
     assert time is not None  # asked only of effects that need a time line
-    knots = np.linspace(time[0], time[-1] + 1e-9, _KNOTS)
-    return [np.interp(time, knots, row) for row in np.eye(_KNOTS)]
+    knots = np.linspace(time[0], time[-1] + 1e-9, _TIME_KNOTS)
+    return [np.interp(time, knots, row) for row in np.eye(_TIME_KNOTS)]
 
 
 def _change(data: Data, x: Array) -> Array:

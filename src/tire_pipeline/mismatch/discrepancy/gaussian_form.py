@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from tire_pipeline.channels import INPUT_CHANNELS
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.residual import share_above_noise
-from tire_pipeline.mismatch.recording.prepare import INPUTS
 
 if TYPE_CHECKING:
     from sklearn.gaussian_process import GaussianProcessRegressor
 
 Array = np.ndarray
-_RATES = ("slip_angle", "slip_ratio", "normal_load")
-_POINTS = 250
+_CHANNELS_WITH_RATE = ("slip_angle", "slip_ratio", "normal_load")
+_TRAINING_POINTS = 250
 _HELD_POINTS = 2000
 _LONGEST_LENGTH = 3.0
 _LEAST_LOG_EVIDENCE = 3.0
@@ -84,7 +84,7 @@ def gaussian_form(data: Data, rest: Array, output: str, block: Array, floor: flo
     if not names or held.all() or not held.any():
         return None
     rng = np.random.default_rng(0)
-    train = _some(np.flatnonzero(~held), _POINTS, rng)
+    train = _some(np.flatnonzero(~held), _TRAINING_POINTS, rng)
     test = _some(np.flatnonzero(held), _HELD_POINTS, rng)
     size = float(np.std(rest[train])) or 1.0
     live, process = _chosen(x[train], rest[train] / size, min(floor / size, 1.0))
@@ -144,10 +144,10 @@ def _fit(x: Array, y: Array, noise: float) -> GaussianProcessRegressor:
 
 
 def _columns(data: Data) -> dict[str, Array]:
-    out = {n: data.smooth(n) for n in INPUTS if data.varies(n)}
+    out = {n: data.smooth(n) for n in INPUT_CHANNELS if data.varies(n)}
     if data.time is not None and data.size > 10:
         step = np.maximum(data.step, 1e-9)
-        for n in _RATES:
+        for n in _CHANNELS_WITH_RATE:
             if n in out:
                 rate = np.diff(out[n], prepend=out[n][0]) / step
                 rate[data.start] = 0.0

@@ -12,7 +12,7 @@ from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.residual import rms
 
 Array = np.ndarray
-_SLIPS = ("slip_angle", "slip_ratio")
+_SLIP_CHANNELS = ("slip_angle", "slip_ratio")
 _FEWEST_STRETCHES = 15
 """Fewest stretches whose variance says anything."""
 _JUMP = 0.1
@@ -54,7 +54,7 @@ def orders_of(data: Data) -> list[Array]:
     rows = np.arange(data.size)
     if data.time is not None:
         return [rows]
-    place = np.column_stack([*(data.get(n) for n in _SLIPS if data.varies(n)), *data.base.values()])
+    place = np.column_stack([*(data.get(n) for n in _SLIP_CHANNELS if data.varies(n)), *data.base.values()])
     tree = scipy.spatial.cKDTree(place / np.maximum(np.ptp(place, axis=0), 1e-12), leafsize=1)
     return [rows, np.asarray(tree.indices)]
 

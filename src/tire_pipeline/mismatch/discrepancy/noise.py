@@ -14,7 +14,7 @@ from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
 _MEDIAN_OF_CHI2 = 0.4549
-_ORDER = 12
+_NOISE_ORDER = 12
 _LAGS_IN_SAMPLES = (1, 2, 3, 4, 6, 8, 11)
 
 
@@ -50,9 +50,9 @@ class ForceNoise:
         """Prediction-error filter of the noise and the size of its error."""
         if self.share <= 0.0 or self.rho <= 0.0:
             return np.ones(1), 1.0
-        c = self.share * self.rho ** np.arange(_ORDER + 1)
+        c = self.share * self.rho ** np.arange(_NOISE_ORDER + 1)
         c[0] = 1.0
-        a = scipy.linalg.solve_toeplitz(c[:_ORDER], c[1:])
+        a = scipy.linalg.solve_toeplitz(c[:_NOISE_ORDER], c[1:])
         return np.r_[1.0, -a], float(np.sqrt(max(1.0 - a @ c[1:], 1e-6)))
 
     def whiten(self, x: Array, start: Array) -> Array:
@@ -64,9 +64,9 @@ class ForceNoise:
         out = _filtered(np.ascontiguousarray(scaled.reshape(scaled.shape[0], -1)), taps / size)
         out = out.reshape(scaled.shape)
         firsts = np.flatnonzero(start)
-        heads = (firsts[:, None] + np.arange(_ORDER)[None, :]).ravel()
+        heads = (firsts[:, None] + np.arange(_NOISE_ORDER)[None, :]).ravel()
         heads = heads[heads < x.shape[0]]
-        out[heads] = 0.0 if firsts.size * _ORDER < 0.05 * x.shape[0] else scaled[heads]
+        out[heads] = 0.0 if firsts.size * _NOISE_ORDER < 0.05 * x.shape[0] else scaled[heads]
         return out
 
 

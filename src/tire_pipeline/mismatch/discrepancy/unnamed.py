@@ -26,7 +26,7 @@ _LAGS_OF_MEMORY = (1.0, 4.0)
 _PLAYS_BY_SLIP = {"slip_angle": (0.001, 0.003, 0.008), "slip_ratio": (0.008,)}
 """Half widths that are tried, rad and 1: well above the noise of the channels."""
 _SMOOTH = 0.1
-_CELLS = 16
+_SIZE_CLASSES = 16
 """Sizes of slip, and of load, within which a rate is compared with itself."""
 
 
@@ -105,10 +105,10 @@ def _beyond_place(data: Data, driver: Array, name: str) -> Array:
     """
     cell = np.zeros(data.size, np.intp)
     for x in (np.abs(data.get(name)), data.get("normal_load")):
-        edges = np.quantile(x, np.linspace(0.0, 1.0, _CELLS + 1)[1:-1])
-        cell = cell * _CELLS + np.searchsorted(edges, x)
-    count = np.bincount(cell, minlength=_CELLS**2)
-    mean = np.bincount(cell, driver, _CELLS**2) / np.maximum(count, 1)
+        edges = np.quantile(x, np.linspace(0.0, 1.0, _SIZE_CLASSES + 1)[1:-1])
+        cell = cell * _SIZE_CLASSES + np.searchsorted(edges, x)
+    count = np.bincount(cell, minlength=_SIZE_CLASSES**2)
+    mean = np.bincount(cell, driver, _SIZE_CLASSES**2) / np.maximum(count, 1)
     return driver - mean[cell]
 
 

@@ -11,7 +11,7 @@ from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.discrepancy.noise import ForceNoise, estimate_noise, refined
 from tire_pipeline.mismatch.discrepancy.nuisance.columns import Sizes, largest_force, make_nuisance
 from tire_pipeline.mismatch.discrepancy.nuisance.sizes import PATH_SHARES, SHARES, nuisance_scale
-from tire_pipeline.mismatch.inference.fit import Fit
+from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.model.blocks import sweeps
 from tire_pipeline.mismatch.model.candidates import Variant, variants
 from tire_pipeline.mismatch.model.data import Data

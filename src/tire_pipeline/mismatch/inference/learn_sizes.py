@@ -31,13 +31,13 @@ Names = tuple[str, ...]
 Map = Callable[[Callable[["Tuning"], Array], Iterable["Tuning"]], Iterable[Array]]
 _TRUSTED = (2.0, 1.0, 0.5)
 """Steps from a centre within which the parabolas are believed; fewer where they promise too much."""
-_DIFFERENCE = 0.1
+_CURVATURE_STEP = 0.1
 """Half the distance between the derivatives whose difference is the curvature."""
-_FACTORS = ("independent", "form_error", "prior", "error", "spread", "wide")
+_SCALED_SIZES = ("independent", "form_error", "prior", "error", "spread", "wide")
 _ODDS = ("effect", "further", "unnamed")
 _SURPRISES = 0.01
 """Share of cases whose answer is as likely as any other: what the posterior cannot know must not rule it."""
-_NEAR = 12.0
+_MOST_LOG_ODDS = 12.0
 """Log odds to the likeliest hypothesis beyond which one has no mass, nor near these sizes."""
 
 
@@ -82,7 +82,7 @@ def pruned(each: Tuning, sizes: LearntSizes) -> Tuning:
     """Return a case with the hypotheses that have mass and those that are right; the rest takes time only."""
     case, every = each.case, hypotheses(each.case)
     value = log_evidence(case, sizes) + log_prior(case, sizes)
-    near = (value > value.max() - _NEAR) | replace(each, kept=None).rights()
+    near = (value > value.max() - _MOST_LOG_ODDS) | replace(each, kept=None).rights()
     wanted = {(h.names, h.wide, h.form) for h, here in zip(every, near, strict=True) if here}
     holding = {names for names, *_ in wanted} | {(), each.truth}
     smaller = replace(case, sets=tuple(s for s in case.sets if s.names in holding))
@@ -181,7 +181,7 @@ class _Parabolas:
 
     def __init__(self, cases: Sequence[Tuning], centre: LearntSizes, step: float, mapped: Map) -> None:
         self.cases, self.centre, self.step = list(cases), centre, step
-        self.names = (*_FACTORS, *centre.background) if step > 1.0 else ()
+        self.names = (*_SCALED_SIZES, *centre.background) if step > 1.0 else ()
         self.weighed = _Weighed(self.cases)
         self.counts = self.weighed.counts(centre)
         self.middle = self._at({}, mapped)
@@ -222,10 +222,10 @@ class _Parabolas:
         """Return :attr:`Learnt.curvature` at the best sizes near the centre."""
         x, shares, out = self._place(sizes), _shares(self.cases), {}
         for k, name in enumerate([*self.names, *_ODDS]):
-            unit = np.eye(x.size)[k] * _DIFFERENCE
+            unit = np.eye(x.size)[k] * _CURVATURE_STEP
             slopes = [self._score(x + sign * unit, shares)[1][k] for sign in (1.0, -1.0)]
             per = np.log(self.step) if k < len(self.names) else 1.0
-            out[name] = float((slopes[1] - slopes[0]) / (2.0 * _DIFFERENCE * per**2))
+            out[name] = float((slopes[1] - slopes[0]) / (2.0 * _CURVATURE_STEP * per**2))
         return out
 
     def _place(self, sizes: LearntSizes) -> Array:
@@ -251,7 +251,7 @@ def _size(sizes: LearntSizes, name: str) -> float:
 def moved(sizes: LearntSizes, step: float, steps: Mapping[str, float]) -> LearntSizes:
     """Return sizes so many steps away; no part is larger than the whole."""
     factor = {name: float(step**count) for name, count in steps.items()}
-    own: dict[str, Any] = {name: getattr(sizes, name) * factor.get(name, 1.0) for name in _FACTORS}
+    own: dict[str, Any] = {name: getattr(sizes, name) * factor.get(name, 1.0) for name in _SCALED_SIZES}
     own["independent"] = min(own["independent"], 1.0)
     own["background"] = {f: s * factor.get(f, 1.0) for f, s in sizes.background.items()}
     return replace(sizes, **own)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
 from tire_pipeline.mismatch.inference.evidence.hypotheses import plain
-from tire_pipeline.mismatch.inference.fit import Fit, columns_of, linearised
+from tire_pipeline.mismatch.inference.linearised_set import Fit, columns_of, linearised
 from tire_pipeline.mismatch.inference.priors import prior
 from tire_pipeline.mismatch.inference.sets.answer import SetAnswer
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated

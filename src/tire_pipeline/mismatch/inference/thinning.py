@@ -11,7 +11,7 @@ from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.discrepancy.nuisance.columns import make_nuisance
 from tire_pipeline.mismatch.discrepancy.nuisance.sizes import nuisance_scale
 from tire_pipeline.mismatch.inference.analysis import Analysis
-from tire_pipeline.mismatch.inference.fit import LOCKED, Fit, inverse, linearised, moved
+from tire_pipeline.mismatch.inference.linearised_set import LOCKED, Fit, inverse, linearised, moved
 from tire_pipeline.mismatch.model.candidates import derivatives
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.residual import residual

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.mismatch.inference.analysis import Analysis
-from tire_pipeline.mismatch.inference.fit import LOCKED, Fit
+from tire_pipeline.mismatch.inference.linearised_set import LOCKED, Fit
 from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray

@@ -13,7 +13,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
-from tire_pipeline.mismatch.inference.fit import LOCKED, columns_of
+from tire_pipeline.mismatch.inference.linearised_set import LOCKED, columns_of
 from tire_pipeline.mismatch.inference.priors import prior
 from tire_pipeline.mismatch.inference.sets.answer import answered
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated

@@ -8,7 +8,7 @@ from tire_pipeline.mismatch.discrepancy.noise import estimate_noise, refined
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.residual import residual, rms
 
-_STATED = "_std"
+_DEVIATION_SUFFIX = "_std"
 
 
 def noise_floors(analysis: Analysis) -> dict[str, float]:
@@ -28,7 +28,7 @@ def noise_floors(analysis: Analysis) -> dict[str, float]:
     smooth = analysis.system.fitted(rest, fit.columns if fit.labels else None)
     calm = {o: r - analysis.columns[o] @ smooth[o] for o, r in rest.items()}
     noise = analysis.noise
-    seen = {n: x for n, x in data.channels.items() if not n.endswith(_STATED)}
+    seen = {n: x for n, x in data.channels.items() if not n.endswith(_DEVIATION_SUFFIX)}
     if len(seen) < len(data.channels):
         plain = replace(data, channels=seen)
         noise = {o: refined(plain, n, calm[o]) for o, n in estimate_noise(plain, calm).items()}

@@ -19,8 +19,8 @@ from tire_pipeline.mismatch.effects.base import Parameter
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.evidence.likelihood import Projected
 from tire_pipeline.mismatch.inference.evidence.products import OfSet
-from tire_pipeline.mismatch.inference.fit import Fit
 from tire_pipeline.mismatch.inference.learnt.sizes import EXPECTED
+from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.inference.sets.screen import screened_forms
 from tire_pipeline.mismatch.model.candidates import Variant
@@ -33,7 +33,7 @@ Array = np.ndarray
 _SEEN = NormalDist().inv_cdf(0.95)
 _RULED_OUT = NormalDist().inv_cdf(0.975)
 _ROUNDS_OF_HALVING = 7
-_FURTHER = 1.2
+_SIZE_FACTOR = 1.2
 """Factor between the sizes that are tried beside an effect's rivals."""
 _MOST_FORMS = 3
 _SMALLEST_SIZE, _SIZES_TRIED, _HALVINGS = 1e-4, 97, 40
@@ -214,7 +214,7 @@ class _Recorded:
         while size <= largest(sight.parameter):
             if all(self._named(sight, sign * size, before) for sign in signs):
                 return max(size + _SEEN * error, seen)
-            size = max(_FURTHER * size, 0.5 * error)
+            size = max(_SIZE_FACTOR * size, 0.5 * error)
         return float(np.inf)
 
     def _named(self, sight: Sight, size: float, before: dict[str, Array]) -> bool:

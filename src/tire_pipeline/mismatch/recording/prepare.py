@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import OPERATING_CHANNELS, TANGENTIAL_FORCES
+from tire_pipeline.channels import INPUT_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.effects.shared import relaxation_lengths
@@ -24,7 +24,6 @@ from tire_pipeline.mismatch.recording.usable import judge, leave_out_still_slip
 from tire_pipeline.recordings.check import BRIDGED, LEAST_POINTS, LEAST_SAMPLES, LEAST_WHOLE
 
 Array = np.ndarray
-INPUTS = (*OPERATING_CHANNELS, "turn_slip")
 ASSUMED_ZERO = ("camber", "slip_ratio", "slip_angle")
 """What is taken as zero where it is not recorded."""
 AS_GIVEN = "columns in ISO W axes and SI units, as they were given"
@@ -149,7 +148,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
         question = another_tire(tire, arrays, driven) or open_axes(
             tire, arrays, findings, str(recording.attrs.get("axes_unclear", ""))
         )
-    present = {n for n in INPUTS if n in recording.columns and n in arrays}
+    present = {n for n in INPUT_CHANNELS if n in recording.columns and n in arrays}
     assumed = _assumed(recording, factors) + _zeros(arrays, rows.size)
     start = _pieces(time, rows, notes)
     arrays, time, start, rows = _binned(arrays, time, start, rows)
@@ -230,7 +229,7 @@ def _dead_forces(arrays: dict[str, Array], notes: list[str]) -> None:
 def _bridge(arrays: dict[str, Array], notes: list[str]) -> None:
     """Put straight lines over holes of up to three samples, so that the time base stays even."""
     filled = np.zeros(arrays["normal_load"].size, bool)
-    for name in (*INPUTS, *TANGENTIAL_FORCES):
+    for name in (*INPUT_CHANNELS, *TANGENTIAL_FORCES):
         if name not in arrays:
             continue
         x = arrays[name]
@@ -281,13 +280,13 @@ def _usable(arrays: Mapping[str, Array], time: Array | None, notes: list[str]) -
     ok = np.ones(n, bool)
     if time is not None:
         ok &= np.isfinite(time)
-    for name in (*INPUTS, *TANGENTIAL_FORCES):
+    for name in (*INPUT_CHANNELS, *TANGENTIAL_FORCES):
         if name in arrays:
             ok &= np.isfinite(arrays[name])
     lost = int(n - ok.sum())
     if lost:
         worst = max(
-            (*INPUTS, *TANGENTIAL_FORCES),
+            (*INPUT_CHANNELS, *TANGENTIAL_FORCES),
             key=lambda c: int((~np.isfinite(arrays[c])).sum()) if c in arrays else -1,
         )
         notes.append(

@@ -12,8 +12,8 @@ import numpy as np
 import scipy
 
 Array = np.ndarray
-_WINDOWS = ((9, 4), (15, 4), (25, 4), (35, 4), (61, 2), (121, 2), (241, 2))
-_WIDTH = 1.7
+_FILTER_WINDOWS = ((9, 4), (15, 4), (25, 4), (35, 4), (61, 2), (121, 2), (241, 2))
+_INTERVAL_WIDTH = 1.7
 _NOISE_ONLY = 1.5
 """A channel that spreads no wider than so many times its noise stands still."""
 
@@ -42,7 +42,7 @@ def denoise(x: Array, start: Array) -> Array:
     ends = np.append(firsts[1:], x.size)
     out = x.copy()
     for first, last in zip(firsts, ends, strict=True):
-        if last - first > 2 * _WINDOWS[0][0]:
+        if last - first > 2 * _FILTER_WINDOWS[0][0]:
             out[first:last] = _piece(x[first:last], sigma, rho)
     return out
 
@@ -72,12 +72,12 @@ def _piece(x: Array, sigma: float, rho: float) -> Array:
     level = np.zeros(n, int)
     values = []
     alive = np.ones(n, bool)
-    for window, order in ((1, 0), *_WINDOWS):
+    for window, order in ((1, 0), *_FILTER_WINDOWS):
         if window > n // 2:
             break
         value, spread = _polynomial(x, window, order, rho)
         values.append(value)
-        half = _WIDTH * sigma * spread
+        half = _INTERVAL_WIDTH * sigma * spread
         low = np.where(alive, np.maximum(low, value - half), low)
         high = np.where(alive, np.minimum(high, value + half), high)
         alive &= low <= high

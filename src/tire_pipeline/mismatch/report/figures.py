@@ -17,12 +17,12 @@ from tire_pipeline.mismatch.report.words import short_equation
 from tire_pipeline.pages.drawing import captioned, svg_element
 
 _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
-_FEW_POINTS = 600
+_MARKED_POINTS = 600
 _STEPS_OF_GAP = 5.0
 """Usual steps without a sample after which a curve over time is broken."""
 _LEAST_SLIP = 0.002
 """Range of slip, rad or 1, from which a map over it says something."""
-_STYLE: Any = {
+_REPORT_STYLE: Any = {
     "font.size": 9,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -36,7 +36,7 @@ _STYLE: Any = {
 def svg(figure: Any) -> Markup:
     """Return a figure as inline SVG without an XML header."""
     buffer = io.StringIO()
-    with matplotlib.rc_context(_STYLE):
+    with matplotlib.rc_context(_REPORT_STYLE):
         figure.savefig(buffer, format="svg", metadata={"Date": None})
     text = re.sub(r'width="[^"]+pt" height="[^"]+pt"', 'class="figure"', buffer.getvalue(), count=1)
     return svg_element(text)
@@ -45,7 +45,7 @@ def svg(figure: Any) -> Markup:
 def time_line(report: ReportContents, output: str, figure: FigureBase | None = None) -> FigureBase:
     """Draw recorded minus simulated force over time, before and after, effects' windows shaded."""
     s = report.series
-    with matplotlib.rc_context(_STYLE):
+    with matplotlib.rc_context(_REPORT_STYLE):
         figure = Figure(figsize=(9.0, 2.9), layout="constrained") if figure is None else figure
         axes = figure.subplots()
         x = s["time"] if s["time"] is not None else np.arange(s[f"before_{output}"].size)
@@ -62,7 +62,7 @@ def time_line(report: ReportContents, output: str, figure: FigureBase | None = N
                 )
         floor = s[f"floor_{output}"]
         axes.axhspan(-floor, floor, color="#BBBBBB", alpha=0.6, lw=0, label="noise (1 sigma)")
-        few = x.size < _FEW_POINTS
+        few = x.size < _MARKED_POINTS
         look: Any = {"lw": 0.9 if few else 0.5, "marker": "." if few else None, "rasterized": True}
         axes.plot(*_broken(x, s[f"before_{output}"]), color=_BEFORE, label="before", **look)
         if report.corrected.changes:
@@ -91,7 +91,7 @@ def operating_map(report: ReportContents, output: str, figure: FigureBase | None
     small = float(np.max(s["normal_load"])) < 100.0
     load = s["normal_load"] if small else s["normal_load"] / 1e3
     kinds = ["before"] + (["after"] if report.corrected.changes else [])
-    points = slip.size < _FEW_POINTS
+    points = slip.size < _MARKED_POINTS
     maps: list[Any] = []
     edges = (
         np.linspace(slip.min() * factor, slip.max() * factor + 1e-9, 25),
@@ -102,7 +102,7 @@ def operating_map(report: ReportContents, output: str, figure: FigureBase | None
         maps.append(values if points else _means(slip * factor, load, values, edges))
     limit = max(float(np.nanmax(np.abs(maps[0]), initial=0.0)), s[f"floor_{output}"])
     colours: Any = {"cmap": "RdBu_r", "vmin": -limit, "vmax": limit, "rasterized": True}
-    with matplotlib.rc_context(_STYLE):
+    with matplotlib.rc_context(_REPORT_STYLE):
         figure = Figure(figsize=(9.2, 2.9), layout="constrained") if figure is None else figure
         axes = np.atleast_1d(figure.subplots(1, len(kinds), sharey=True))
         for ax, kind, values in zip(axes, kinds, maps, strict=True):
@@ -137,7 +137,7 @@ def overview(report: ReportContents) -> Figure:
     mapped = np.ptp(_slip(report, output)) > _LEAST_SLIP
     captions = [_map_caption(report, output)] if mapped else []
     captions.append(_time_caption(report, output))
-    with matplotlib.rc_context(_STYLE):
+    with matplotlib.rc_context(_REPORT_STYLE):
         figure = Figure(figsize=(9.2, 3.2 * len(captions)), layout="constrained")
         parts = figure.subfigures(len(captions), 1, hspace=0.05, squeeze=False).ravel()
     time_line(report, output, parts[-1])
@@ -149,7 +149,7 @@ def overview(report: ReportContents) -> Figure:
 
 
 def _map_caption(report: ReportContents, output: str) -> str:
-    which = "each point" if _slip(report, output).size < _FEW_POINTS else "mean of each cell"
+    which = "each point" if _slip(report, output).size < _MARKED_POINTS else "mean of each cell"
     faded = "; it should fade from before to after" if report.corrected.changes else ""
     return (
         f"{output.capitalize()} over slip and load: recorded minus simulated force, {which}. Strong colour "
@@ -186,7 +186,7 @@ def unnamed_curve(report: ReportContents) -> Markup | None:
     curve = None if report.unnamed is None else report.unnamed.curve
     if not curve:
         return None
-    with matplotlib.rc_context(_STYLE):
+    with matplotlib.rc_context(_REPORT_STYLE):
         figure = Figure(figsize=(9.0, 2.9), layout="constrained")
         axes = figure.subplots()
         axes.plot(curve["x"], curve["left"], "o", ms=3.5, color=_BEFORE, label="unexplained residual")

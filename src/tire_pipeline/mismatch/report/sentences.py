@@ -28,7 +28,7 @@ anything of it."""
 
 _TRY_IT = "Next, test the corrected model on a recording that took no part before you use it."
 _RECORD_AGAIN = "Next, correct the recording at its source and explain it again."
-_UNDECIDED = (
+_SAID_IF_UNDECIDED = (
     "undecided: no cause stands out, and I can't tell a coarse fit or rig from a cause that this recording "
     "does not show"
 )
@@ -64,7 +64,7 @@ def head(
         return _agreement(fit)
     ranges = ranges or {}
     if verdict == "undecided":
-        causes, size = _UNDECIDED, _undecided(fit, remainder)
+        causes, size = _SAID_IF_UNDECIDED, _undecided(fit, remainder)
     else:
         causes = _causes(verdict, effects, remainder, ranges)
         size = _size(effects, fit) or of_equation(unnamed)

@@ -28,7 +28,7 @@ Array = np.ndarray
 EVERYTHING = np.ones(FOLDS, bool)
 _GROWN = 8
 """Terms of the screen that are multiplied by a second factor, and of those a third one."""
-_KEPT = 90
+_SUMMED_TERMS = 90
 """Terms of which all sums are kept."""
 _REFINED = 4
 _STEPS_OF_NUMBERS = (1.8, 1.35, 1.15)
@@ -87,7 +87,7 @@ def choose(columns: Columns, kept: Array = EVERYTHING, *, refine: bool = True) -
     for _ in range(2):
         grown = products(_distinct(found[-1][:40])[:_GROWN], factors)
         found.append(_screened(columns, grown, inflation, kept))
-    terms = _best_of(found, _KEPT)
+    terms = _best_of(found, _SUMMED_TERMS)
     if refine:
         terms = list(dict.fromkeys([*_refined(columns, terms, inflation, kept), *terms]))
     terms, sums = columns.products(terms)

@@ -16,7 +16,7 @@ from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues, table_
 
 Array = np.ndarray
 Outputs = Mapping[str, Array]
-_OTHERS = ((0.002, 0.0002), (0.006, 0.01), (0.013, 0.002))
+_OTHER_SIZES = ((0.002, 0.0002), (0.006, 0.01), (0.013, 0.002))
 """Sizes of the formula's misfit and of its dependence on the way, over the largest force, beside the sizes
 that the engine has learnt: a part that has no name must not have to pass for misfit."""
 
@@ -84,7 +84,7 @@ def problem_of(analysis: Analysis) -> Unexplained:
     system, known = _beside_effects(analysis)
     order = np.argsort(analysis.block, kind="stable")
     sizes = [system.scale]
-    for share, path in _OTHERS:
+    for share, path in _OTHER_SIZES:
         scale = nuisance_scale(analysis.sizes, share, path)
         sizes.append({o: np.concatenate([s, known[o]]) for o, s in scale.items()})
     table, nominal = table_of(data, fit.changes)

@@ -24,7 +24,7 @@ _ROWS_SCREENED = 5000
 """Rows from which on a screen looks at every second, every third ..."""
 _LEAST_SIZE = 1e-9
 """Root mean square over the largest force below which a term does nothing."""
-_PARTS = 400
+_KEPT_PARTS = 400
 """Values of expressions that are kept."""
 
 
@@ -99,7 +99,7 @@ class Columns:
     def part(self, text: str) -> Array | None:
         """Return the value of an expression at each sample; None where it is not finite."""
         if text not in self._parts:
-            if len(self._parts) > _PARTS:
+            if len(self._parts) > _KEPT_PARTS:
                 self._parts.clear()
             try:
                 self._parts[text] = evaluate(parse(text), self.problem.table)

@@ -18,7 +18,7 @@ from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
 from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 
 Array = np.ndarray
-_LEAST_SHARE = 0.03
+_LEAST_GONE = 0.03
 """Least share of the squared mismatch that has to go on unseen sweeps."""
 _LEVEL_OF_WILCOXON = 0.05 / 6.0
 """Of the Wilcoxon test over sweeps, of which there are six: two views, each with one term, two and three."""
@@ -74,7 +74,7 @@ class Proven:
         return bool(
             self.outputs
             and self.choices > FOLDS // 2
-            and self.share >= _LEAST_SHARE
+            and self.share >= _LEAST_GONE
             and self.p_value < _LEVEL_OF_WILCOXON
             and 2 * self.better > self.sweeps
         )

@@ -16,7 +16,7 @@ Array = np.ndarray
 SPAN = 20.0
 """degC that one of ``h`` stands for."""
 _SLIP_DIFFERENCE = 2e-3
-_LOAD_STEP = 0.01
+_LOAD_DIFFERENCE = 0.01
 MEANING = {
     "s": "tan(slip_angle)",
     "k": "slip_ratio",
@@ -140,7 +140,7 @@ def _slopes(data: Any) -> dict[str, Array]:
         up, down = (at(**{slip: data.get(slip) + sign * _SLIP_DIFFERENCE})[force] for sign in (1.0, -1.0))
         out[f"{force}_slip"] = (up - down) / (2.0 * _SLIP_DIFFERENCE)
     load = data.get("normal_load")
-    up_load, down_load = (at(normal_load=load * (1.0 + sign * _LOAD_STEP)) for sign in (1.0, -1.0))
+    up_load, down_load = (at(normal_load=load * (1.0 + sign * _LOAD_DIFFERENCE)) for sign in (1.0, -1.0))
     for force in TANGENTIAL_FORCES:
-        out[f"{force}_load"] = (up_load[force] - down_load[force]) / (2.0 * _LOAD_STEP)
+        out[f"{force}_load"] = (up_load[force] - down_load[force]) / (2.0 * _LOAD_DIFFERENCE)
     return out

@@ -12,18 +12,18 @@ from kedro.framework.project import pipelines
 
 from tire_pipeline.thesis.parameters import GridParameters
 
-_CHOSEN = {"grid": GridParameters()}
+_CHOSEN_GRID = {"grid": GridParameters()}
 
 
 def chosen_grid() -> GridParameters:
     """The grid of the run."""
-    return _CHOSEN["grid"]
+    return _CHOSEN_GRID["grid"]
 
 
 def choose_grid(parameters: dict[str, Any]) -> None:
     """Take another grid; pipelines that were built with the one before are rebuilt."""
     grid = GridParameters.model_validate(parameters)
-    if grid != _CHOSEN["grid"]:
-        _CHOSEN["grid"] = grid
+    if grid != _CHOSEN_GRID["grid"]:
+        _CHOSEN_GRID["grid"] = grid
         if pipelines._is_data_loaded:
             pipelines.configure(pipelines._pipelines_module)

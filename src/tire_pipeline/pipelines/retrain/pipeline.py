@@ -16,7 +16,7 @@ from tire_pipeline.retraining.train_and_release import (
     train_candidate,
 )
 
-_SHAPE = [
+_SHAPING_PARAMETERS = [
     "params:normalize",
     "params:represent",
     "params:bin",
@@ -59,7 +59,7 @@ def _judging() -> list[Node]:
         ),
         Node(
             train_candidate,
-            inputs=["training_tires", *_SHAPE],
+            inputs=["training_tires", *_SHAPING_PARAMETERS],
             outputs="candidate_model",
             name="train_candidate",
         ),
@@ -83,7 +83,7 @@ def _judging() -> list[Node]:
                 "retraining_comparison",
                 "ingested_updated",
                 "params:retrain",
-                *_SHAPE,
+                *_SHAPING_PARAMETERS,
                 "params:dedupe_filter",
             ],
             outputs=["released_model_updated", "retraining_outcome"],

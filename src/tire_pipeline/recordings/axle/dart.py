@@ -14,7 +14,7 @@ from tire_pipeline.recordings.axle.vehicle import Vehicle
 Array = NDArray[np.float64]
 _FRAME = 0.01  # s: the capture's own clock; the stamps are times of arrival
 _POSE = {"vicon x": "x", "vicon y": "y", "vicon yaw": "yaw"}
-_OWN = {
+_DART_CHANNELS = {
     "vel encoder": "wheel_surface_speed",
     "acc x (IMU)": "imu_ax",
     "acc y (IMU)": "imu_ay",
@@ -22,7 +22,7 @@ _OWN = {
     "throttle": "throttle",
     "steering": "steering_command",
 }
-_LONGEST_DELAY = 0.3  # s
+_LONGEST_SENSOR_DELAY = 0.3  # s
 _ENCODER_STEP = 0.0413  # m/s: the smallest difference between its values
 # A frame that lies further than this from the middle of its neighbours is a mistaken marker: at
 # 10 m/s^2 and 30 rad/s^2 a true one lies 0.5 mm and 0.0015 rad off.
@@ -104,7 +104,7 @@ def read_dart(path: str | Path) -> pd.DataFrame:
         raw = pd.read_csv(path)
     except (OSError, ValueError, UnicodeDecodeError) as error:
         raise RecordingError(f"cannot be read ({error})", where=str(path)) from error
-    lacking = [c for c in ("vicon time", "elapsed time sensors", *_POSE, *_OWN) if c not in raw]
+    lacking = [c for c in ("vicon time", "elapsed time sensors", *_POSE, *_DART_CHANNELS) if c not in raw]
     if lacking:
         raise RecordingError(
             f"no DART drive: {', '.join(lacking)} missing", where=str(path), todo="see its README"
@@ -189,9 +189,9 @@ def _add_own_channels(out: pd.DataFrame, raw: pd.DataFrame, stamp: Array, time: 
     width = 11
     rate = np.convolve(np.gradient(yaw, _FRAME), np.ones(width) / width, "same")
     own = raw["W (IMU)"].to_numpy()[new]
-    delays = np.arange(0.0, _LONGEST_DELAY, 0.01)
+    delays = np.arange(0.0, _LONGEST_SENSOR_DELAY, 0.01)
     misfit = [np.std(own - np.interp(at - d, time, rate)) for d in delays]
     delay = float(delays[int(np.argmin(misfit))])
-    for theirs, ours in _OWN.items():
+    for theirs, ours in _DART_CHANNELS.items():
         out[ours] = np.interp(time, at - delay, raw[theirs].to_numpy()[new])
     return delay

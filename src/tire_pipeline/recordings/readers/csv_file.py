@@ -19,7 +19,7 @@ from tire_pipeline.recordings.conventions.units_in_names import split_unit
 _HEAD_BYTES = (1 << 16, 1 << 20, 1 << 24)  # the next where no row of numbers is whole in the one before
 _MOST_PREAMBLE = 200
 _EMPTY = {"", "nan", "na", "n/a", "null", "none", "-nan", "inf", "-inf", "+inf"}
-_NUMBER = re.compile(r"^[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?$")
+_NUMBER_IN_CELL = re.compile(r"^[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?$")
 _COMMENTS = ("#", "%", "//", "!")
 
 
@@ -153,7 +153,7 @@ def _is_number(text: str, decimal: str) -> bool:
         if "." in text:
             return False
         text = text.replace(",", ".")
-    return bool(_NUMBER.match(text))
+    return bool(_NUMBER_IN_CELL.match(text))
 
 
 def _first_numbers(lines: list[str], delimiter: str, decimal: str) -> tuple[int, int] | None:

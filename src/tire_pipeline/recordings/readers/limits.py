@@ -11,7 +11,7 @@ from tire_pipeline.errors import RecordingError
 # A compressed file of constant channels grows a hundredfold in earnest; only what is also large
 # is refused.
 _MOST_FACTOR = 200.0
-_SMALL = float(1 << 26)
+_ALWAYS_ALLOWED = float(1 << 26)
 _MEMORY_SHARE = 0.5  # for what is read, and for the table that is made of it
 GROUP_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
 """Where the system says how much memory a container has."""
@@ -71,7 +71,7 @@ def check_expansion(path: Path, size: float) -> None:
     RecordingError
         More than 64 MiB and more than 200 times the file's size.
     """
-    allowed = max(_SMALL, _MOST_FACTOR * path.stat().st_size)
+    allowed = max(_ALWAYS_ALLOWED, _MOST_FACTOR * path.stat().st_size)
     if not size <= allowed:
         raise RecordingError(
             f"it says that it holds {size / 2**20:.0f} MiB, over {_MOST_FACTOR:.0f} times its size",

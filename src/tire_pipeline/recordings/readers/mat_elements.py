@@ -18,14 +18,14 @@ from tire_pipeline.recordings.readers.limits import check_expansion
 
 _HEADER_BYTES = 128
 _COMPRESSED, _MATRIX = 15, 14
-_SIZES = {1: 1, 2: 1, 3: 2, 4: 2, 5: 4, 6: 4, 7: 4, 9: 8, 12: 8, 13: 8, 16: 1, 17: 2, 18: 4}
-_TEXTS = (1, 16)
+_BYTES_OF_TYPE = {1: 1, 2: 1, 3: 2, 4: 2, 5: 4, 6: 4, 7: 4, 9: 8, 12: 8, 13: 8, 16: 1, 17: 2, 18: 4}
+_NAME_TYPES = (1, 16)
 _INTEGERS = (5, 6)
 _LETTERS = (1, 2, 3, 4, 16, 17, 18)
-_CELL, _STRUCT, _OBJECT, _CHAR, _SPARSE, _FUNCTION, _OPAQUE = 1, 2, 3, 4, 5, 16, 17
-_NUMBERS = range(6, 16)
+_CELL_ARRAY, _STRUCT, _OBJECT, _CHAR, _SPARSE, _FUNCTION, _OPAQUE = 1, 2, 3, 4, 5, 16, 17
+_NUMBER_ARRAYS = range(6, 16)
 _COMPLEX = 1 << 11
-_DEEPEST = 32
+_DEEPEST_ARRAYS = 32
 _MOST_DIMENSIONS = 32
 
 
@@ -97,43 +97,43 @@ class _Matrix:
 
     def check(self, depth: int = 0) -> None:
         """Flags, dimensions and name, then what the class asks for."""
-        if depth > _DEEPEST:
-            raise RecordingError(f"arrays within arrays, over {_DEEPEST} deep")
+        if depth > _DEEPEST_ARRAYS:
+            raise RecordingError(f"arrays within arrays, over {_DEEPEST_ARRAYS} deep")
         flags = self._numbers((6,), "flags")
         if len(flags) != 2:
             raise RecordingError("the flags of an array are damaged")
         kind, values = flags[0] & 0xFF, 2 if flags[0] & _COMPLEX else 1
         if kind == _OPAQUE:
             for _ in range(3):
-                self._element(_TEXTS, "name")
+                self._element(_NAME_TYPES, "name")
             self._inner(1, depth)
             return
         shape = self._numbers(_INTEGERS, "dimensions")
         if not 0 < len(shape) <= _MOST_DIMENSIONS or min(shape) < 0:
             raise RecordingError("the dimensions of an array are damaged")
-        self._element(_TEXTS, "name")
+        self._element(_NAME_TYPES, "name")
         self._content(kind, math.prod(shape), values, depth)
 
     def _content(self, kind: int, count: int, values: int, depth: int) -> None:
-        if kind in _NUMBERS:
+        if kind in _NUMBER_ARRAYS:
             for _ in range(values):
-                size, length = self._element(tuple(_SIZES), "numbers")[1:]
+                size, length = self._element(tuple(_BYTES_OF_TYPE), "numbers")[1:]
                 if length != size * count:
                     raise RecordingError(f"{length} bytes for {count} numbers of {size} bytes")
         elif kind == _CHAR:
             self._element(_LETTERS, "text")
         elif kind == _SPARSE:
             for _ in range(2 + values):
-                self._element(tuple(_SIZES), "sparse numbers")
-        elif kind == _CELL:
+                self._element(tuple(_BYTES_OF_TYPE), "sparse numbers")
+        elif kind == _CELL_ARRAY:
             self._inner(count, depth)
         elif kind in (_STRUCT, _OBJECT):
             if kind == _OBJECT:
-                self._element(_TEXTS, "class name")
+                self._element(_NAME_TYPES, "class name")
             width = self._numbers((5,), "length of the field names")
             if len(width) != 1 or width[0] < 1:
                 raise RecordingError("the field names of a struct are damaged")
-            names = self._element(_TEXTS, "field names")[2]
+            names = self._element(_NAME_TYPES, "field names")[2]
             self._inner(count * (names // width[0]), depth)
         elif kind == _FUNCTION:
             self._inner(1, depth)
@@ -161,12 +161,12 @@ class _Matrix:
             start, end = self.at + 4, self.at + 8
             if length > 4:
                 raise RecordingError(f"the {what} of an array are damaged")
-        if first not in kinds and not (length == 0 and first in _SIZES):
+        if first not in kinds and not (length == 0 and first in _BYTES_OF_TYPE):
             raise RecordingError(f"the {what} of an array are of type {first}")
         if start + length > len(self.data):
             raise RecordingError("an array is cut off")
         self.at = min(end, len(self.data))
-        return start, _SIZES[first], length
+        return start, _BYTES_OF_TYPE[first], length
 
     def _numbers(self, kinds: tuple[int, ...], what: str) -> tuple[int, ...]:
         start, size, length = self._element(kinds, what)

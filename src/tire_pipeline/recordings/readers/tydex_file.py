@@ -16,7 +16,7 @@ from tire_pipeline.recordings.conventions.canonical import RawChannel, RawRecord
 from tire_pipeline.recordings.conventions.units import find_unit
 
 # Columns of the parameter sections: key 1-10, comment 11-40, unit 41-50, values of ten each.
-_KEY, _COMMENT, _UNIT, _WIDTH = 10, 40, 50, 10
+_KEY_END, _COMMENT_END, _UNIT_END = 10, 40, 50
 
 
 @dataclass(frozen=True)
@@ -149,13 +149,13 @@ def _sections(path: Path) -> tuple[dict[str, list[tuple[int, str]]], list[str], 
 def _parts(line: str) -> tuple[str, str, str, list[str]]:
     """Key, comment, unit and values by columns; by wide blanks where columns are not kept."""
     line = line.expandtabs(8)
-    key, comment = line[:_KEY].strip(), line[_KEY:_COMMENT].strip()
-    unit, rest = line[_COMMENT:_UNIT].strip(), line[_UNIT:]
-    kept = " " not in key and (not line[_KEY:].strip() or len(line) > _COMMENT)
+    key, comment = line[:_KEY_END].strip(), line[_KEY_END:_COMMENT_END].strip()
+    unit, rest = line[_COMMENT_END:_UNIT_END].strip(), line[_UNIT_END:]
+    kept = " " not in key and (not line[_KEY_END:].strip() or len(line) > _COMMENT_END)
     # Where a word runs over a column border the columns were not kept.
-    for border in (_COMMENT, _UNIT):
+    for border in (_COMMENT_END, _UNIT_END):
         if len(line) > border and line[border - 1] != " " and line[border] != " ":
-            kept = kept and border == _COMMENT and find_unit(unit) is not None
+            kept = kept and border == _COMMENT_END and find_unit(unit) is not None
     if kept:
         return key, comment, unit, rest.split()
     pieces = re.split(r"\s{2,}", line.strip())

@@ -20,7 +20,7 @@ FORCE_FIGURES = {
     "figure_5_12": "key_attributes",
     "figure_5_13": "power_series",
 }
-_LOAD = 6000.0
+_DRAWN_LOAD = 6000.0
 
 
 def shown(frame: pd.DataFrame, representation: str) -> pd.DataFrame:
@@ -98,7 +98,7 @@ def force_figure(results: Results, representation: str) -> MplFigure | None:
     if "force_curves" not in results.frames:
         return None
     frame = shown(results["force_curves"], representation)
-    frame = frame[frame["normal_load"] == _LOAD]
+    frame = frame[frame["normal_load"] == _DRAWN_LOAD]
     if frame.empty:
         return None
     tires, suppliers = sorted(set(frame["tire"])), sorted(set(frame["category"]))

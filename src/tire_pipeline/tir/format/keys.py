@@ -106,12 +106,12 @@ DIMENSION: dict[str, str] = {key: name for name, keys in _DIMENSIONS.items() for
 TABLE_SECTIONS = frozenset(["SHAPE", "DEFLECTION_LOAD_CURVE", "BOTTOMING_CURVE"])
 """Sections that hold rows of numbers."""
 
-_FORCE_COEFFICIENT = re.compile(r"[PQRS][A-Z]+\d+").fullmatch
+_NAME_OF_FORCE_COEFFICIENT = re.compile(r"[PQRS][A-Z]+\d+").fullmatch
 
 
 def names_force_coefficient(key: str) -> bool:
     """Whether a key looks like a p, q, r or s coefficient: letters and a number."""
-    return _FORCE_COEFFICIENT(key) is not None
+    return _NAME_OF_FORCE_COEFFICIENT(key) is not None
 
 
 def is_in_equations(key: str) -> bool:

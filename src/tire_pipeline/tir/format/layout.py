@@ -324,7 +324,7 @@ def _parse() -> dict[str, dict[str, str]]:
 LAYOUT = _parse()
 """Section -> key -> description, in the order in which they are written."""
 
-_HOME = {key: section for section, keys in LAYOUT.items() for key in keys if section != "INERTIA"}
+_SECTION_OF_KEY = {key: section for section, keys in LAYOUT.items() for key in keys if section != "INERTIA"}
 _BY_PATTERN = (
     (r"L[A-Z]+\d?", "SCALING_COEFFICIENTS"),
     (r"[PQ][A-Z]{2}P\d+", "TURNSLIP_COEFFICIENTS"),
@@ -344,8 +344,8 @@ def home_section(coefficient: str) -> str:
     >>> home_section("PCY1"), home_section("FNOMIN"), home_section("PDY9")
     ('LATERAL_COEFFICIENTS', 'VERTICAL', 'LATERAL_COEFFICIENTS')
     """
-    if coefficient in _HOME:
-        return _HOME[coefficient]
+    if coefficient in _SECTION_OF_KEY:
+        return _SECTION_OF_KEY[coefficient]
     for pattern, section in _BY_PATTERN:
         if re.fullmatch(pattern, coefficient):
             return section

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Mapping
 from tire_pipeline.errors import TirValueError
 from tire_pipeline.unit_definitions import DEGREE, FOOT, GRAVITY, INCH, MILE, POUND, POUND_FORCE, PSI
 
-_NAMES: dict[str, dict[float, str]] = {
+_NAMES_OF_UNITS: dict[str, dict[float, str]] = {
     "LENGTH": {
         1.0: "M METER METERS METRE METRES",
         1e-3: "MM MILLIMETER MILLIMETERS MILLIMETRE MILLIMETRES",
@@ -72,7 +72,7 @@ _NAMES: dict[str, dict[float, str]] = {
 }
 FACTORS: dict[str, dict[str, float]] = {
     quantity: {name: factor for factor, names in table.items() for name in names.split()}
-    for quantity, table in _NAMES.items()
+    for quantity, table in _NAMES_OF_UNITS.items()
 }
 """Quantity -> unit name in capitals -> SI units in one of it."""
 
@@ -102,7 +102,7 @@ def unit_factor(quantity: str, name: str, *, path: str | None = None, line: int 
 
 
 def _first_names(quantity: str) -> Iterable[str]:
-    return (names.split()[0] for names in _NAMES[quantity].values())
+    return (names.split()[0] for names in _NAMES_OF_UNITS[quantity].values())
 
 
 def dimension_factors(units: Mapping[str, float]) -> dict[str, float]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import re
 
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?", re.ASCII).fullmatch
-_LONGEST = 100
+_TIR_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?", re.ASCII).fullmatch
+_LONGEST_NUMBER = 100
 
 
 def parse_number(text: str) -> float | None:
@@ -22,7 +22,7 @@ def parse_number(text: str) -> float | None:
     >>> parse_number("1,5") is None
     True
     """
-    if len(text) > _LONGEST or _NUMBER(text) is None:
+    if len(text) > _LONGEST_NUMBER or _TIR_NUMBER(text) is None:
         return None
     try:
         return float(text)

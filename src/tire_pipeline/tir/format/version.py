@@ -72,7 +72,7 @@ _ONLY_PAC2002 = frozenset(["PTX4", "PTY3", "QPX1", "QPZ1", "QPZ2", "LIP", "LKG"]
 _ONLY_62 = frozenset(
     ["Q_CAM1", "Q_CAM2", "Q_CAM3", "Q_FYS1", "Q_FYS2", "Q_FYS3", "Q_FCY2", "ENV_C1", "ENV_C2"]
 )
-_ONLY_6 = frozenset(
+_TELLS_VERSION_6 = frozenset(
     [
         "PKY4",
         "PKY5",
@@ -216,7 +216,7 @@ def _from_keys(keys: Collection[str]) -> str | None:
         return "PAC2002"
     if not _ONLY_62.isdisjoint(keys):
         return "6.2"
-    return None if _ONLY_6.isdisjoint(keys) else "6.1"
+    return None if _TELLS_VERSION_6.isdisjoint(keys) else "6.1"
 
 
 def _family(version: str) -> int:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import datetime as dt
 import re
 
-_SECTION = re.compile(r"^[ \t]*\[([^\[\]\r\n]*)\]", re.MULTILINE)
+_HEADER_SECTION = re.compile(r"^[ \t]*\[([^\[\]\r\n]*)\]", re.MULTILINE)
 _MOST_CHARACTERS = 20_000
 
 _OTHER_EVENT = re.compile(
@@ -92,7 +92,7 @@ def measurement_date(text: str) -> dt.date | None:
 
 def _header(text: str) -> str:
     start = text[:_MOST_CHARACTERS]
-    sections = [match for _, match in zip(range(2), _SECTION.finditer(start), strict=False)]
+    sections = [match for _, match in zip(range(2), _HEADER_SECTION.finditer(start), strict=False)]
     if sections and "HEADER" not in sections[0][1].upper():
         return start[: sections[0].start()]
     return start[: sections[1].start()] if len(sections) == 2 else start

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from tire_pipeline.magic_formula.parameters.coefficients import RANGE_KEYS
+
 _PLAUSIBLE = {
     "UNLOADED_RADIUS": (0.01, 3.0, "m"),
     "FNOMIN": (10.0, 1e6, "N"),
@@ -13,20 +15,13 @@ _PLAUSIBLE = {
     "LONGVL": (0.5, 150.0, "m/s"),
     "FZMAX": (20.0, math.inf, "N"),
 }
-_METADATA = {
+_PLAUSIBLE_METADATA = {
     "DIMENSION.WIDTH": (0.005, 2.0, "m"),
     "DIMENSION.RIM_RADIUS": (0.005, 2.0, "m"),
     "DIMENSION.RIM_WIDTH": (0.005, 2.0, "m"),
     "DIMENSION.ASPECT_RATIO": (0.05, 1.5, ""),
     "INERTIA.MASS": (0.01, 3000.0, "kg"),
 }
-_RANGES = (
-    ("ALPMIN", "ALPMAX"),
-    ("KPUMIN", "KPUMAX"),
-    ("CAMMIN", "CAMMAX"),
-    ("FZMIN", "FZMAX"),
-    ("PRESMIN", "PRESMAX"),
-)
 
 
 def odd_values(
@@ -42,7 +37,7 @@ def odd_values(
         Dimension -> SI units in one unit of the file.
     """
     found = []
-    for table, values in ((_PLAUSIBLE, coefficients), (_METADATA, metadata)):
+    for table, values in ((_PLAUSIBLE, coefficients), (_PLAUSIBLE_METADATA, metadata)):
         for key, (low, high, unit) in table.items():
             value = values.get(key)
             if isinstance(value, float) and not low <= value <= high:
@@ -55,7 +50,7 @@ def odd_values(
             found.append(f"{key} is {value:g} rad: is it in degrees?")
         elif factors["angle"] != 1.0 and 0 < value < math.radians(1.6):
             found.append(f"{key} is {math.degrees(value):g} deg by [UNITS]: is it in radians?")
-    for low_key, high_key in _RANGES:
+    for low_key, high_key in RANGE_KEYS.values():
         if coefficients.get(low_key, -math.inf) > coefficients.get(high_key, math.inf):
             found.append(f"{low_key} is larger than {high_key}")
     rim, radius = metadata.get("DIMENSION.RIM_RADIUS"), coefficients.get("UNLOADED_RADIUS")

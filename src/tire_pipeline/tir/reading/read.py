@@ -29,7 +29,7 @@ from tire_pipeline.tir.text.document import Entry, Scan, TirFile, parse_tir
 _MAX_WARNINGS = 100
 _HEADER_IN_COMMENT = re.compile(r"[$!][$! \t]*\[[^\[\]]+\]").match
 _DIVISORS = ("PCX1", "PCY1", "PKY2")
-_FORCES = {"longitudinal": ("PCX1", "PDX1", "PKX1"), "lateral": ("PCY1", "PDY1", "PKY1", "PKY2")}
+_KEYS_OF_FORCE = {"longitudinal": ("PCX1", "PDX1", "PKX1"), "lateral": ("PCY1", "PDY1", "PKY1", "PKY2")}
 
 
 @dataclass(slots=True)
@@ -247,7 +247,7 @@ def _replaces(entry: Entry, present: tuple[Entry, float], value: float, name: st
 def _drop_what_is_not_modelled(reading: Reading) -> None:
     """Take zeros for no value where a whole force is zero: fits of one direction only leave the other one
     so."""
-    for force, keys in _FORCES.items():
+    for force, keys in _KEYS_OF_FORCE.items():
         values = [reading.coefficients.get(key) for key in keys]
         divided_by = [reading.coefficients.get(key) for key in keys if key in _DIVISORS]
         if any(values) or 0.0 not in divided_by:

@@ -29,7 +29,7 @@ measured: its fits go astray more often, and without such tires nothing tells by
 tires the bands hold 90% in the mean of the fleets."""
 
 _REST_SHARE = 1.0  # variance of what the scores leave out, over that of the same between tires
-_LEFT_OUT = 4.0  # CurveSpace.limit is in these deviations
+_LIMIT_DEVIATIONS = 4.0  # CurveSpace.limit is in these deviations
 
 
 def curve_bands(
@@ -116,7 +116,7 @@ def _linear_deviation(space: CurveSpace, variance: np.ndarray, weights: dict[str
         unit = UNIT[PARTS[name].group]
         along = weight @ space.back[name].T * unit
         total = total + (along**2 @ variance[:, space.slices[name], None])[..., 0]
-        left = (space.limit[name] / _LEFT_OUT * unit) ** 2 * _REST_SHARE
+        left = (space.limit[name] / _LIMIT_DEVIATIONS * unit) ** 2 * _REST_SHARE
         total = total + (weight**2) @ left
     return np.sqrt(total)
 

@@ -17,12 +17,12 @@ from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.result import Band, TranslationResult
 
 DRAWN_OUTPUTS = tuple(SLIP_OF_FORCE)
-_LATERAL = ("PCY1", "PDY1", "PKY1", "PKY2")
-_STATED = {
-    "fy": _LATERAL,
+_LATERAL_KEYS = ("PCY1", "PDY1", "PKY1", "PKY2")
+_KEYS_OF_CURVE = {
+    "fy": _LATERAL_KEYS,
     "fx": ("PCX1", "PDX1", "PKX1"),
-    "mz": (*_LATERAL, "QBZ1", "QDZ1"),
-    "stiffness": _LATERAL,
+    "mz": (*_LATERAL_KEYS, "QBZ1", "QDZ1"),
+    "stiffness": _LATERAL_KEYS,
 }
 """Without one of these a curve would be that of a value which stands in for what the file does not state."""
 
@@ -80,7 +80,7 @@ def _own_curves(model: TireModel) -> dict[str, np.ndarray]:
         "stiffness": {"normal_load": LOADS},
     }
     for name, points in asked.items():
-        if not model.coefficients.keys() >= set(_STATED[name]):
+        if not model.coefficients.keys() >= set(_KEYS_OF_CURVE[name]):
             continue
         output = "cornering_stiffness" if name == "stiffness" else name
         try:

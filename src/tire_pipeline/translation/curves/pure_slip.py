@@ -71,14 +71,14 @@ def columns(table: pd.DataFrame, names: Sequence[str] = ()) -> dict[str, np.ndar
     return found
 
 
-_NEUTRAL = pack_mapping({}, missing_defaults({}, "5.2"))
+_NEUTRAL_ROW = pack_mapping({}, missing_defaults({}, "5.2"))
 _SCALES = ("LFZO LCX LMUX LEX LKX LHX LVX LGAX LCY LMUY LEY LKY LHY LVY LGAY LTR LRES LGAZ").split()
 
 
 def _output(name: str, p: Columns, points: Points, slip: str = "slip_angle") -> np.ndarray:
     """One output of :func:`forces_batch`, shape (n, m), where the other slip is zero."""
     rows = max(len(np.atleast_2d(x)) for x in (*p.values(), points.slip, points.normal_load))
-    matrix = np.tile(_NEUTRAL, (rows, 1))
+    matrix = np.tile(_NEUTRAL_ROW, (rows, 1))
     for coefficient, column in p.items():
         matrix[:, INDEX[coefficient]] = column[:, 0]
     at: dict[str, Any] = {slip: points.slip, "normal_load": points.normal_load, "camber": points.camber}

@@ -16,7 +16,7 @@ from tire_pipeline.translation.decode.physics import curvature_excess
 _SOLVER_STEPS = Steps(
     most=6, tolerance=0.01, damping=1e-3, easier=10.0, harder=50.0, largest=1e4, relative=False, hold=False
 )
-_DIFFERENCE = 1e-4  # of a coefficient's spread, for derivatives
+_STEP_IN_SPREADS = 1e-4  # of a coefficient's spread, for derivatives
 _PULL = 0.003  # weight of "stay at the source's coefficients" against one feature, both in their spreads
 _CURVATURE = (30.0, 300.0, 3000.0)  # weight of a curvature factor above 1; the next where it still is
 _EXCESS = 3e-4  # of the curvature factor above 1 that may remain
@@ -137,8 +137,8 @@ class _Solver:
         jacobian = np.empty((len(rows), self.spread.size, gap.shape[1]))
         for k, spread in enumerate(self.spread):
             moved = values.copy()
-            moved[:, k] += _DIFFERENCE * spread
-            jacobian[:, k] = (self._residual(moved, rows) - gap) / _DIFFERENCE
+            moved[:, k] += _STEP_IN_SPREADS * spread
+            jacobian[:, k] = (self._residual(moved, rows) - gap) / _STEP_IN_SPREADS
         return gap, jacobian
 
     def _descend(self, rows: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

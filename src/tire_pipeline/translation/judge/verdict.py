@@ -36,9 +36,9 @@ VERSIONS = ("5.0", "5.1", "5.2", "PAC2002")
 NEEDED_TO_TRANSLATE = ("FNOMIN", "UNLOADED_RADIUS", "PCY1", "PDY1", "PKY1", "PKY2", "PKX1")
 """What a file must state to be translated."""
 
-_OWN = "it is the target's own"
+_OF_TARGET = "it is the target's own"
 _NO_TRAINING_FILE = "no training file is of its supplier: give training files of it"
-_VERDICTS = {_OWN: UNBIASED, _NO_TRAINING_FILE: UNKNOWN}
+_VERDICT_OF_REASON = {_OF_TARGET: UNBIASED, _NO_TRAINING_FILE: UNKNOWN}
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ class VerdictRules:
             reason[other] = (
                 "its Magic Formula version is not 5.x: fit 5.2 to its forces first (fit_magic_formula)"
             )
-        reason[category == self.target] = _OWN
+        reason[category == self.target] = _OF_TARGET
         reason[~np.isin(category, model.categories)] = _NO_TRAINING_FILE
         usable = np.flatnonzero(reason == "")
         if usable.size:
@@ -141,7 +141,7 @@ class VerdictRules:
                 "source": source["category"].astype(str),
                 "source_probability": probability,
                 "target": self.target,
-                "verdict": np.array([_VERDICTS.get(why, REFUSED) for why in refused], dtype=object),
+                "verdict": np.array([_VERDICT_OF_REASON.get(why, REFUSED) for why in refused], dtype=object),
                 "reason": refused,
                 "distance": np.nan,
                 "expected_rms_ratio": np.nan,

@@ -6,7 +6,7 @@ import numpy as np
 
 from tire_pipeline.translation.curves.features import CAMBER_ANGLE, GROUPS, LOADS
 
-_LEAST = 0.005  # a change of half a percent is worth a word
+_LEAST_CHANGE = 0.005  # a change of half a percent is worth a word
 _CURVES = {"cornering stiffness": ("lateral", 0), "lateral grip": ("lateral", 1)}
 _CURVES.update({"slip stiffness": ("longitudinal", 0), "longitudinal grip": ("longitudinal", 1)})
 _WHY = {
@@ -51,17 +51,17 @@ def describe_bias(
         sentences = [
             s for name, move in moves.items() if (s := _sentence(name, move[i], str(organisation), target))
         ]
-        if abs(even[i]) > _LEAST:
+        if abs(even[i]) > _LEAST_CHANGE:
             more = "more" if even[i] > 0 else "less"
             sentences.append(
                 f"{target} keeps {abs(even[i]):.1%} of the grip {more} residual side force "
                 f"({_WHY['residual side force']})"
             )
-        if abs(aligning[i]) > 4 * _LEAST:
+        if abs(aligning[i]) > 4 * _LEAST_CHANGE:
             sentences.append(
                 f"{target} measures {_percent(aligning[i])} aligning torque ({_WHY['aligning torque']})"
             )
-        if abs(camber[i]) > 4 * _LEAST:
+        if abs(camber[i]) > 4 * _LEAST_CHANGE:
             sentences.append(
                 f"{target} measures {_percent(camber[i])} camber thrust ({_WHY['camber thrust']})"
             )
@@ -75,7 +75,7 @@ def _percent(change: float) -> str:
 
 def _sentence(name: str, move: np.ndarray, source: str, target: str) -> str:
     size = float(move.mean())
-    if np.abs(move).max() < _LEAST:
+    if np.abs(move).max() < _LEAST_CHANGE:
         return ""
     place = ""
     if move[-1] - move[0] > max(0.01, abs(size) / 3):

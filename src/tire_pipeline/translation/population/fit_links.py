@@ -22,11 +22,11 @@ FEWEST = 20
 """Fewer rows than this tell no correlation."""
 
 _LARGEST_DEVIATION = 3.0  # of a deviation, in standard deviations
-_LEAST_SPREAD = 1e-9
+_NO_SPREAD = 1e-9
 """A score that differs by less, in standard deviations, has no correlation with others."""
 _LEAST_OWN_PART = 0.05  # of a score's variance is the tires' own at least
-_LARGEST = 0.95  # correlation of what is the tires' own
-_FLOOR = 1e-2  # of an eigenvalue of a correlation
+_LARGEST_CORRELATION = 0.95  # correlation of what is the tires' own
+_LEAST_EIGENVALUE = 1e-2  # of an eigenvalue of a correlation
 
 
 @dataclass(frozen=True)
@@ -126,8 +126,8 @@ def find_links(found: Deviations, blocks: list[np.ndarray]) -> FitLinks:
 def _varies(found: Deviations, block: np.ndarray) -> np.ndarray:
     """Whether each score of a block differs at all: files without noise repeat each other exactly."""
     rows = [r[:, block] for r in (found.repeats, found.shared) if len(r) >= FEWEST]
-    moved = [np.ptp(r, axis=0) > _LEAST_SPREAD for r in rows]
-    return np.all([found.own[block] + found.error[block] > _LEAST_SPREAD**2, *moved], axis=0)
+    moved = [np.ptp(r, axis=0) > _NO_SPREAD for r in rows]
+    return np.all([found.own[block] + found.error[block] > _NO_SPREAD**2, *moved], axis=0)
 
 
 def _correlation(rows: np.ndarray) -> np.ndarray:
@@ -149,10 +149,10 @@ def _own_correlation(found: Deviations, block: np.ndarray, error: np.ndarray) ->
     whole = LedoitWolf().fit(bounded).covariance_ * np.outer(spread, spread)
     rest = whole - error * np.sqrt(np.outer(noise, noise))
     size = np.sqrt(np.maximum(np.diag(rest), _LEAST_OWN_PART * np.diag(whole)))
-    correlation = np.clip(rest / np.outer(size, size), -_LARGEST, _LARGEST)
+    correlation = np.clip(rest / np.outer(size, size), -_LARGEST_CORRELATION, _LARGEST_CORRELATION)
     np.fill_diagonal(correlation, 1.0)
     values, axes = np.linalg.eigh(correlation)
-    return _unit((axes * np.maximum(values, _FLOOR)) @ axes.T)
+    return _unit((axes * np.maximum(values, _LEAST_EIGENVALUE)) @ axes.T)
 
 
 def _unit(covariance: np.ndarray) -> np.ndarray:

@@ -56,7 +56,7 @@ _OTHER_WIDTH = 0.2
 
 _POOLED_VARIANCES = ("category", "category_metadata", "category_kind", "category_class")
 _POOLED_WIDTH = 1.0
-_WIDTH = 3.0
+_PRIOR_WIDTH = 3.0
 
 CLASS_PARTS = {
     "cornering stiffness": 0,
@@ -309,7 +309,7 @@ def _fit_score(
         cells.scores[:, k] / scale[k],
         noise=noise,
         guess=guess,
-        width={name: _POOLED_WIDTH if name in pooled else _WIDTH for name in guess},
+        width={name: _POOLED_WIDTH if name in pooled else _PRIOR_WIDTH for name in guess},
         tire_category=None if estimated else alone,
     )
 

@@ -19,7 +19,7 @@ from tire_pipeline.translation.population.metadata import Metadata
 
 _USUAL_SHARE = 0.6  # of repeats, from which the noise is found
 _NOMINAL = 0.01  # of the logarithm of test over nominal pressure
-_SEVERAL = 4  # files of a cell tell its noise
+_FEWEST_REPEATS = 4  # files of a cell tell its noise
 _NOISE_SHARE = 0.05  # of the spread between tires, where no tire has three files in one category
 
 
@@ -84,7 +84,7 @@ def fit_curve_space(table: pd.DataFrame) -> tuple[CurveSpace, Cells]:
         noise.append(spread)
     mean, onto, back, limit = ({name: found[k] for name, found in parts.items()} for k in range(4))
     files = np.bincount(cell)
-    repeated = (np.abs(over) < _NOMINAL) & (files[cell] >= _SEVERAL)
+    repeated = (np.abs(over) < _NOMINAL) & (files[cell] >= _FEWEST_REPEATS)
     repeats = np.concatenate(apart, axis=1)[repeated]
     cells = Cells(row, np.concatenate(scores, axis=1), files.astype(float), cell, repeats)
     return CurveSpace(mean, onto, back, limit, np.concatenate(noise)), cells
@@ -183,7 +183,7 @@ def _noise_covariance(apart: np.ndarray, cell: np.ndarray) -> np.ndarray | None:
     from sklearn.covariance import MinCovDet
 
     count = np.bincount(cell)
-    several = count[cell] >= _SEVERAL
+    several = count[cell] >= _FEWEST_REPEATS
     if several.sum() < 10 * apart.shape[1]:
         return None
     lost = 1.0 - 1.0 / count[cell[several]].mean()

@@ -9,7 +9,7 @@ import numpy as np
 
 from tire_pipeline.files.state_files import layers_from_state, layers_to_state
 
-_LAYERS = ("mlp_extractor.policy_net.0", "mlp_extractor.policy_net.2", "action_net")
+_POLICY_LAYERS = ("mlp_extractor.policy_net.0", "mlp_extractor.policy_net.2", "action_net")
 
 
 class GreedyPolicy:
@@ -59,7 +59,7 @@ class GreedyPolicy:
         weights = {name: value.numpy() for name, value in model.policy.state_dict().items()}
         layers = [
             (weights[f"{name}.weight"].astype(float), weights[f"{name}.bias"].astype(float))
-            for name in _LAYERS
+            for name in _POLICY_LAYERS
         ]
         return cls(layers, n_bins)
 

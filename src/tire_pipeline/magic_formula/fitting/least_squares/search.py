@@ -12,15 +12,15 @@ from tire_pipeline.magic_formula.fitting.setup import typical
 
 SLACK = 0.045
 """A fit may leave this much more than the least, where a minimum of its own is more like a tire."""
-_DRAWN = 0.02
+_ADDED_BY_PULL = 0.02
 """A pull may add this much to a minimum."""
 _ROBUST_WIDTH = 2.0
 """Residuals beyond this many robust standard deviations count less and less."""
-_ROUNDS = ((240, 60, 1e-5), (1500, 60, 1e-6), (10**9, 30, 1e-7))
+_SEARCH_ROUNDS = ((240, 60, 1e-5), (1500, 60, 1e-6), (10**9, 30, 1e-7))
 """Of a search: points at most, steps, tolerance."""
 _GO_ON = 3
 """Minima that go on to more points."""
-_SAME = 0.003
+_EQUAL = 0.003
 """Share of the misfit within which two searches have found the same."""
 _OFTEN = 4
 """Times that the least has to come out for no more starts to be tried."""
@@ -29,7 +29,7 @@ _PULLS = (
     *((share, share) for share in (1.0, 0.3, 0.1, 0.03, 0.01)),
 )
 """Strengths of the pull, of what the ranges cannot tell and of the rest, from the strongest."""
-_FLOOR = 1e-6
+_LEAST_PULL = 1e-6
 """Strength of the pull that keeps a search well posed, over the largest force."""
 
 
@@ -65,9 +65,9 @@ def least(
     -------
     ndarray
     """
-    floor = _FLOOR * float(np.abs(problem.measured).max())
+    floor = _LEAST_PULL * float(np.abs(problem.measured).max())
     found: list[np.ndarray] = list(starts)
-    for number, (points, steps, tolerance) in enumerate(_ROUNDS):
+    for number, (points, steps, tolerance) in enumerate(_SEARCH_ROUNDS):
         part = problem.thinned(max(points, 10 * len(problem.names))).drawn(floor)
         ends: list[np.ndarray] = []
         left: list[float] = []
@@ -78,7 +78,7 @@ def least(
                 break
         kept: list[int] = []
         for i in np.argsort(left):
-            if all(left[i] > (1.0 + _SAME) * left[j] for j in kept):
+            if all(left[i] > (1.0 + _EQUAL) * left[j] for j in kept):
                 kept.append(int(i))
         found = [ends[i] for i in kept[: max(_GO_ON - number, 1)]]
     return min([*found, *starts], key=problem.left)
@@ -86,7 +86,7 @@ def least(
 
 def _often(left: Sequence[float]) -> bool:
     """Return whether the least of the misfits so far has come out often enough."""
-    return bool(np.sum(np.asarray(left) <= (1.0 + _SAME) * min(left)) >= _OFTEN and np.isfinite(min(left)))
+    return bool(np.sum(np.asarray(left) <= (1.0 + _EQUAL) * min(left)) >= _OFTEN and np.isfinite(min(left)))
 
 
 def most_typical(
@@ -128,13 +128,13 @@ def most_typical(
         one = spread * np.sqrt(rows_of_one(part.residuals(best)))
         return minimum(part.drawn(one * pull), bounds, begin, loss=loss, width=width, tolerance=tolerance)
 
-    thin = problem.thinned(_ROUNDS[1][0])
+    thin = problem.thinned(_SEARCH_ROUNDS[1][0])
     eased = [problem.pull.centre]
     for pull in pulls:
         eased.append(solved(thin, pull, eased[-1], 1e-5))
     found = [best]
     for own in (best, solved(problem, pulls[-1], eased[-1], 1e-7)):
-        limit = min(most, (1.0 + _DRAWN) * problem.misfit(own))
+        limit = min(most, (1.0 + _ADDED_BY_PULL) * problem.misfit(own))
         rough = limit * thin.misfit(own) / max(problem.misfit(own), 1e-300)
         for pull in pulls:
             values = solved(thin, pull, own, 1e-5)
@@ -203,7 +203,7 @@ def judged(problem: Problem, bounds: Bounds, values: np.ndarray, loss: str) -> S
     return StageFit(
         values,
         shares * problem.pull.spread,
-        [n for n, share in zip(problem.names, shares, strict=True) if share > _OPEN],
+        [n for n, share in zip(problem.names, shares, strict=True) if share > _UNDETERMINED_SHARE],
         [n for n, is_bound in zip(problem.names, bound, strict=True) if is_bound],
         problem.misfit(values),
     )
@@ -221,5 +221,5 @@ def part_of(whole: StageFit, names: Sequence[str], some: Sequence[str]) -> Stage
     )
 
 
-_OPEN = float(np.sqrt(0.5))
+_UNDETERMINED_SHARE = float(np.sqrt(0.5))
 """Standard error over the spread among tires, from which the spread tells more than the data."""

@@ -17,7 +17,7 @@ from tire_pipeline.magic_formula.parameters.coefficients import INDEX
 Bounds = tuple[np.ndarray, np.ndarray]
 _STIFFNESS = {"fy": ("PKY1", "cornering_stiffness"), "fx": ("PKX1", "slip_stiffness")}
 """Output -> the level of its slip stiffness, and the output that is this stiffness."""
-_FEW = 100
+_SIGN_POINTS = 100
 """Points at which the sign of a slip stiffness is looked at."""
 _WITHIN = 0.999
 """How near to its bounds a coefficient may start, over half of their range: on them it would not move."""
@@ -67,7 +67,7 @@ class Problem:
         level, stiffness = _STIFFNESS.get(self.output, ("", ""))
         if level not in self.names:
             return False
-        step = -(-self.measured.size // _FEW)
+        step = -(-self.measured.size // _SIGN_POINTS)
         rows = [x[None, ::step] for x in self.points]
         found = engine.run(
             self.filled(values)[None, :], self.family, rows, engine.NO_SIGNS, (stiffness,), 0.0

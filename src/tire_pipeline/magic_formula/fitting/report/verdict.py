@@ -19,8 +19,8 @@ _MOST_FRICTION = 6.0
 """Largest force over load; racing tires at small loads reach 3, sensors near no load a little more."""
 _FOLLOWS = 0.3
 """Share of the force over load that the slip has to explain."""
-_BINS = 20
-_SMALL = 0.4
+_SLIP_BINS = 20
+_SMALL_SLIPS = 0.4
 """Share of the largest slips below which the slope of the force is looked at."""
 _FEWEST_IN_GROUP = 10
 
@@ -132,7 +132,7 @@ def _reason(
 
 def _slopes(slip: np.ndarray, force: np.ndarray, load: np.ndarray, camber: np.ndarray) -> np.ndarray:
     """Return the slope of the force over the smaller slips at each load and camber."""
-    reach = _SMALL * float(np.quantile(np.abs(slip), 0.98))
+    reach = _SMALL_SLIPS * float(np.quantile(np.abs(slip), 0.98))
     small = np.abs(slip) <= reach
     group = 1000.0 * np.round(load / (0.25 * np.median(load))) + np.round(np.degrees(camber))
     found = []
@@ -148,7 +148,7 @@ def _slopes(slip: np.ndarray, force: np.ndarray, load: np.ndarray, camber: np.nd
 
 def _explained(slip: np.ndarray, normalised: np.ndarray) -> float:
     """Return the share of the variance that lies between bins of the slip."""
-    edges = np.unique(np.quantile(slip, np.linspace(0.0, 1.0, _BINS + 1)))
+    edges = np.unique(np.quantile(slip, np.linspace(0.0, 1.0, _SLIP_BINS + 1)))
     total = float(np.var(normalised))
     if edges.size < 3 or total == 0.0:
         return 0.0

@@ -20,7 +20,7 @@ from tire_pipeline.magic_formula.fitting.setup.stage_definitions import (
 MIN_LOAD_SPREAD = 0.15
 """Spread of loads, over the nominal one, from which they count as different: a flat belt that holds one load
 lets it fluctuate by 0.05 to 0.11."""
-_LEVEL = 0.2
+_STEP_OF_LEVELS = 0.2
 """Step of load, over the nominal one, from one level to the next."""
 MIN_CAMBER = np.deg2rad(0.4)
 MIN_PRESSURE_SPREAD = 0.03
@@ -96,7 +96,7 @@ def _spread(x: np.ndarray) -> float:
 
 
 def _levels(load: np.ndarray, nominal_load: float) -> int:
-    return len(np.unique(np.round(load / (_LEVEL * nominal_load))))
+    return len(np.unique(np.round(load / (_STEP_OF_LEVELS * nominal_load))))
 
 
 def _one_sided(slip: np.ndarray) -> bool:

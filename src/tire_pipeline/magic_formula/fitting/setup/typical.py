@@ -137,7 +137,7 @@ SPREAD: dict[str, float] = {
 of cars and trucks, or their standard deviation, within a factor of two (`benchmarks/few_points.py` prints
 both). Of the others, no file has a value but 0."""
 
-_OTHERS = 0.05
+_OTHER_SPREADS = 0.05
 """The spread of a coefficient that no file has, over the range of its bounds."""
 
 
@@ -185,7 +185,7 @@ def pull(names: Sequence[str], typical: Mapping[str, float], bounds: tuple[np.nd
     low, high = bounds
     centre = np.array([typical[name] for name in names])
     spread = np.array(
-        [SPREAD.get(n, _OTHERS * (up - down)) for n, up, down in zip(names, high, low, strict=True)]
+        [SPREAD.get(n, _OTHER_SPREADS * (up - down)) for n, up, down in zip(names, high, low, strict=True)]
     )
     stiff = [i for i, name in enumerate(names) if name in ("PKY1", "PKX1")]
     spread[stiff] = np.maximum(spread[stiff], 0.5 * np.abs(centre[stiff]))

@@ -10,7 +10,7 @@ from tire_pipeline.mismatch.model.forces import plain_forces
 
 Array = np.ndarray
 At = dict[str, Array]
-_COEFFICIENTS = {
+_COEFFICIENTS_OF_FORCE = {
     "fy": (
         "PCY1 PDY1 PDY2 PDY3 PEY1 PEY2 PEY3 PEY4 PEY5 PKY1 PKY2 PKY3 PKY4 PKY5 PKY6 PKY7 PHY1 PHY2 PHY3 "
         "PVY1 PVY2 PVY3 PVY4 RBY1 RBY2 RBY3 RBY4 RCY1 REY1 REY2 RHY1 RHY2 RVY1 RVY2 RVY3 RVY4 RVY5 RVY6"
@@ -47,7 +47,7 @@ def jacobian(data: Data, name: str, at: At) -> Array:
     c = data.tire.coefficients
     missing = getattr(data.tire, "defaulted", {})
     columns = []
-    for key in _COEFFICIENTS[name]:
+    for key in _COEFFICIENTS_OF_FORCE[name]:
         value = float(c.get(key, 0.0))
         if value == 0.0 or key in missing or (key in _OF_CAMBER and not data.varies("camber")):
             continue  # where camber stands still its coefficients would be a constant force of any size

@@ -10,7 +10,7 @@ from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.residual import rms
 
 Array = np.ndarray
-_SLIP_STEP = 2e-3
+_SLIP_SHIFT = 2e-3
 _BANDS = (0.0, 0.1, 0.2)
 """Seconds over which the load is averaged before its rate is taken: the answer differs from band to band."""
 _MEMORY_SECONDS = (1.0, 4.0)
@@ -29,7 +29,7 @@ def memory(data: Data, name: str) -> Array:
     power = np.abs(data.base[name] * data.get(slip)) * speed
     power = power / max(float(np.quantile(power, 0.9)), 1e-12)
     lags = [first_order(power, 1.0 - np.exp(-data.step / lag), data.start) - power for lag in _MEMORY_SECONDS]
-    ways = (data.base[name], data.slope(slip, _SLIP_STEP)[name] * data.get(slip))
+    ways = (data.base[name], data.slope(slip, _SLIP_SHIFT)[name] * data.get(slip))
     return np.column_stack([way * lag for way in ways for lag in lags])
 
 
@@ -48,7 +48,7 @@ def fast_load(data: Data, name: str) -> Array:
     rates = [rate(data, data.running_mean(change, seconds)) for seconds in _BANDS]
     drivers = [change, *(each * (rms(change) / max(rms(each), 1e-12)) for each in rates)]
     slip = SLIP_OF_FORCE[name]
-    steeper = data.slope(slip, _SLIP_STEP)[name] * data.get(slip)
+    steeper = data.slope(slip, _SLIP_SHIFT)[name] * data.get(slip)
     return np.column_stack([way * driver for way in (data.base[name], steeper) for driver in drivers])
 
 

@@ -10,7 +10,7 @@ from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.shared import CLIPPED
 
-_CHANNELS = ("fy", "fx", "mz", *OPERATING_CHANNELS)
+_CHANNELS_LOOKED_AT = ("fy", "fx", "mz", *OPERATING_CHANNELS)
 
 
 class StuckChannel(Effect):
@@ -38,7 +38,7 @@ class StuckChannel(Effect):
     def detect(self, channels: Mapping[str, Array], simulate: object) -> list[Finding]:
         """Find long runs of one value in channels that otherwise change all the time."""
         found = []
-        for name in _CHANNELS:
+        for name in _CHANNELS_LOOKED_AT:
             if name not in channels:
                 continue
             bad, value = _stuck(channels[name], once=name not in CLIPPED)

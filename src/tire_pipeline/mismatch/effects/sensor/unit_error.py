@@ -20,7 +20,7 @@ _FACTORS_BY_CHANNEL: dict[str, dict[float, str]] = {
     "fx": _FORCE_FACTORS,
     "fy": _FORCE_FACTORS,
 }
-_PRESSURE = {
+_PRESSURE_FACTORS = {
     1e3 / PSI: "psi for kPa",
     1.0 / PSI: "psi for Pa",
     1e-3: "kPa for Pa",
@@ -101,7 +101,7 @@ def _pressure(channels: Mapping[str, Array]) -> list[Finding]:
     if not np.isfinite(median) or median <= 0.0 or 6e4 < median < 1.2e6:
         return []
     nominal = float(channels.get("_nominal_pressure", np.array([2.3e5]))[0])
-    options = [(abs(np.log(median / f / nominal)), f, t) for f, t in _PRESSURE.items()]
+    options = [(abs(np.log(median / f / nominal)), f, t) for f, t in _PRESSURE_FACTORS.items()]
     distance, factor, text = min(options)
     if distance > np.log(4.0):
         return []

@@ -6,9 +6,9 @@ import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 
-_NAMES = ("RBX1", "RBX2", "RBY1", "RBY2")
+_WEIGHT_COEFFICIENTS = ("RBX1", "RBX2", "RBY1", "RBY2")
 _TYPICAL = {"RBX1": 12.0, "RBX2": 12.0, "RBY1": 14.0, "RBY2": 10.0}
-_MORE = ("more_x", "more_y")
+_MORE_WEIGHT = ("more_x", "more_y")
 
 
 class CombinedSlip(Effect):
@@ -32,8 +32,8 @@ class CombinedSlip(Effect):
     family = "scale"
     prior_source = "Published RBX1 and RBY1 lie at 5 to 15"
     parameters = (
-        *(Parameter(n, "1", 0.5, 400.0, 0.2, ratio=True) for n in _NAMES),
-        *(Parameter(n, "1", 0.0, 60.0, 0.1, kept=True, prior=5.0) for n in _MORE),
+        *(Parameter(n, "1", 0.5, 400.0, 0.2, ratio=True) for n in _WEIGHT_COEFFICIENTS),
+        *(Parameter(n, "1", 0.0, 60.0, 0.1, kept=True, prior=5.0) for n in _MORE_WEIGHT),
     )
     looks_like = {
         "friction_scale": "friction acts on pure slip too",
@@ -58,25 +58,25 @@ class CombinedSlip(Effect):
         Near zero the weighting does not answer to a coefficient at first order, and a fit would stay there.
         """
         c = data.tire_coefficients  # type: ignore[attr-defined]
-        own = {n: float(c.get(n, 0.0)) for n in _NAMES}
-        other = {n: own[n] if own[n] > 0.05 * _TYPICAL[n] else _TYPICAL[n] for n in _NAMES}
+        own = {n: float(c.get(n, 0.0)) for n in _WEIGHT_COEFFICIENTS}
+        other = {n: own[n] if own[n] > 0.05 * _TYPICAL[n] else _TYPICAL[n] for n in _WEIGHT_COEFFICIENTS}
         return [{**other, "more_x": 0.0, "more_y": 0.0}, {**own, "more_x": 6.0, "more_y": 6.0}]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """The file's own coefficients, or what comes on top of them."""
-        return _MORE if start["more_x"] else _NAMES
+        return _MORE_WEIGHT if start["more_x"] else _WEIGHT_COEFFICIENTS
 
     def zeros(self, data: object) -> dict[str, float]:
         """Return the file's own values: there the effect is absent."""
         c = data.tire_coefficients  # type: ignore[attr-defined]
-        return {**{n: float(c.get(n, 0.0)) for n in _NAMES}, "more_x": 0.0, "more_y": 0.0}
+        return {**{n: float(c.get(n, 0.0)) for n in _WEIGHT_COEFFICIENTS}, "more_x": 0.0, "more_y": 0.0}
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Replace the weighting coefficients."""
         c = data.tire_coefficients  # type: ignore[attr-defined]
         if p["more_x"] or p["more_y"]:
             return
-        changes = {n: p[n] for n in _NAMES}
+        changes = {n: p[n] for n in _WEIGHT_COEFFICIENTS}
         for axis in "XY":
             if not c.get(f"RC{axis}1", 0.0):
                 changes[f"RC{axis}1"] = 1.0
@@ -93,6 +93,6 @@ class CombinedSlip(Effect):
         if p["more_x"] or p["more_y"]:
             return {}
         c = tire.coefficients  # type: ignore[attr-defined]
-        out = {n: p[n] for n in _NAMES}
+        out = {n: p[n] for n in _WEIGHT_COEFFICIENTS}
         out.update({n: 1.0 for n in ("RCX1", "RCY1") if not c.get(n, 0.0)})
         return out

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.base import HARDLY, Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 _WARMER = 25.0
@@ -13,8 +13,6 @@ _USUALLY_OFF = 15.0
 """degC by which the temperature of the file's own test is usually off the middle of a recording."""
 _AROUND_BLIND = 0.6
 """The same in the unit of the integrated heat, whose 90% quantile is 1."""
-_HARDLY = 1e-9
-"""A change too small to see: it says that stiffness and the optimum float."""
 
 
 class Temperature(Effect):
@@ -84,7 +82,7 @@ class Temperature(Effect):
         friction alone, as wear and another surface do.
         """
         friction = {"friction": 0.0, "curvature": 0.0, "stiffness": 0.0}
-        every = {"friction": 0.0, "curvature": _HARDLY, "stiffness": _HARDLY}
+        every = {"friction": 0.0, "curvature": HARDLY, "stiffness": HARDLY}
         if data.varies("tread_temperature"):  # type: ignore[attr-defined]
             t = data.smooth("tread_temperature")  # type: ignore[attr-defined]
             points = [*np.quantile(t, [0.02, 0.5, 0.95]), np.max(t) + _WARMER]

@@ -15,7 +15,7 @@ from tire_pipeline.mismatch.discrepancy.noise import white_noise
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Evidence, Unknown
-from tire_pipeline.mismatch.inference.fit import columns_of
+from tire_pipeline.mismatch.inference.linearised_set import columns_of
 from tire_pipeline.mismatch.inference.priors import prior
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import residual, rms

@@ -23,7 +23,7 @@ PAIRS = 20
 TRIPLES = 6
 ASKED_FOR_FORMS = 8
 """Sets that are fitted by their own equations; the screen has scored all singles and pairs."""
-_MOST_STEPS = 12
+_FIT_STEPS = 12
 """Steps of a fit at most; most end after fewer."""
 _INDEPENDENT = 100.0
 """Independent samples, to begin with: how many there are is known only beside the effects."""
@@ -68,12 +68,12 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
     pairs = [*_likeliest_pairs(found), *(names for names in wanted if len(names) == 2)]
     pairs += [tuple(sorted((first, n))) for first in expected for n in found.forms if n != first]
     for name in dict.fromkeys([*found.kept, *(n for names in pairs + wanted for n in names)]):
-        choices = [fitted(products, likelihood, [form], _MOST_STEPS) for form in found.forms[name]]
+        choices = [fitted(products, likelihood, [form], _FIT_STEPS) for form in found.forms[name]]
         fits[(name,)] = max(choices, key=lambda each: plain_evidence(likelihood, each))
     for pair in dict.fromkeys(pairs):
-        fits[pair] = fitted(products, likelihood, _from_singles(fits, pair), _MOST_STEPS)
+        fits[pair] = fitted(products, likelihood, _from_singles(fits, pair), _FIT_STEPS)
     for triple in _triples(likelihood, list(fits.values()), found):
-        fits[triple] = fitted(products, likelihood, _from_singles(fits, triple), _MOST_STEPS)
+        fits[triple] = fitted(products, likelihood, _from_singles(fits, triple), _FIT_STEPS)
     return Enumerated(products, likelihood, _with_forms(products, likelihood, fits))
 
 

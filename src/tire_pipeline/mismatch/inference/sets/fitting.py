@@ -9,7 +9,7 @@ import numpy as np
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Likelihood, Weights
 from tire_pipeline.mismatch.inference.evidence.products import OfSet, RecordingProducts
-from tire_pipeline.mismatch.inference.fit import columns_of, moved
+from tire_pipeline.mismatch.inference.linearised_set import columns_of, moved
 from tire_pipeline.mismatch.inference.priors import Labels, prior
 from tire_pipeline.mismatch.inference.tails import cost, widening
 from tire_pipeline.mismatch.model.candidates import Variant

@@ -14,7 +14,7 @@ from tire_pipeline.translation.population.classes.search_input import ClassSearc
 from tire_pipeline.translation.population.classes.tire_classes import fit_shares, log_shares
 from tire_pipeline.translation.population.mixed_effects import posterior_weights
 
-_TRIES = 2  # of each clustering, of which the best counts
+_CLUSTERINGS = 2  # of each clustering, of which the best counts
 _TIRES_A_GROUP = 10  # fewer tires of a category tell no groups within it
 _LEAST_SPLIT = 8  # tires of a class that is split
 
@@ -65,14 +65,14 @@ def _unexplained(question: ClassSearchInput) -> np.ndarray:
 def _groups(gap: np.ndarray, count: int, seed: int) -> np.ndarray:
     from sklearn.mixture import GaussianMixture
 
-    mixture = GaussianMixture(count, covariance_type="diag", n_init=_TRIES, random_state=seed)
+    mixture = GaussianMixture(count, covariance_type="diag", n_init=_CLUSTERINGS, random_state=seed)
     return np.asarray(mixture.fit(gap).predict_proba(gap))
 
 
 def _nearest_mean(gap: np.ndarray, count: int, seed: int) -> np.ndarray:
     from sklearn.cluster import KMeans
 
-    return np.asarray(KMeans(count, n_init=_TRIES, random_state=seed).fit_predict(gap))
+    return np.asarray(KMeans(count, n_init=_CLUSTERINGS, random_state=seed).fit_predict(gap))
 
 
 def _of_all(gap: np.ndarray, count: int, seed: int) -> list[np.ndarray]:

@@ -13,7 +13,7 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
-_TEXTS = ("category", "day", "earliest", "latest")
+_AS_TEXT = ("category", "day", "earliest", "latest")
 """Attributes of a change that are text."""
 
 
@@ -101,7 +101,7 @@ class Protocols:
     def to_state(self) -> dict[str, Any]:
         """Return arrays that bring it back."""
         return {
-            **{f"protocol_{n}": np.array([getattr(c, n) for c in self.changes], dtype=str) for n in _TEXTS},
+            **{f"protocol_{n}": np.array([getattr(c, n) for c in self.changes], dtype=str) for n in _AS_TEXT},
             "protocol_probability": np.array([c.probability for c in self.changes], dtype=float),
             "protocol_tires": np.array([(c.before, c.after) for c in self.changes], dtype=int).reshape(-1, 2),
         }
@@ -112,7 +112,7 @@ class Protocols:
         if "protocol_category" not in state:
             return cls()
         rows = zip(
-            *(state[f"protocol_{name}"] for name in _TEXTS),
+            *(state[f"protocol_{name}"] for name in _AS_TEXT),
             state["protocol_probability"],
             state["protocol_tires"],
             strict=True,

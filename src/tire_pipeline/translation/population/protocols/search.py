@@ -30,10 +30,10 @@ RARE = 0.005
 chance: 3% for six categories. Of a dozen tires spreads and covariances are not known well enough for the odds
 alone: of fleets of 11 to 20 tires a category, nothing but noise, a fifth had a change."""
 
-_SIZES = np.array([0.01, 0.03, 0.1, 0.3, 1.0])  # variance of a step in units of the tires' own
-_TRENDS = np.array([0.0, *_SIZES])  # the same of what all categories' tires have changed by
+_CHANGE_SIZES = np.array([0.01, 0.03, 0.1, 0.3, 1.0])  # variance of a step in units of the tires' own
+_TRENDS = np.array([0.0, *_CHANGE_SIZES])  # the same of what all categories' tires have changed by
 _FEWEST_TIRES = 5  # tires on either side of the day
-_LEAST_SHARE = 0.1  # of the category's dated tires on either side
+_FEWEST_SHARE = 0.1  # of the category's dated tires on either side
 _MOST_SPREADS = 4.0  # robust standard deviations beyond which a tire counts no more
 _RANGE = 0.05, 0.95
 
@@ -179,7 +179,7 @@ def _look(
     """Weigh a step of ``category`` against none; None if too few dated tires tell."""
     own = (organisation == category) & ~np.isnat(day)
     others = (organisation != category) & ~np.isnat(day)
-    fewest = max(_FEWEST_TIRES, _LEAST_SHARE * own.sum())
+    fewest = max(_FEWEST_TIRES, _FEWEST_SHARE * own.sum())
     days = np.unique(day[own])
     after = np.array([(day[own] >= one).sum() for one in days])
     days = days[(after >= fewest) & (own.sum() - after >= fewest)]
@@ -230,7 +230,7 @@ def _log_odds(own: np.ndarray, others: np.ndarray, noise: np.ndarray, theirs: np
         each = -0.5 * (own.shape[1] * np.log(determinant) + form)
         return np.asarray(logsumexp(each, axis=1) - np.log(step.size))
 
-    return density(_SIZES) - density(np.zeros(1))
+    return density(_CHANGE_SIZES) - density(np.zeros(1))
 
 
 def _remove_step(
