@@ -9,7 +9,7 @@ import numpy as np
 
 Array = np.ndarray
 Parameters = Mapping[str, float]
-HARDLY = 1e-9
+TOO_SMALL_TO_SEE = 1e-9
 """A size too small to see. In a start it says that this parameter floats in the form that begins there."""
 _OF_UNIFORM = 12.0**-0.5
 """Standard deviation of a uniform distribution over its width."""

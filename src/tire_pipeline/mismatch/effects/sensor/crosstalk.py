@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tire_pipeline.mismatch.effects.base import HARDLY, Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.base import TOO_SMALL_TO_SEE, Effect, Parameter, Parameters, State
 
 _OF_FORCES = ("into_fy", "into_fx")
 _OF_LOAD = ("load_into_fy", "load_into_fx")
@@ -57,7 +57,7 @@ class Crosstalk(Effect):
             leaks.append(_OF_FORCES)
         if len(leaks) > 1:
             leaks.append((*_OF_FORCES, *_OF_LOAD))
-        return [{**self.zeros(data), **dict.fromkeys(names, HARDLY)} for names in leaks]
+        return [{**self.zeros(data), **dict.fromkeys(names, TOO_SMALL_TO_SEE)} for names in leaks]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """Return the leaks that a start has."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.mismatch.effects.base import HARDLY, Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.base import TOO_SMALL_TO_SEE, Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 _WARMER = 25.0
@@ -82,7 +82,7 @@ class Temperature(Effect):
         friction alone, as wear and another surface do.
         """
         friction = {"friction": 0.0, "curvature": 0.0, "stiffness": 0.0}
-        every = {"friction": 0.0, "curvature": HARDLY, "stiffness": HARDLY}
+        every = {"friction": 0.0, "curvature": TOO_SMALL_TO_SEE, "stiffness": TOO_SMALL_TO_SEE}
         if data.varies("tread_temperature"):  # type: ignore[attr-defined]
             t = data.smooth("tread_temperature")  # type: ignore[attr-defined]
             points = [*np.quantile(t, [0.02, 0.5, 0.95]), np.max(t) + _WARMER]
