@@ -124,7 +124,7 @@ def test_the_summary_says_when_an_effect_is_seen(pressed, when, said):
     assert text.startswith(
         f"Explained: the difference comes from {effect.title}{said} which the model leaves out. "
     )
-    assert text.endswith("Next, test the corrected model on a recording that took no part before you use it.")
+    assert text.endswith("Next, test the corrected model on another recording before you use it.")
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Physics without a name: the grammar, its reader, hostile sidecars, and what is found and proved."""
+"""Unnamed physics: the grammar, its reader, hostile sidecars, and what is found and proved."""
 
 import csv
 import json

@@ -75,3 +75,12 @@ def test_it_begins_with_the_first_sentence_of_each_report_and_its_pictures(tmp_p
     assert "no main message" not in page
     for name in ("force_curves.png", "confusion_matrix.png"):
         assert page.index(f'<img src="{name}/2026-01-02/{name}"') < page.index("Tables (CSV)")
+
+
+def test_a_table_is_listed_with_what_it_holds(tmp_path):
+    (tmp_path / "tables").mkdir()
+    for name in ("splits", "other"):
+        (tmp_path / "tables" / f"{name}.csv").write_text("a\n")
+    page = front_page(tmp_path, {"splits": "Training or test, for each file.", "absent": "Not there."})
+    assert "Training or test, for each file. 20" in page  # and the date
+    assert "Not there." not in page

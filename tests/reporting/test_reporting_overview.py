@@ -107,3 +107,10 @@ def test_every_recording_has_results_of_its_own_however_it_is_called(tmp_path, m
     TextFolderDataset(path=str(tmp_path / "corrected")).save(corrected)
     assert all((tmp_path / "pages" / name).is_file() for name in pages)
     assert all((tmp_path / "corrected" / name).is_file() for name in corrected)
+
+
+def test_verdicts_are_counted_in_words():
+    names = {"a.csv": "another tire", "b.csv": "another tire", "c.csv": "agrees"}
+    overview = pd.concat([found(name, verdict, "Said.") for name, verdict in names.items()])
+    _, outcome = draw_overview(overview, [], {})
+    assert outcome[0] == "3 recordings: 2 seem to be of another tire, 1 agrees."

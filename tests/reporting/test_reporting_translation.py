@@ -109,3 +109,15 @@ def test_own_files_come_first_and_those_that_need_no_translation_last():
     report = pd.DataFrame({"file": list(verdicts), "verdict": list(verdicts.values())})
     rows = rows_of(report, {"lab/a.tir", "x/a.tir", "x/b.tir"}, {})
     assert [row[0] for row in rows] == ["x/a.tir", "x/b.tir", "lab/a.tir", "A/1.tir"]
+
+
+def test_an_unknown_supplier_is_called_by_its_folder():
+    report = pd.DataFrame(
+        {
+            "file": ["lab/1.tir", "2.tir", "C/3.tir"],
+            "source": ["unknown", "unknown", "C"],
+            "verdict": ["unknown supplier", "unknown supplier", "refused"],
+        }
+    )
+    suppliers = {row[0]: row[ROW_COLUMNS.index("supplier")] for row in rows_of(report, set(), {})}
+    assert suppliers == {"lab/1.tir": "lab", "2.tir": "unknown", "C/3.tir": "C"}

@@ -77,7 +77,11 @@ def test_the_page_of_a_first_run_says_that_there_is_nothing_to_compare():
     drift = pd.DataFrame(columns=["category", "feature", "psi", "verdict"])
     comparison = pd.DataFrame({"model": ["candidate"], "accuracy": [0.75]})
     page = build_retraining_report(
-        files, drift, comparison, {"event": "released", "reason": "the first"}, ModelRegistry(Release())
+        files,
+        drift,
+        comparison,
+        {"event": "released", "reason": "it is the first one"},
+        ModelRegistry(Release()),
     )
     assert "Nothing to compare" in page
     assert "<th>psi</th>" not in page
@@ -103,6 +107,8 @@ def test_the_page_is_read_in_a_browser(tmp_path):
     with browser(tmp_path) as driver:
         text = read_page(driver, page)
         assert [
-            word for word in ("Candidate released", "PKY1", "A/<b>2</b>.tir", "0.75") if word not in text
+            word
+            for word in ("The new model (candidate) was released", "PKY1", "A/<b>2</b>.tir", "0.75")
+            if word not in text
         ] == []
         assert driver.find_elements("link text", "All reports")

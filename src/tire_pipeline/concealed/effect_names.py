@@ -47,7 +47,7 @@ UNKNOWN_EFFECTS: tuple[str, ...] = (
     "friction_memory",
     "quantisation",
 )
-"""What no catalogue entry describes: it must stay without a name."""
+"""What no catalogue entry describes: it must stay unnamed."""
 
 CASE_KINDS: tuple[str, ...] = ("nothing", "single", "pair", "ambiguous", "artefact", "unknown")
 """Kinds of cases."""

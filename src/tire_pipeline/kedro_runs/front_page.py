@@ -31,6 +31,15 @@ class FrontPageHooks:
 
     def __init__(self) -> None:
         self._folder: Path | Objects | None = None
+        self._described: dict[str, str] = {}
+
+    @hook_impl
+    def after_catalog_created(self, conf_catalog: dict[str, Any]) -> None:
+        """Remember what the catalog says of each dataset: tables are listed with it."""
+        told = {
+            name: (entry.get("metadata") or {}).get("description") for name, entry in conf_catalog.items()
+        }
+        self._described = {name: text for name, text in told.items() if text}
 
     @hook_impl
     def after_context_created(self, context: Any) -> None:
@@ -46,10 +55,10 @@ class FrontPageHooks:
         if isinstance(self._folder, Objects):
             with tempfile.TemporaryDirectory() as copy:
                 _beginnings(self._folder, Path(copy))
-                self._folder.write(FRONT, front_page(Path(copy)).encode())
+                self._folder.write(FRONT, front_page(Path(copy), self._described).encode())
             print(f"all reports: {self._folder.address}/{FRONT}")
         elif self._folder is not None:
             self._folder.mkdir(parents=True, exist_ok=True)
             page = self._folder / FRONT
-            HtmlPageDataset(filepath=str(page)).save(front_page(self._folder))
+            HtmlPageDataset(filepath=str(page)).save(front_page(self._folder, self._described))
             print(f"all reports: {page}")

@@ -37,8 +37,8 @@ class Explainer:
     Parameters
     ----------
     without : collection of str
-        Effects that are not looked for, as if the catalogue lacked them: what they do is then left without a
-        name. Faults that are found from exact factors are found all the same.
+        Effects that are not looked for, as if the catalogue lacked them: what they do then stays unexplained.
+        Faults that are found from exact factors are found all the same.
     priors : mapping of str to mapping of str to float
         Effect -> parameter -> standard deviation of its prior, in the parameter's unit, in place of the one
         that the effect's file states.
@@ -183,8 +183,8 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame, *, without: Collection[
         ``normal_load`` N, ``speed`` m/s, ``pressure`` Pa, ``tread_temperature`` degC, ``fx fy`` N.
         Without ``time`` the rows are steady points.
     without : collection of str
-        Effects that are not looked for, as if the catalogue lacked them: what they do is then left without a
-        name. For proofs; faults that are found from exact factors are found all the same.
+        Effects that are not looked for, as if the catalogue lacked them: what they do then stays unexplained.
+        For proofs; faults that are found from exact factors are found all the same.
 
     Returns
     -------

@@ -5,6 +5,7 @@ from __future__ import annotations
 import datetime
 import html
 import re
+from collections.abc import Mapping
 from pathlib import Path
 
 from tire_pipeline.reporting.page_parts import Links, Picture, Text, render_page
@@ -98,13 +99,15 @@ PICTURES = (
 )
 
 
-def front_page(folder: Path) -> str:
+def front_page(folder: Path, described: Mapping[str, str] | None = None) -> str:
     """Link all reports in a folder.
 
     Parameters
     ----------
     folder : Path
         ``data/08_reporting``.
+    described : mapping of str to str, optional
+        Name of a table -> what it holds, in a sentence.
 
     Returns
     -------
@@ -121,7 +124,7 @@ def front_page(folder: Path) -> str:
         *_what_matters(folder),
     ]
     for heading, reports in REPORTS:
-        items = [item for report in reports for item in _items(folder, *report)]
+        items = [item for report in reports for item in _items(folder, *report, described or {})]
         parts.append(Links(items, heading=heading))
     return render_page("Tire pipeline: all reports", parts, footer="Updated after every run.")
 
@@ -170,15 +173,22 @@ def main_message(page: str) -> list[str]:
     return [html.unescape(text).strip() for text in _PARAGRAPH.findall(box[1])] if box else []
 
 
-def _items(folder: Path, pattern: str, name: str, command: str) -> list[tuple[str, str, str]]:
+def _items(
+    folder: Path, pattern: str, name: str, command: str, described: Mapping[str, str]
+) -> list[tuple[str, str, str]]:
     found = [newest for path in sorted(folder.glob(pattern)) if (newest := _newest(path)) is not None]
     if not found:
         return [("", name, f"not made yet: {command}")]
     places = [path.relative_to(folder) for path in found]
     return [
-        (place.as_posix(), _one_of(name, place) if "*" in pattern else name, _date(path))
+        (place.as_posix(), _one_of(name, place) if "*" in pattern else name, _said_of(place, path, described))
         for place, path in zip(places, found, strict=True)
     ]
+
+
+def _said_of(place: Path, path: Path, described: Mapping[str, str]) -> str:
+    """What a table holds, and the date of any report."""
+    return " ".join(filter(None, [described.get(place.stem) if place.suffix == ".csv" else "", _date(path)]))
 
 
 def _one_of(name: str, place: Path) -> str:

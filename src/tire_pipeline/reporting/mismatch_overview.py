@@ -132,12 +132,22 @@ def _said(row: Mapping[str, str]) -> str:
 def _counted(overview: pd.DataFrame) -> str:
     verdicts = overview["verdict"].fillna("").astype(str)
     counts = verdicts[verdicts != ""].value_counts()
-    said = [f"{count} {verdict}" for verdict, count in counts.items()]
+    said = [f"{count} {_as_verb(str(verdict), count)}" for verdict, count in counts.items()]
     failed = int((verdicts == "").sum())
     if failed:
         said.append(f"{failed} could not be used")
     recordings = "recording" if len(verdicts) == 1 else "recordings"
     return f"{len(verdicts)} {recordings}: {', '.join(said)}."
+
+
+def _as_verb(verdict: str, count: int) -> str:
+    """The verdict as it follows a number of recordings."""
+    one = count == 1
+    verbs = {
+        "agrees": "agrees" if one else "agree",
+        "another tire": f"{'seems' if one else 'seem'} to be of another tire",
+    }
+    return verbs.get(verdict, verdict)
 
 
 def _in_one_table(rows: list[dict[str, str]]) -> Table:

@@ -35,7 +35,7 @@ def _real_in_short(scores: pd.DataFrame, made: dict[str, Any]) -> list[str]:
     if not len(scores):
         return []
     own = scores[(scores["method"] == OWN) & (scores["source"] == "all")]
-    return [f"{made['cases']} cases made from real recordings: {_goals(own)}"]
+    return [f"{_cases(made)} made from real recordings: {_goals(own)}"]
 
 
 def _simulated(
@@ -69,7 +69,7 @@ def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -
         )
     by_source = ", ".join(f"{n} from {source}" for source, n in made["by_source"].items())
     lines += [
-        f"{made['cases']} cases made from real recordings ({by_source}): physics hidden from the model by "
+        f"{_cases(made)} made from real recordings ({by_source}): physics hidden from the model by "
         f"what it was fitted to, known effects added by their mechanism, or nothing. "
         f"{_goals(own[own['source'] == 'all'])}",
         f"Seed {made['seed']}, code {made['code']}, {made['date']}. The answers were sealed before anything "
@@ -97,6 +97,10 @@ _SOURCE_WORDS = {
     "dart": "driven car (dart)",
     "tydex": "steady points (tydex)",
 }
+
+
+def _cases(made: dict[str, Any]) -> str:
+    return f"{made['cases']} {'case' if made['cases'] == 1 else 'cases'}"
 
 
 def _goals(own: pd.DataFrame) -> str:

@@ -10,12 +10,13 @@ import pandas as pd
 from tire_pipeline.reporting.page_parts import Table, without_empty_columns
 
 METHODS = {
+    "explain_mismatch": "ours",
     "bic_stepwise": "stepwise regression",
     "pysindy": "sparse regression",
     "gaussian_process": "Gaussian process",
     "refitted_formula": "refitted formula",
 }
-"""Baselines as they are called on the page; other methods keep their names."""
+"""Methods as they are called on the page; others keep their names."""
 
 _KIND_WORDS = {
     "single": "one effect",

@@ -11,6 +11,13 @@ from tire_pipeline.retraining import ModelRegistry
 from tire_pipeline.retraining.drift import DRIFT
 from tire_pipeline.retraining.release import history_rows
 
+_HAPPENED = {
+    "released": "The new model (candidate) was released",
+    "refused": "The new model (candidate) was not released",
+    "unchanged": "Nothing changed",
+    "rolled back": "An earlier model was put back",
+}
+
 
 def build_retraining_report(
     files: pd.DataFrame,
@@ -27,7 +34,7 @@ def build_retraining_report(
             Table(
                 comparison,
                 heading="Candidate and released model on the same held-out tires",
-                caption="Share of files whose category is recognized. Decided by the mean over categories; "
+                caption="Share of files whose category is recognised. Decided by the mean over categories; "
                 "no held-out tire was in the training of either model.",
             ),
             *_drift(drift),
@@ -47,7 +54,7 @@ def _decision(files: pd.DataFrame, outcome: dict[str, Any], registry: ModelRegis
     came = ", ".join(f"{count} {status}" for status, count in counts.items()) or "no change"
     return Text(
         [
-            f"Candidate {outcome['event']}: {outcome['reason']}.",
+            f"{_HAPPENED.get(outcome['event'], outcome['event'])}: {outcome['reason']}.",
             f"Model in use: {registry.release.current or 'none'}. Files since the last run: {came}.",
         ],
         emphasis=True,
@@ -56,15 +63,16 @@ def _decision(files: pd.DataFrame, outcome: dict[str, Any], registry: ModelRegis
 
 def _drift(drift: pd.DataFrame) -> list[Text | Table]:
     moved = drift[drift["verdict"] == DRIFT]
-    seen = f"{len(moved)} of {len(drift)} comparisons show drift."
+    heading = "Drift of incoming files, per category"
     if drift.empty:
-        seen = "Nothing to compare: no incoming files, or none before them."
+        return [Text(["Nothing to compare: no incoming files, or none before them."], heading=heading)]
+    seen = f"{len(moved)} of {len(drift)} comparisons show drift."
     said = Text(
         [
             f"{seen} psi: population stability index; ks: Kolmogorov-Smirnov distance; p is adjusted "
             "for the number of comparisons. Features are Magic Formula coefficients at one nominal "
             "load unless another representation was chosen."
         ],
-        heading="Drift of incoming files, per category",
+        heading=heading,
     )
-    return [said] if drift.empty else [said, Table(moved if len(moved) else drift.head(20))]
+    return [said, Table(moved if len(moved) else drift.head(20))]

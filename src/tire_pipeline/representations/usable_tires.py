@@ -75,6 +75,7 @@ def _check_categories(kept: pd.DataFrame, report: pd.DataFrame, target_category:
     remains = f"what remains: {_listed(have)}"
     if small:
         remains += f"; too small: {_listed(small)}"
+    remains += _not_used(report)
     more = "add files to these, or lower dedupe_filter.minimum_per_category"
     if len(have) < 2:
         raise DomainError(
@@ -88,6 +89,17 @@ def _check_categories(kept: pd.DataFrame, report: pd.DataFrame, target_category:
             where="dedupe_filter",
             todo=more if target_category in small else "set target_category to one of those that remain",
         )
+
+
+def _not_used(report: pd.DataFrame) -> str:
+    """Say which files do not count and why: a run that stops here writes no report of it."""
+    reasons = report[report["reason"] != TOO_SMALL].groupby("reason", sort=False)
+    said = [
+        f"{reason} ({len(rows)} {'file' if len(rows) == 1 else 'files, such as'} "
+        f"{rows['file'].iloc[0]}: {rows['detail'].iloc[0]})"
+        for reason, rows in reasons
+    ]
+    return f"; not used: {'; '.join(said)}" if said else ""
 
 
 def _listed(found: dict[str, object]) -> str:

@@ -155,7 +155,9 @@ def judge(
     if not better:
         reason = "worse than the released model on the held-out tires"
         return release._with({**event, "event": _REFUSED_EVENT, "reason": reason}, judged=judged)
-    reason = "not worse than the released model on the held-out tires" if release.models else "the first"
+    reason = (
+        "not worse than the released model on the held-out tires" if release.models else "it is the first one"
+    )
     models = (*release.models, model)[-KEPT_MODELS:]
     splits = {name: ({**release.splits, model: judged.split})[name] for name in models}
     event = {**event, "event": _RELEASED_EVENT, "reason": reason}

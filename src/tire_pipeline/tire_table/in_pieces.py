@@ -107,7 +107,7 @@ class TableInPieces:
 
 
 class Scratch:
-    """A file without a name that holds pieces until they are stored; it is gone with its process."""
+    """An unnamed file that holds pieces until they are stored; it is deleted when its process ends."""
 
     def __init__(self) -> None:
         self._file: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115

@@ -8,7 +8,7 @@ from typing import Any
 _SCORE_WORDS = {
     "false physics, nothing missing": "False physics: nothing is missing from the model",
     "false physics, artefact only": "False physics: only a fault of the recording is there",
-    "false physics": "False physics: both of these together",
+    "false physics": "False physics: nothing missing, or only a fault",
     "any name, nothing missing": "Any name: nothing is missing from the model",
     "artefact found": "Fault of the recording found, and nothing else named",
     "exact set, single": "One effect: named, and nothing else",

@@ -133,7 +133,7 @@ def _times(fit: dict[str, OutputFit], ratios: dict[str, float]) -> dict[str, Out
 def never_worse(
     found: UnnamedReport, corrected: CorrectedModel, recording: pd.DataFrame
 ) -> tuple[UnnamedReport, CorrectedModel]:
-    """Put an equation without a name into the model, unless it predicts the recorded rows worse."""
+    """Put an unnamed equation into the model, unless it makes the prediction of the recorded rows worse."""
     if found.physics is None:
         return found, corrected
     put_in = replace(corrected, unnamed=found.physics)

@@ -1,1 +1,1 @@
-"""What a recording shows beside any effect: noise, coefficients that moved, misfit, forms without a name."""
+"""What a recording shows beside any effect: noise, changed coefficients, misfit, unnamed forms."""

@@ -16,9 +16,15 @@ _AMOUNTS = {
 
 
 def amount(value: float, unit: str, digits: int = 2) -> str:
-    """Return the size of a parameter in the unit that engineers use."""
+    """Return the size of a parameter in the unit that engineers use.
+
+    Examples
+    --------
+    >>> amount(0.0123, "1"), amount(123.4, "N"), amount(1234.0, "N")
+    ('1.2%', '120 N', '1,200 N')
+    """
     factor, name = _AMOUNTS.get(unit, (1.0, unit))
-    return _joined(f"{value * factor:.{digits}g}", name)
+    return _joined(_rounded(value * factor, digits), name)
 
 
 def amount_with_error(value: float, error: float, unit: str) -> tuple[str, str]:
@@ -36,6 +42,12 @@ def amount_with_error(value: float, error: float, unit: str) -> tuple[str, str]:
     texts = (f"{each * factor:,.{decimals}f}" for each in (value, error))
     own, other = (_joined(text, name) for text in texts)
     return own, other
+
+
+def _rounded(value: float, digits: int) -> str:
+    """A number with few digits; thousands have a comma, no exponent."""
+    short = float(f"{value:.{digits}g}") if math.isfinite(value) else value
+    return f"{short:,.0f}" if 10.0**digits <= abs(short) < 1e9 else f"{short:.{digits}g}"
 
 
 def _joined(text: str, unit: str) -> str:

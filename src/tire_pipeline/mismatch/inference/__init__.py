@@ -1,1 +1,1 @@
-"""Which effects the recording holds: screened, refitted jointly, tested."""
+"""Which effects a recording contains: they are screened, fitted together and tested."""

@@ -1,4 +1,4 @@
-"""What is known of one recording while it is explained: noise, misfit, and the set that is named."""
+"""State of one explanation: noise, misfit, and the set of effects that is named."""
 
 from __future__ import annotations
 
@@ -31,15 +31,16 @@ class Analysis:
     block : ndarray of int, shape (n,)
         Sweep of each sample.
     columns : dict of ndarray, shape (n, q)
-        What may be wrong without anything being left out, N: coefficients and the formula's misfit.
+        Nuisance columns, N: changes of coefficients, and the formula's misfit.
     sizes : dict of Sizes
-        How many of these columns are which.
+        How many of these columns are coefficients and how many misfit.
     system : System
         Sums of whitened products.
     misfit, path : float
-        Likeliest sizes of the misfit, and of its dependence on the way, over the largest force.
+        Likeliest sizes of the misfit, and of its difference between rising and falling slip, over the largest
+        force.
     inflation : float
-        How many whitened samples make one independent one.
+        How many whitened samples count as one independent sample.
     variants : list of Variant
         All forms of all effects that this recording can show.
     absent : dict of str
@@ -100,7 +101,7 @@ def analyse(data: Data, without: Collection[str] = ()) -> Analysis:
 
 
 def with_fit(analysis: Analysis, fit: Fit) -> Analysis:
-    """Return the analysis with another set named: noise and misfit are learnt from what that set leaves."""
+    """Return the analysis with another set named: its residual gives noise and misfit."""
     weighed = _rescaled(replace(analysis, fit=fit))
     data, rest = weighed.data, residual(weighed.data, fit.changes)
     c = weighed.system.fitted(rest, fit.columns if fit.labels else None)
@@ -111,7 +112,7 @@ def with_fit(analysis: Analysis, fit: Fit) -> Analysis:
 
 
 def _rescaled(analysis: Analysis) -> Analysis:
-    """Take the likeliest size of the flexible form for what the named effects leave."""
+    """Give the flexible form its likeliest size, given the residual of the named effects."""
     base = analysis.system
     rest = residual(analysis.data, analysis.fit.changes)
     sums = base.sums(rest)
@@ -132,9 +133,9 @@ def _rescaled(analysis: Analysis) -> Analysis:
 
 
 def inflation_of(left: dict[str, Array], *, in_time: bool) -> float:
-    """How many whitened samples make one independent one: size and colour that the noise model missed.
+    """How many whitened samples count as one: the size and correlation that the noise model missed.
 
-    The size is that of the power, not of the middle: what real rigs leave has longer tails than normal noise,
+    The size is the mean square, not a robust one: residuals of real rigs have longer tails than normal noise,
     and each sample counts by its square.
 
     Parameters
@@ -142,7 +143,7 @@ def inflation_of(left: dict[str, Array], *, in_time: bool) -> float:
     left : dict of ndarray, shape (n,)
         Whitened residual of each output, in the order of time.
     in_time : bool
-        Whether neighbours are neighbours in time.
+        Whether neighbouring samples are neighbours in time.
     """
     total, weight = 0.0, 0.0
     for white in left.values():

@@ -30,13 +30,14 @@ Array = np.ndarray
 Names = tuple[str, ...]
 Map = Callable[[Callable[["Tuning"], Array], Iterable["Tuning"]], Iterable[Array]]
 _TRUSTED = (2.0, 1.0, 0.5)
-"""Steps from a centre within which the parabolas are believed; fewer where they promise too much."""
+"""Steps from a centre within which the parabolas are trusted; fewer where they promise too much."""
 _CURVATURE_STEP = 0.1
 """Half the distance between the derivatives whose difference is the curvature."""
 _SCALED_SIZES = ("independent", "form_error", "prior", "error", "spread", "wide")
 _ODDS = ("effect", "further", "unnamed")
 _SURPRISES = 0.01
-"""Share of cases whose answer is as likely as any other: what the posterior cannot know must not rule it."""
+"""Share of cases whose answer is as likely as any other: cases that nothing can explain must not decide the
+sizes."""
 _MOST_LOG_ODDS = 12.0
 """Log odds to the likeliest hypothesis beyond which one has no mass, nor near these sizes."""
 

@@ -1,8 +1,9 @@
 """Parameters that physics lets lie on one side only: a lag is not negative, friction has an optimum.
 
 The evidence of a set is an integral over all sizes of its parameters. Where only one side is possible the
-prior is twice as dense there, and the other side counts nothing. So the evidence changes by the probability
-of the possible side given the recording, over that beforehand, which is one half for each parameter.
+prior is twice as dense there, and the other side counts for nothing. So the evidence changes by the
+probability of the possible side given the recording, over that beforehand, which is one half for each
+parameter.
 
 The probability of several sides at once takes them one after another: each truncates the normal distribution
 of the others, which is taken for normal again with the same mean and covariance (Mendell and Elston 1974,

@@ -7,8 +7,8 @@ as large as usual is rare, not impossible. In terms of z, the size over the spre
     -log p(z) = z^2 / 2                           |z| <= 2
     -log p(z) = 2 + 4 log(|z| / 2)                |z| > 2
 
-Both value and slope are continuous; the tails hold 7% of the mass, which is left out of account. About any z
-the prior acts as a normal one whose spread is |z| / 2 times as wide (iteratively reweighted least squares:
+Both value and slope are continuous; the tails hold 7% of the mass, which the normalisation ignores. About any
+z the prior acts as a normal one whose spread is |z| / 2 times as wide (iteratively reweighted least squares:
 Huber and Ronchetti 2009, Robust Statistics, 2nd ed., 7.8).
 """
 

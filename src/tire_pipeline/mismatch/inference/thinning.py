@@ -65,12 +65,12 @@ def portions(data: Data) -> Iterator[Data]:
 def refit_on_all(analysis: Analysis, data: Data) -> Fit:
     """Return the named set with parameters refitted to all samples of a long recording.
 
-    One Gauss-Newton step from the fit to the thinned recording, with the normal equations of the
-    portions added: from a start that is off by its standard error, one step is as good as the end
-    (Le Cam; van der Vaart, Asymptotic Statistics, 5.7). Memory is that of one portion, and each portion has
-    misfit and coefficients of its own. Parameters move by six standard errors of the first fit at most; a
-    moment in time and a wheel's radius stay. Standard errors stay as well: they are those of what the model
-    gets wrong, which more samples do not average out.
+    One Gauss-Newton step from the fit to the thinned recording, with the normal equations of the portions
+    added: from a start that is off by its standard error, one step is as good as the end (Le Cam; van der
+    Vaart, Asymptotic Statistics, 5.7). Memory is that of one portion, and each portion has misfit and
+    coefficients of its own. Parameters move by six standard errors of the first fit at most; a moment in time
+    and a wheel's radius stay fixed. Standard errors stay as well: they come from what the model gets wrong,
+    which more samples do not average out.
 
     Parameters
     ----------

@@ -50,11 +50,13 @@ class Cleaning:
     def text(self) -> str:
         """Say in words what was done and why."""
         felt = np.clip(self.felt, 0.0, 1.0)
-        share = "the force does not tell" if np.isnan(felt) else f"the force follows {felt:.0%} of it"
-        done = "sensor noise was removed" if self.smoothed else "used as recorded"
+        share = (
+            "the force does not tell which it is" if np.isnan(felt) else f"the force follows {felt:.0%} of it"
+        )
+        done = "sensor noise was removed" if self.smoothed else "used as recorded, fast changes included"
         factor, unit, _ = shown_unit(self.channel, self.removed)
         size = f"{self.removed * factor:.2g} {unit}".strip()
-        return f"{self.channel}: {done} (fluctuation {size} RMS, {share})"
+        return f"{self.channel}: {done} ({size} RMS, {share})"
 
 
 def clean(

@@ -83,8 +83,9 @@ class Figures:
         parts = []
         for i in np.flatnonzero(self.off):
             per = " (from the median load to twice that)" if i in LOADED else ""
-            parts.append(f"{FIGURES[i]} {100.0 * np.expm1(self.values[i]):+.0f}%{per}")
-        return f"of {self.output.capitalize()} {', '.join(parts)}"
+            name = "cornering stiffness" if (i, self.output) == (2, "fy") else FIGURES[i]
+            parts.append(f"{name} {100.0 * np.expm1(self.values[i]):+.0f}%{per}")
+        return f"{self.output.capitalize()}: {', '.join(parts)}"
 
 
 def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -> Question | None:
@@ -105,10 +106,10 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
     gone = min(f.removed for f in found)
     return Question(
         "this seems not to be the file of this tire, or not of its state (pressure, rim): several properties "
-        f"differ from the file at once, {said}. Together they explain {100.0 * gone:.0f}% of the squared "
+        f"differ from the file at once ({said}). Together they explain {100.0 * gone:.0f}% of the squared "
         "difference",
         "compare the name of the file, the size and the inflation pressure with what was on the rig, or fit "
-        "a model to this recording (fit_magic_formula)",
+        "a model to this recording (tire fit, or fit_magic_formula in Python)",
         "another tire",
         gone,
     )

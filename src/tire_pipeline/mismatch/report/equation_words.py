@@ -7,7 +7,7 @@ from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
 
 def on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
-    """Return what is known of the part without a name, in a sentence or two; empty where nothing is."""
+    """Return what is known about the unexplained residual, in a sentence or two; empty if nothing is."""
     if found is None or found.physics is None:
         return ""
     first = verdict in ("unexplained", "partly explained")

@@ -20,6 +20,8 @@ _BEFORE, _AFTER, _SHADE = "#D55E00", "#0072B2", "#F0E442"
 _MARKED_POINTS = 600
 _STEPS_OF_GAP = 5.0
 """Usual steps without a sample after which a curve over time is broken."""
+_NOTICED = 1.1
+"""Ratio of two noises from which a reader sees that they differ."""
 _LEAST_SLIP = 0.002
 """Range of slip, rad or 1, from which a map over it says something."""
 _REPORT_STYLE: Any = {
@@ -209,4 +211,16 @@ def _time_caption(report: ReportContents, output: str) -> str:
     bars = any(effect.when for effect in report.effects if effect.output == output)
     said = " The bars at the top say when each effect is above the noise." if bars else ""
     broken = " Lines break where nothing was recorded." if _has_gaps(report) else ""
-    return f"{name} over time.{said}{broken} What lies within the grey band is noise."
+    return (
+        f"{name} over time.{said}{broken} What lies within the grey band is noise.{_cleaned(report, output)}"
+    )
+
+
+def _cleaned(report: ReportContents, output: str) -> str:
+    """Say why the noise that is drawn is smaller than that of the table, which is of the rows as recorded."""
+    if not report.fit[output].noise_floor > _NOTICED * report.series[f"floor_{output}"]:
+        return ""
+    return (
+        " Drawn with the inputs as the fit used them, without their sensor noise and averaged where the rate "
+        "is high. The errors in the table are those of the recording as it is, so their noise is larger."
+    )

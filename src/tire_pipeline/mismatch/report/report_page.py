@@ -66,7 +66,7 @@ def render(report: ReportContents, *, pages: Sequence[tuple[str, str]] = ()) -> 
 
 
 def _symbols(found: UnnamedReport | None) -> list[tuple[str, str]]:
-    """Symbols of an equation without a name, and what they mean."""
+    """Symbols of an unnamed equation, and what they mean."""
     if found is None or found.physics is None:
         return []
     return list(found.physics.to_sidecar()["symbols"].items())

@@ -26,7 +26,7 @@ _HARDLY = 0.2
 """What is most of the time or of the mismatch, and below which part of its RMS a mean difference shows hardly
 anything of it."""
 
-_TRY_IT = "Next, test the corrected model on a recording that took no part before you use it."
+_TRY_IT = "Next, test the corrected model on another recording before you use it."
 _RECORD_AGAIN = "Next, correct the recording at its source and explain it again."
 _SAID_IF_UNDECIDED = (
     "undecided: no cause stands out, and I can't tell a coarse fit or rig from a cause that this recording "

@@ -23,7 +23,7 @@ _LONGEST_SIDECAR = 20_000
 
 @dataclass(frozen=True)
 class UnnamedPhysics:
-    """Physics without a name, as an equation.
+    """Unnamed physics, as an equation.
 
     Parameters
     ----------

@@ -38,7 +38,7 @@
     return made;
   }
   function number(value) {
-    return value === null ? "–" : value.toFixed(value < 10 ? 3 : 0);
+    return value === null ? "–" : value.toFixed(value < 10 ? 2 : 0);
   }
   function counted(value) {
     return value.toLocaleString("en");

@@ -126,11 +126,13 @@ def _explained(report: pd.DataFrame, parameters: TranslateParameters) -> list[st
     if parameters.farthest != EDGE:
         reach = f"distance {parameters.farthest:g}, as asked for (1 is the edge of the training data)"
     lines = [
-        "Translated: the error is expected to shrink. Already unbiased: the target's own, or the 90% bands "
-        "of the supplier's bias contain zero and nothing beyond 5%. Left alone: too little would be gained, "
-        "or the bias cannot be told from chance, as with few training files. Unknown "
-        "supplier: its folder is no known category, so nothing can be said of its "
-        "bias. Refused: it cannot be read or translated, or lies beyond what was learned from.",
+        "Translated: the error is expected to shrink.",
+        "Already unbiased: the target measured it, or the 90% bands of the supplier's bias contain zero and "
+        "nothing beyond 5%.",
+        "Left alone: too little would be gained, or the bias cannot be told from chance, as with few "
+        "training files.",
+        "Refused: the file cannot be read or translated, or its tire is too far from those learned from.",
+        "Unknown supplier: too few files of this folder were learned from to know its bias.",
         f"Only translated files are written, none beyond {reach}. Errors are RMS.",
         f"Method: {parameters.translator.replace('_', ' ')}. Tires that several organisations measured were "
         + ("used." if parameters.pairs else "not used."),

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.result import EDGE, UNBIASED
+from tire_pipeline.translation.result import EDGE, UNBIASED, UNKNOWN
 
 ROW_COLUMNS = (
     "file",
@@ -45,7 +45,7 @@ def rows_of(report: pd.DataFrame, own: set[str], tires: Mapping[str, str]) -> li
             [
                 file,
                 file in own,
-                said["source"],
+                _supplier(file, str(said["source"]), str(said["verdict"])),
                 said["supplier_known"],
                 tires.get(file, ""),
                 said["verdict"],
@@ -70,6 +70,12 @@ def by_supplier(rows: list[list[Any]]) -> list[dict[str, Any]]:
         middle = f"{np.median(ratios):.0%}" if ratios else "–"
         found.append({"name": name, "files": len(part), "counts": counts, "ratio": middle})
     return found
+
+
+def _supplier(file: str, source: str, verdict: str) -> str:
+    """The supplier; where it is no known category, the folder, by which the user knows it."""
+    folder, slash, _ = file.partition("/")
+    return folder if verdict == UNKNOWN and slash else source
 
 
 def _distance(value: float) -> float | None:

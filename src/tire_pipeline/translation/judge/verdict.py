@@ -226,12 +226,13 @@ class VerdictRules:
 
 
 def _too_far(target: str, distance: float) -> str:
-    beyond = np.ceil(100.0 * distance) / 100.0  # rounded up: what is beyond the edge never reads as 1.00
+    beyond = max(round(distance, 2), 1.01)  # what is beyond the edge never reads as 1.00
     said = f"this tire is outside of what {target} has measured: distance {beyond:.2f}"
     if distance > FARTHEST_DISTANCE:
         return f"{said}, do not trust a translation"
-    most = f"farthest={FARTHEST_DISTANCE:g}"
-    return f"{said}, the edge is 1; give training files of such tires, or ask with {most}"
+    far = f"{FARTHEST_DISTANCE:g}"
+    most = f"it by --params translate.farthest={far} (tire translate: --farthest {far})"
+    return f"{said}, the edge is 1: add training files of such tires, or allow {most}"
 
 
 def _why_alone(

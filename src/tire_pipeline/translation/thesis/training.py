@@ -72,7 +72,7 @@ def train_agent(
         env = BatchEnv(starts, forest, rules, n_envs=n_envs, seed=seed)
         model = make_model(env, algorithm=algorithm, seed=seed, n_steps=n_steps)
         steps = TOTAL_STEPS[algorithm] if total_steps is None else total_steps
-        progress = training_progress(steps, n_steps * n_envs, "training the agent")
+        progress = training_progress(steps, n_steps * n_envs, "training the thesis' agent")
         model.learn(total_timesteps=steps, callback=progress)
     return TrainedAgent(
         policy=GreedyPolicy.from_model(model, rules.n_bins),

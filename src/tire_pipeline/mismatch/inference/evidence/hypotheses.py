@@ -1,8 +1,8 @@
 """Log evidence and probability of every hypothesis: a set of effects, with something unnamed or not.
 
-What has no name comes in two ways. It has one of the unnamed forms: an input's rate, memory or play, or what
-repeats along the road. Each of these is a hypothesis like an effect. Or it has any form: all of these at
-once, and an error of any size.
+Unnamed physics comes in two ways. Either it has one of the unnamed forms: the rate of an input, memory or
+play, or what repeats along the road. Each of these is a hypothesis, as an effect is. Or it has any form: all
+of these at once, with an error of any size.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ class Hypothesis:
     ----------
     effects : OfSet
     wide : bool
-        Whether something of any form is beside them.
+        Whether something unnamed of any form is added.
     form : int, optional
-        Number of the unnamed form that is beside them.
+        Number of the unnamed form that is added.
     """
 
     effects: OfSet
@@ -62,7 +62,7 @@ class Hypothesis:
 
 
 def hypotheses(case: OfCase) -> list[Hypothesis]:
-    """Return every set of a case: first all alone, then all with any form, then with one form at a time."""
+    """Return all hypotheses of a case: its sets alone, then with any form, then with one form at a time."""
     alone = [Hypothesis(each) for each in case.sets]
     wide = [Hypothesis(each, wide=True) for each in case.sets]
     return [*alone, *wide, *(Hypothesis(e, form=k) for e in case.sets for k in range(len(e.forms)))]
@@ -74,14 +74,14 @@ def scales(each: OfSet, learnt: LearntSizes) -> Array:
 
 
 def plain(likelihood: Likelihood, each: OfSet, *, wide: bool = False) -> Evidence:
-    """Return the evidence of a set with nothing unnamed beside it, and an error of usual size or of any."""
+    """Return the evidence of a set with nothing unnamed, and with an error of usual size or of any size."""
     scale = scales(each, likelihood.learnt)
     tailed, positive = each.tailed(scale.size), each.positive(scale.size)
     return likelihood.evidence(each.plain, scale, tailed=tailed, positive=positive, wide=wide)
 
 
 def plain_evidence(likelihood: Likelihood, each: OfSet) -> float:
-    """Return the log evidence of a set with nothing unnamed beside it."""
+    """Return the log evidence of a set with nothing unnamed."""
     return plain(likelihood, each).value
 
 
@@ -116,7 +116,7 @@ class Asked:
     Parameters
     ----------
     effects : ndarray of int
-        Effects that nothing leads one to expect.
+        Effects that physics does not lead one to expect.
     expected : ndarray of int
         Effects of which physics leaves no doubt.
     wide : ndarray of bool

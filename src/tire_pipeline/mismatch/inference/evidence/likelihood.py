@@ -1,11 +1,12 @@
 """The likelihood of a recording: everything linear is integrated out, the size of the error is unknown.
 
 ``y = J x + E e + Z c + error``, in units of the largest force of each output: ``x`` the parameters of a set
-of effects (unit prior after scaling by their priors' spread), ``e`` what their forms get wrong, ``c`` what is
+of effects (unit prior after scaling by their priors' spread), ``e`` the errors of their forms, ``c`` what is
 never known: coefficients, the formula's misfit, and a background of usual effects. The *error* is what this
-model still gets wrong. It is white and its size is unknown. Neighbours of a real recording err alike, so that
-it counts for fewer independent samples than were recorded: for a learnt part of those that the correlation of
-what is left leaves independent. This is the one power to which the likelihood is taken.
+model still gets wrong. It is white and its size is unknown. Neighbouring samples of a real recording have
+similar errors, so it counts for fewer independent samples than were recorded. The correlation of the residual
+says how many are independent, and a learnt share of these counts. This is the one power to which the
+likelihood is raised.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ Array = np.ndarray
 MISFITS = (0.002, 0.006, 0.02)
 """Sizes of the formula's misfit over the largest force; all as likely beforehand."""
 PATHS = (0.0005, 0.008)
-"""Sizes of what a rising slip leaves otherwise than a falling one."""
+"""Sizes of the misfit's difference between rising and falling slip."""
 BACKGROUNDS = (0.3, 1.0)
 """Sizes of the background over the usual one: some rigs have hardly any, and its many directions show it."""
 ERRORS = np.geomspace(2e-4, 0.4, 60)
@@ -102,14 +103,14 @@ class Unknown:
         Of the background's columns, which follow them.
     samples : int
     independent : dict of float
-        Samples of each output that are independent by the correlation of what is left beside all that is
+        Samples of each output that are independent, by the correlation of the residual beside all that is
         looked for.
     white : dict of float
         White noise of neighbouring samples, RMS over the largest force.
     expected : frozenset of str
         Effects of which physics leaves no doubt in this recording.
     apart : float
-        Share of the samples that were measured apart and don't follow the one before.
+        Share of the samples that were measured separately and do not follow the one before.
     """
 
     gram: Mapping[str, Array]
@@ -124,7 +125,7 @@ class Unknown:
 
 @dataclass(frozen=True)
 class Weights:
-    """How one output is weighed: by one size of the misfit and one of the error."""
+    """How one output is weighted: by one size of the misfit and one of the error."""
 
     precision: float
     values: Array
@@ -149,7 +150,7 @@ class Weights:
 
 @dataclass(frozen=True)
 class Evidence:
-    """Log evidence of a set of columns, mean and covariance of their coefficients, and the weights there."""
+    """Log evidence of a set of columns, with mean and covariance of their coefficients, and the weights."""
 
     value: float
     mode: Array
@@ -195,9 +196,9 @@ class Likelihood:
 
     @cached_property
     def part(self) -> float:
-        """Part that counts of the samples that the correlation leaves independent.
+        """Share that counts of the samples that are independent by their correlation.
 
-        Of a run, the learnt one. Points of a test plan were measured apart, and each counts.
+        In a run it is the learnt share. Points of a test plan were measured separately, and each counts.
         """
         return self.learnt.independent + (1.0 - self.learnt.independent) * self.unknown.apart
 
@@ -234,8 +235,8 @@ class Likelihood:
         positive : ndarray of bool, shape (m,), optional
             Coefficients that are never negative. None, if left out.
         wide : bool
-            Whether the error may be of any size, as where something unnamed is; else it is of the
-            size that is usual.
+            Whether the error may be of any size, as it may if something is unnamed. If not, it is of the
+            usual size.
         """
         known = products if isinstance(products, Projected) else self.projected(products)
         has_tails = np.ones(scale.size, bool) if tailed is None else tailed

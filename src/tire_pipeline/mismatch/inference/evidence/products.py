@@ -1,4 +1,4 @@
-"""ColumnProducts of columns in one recording, in units of the largest force of each output."""
+"""Products of columns in one recording, in units of the largest force of each output."""
 
 from __future__ import annotations
 
@@ -35,13 +35,13 @@ class OfSet:
         Parameters of each effect that float.
     parameters : int
         Columns of parameters, each times the spread of its prior; those of form errors follow, then those of
-        what has no name, then the residual with all parameters at the centres of their priors.
+        unnamed forms, then the residual with all parameters at the centres of their priors.
     errors : int
         Columns of form errors.
     products : ColumnProducts
     forms : tuple of int
         Columns of each unnamed form by itself, which come after those of all together; empty for sets that
-        are too unlikely to ask.
+        are too unlikely.
     """
 
     changes: tuple[Change, ...]
@@ -58,12 +58,12 @@ class OfSet:
 
     @property
     def plain(self) -> ColumnProducts:
-        """Products without the columns of what has no name."""
+        """Products without the columns of unnamed forms."""
         return self.products.take(self.columns())
 
     @property
     def unnamed(self) -> int:
-        """Columns of what has no name."""
+        """Columns of unnamed forms."""
         every = int(next(iter(self.products.own.values())).shape[0]) - 1
         return every - self.parameters - self.errors - sum(self.forms)
 
@@ -94,7 +94,7 @@ class OfSet:
 
 @dataclass(frozen=True)
 class OfCase:
-    """What a recording says: what is never known in it, and every set that was fitted; empty first."""
+    """What is never known in a recording, and every set that was fitted, the empty one first."""
 
     unknown: Unknown
     sets: tuple[OfSet, ...]
@@ -138,7 +138,7 @@ class RecordingProducts:
         )
 
     def independent(self, columns: Mapping[str, Array], found: Evidence) -> dict[str, float]:
-        """Return how many samples of each output are independent, by the correlation of what is left.
+        """Return how many samples of each output are independent, by the correlation of the residual.
 
         Parameters
         ----------
@@ -178,7 +178,7 @@ class RecordingProducts:
     def of_set(
         self, changes: Sequence[Change], free: Free, added: Mapping[str, Array] | None = None
     ) -> OfSet:
-        """Return a set at given parameters, with columns for its form errors and for what has no name.
+        """Return a set at given parameters, with columns for its form errors and for unnamed forms.
 
         Parameters
         ----------
@@ -206,7 +206,7 @@ class RecordingProducts:
         return replace(each, products=self.of(joined), forms=counts)
 
     def columns_of_set(self, changes: Sequence[Change], free: Free) -> dict[str, Array]:
-        """Return the columns of a set, N: parameters, form errors, what has no name, and the residual."""
+        """Return the columns of a set, N: parameters, form errors, unnamed forms, and the residual."""
         data = self.data
         rest = residual(data, changes)
         labels, columns = columns_of(data, list(changes), list(free))

@@ -34,16 +34,16 @@ class LearntSizes:
     prior : float
         Factor on the spread of all physical priors.
     independent : float
-        Part of the samples that look independent which are.
+        Share of the seemingly independent samples that count as independent.
     error, spread : float
-        Usual size of what is left, over the largest force, and standard deviation of its logarithm.
+        Usual size of the error, over the largest force, and standard deviation of its logarithm.
     wide : float
-        Size of what has no name, over the largest force.
+        Size of unnamed physics, over the largest force.
     effect, further, unnamed : float
         Log odds of one effect, of each further one beside it, and of something unnamed.
     left : (float, float)
-        Between which sizes two of three recordings leave an error, over the largest force, where nothing is
-        assumed of it. Reports compare with it; no probability does.
+        Range that holds the error of two recordings in three, over the largest force, if nothing is assumed
+        about it. Reports compare with it; no probability does.
     """
 
     background: Mapping[str, float]
@@ -69,7 +69,7 @@ class LearntSizes:
         Parameters
         ----------
         effects : ndarray of int, shape (h,)
-            Effects that nothing leads one to expect.
+            Effects that physics does not lead one to expect.
         expected : ndarray of int, shape (h,)
             Effects of which physics leaves no doubt.
         unnamed : ndarray of bool, shape (h,)

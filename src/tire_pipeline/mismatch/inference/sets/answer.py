@@ -1,4 +1,4 @@
-"""What a posterior says: names, alternatives, confidence, agreement, and whether something has no name."""
+"""What a posterior says: names, alternatives, confidence, agreement, and whether something is unnamed."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from tire_pipeline.mismatch.model.forces import Change
 Array = np.ndarray
 Names = tuple[str, ...]
 LEVEL = 0.5
-"""A name, with its alternatives, is said where it is likelier than not."""
+"""A name, with its alternatives, is given where it is likelier than not."""
 OPEN = 0.05
 """What is less likely than this part of the first is no alternative: what 95% leave open."""
 MOST_ALTERNATIVES = 2
@@ -45,7 +45,7 @@ class SetAnswer:
     agreement : float
         Probability that nothing is missing, or nothing that shows.
     unnamed : float
-        Probability that something unnamed is there, beside names or not.
+        Probability that something unnamed is present, with or without names.
     probabilities : mapping
         Set of names -> probability, with something unnamed or without.
     gains : mapping
@@ -84,7 +84,7 @@ def answered(
     case : OfCase
     sizes : LearntSizes
     level : float
-        Probability from which a name, with its alternatives, is said.
+        Probability from which a name, with its alternatives, is given.
     likelihood : Likelihood, optional
         Of this case and these sizes, where it is at hand.
     """
@@ -120,11 +120,11 @@ def _named(
     hidden: frozenset[str],
     level: float,
 ) -> tuple[tuple[Names, float], ...]:
-    """Return each member of the likeliest set that holds names, with what could stand in its place.
+    """Return each member of the likeliest set that holds names, with the effects that could replace it.
 
-    A name has to be likelier than not whether or not something unnamed is beside it: what resembles a part of
-    something unknown gets no name by it. An effect that physics expects has to show besides: that it is
-    likelier than not says nothing of the recording.
+    A name must be likelier than not both with and without something unnamed: an effect that only resembles a
+    part of something unknown is not named. An effect that physics expects must also show: that it is likelier
+    than not says nothing about the recording.
     """
     named = {names: p for names, p in probabilities.items() if names}
     out: list[tuple[Names, float]] = []
@@ -150,8 +150,9 @@ def _hidden(case: OfCase, likelihood: Likelihood, best: Names) -> frozenset[str]
 def _shown(likelihood: Likelihood, each: OfSet) -> frozenset[str]:
     """Return the effects of a set whose fit gains more than noise alone gives on average.
 
-    Beside the rest of the set, and with their priors: without an effect, twice the gain in log likelihood is
-    on average the number of parameters that the recording determines (Wilks 1938). An effect is at least one.
+    The rest of the set and the priors are kept: without an effect, twice the gain in log likelihood is on
+    average the number of parameters that the recording determines (Wilks 1938). An effect counts as at least
+    one.
     """
     found, scale = plain(likelihood, each), scales(each, likelihood.learnt)
     z, covariance = found.mode / scale, found.covariance / scale[:, None] / scale[None, :]
@@ -166,7 +167,7 @@ def _shown(likelihood: Likelihood, each: OfSet) -> frozenset[str]:
 
 
 def _instead(named: Mapping[Names, float], best: Names, name: str) -> Names:
-    """Return the likeliest effects in the place of one of a set, at most two."""
+    """Return the likeliest effects that could replace one of a set, at most two."""
     others = set(best) - {name}
     swaps = {
         next(iter(set(names) - others)): p

@@ -1,4 +1,5 @@
-"""Enumerate: singles and pairs of what the screen has left, triples by adding to the likeliest pairs."""
+"""Enumerate sets: singles and pairs of the effects that the screen keeps, triples from the likeliest
+pairs."""
 
 from __future__ import annotations
 
@@ -31,7 +32,7 @@ _INDEPENDENT = 100.0
 
 @dataclass(frozen=True)
 class Enumerated:
-    """Every set that was fitted, and by what it is weighed."""
+    """Every set that was fitted, and what it is weighed by."""
 
     products: RecordingProducts
     likelihood: Likelihood

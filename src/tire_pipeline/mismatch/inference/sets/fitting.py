@@ -22,7 +22,7 @@ _DAMPINGS = (1e-6, 0.1, 3.0)
 _ENOUGH = 0.05
 """Log evidence below which a step is the last one."""
 _LEAST_STEP = 0.05
-"""s; moments are not told apart any better."""
+"""s; moments are not resolved any better."""
 
 
 def fitted(
@@ -120,7 +120,7 @@ def _scan(
     free: Sequence[tuple[str, ...]],
     part: float,
 ) -> tuple[list[Change], float]:
-    """Move moments at which the force jumps by trial: the derivative by such a moment is a spike."""
+    """Move by trial the moments at which the force jumps: the derivative with respect to one is a spike."""
     time = products.data.time
     moments = [(i, m) for i, (name, _) in enumerate(changes) for m in catalogue()[name].stepped]
     if not moments:

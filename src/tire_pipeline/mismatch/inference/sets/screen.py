@@ -44,7 +44,7 @@ class Screened:
     evidence : dict
         Log evidence of each single effect and each pair, by names, above that of no effect.
     kept : tuple of str
-        Effects that go on.
+        Effects that are kept.
     independent : dict of float
         Output -> samples that are independent beside all effects together.
     """
@@ -145,7 +145,7 @@ def _independent(columns: _FormColumns, guess: Likelihood, best: Mapping[str, in
     """Samples of each output that are independent beside all that is looked for.
 
     What is left beside coefficients and misfit says how many there are, and how many there are says how much
-    of these the recording resolves. So both are sought together, from few samples on.
+    of these the recording resolves. So both are sought together, starting from few samples.
     """
     chosen = columns.of(best.values())
     every = columns.products.take(chosen)
