@@ -151,11 +151,13 @@ def overview(report: ReportContents) -> Figure:
 
 
 def _map_caption(report: ReportContents, output: str) -> str:
-    which = "each point" if _slip(report, output).size < _MARKED_POINTS else "mean of each cell"
+    points = _slip(report, output).size < _MARKED_POINTS
     faded = "; it should fade from before to after" if report.corrected.changes else ""
+    cancels = "" if points else " What differs in both directions within a cell cancels in its mean."
     return (
-        f"{output.capitalize()} over slip and load: recorded minus simulated force, {which}. Strong colour "
-        f"marks where they differ{faded}."
+        f"{output.capitalize()} over slip and load: recorded minus simulated force, "
+        f"{'each point' if points else 'mean of each cell'}. Strong colour marks where they "
+        f"differ{faded}.{cancels}"
     )
 
 
