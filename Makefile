@@ -65,7 +65,8 @@ docs: install
 # make audit ADVISORIES=all.zip; without it by the package safety-db, which is of 2021 and so ends as stale.
 audit:
 	@test -x $(VENV)/audit/bin/python || $(PYTHON) -m venv $(VENV)/audit
-	@$(VENV)/audit/bin/python -m pip install --quiet --disable-pip-version-check packaging==26.3
+	@$(VENV)/audit/bin/python -m pip install --quiet --disable-pip-version-check packaging==26.3 || \
+		{ echo "not run: packaging cannot be installed into $(VENV)/audit"; exit 2; }
 	@test -n "$(ADVISORIES)" || $(VENV)/audit/bin/python -m pip install --quiet --disable-pip-version-check \
 		safety-db==2021.7.17 || true
 	@$(VENV)/audit/bin/python tools/audit.py $(if $(ADVISORIES),--advisories "$(ADVISORIES)")

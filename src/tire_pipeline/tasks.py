@@ -182,16 +182,15 @@ def in_processes(count: int) -> Map:
     Notes
     -----
     A process that dies (the system has no memory left, a compiled reader crashes) costs nothing but time:
-    what was under way is done again, each task alone, and one whose process dies again is set aside.
+    what was under way is done again, each task alone, and one whose process dies again is set aside. So a
+    single task, too, is done in a process of its own: it may be the one that a run before has set aside.
     """
     if count <= 1:
         return in_turn
 
     def work(tasks: Mapping[str, Callable[[], _T]], what: str) -> Iterator[Done[_T]]:
-        if len(tasks) <= 1:
-            yield from in_turn(tasks, what)
-            return
-        yield from shown(_surviving(tasks, what, count), what, tasks, count)
+        if tasks:
+            yield from shown(_surviving(tasks, what, count), what, tasks, count)
 
     return work
 
@@ -199,26 +198,18 @@ def in_processes(count: int) -> Map:
 def _surviving(tasks: Mapping[str, Task[_T]], what: str, count: int) -> Iterator[Done[_T]]:
     one_each = len(tasks) <= count  # how many are done says nothing until the end
     doing = attempt if one_each else attempt_in_silence
-    waiting, lost = iter(tasks), list[str]()
+    waiting, left = iter(tasks), dict.fromkeys(tasks)
     while True:
-        begun: dict[str, None] = {}
         try:
-            for done in _in_pool(doing, tasks, _noted(waiting, begun), count):
-                del begun[done.name]
+            for done in _in_pool(doing, tasks, waiting, count):
+                del left[done.name]
                 yield done
         except BrokenExecutor:
             _LOG.warning("%s: a process died; what was under way is tried again, each alone", what)
-            lost += begun
         else:
             break
-    for name in lost:
+    for name in left:
         yield done_alone(name, tasks[name], _in_own_process, what)
-
-
-def _noted(names: Iterator[str], begun: dict[str, None]) -> Iterator[str]:
-    for name in names:
-        begun[name] = None
-        yield name
 
 
 def _in_pool(

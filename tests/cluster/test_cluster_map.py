@@ -64,6 +64,14 @@ def test_a_task_that_kills_its_worker_is_set_aside_by_its_name(any_work, tmp_pat
     assert "killer" in str(done["killer"].error)
 
 
+def test_the_last_task_left_is_set_aside_if_it_kills_its_worker_and_does_not_end_the_run(any_work, tmp_path):
+    """What a run before has set aside may be all that is left to do."""
+    wanted = {"killer": partial(tasks.dies_elsewhere, tmp_path / "log", os.getpid())}
+    done = all_done(any_work, wanted, "counting")
+    assert isinstance(done["killer"].error, LostTaskError)
+    assert (tmp_path / "log").read_text().startswith("xxx")
+
+
 def test_the_one_killer_of_a_block_is_found_and_the_others_are_done(any_work, tmp_path):
     wanted = {str(n): partial(tasks.double, n) for n in range(7)}
     wanted["3"] = partial(tasks.dies, tmp_path / "log")

@@ -200,6 +200,7 @@ class Machine(RuleBasedStateMachine):
         self.retrain()
         assert not [v for v in self.killed if list(self.zoo.base.rglob(f"*/{v}"))]
         assert not list((self.zoo.base / ".runs").glob("*.json"))
+        assert not list(self.zoo.base.rglob("*.part"))
         shutil.rmtree(self.folder)
 
 

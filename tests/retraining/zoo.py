@@ -18,6 +18,7 @@ from retraining_files import put_fleet, tir_text
 
 from tire_pipeline.classifiers.parameters import ForestParameters, TrainClassifierParameters
 from tire_pipeline.datasets import IngestStoreDataset, ReleaseDataset
+from tire_pipeline.files.atomic import check_before_replacing
 from tire_pipeline.kedro_runs.run_errors import one_line
 from tire_pipeline.pipelines.rollback.pipeline import restore_previous
 from tire_pipeline.representations.encoded_tires import RepresentParameters
@@ -138,6 +139,7 @@ class Zoo:
         """By the pipeline's own nodes in their order, each result stored where Kedro would store it."""
         place = f"07_model_output/outcome.txt/{version}"
         ticket = Ticket.draw(self.base / ".runs", run=version, places=[place])
+        stop = check_before_replacing(ticket.check, owner=ticket.note.name)
         try:
             take_turn(ticket)
             store, report = nodes.read_new_files(self.ingested.load(), self.tir, PARAMETERS)
@@ -161,6 +163,7 @@ class Zoo:
             take_back(self.base, ticket.note)
             raise
         finally:
+            stop()
             ticket.end()
 
     def retrain_and_be_killed(self, version: str, step: int) -> bool:

@@ -247,6 +247,88 @@ def test_what_a_dead_run_ends_writing_later_is_taken_back_by_the_run_after(draw,
     assert not (runs.parent / "table.csv").exists()
 
 
+KILLED_WRITER = """
+import os, sys
+from pathlib import Path
+from tire_pipeline.files.atomic import check_before_replacing, replaced_file, replaced_folder
+from tire_pipeline.runs import Ticket
+
+data = Path(sys.argv[1])
+ticket = Ticket.draw(data / ".runs", run="old", alongside=True)
+check_before_replacing(ticket.check, owner=ticket.note.name)
+with replaced_file(data / "03_primary/a.csv") as file, replaced_folder(data / "07" / sys.argv[2]) as folder:
+    file.write_text("half")
+    (folder / "page.html").write_text("half")
+    print("written", flush=True)
+    sys.stdin.read()
+    os._exit(0)
+"""
+
+
+def _writer(data: Path, name: str) -> subprocess.Popen[bytes]:
+    command = [sys.executable, "-c", KILLED_WRITER, str(data), name]
+    process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    assert process.stdout.readline() == b"written\n"
+    return process
+
+
+def _temporary(data: Path) -> list[str]:
+    return sorted(path.parent.name for path in data.rglob("*.part"))
+
+
+def test_what_a_killed_run_was_writing_is_removed_and_nothing_of_others(draw, runs):
+    data = runs.parent
+    killed, living = _writer(data, "killed"), _writer(data, "living")
+    try:
+        (data / "03_primary/.of the user.part").write_text("mine")
+        with replaced_file(data / "03_primary/by a command.csv") as file:
+            killed.kill()
+            killed.wait()
+            assert _temporary(data) == ["03_primary"] * 4 + ["07"] * 2  # this one, the user's, both runs'
+            following = draw("next")
+            _turn(following)
+            following.end()
+            assert file.exists()
+        assert (data / "03_primary/.of the user.part").exists()
+        assert _temporary(data) == ["03_primary"] * 2 + ["07"]
+        assert living.poll() is None
+    finally:
+        for each in (killed, living):
+            each.kill()
+            each.communicate()
+    _turn(draw("the one after"))
+    assert _temporary(data) == ["03_primary"]
+
+
+def test_a_folder_that_a_killed_run_had_moved_aside_is_put_back(draw, runs):
+    old = runs.parent / ".pages.tire_pipeline-000001-abcdefgh.old"
+    _left(runs)
+    for each in (old, old.with_suffix(".part")):
+        each.mkdir()
+        (each / "page.html").write_text(each.suffix)
+    _turn(draw("next"))
+    assert [path.name for path in runs.parent.iterdir() if path != runs] == ["pages"]
+    assert (runs.parent / "pages/page.html").read_text() == ".old"
+
+
+@pytest.mark.parametrize("what", [replaced_file, replaced_folder])
+def test_who_lost_the_folder_and_what_it_was_writing_is_told_so(draw, no_locks, runs, what):
+    first = draw("first", beat_seconds=1e9)
+    stop = check_before_replacing(first.check, owner=first.note.name)
+
+    def lose_it_while_writing():
+        with what(runs.parent / "page"):
+            first.path.rename(first.path.with_suffix(".taken"))
+            _turn(draw("second"))
+
+    try:
+        with pytest.raises(LostTicketError):
+            lose_it_while_writing()
+    finally:
+        stop()
+    assert [path for path in runs.parent.iterdir() if path != runs] == []
+
+
 @pytest.mark.parametrize("content", [b"", b"{", b"[]", b'{"places": [], "unknown": 1}', b"\xff"])
 def test_a_damaged_note_is_watched_and_deletes_nothing(draw, runs, content):
     _left(runs)

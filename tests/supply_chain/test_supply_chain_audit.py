@@ -160,3 +160,15 @@ def test_the_project_s_own_lock_is_read_and_the_exit_code_is_that_of_the_process
     assert done.returncode == 3, done.stderr
     count = sum("==" in line for line in (ROOT / "requirements.lock").read_text().splitlines())
     assert done.stdout.startswith(f"stale: nothing found in {count} versions, 1 advisories")
+
+
+def test_where_nothing_can_be_installed_make_says_that_it_did_not_run(tmp_path):
+    """The code of pip is that of a vulnerable version."""
+    python = tmp_path / "audit" / "bin" / "python"
+    python.parent.mkdir(parents=True)
+    python.write_text("#!/bin/sh\nexit 1\n")
+    python.chmod(0o755)
+    command = ["make", "audit", f"VENV={tmp_path}", "ADVISORIES=all.zip"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.stdout.startswith("not run: ")
+    assert "Error 2" in done.stderr

@@ -5,42 +5,66 @@ from __future__ import annotations
 import contextlib
 import glob
 import os
+import re
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 
 from tire_pipeline.files.swapped_names import swapped
 
 _NEW_SUFFIX, _OLD_SUFFIX = ".part", ".old"
-_CHECKS: list[Callable[[], None]] = []
+_OURS_PREFIX = "tire_pipeline-"  # no file or folder of the user is called so
+_OWNED = re.compile(
+    rf"\.(?:(.*)\.)?{_OURS_PREFIX}([^-]+)-[^-.]+(?:{_NEW_SUFFIX}|{_OLD_SUFFIX})", re.DOTALL
+).fullmatch
+_CHECKS: list[tuple[Callable[[], None], str]] = []
 
 
-def check_before_replacing(check: Callable[[], None]) -> Callable[[], None]:
+def check_before_replacing(check: Callable[[], None], *, owner: str = "") -> Callable[[], None]:
     """Have ``check`` called before any file or folder takes its place; if it raises, nothing changes.
 
     Parameters
     ----------
     check : callable
+    owner : str
+        Stands in the names of what is temporary meanwhile, for :func:`remove_temporary`; without hyphens.
 
     Returns
     -------
     callable
         Ends it.
     """
-    _CHECKS.append(check)
+    _CHECKS.append((check, owner))
 
     def stop() -> None:
         with contextlib.suppress(ValueError):
-            _CHECKS.remove(check)
+            _CHECKS.remove((check, owner))
 
     return stop
 
 
 def check_now() -> None:
     """Call what was given to :func:`check_before_replacing`."""
-    for check in list(_CHECKS):
+    for check, _ in list(_CHECKS):
         check()
+
+
+def remove_temporary(folder: str | os.PathLike[str], owners: Collection[str]) -> None:
+    """Remove what processes that were killed in the middle of a write have left anywhere below a folder.
+
+    Parameters
+    ----------
+    folder : path
+    owners : collection of str
+        Those given to :func:`check_before_replacing`; what is temporary to others stays.
+    """
+    for here, folders, files in os.walk(folder) if owners else ():
+        for name in [*folders, *files]:
+            found = _OWNED(name)
+            if found and found[2] in owners:
+                _remove(Path(here, name), Path(here, found[1]) if found[1] else None)
+        folders[:] = [each for each in folders if not _OWNED(each)]
 
 
 def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
@@ -77,7 +101,7 @@ def replaced_file(path: str | os.PathLike[str], *, parents: bool = True) -> Iter
     check_now()
     if parents:
         path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=".", suffix=".part", dir=path.parent)
+    handle, name = tempfile.mkstemp(prefix=f".{_OURS_PREFIX}{_owner()}", suffix=_NEW_SUFFIX, dir=path.parent)
     os.close(handle)
     temporary = Path(name)
     try:
@@ -87,6 +111,9 @@ def replaced_file(path: str | os.PathLike[str], *, parents: bool = True) -> Iter
         temporary.chmod(0o644)
         check_now()
         temporary.replace(path)
+    except FileNotFoundError:
+        check_now()  # another run may have taken the folder over, and what was temporary with it
+        raise
     finally:
         with contextlib.suppress(OSError):
             temporary.unlink()
@@ -104,7 +131,7 @@ def replaced_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
     check_now()
     path.parent.mkdir(parents=True, exist_ok=True)
     _tidy(path)
-    temporary = Path(tempfile.mkdtemp(prefix=_beside(path), suffix=_NEW_SUFFIX, dir=path.parent))
+    temporary = Path(tempfile.mkdtemp(prefix=_beside(path) + _owner(), suffix=_NEW_SUFFIX, dir=path.parent))
     old = temporary.with_suffix(_OLD_SUFFIX)
     try:
         yield temporary
@@ -114,9 +141,11 @@ def replaced_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
             path.rename(old)
         if old.exists() or not path.exists():
             temporary.rename(path)
-    except BaseException:
+    except BaseException as error:
         if old.exists() and not path.exists():
             old.rename(path)
+        if isinstance(error, FileNotFoundError):
+            check_now()  # another run may have taken the folder over, and what was temporary with it
         raise
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
@@ -127,12 +156,23 @@ def _tidy(path: Path) -> None:
     """What a process that was killed in :func:`replaced_folder` left beside ``path``."""
     left = path.parent.glob(f"{glob.escape(_beside(path))}*")
     for each in [each for each in left if each.suffix in (_NEW_SUFFIX, _OLD_SUFFIX)]:
-        if each.suffix == _OLD_SUFFIX and not path.exists():
-            each.rename(path)
-        else:
-            shutil.rmtree(each, ignore_errors=True)
+        _remove(each, path)
+
+
+def _remove(temporary: Path, path: Path | None) -> None:
+    """Remove what is temporary, or put it back as ``path`` if it is all that is left of that."""
+    if path and temporary.suffix == _OLD_SUFFIX and not path.exists():
+        temporary.rename(path)
+    elif temporary.is_dir():
+        shutil.rmtree(temporary, ignore_errors=True)
+    else:
+        temporary.unlink(missing_ok=True)
 
 
 def _beside(path: Path) -> str:
-    """How the names of temporary folders begin: no folder of the user is called so."""
-    return f".{path.name}.tire_pipeline-"
+    """How the names of temporary folders begin."""
+    return f".{path.name}.{_OURS_PREFIX}"
+
+
+def _owner() -> str:
+    return next((f"{owner}-" for _, owner in _CHECKS if owner), "")

@@ -101,7 +101,7 @@ class OneRunHooks:
                 wait_seconds=self._turn.wait_seconds,
                 expiry_seconds=self._turn.expiry_seconds,
             )
-            self._stop_checking = check_before_replacing(self._ticket.check)
+            self._stop_checking = check_before_replacing(self._ticket.check, owner=self._ticket.note.name)
             return (yield)
         except BaseException:
             self._end()

@@ -76,6 +76,11 @@ class Note:
     beat_seconds: float = BEAT_SECONDS
     places: tuple[str, ...] = ()
 
+    @property
+    def name(self) -> str:
+        """The number as it stands in names of files."""
+        return f"{self.number:06d}"
+
     def to_json(self) -> bytes:
         """Bytes of the note."""
         return json.dumps(asdict(self), indent=1).encode()
@@ -159,7 +164,7 @@ class Ticket:
     @property
     def path(self) -> Path:
         """Of the note."""
-        return self.folder / f"{self.note.number:06d}.json"
+        return self.folder / f"{self.note.name}.json"
 
     def check(self) -> None:
         """Make sure that this run may still write.

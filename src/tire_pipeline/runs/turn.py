@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Protocol
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.atomic import remove_temporary
 from tire_pipeline.runs.system_lock import is_held
 from tire_pipeline.runs.ticket import Note, Ticket, open_notes, prune, retire
 
@@ -237,10 +238,15 @@ def _declare_dead(folder: Path, note: Note) -> None:
 
 
 def _take_back_again(folder: Path) -> None:
-    """A run that stood still in the middle of a write ends that write when it wakes: take that back, too."""
-    for path in sorted(folder.glob("*.taken")):
+    """A run that stood still in the middle of a write ends that write when it wakes: take that back, too.
+
+    What dead runs were writing when they died goes as well, wherever it lies in the data folder.
+    """
+    taken = sorted(folder.glob("*.taken"))
+    for path in taken:
         with contextlib.suppress(FileNotFoundError):
             take_back(folder.parent, Note.from_json(0, path.read_bytes()))
+    remove_temporary(folder.parent, {path.stem for path in taken})
     prune(folder)
 
 
