@@ -123,7 +123,7 @@ def test_without_recordings_the_committed_table_is_shown_and_says_so(tmp_path, m
     page = _page(scores, misses, details)
     assert "are not available: this is the committed table" in page
     assert "4711" in page
-    assert "cases made from real recordings: " in page
+    assert "1 case made from real recordings: " in page
     monkeypatch.setattr(real_nodes, "published", lambda: (table.head(0), {}))
     page = _page(*real_nodes.score_real_proof(shown, {}, held_out, sealed, asked))
     assert "no proof on them has been published yet" in page

@@ -327,4 +327,4 @@ def test_friction_by_sliding_speed_shows_at_large_slip_only(tire, record):
 def test_a_parameter_has_two_digits_of_its_standard_error():
     assert amount_with_error(-0.844, 0.191, "1") == ("-84%", "19%")
     assert amount_with_error(0.0123, 0.0004, "s") == ("12.30 ms", "0.40 ms")
-    assert amount_with_error(1234.5, np.inf, "N") == ("1.23e+03 N", "inf N")
+    assert amount_with_error(1234.5, np.inf, "N") == ("1,230 N", "inf N")

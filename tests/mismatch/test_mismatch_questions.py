@@ -347,7 +347,7 @@ def test_one_force_that_its_slip_does_not_drive_is_left_out(tire, record):
 def check_another(report, tmp_path):
     assert report.verdict == "another tire"
     assert report.effects == []
-    assert "slip stiffness" in report.summary
+    assert "cornering stiffness" in report.summary
     assert "load" in report.summary
     with pytest.raises(RecordingError, match="file of this tire"):
         report.corrected.to_tir(tmp_path / "corrected.tir")

@@ -161,7 +161,7 @@ def test_files_that_arrive_before_and_during_a_run(tmp_path):
     assert _in_use(folder).release.current == before.current
     assert first in before.models
     page = (folder / "data/08_reporting/retraining.html").read_text()
-    assert "unchanged" in page
+    assert "Nothing changed" in page
     assert "http:" not in page
     assert "https:" not in page
 

@@ -163,7 +163,7 @@ def test_nothing_beyond_the_asked_distance_is_translated(paired, hidden):
     held = careful.translation(rows)
     pd.testing.assert_frame_equal(held.report, paired.translation(rows, farthest=1.0).report)
     assert list(held.report["verdict"]) == [REFUSED, *usual.report["verdict"].iloc[1:]]
-    assert f"distance {np.ceil(100 * distance[0]) / 100:.2f}, the edge is 1" in held.report["reason"].iloc[0]
+    assert f"distance {max(distance[0], 1.01):.2f}, the edge is 1" in held.report["reason"].iloc[0]
     pd.testing.assert_frame_equal(held.table.iloc[[0]], rows.iloc[[0]])
 
 
