@@ -167,9 +167,7 @@ def _second(seed: int, number: int) -> KnownCase:
     ).model
     pairs = zip(case.truth.causes, _sizes_in_forces(case.truth), strict=True)
     effects = tuple((_SECOND.get(cause, "unknown"), size) for cause, size in pairs if size > 0.0)
-    unknown = any(name == "unknown" for name, _ in effects)
-    kind = "unknown" if unknown else ("single" if effects else "nothing")
-    return KnownCase("second", kind, tire, case.recording, effects)
+    return KnownCase("second", _kind(effects), tire, case.recording, effects)
 
 
 def _sizes_in_forces(truth: Any) -> list[float]:
@@ -178,8 +176,10 @@ def _sizes_in_forces(truth: Any) -> list[float]:
     Its own strengths are of the force or moment that shows a cause most, and the explanation looks at no
     moment. Of two causes that both show, each has the part that both together have.
     """
-    change = np.sqrt(np.mean((truth.recording_with - truth.recording_without) ** 2, axis=0)) / truth.unit
-    in_forces, largest = float(np.max(change[:2])), float(np.max(change))
+    from tire_pipeline.concealed.second.strength import reached  # loads scipy.signal
+
+    change = (truth.recording_with - truth.recording_without).T
+    in_forces, largest = reached(change[:2], truth.unit[:2]), reached(change, truth.unit)
     pairs = list(zip(truth.causes, truth.parameters, strict=True))
     shows = [cause not in _IN_ONE_CHANNEL or p["channel"] != "mz" for cause, p in pairs]
     if sum(shows) <= 1:
@@ -190,6 +190,7 @@ def _sizes_in_forces(truth: Any) -> list[float]:
 def _unnamed(seed: int, number: int) -> KnownCase:
     """A case of the second simulator with a mechanism that is in no catalogue."""
     from tire_pipeline.concealed.open_world.tuning import MECHANISMS  # loads scipy.signal
+    from tire_pipeline.concealed.second.strength import reached
     from tire_pipeline.concealed.unnamed.cases import draw_open_case
 
     try:
@@ -197,8 +198,14 @@ def _unnamed(seed: int, number: int) -> KnownCase:
     except ValueError as error:
         raise DomainError(str(error), todo="take another seed") from error
     beside = tuple((_SECOND[cause], 0.0) for cause in case.named)
-    shown = [np.sqrt(np.mean(each.change[: len(case.recording), :2] ** 2, axis=0)) for each in case.added]
-    sizes = [float(np.max(rms / case.unit[:2])) for rms in shown]
+    shown = [each.change[: len(case.recording), :2].T for each in case.added]
+    sizes = [reached(change, case.unit[:2]) for change in shown]
     effects = (*beside, *(("unknown", size) for size in sizes if size > 0.0))
-    kind = "unknown" if any(sizes) else ("single" if beside else "nothing")
-    return KnownCase("unnamed", kind, case.tire, case.recording, effects)
+    return KnownCase("unnamed", _kind(effects), case.tire, case.recording, effects)
+
+
+def _kind(effects: tuple[tuple[str, float], ...]) -> str:
+    """Return the kind of a case of the second simulator."""
+    if any(name == "unknown" for name, _ in effects):
+        return "unknown"
+    return "single" if effects else "nothing"

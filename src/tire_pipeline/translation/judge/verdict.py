@@ -226,7 +226,7 @@ class VerdictRules:
 
 
 def _too_far(target: str, distance: float) -> str:
-    beyond = max(round(distance, 2), 1.01)  # what is beyond the edge never reads as 1.00
+    beyond = max(distance, 1.01)  # what is beyond the edge never reads as 1.00
     said = f"this tire is outside of what {target} has measured: distance {beyond:.2f}"
     if distance > FARTHEST_DISTANCE:
         return f"{said}, do not trust a translation"

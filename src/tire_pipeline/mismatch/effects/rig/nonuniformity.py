@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.base import TOO_SMALL_TO_SEE, Effect, Parameter, Parameters, State
 
 _FORCE_PARAMETERS = ("cosine_y", "sine_y", "cosine_x", "sine_x")
 _WOBBLE = ("angle_cosine", "angle_sine", "load_cosine", "load_sine")
@@ -55,7 +55,7 @@ class Nonuniformity(Effect):
         force = data.rolling_radius()  # type: ignore[attr-defined]
         wobble = data.rolling_radius(("slip_angle", "normal_load"))  # type: ignore[attr-defined]
         zero = self.zeros(data)
-        return [{**zero, "radius": force}, {**zero, "radius": wobble, "angle_cosine": 1e-9}]
+        return [{**zero, "radius": force}, {**zero, "radius": wobble, "angle_cosine": TOO_SMALL_TO_SEE}]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """Return one form's parameters; the radius is found by the scan."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.base import TOO_SMALL_TO_SEE, Effect, Parameter, Parameters, State
 
 
 class PlysteerConicity(Effect):
@@ -48,7 +48,7 @@ class PlysteerConicity(Effect):
     def starts(self, data: object) -> list[dict[str, float]]:
         """As a force that stays, as one that fades, and as camber where the model knows camber."""
         zero = self.zeros(data)
-        out = [zero, {**zero, "thrust": 1e-9}]
+        out = [zero, {**zero, "thrust": TOO_SMALL_TO_SEE}]
         if data.knows_camber:  # type: ignore[attr-defined]
             out.append({**zero, "pseudo_camber": 1e-6})
         return out
