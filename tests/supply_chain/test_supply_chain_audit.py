@@ -168,7 +168,7 @@ def test_where_nothing_can_be_installed_make_says_that_it_did_not_run(tmp_path):
     python.parent.mkdir(parents=True)
     python.write_text("#!/bin/sh\nexit 1\n")
     python.chmod(0o755)
-    command = ["make", "audit", f"VENV={tmp_path}", "ADVISORIES=all.zip"]
+    command = ["make", "--no-print-directory", "audit", f"VENV={tmp_path}", "ADVISORIES=all.zip"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.stdout.startswith("not run: ")
     assert "Error 2" in done.stderr
