@@ -30,7 +30,7 @@ def test_what_makes_them_worse_is_withheld_and_keeps_its_name(softer):
     """The same effect with twice the size on top of what was found: the others stay."""
     analysis, fit = softer.analysis, softer.analysis.fit
     changes = [*fit.changes, ("force_offset", {"fy": 300.0, "fx": 0.0})]
-    worse = linearised(analysis.system, changes, [*fit.free, ()], fit.covariance, fit.weight)
+    worse = linearised(analysis.system, changes, [*fit.free, ()], fit.covariance, fit.weight, fit.prior)
     assert harmless(replace(analysis, fit=worse), softer.sets, LEVEL)[0].names == ["friction_scale"]
 
 

@@ -33,11 +33,9 @@ class Parameter:
     ratio : bool
         Whether it moves by factors: a fit changes it by no more than a factor of e in one step.
     further : bool
-        Whether it only refines what the others do, and has to be sure (``TIE`` of log evidence) to be taken.
+        Whether it only refines what the others do.
     form : bool
         Whether it says which form the effect has, not how large it is: a reference, a lag, a moment.
-    kept : bool
-        Whether a fit never drops it by itself: without it the others mean something else.
     prior : float
         Standard deviation about ``zero`` that physics leaves to it where the effect is there; 0 says that
         every value between the bounds is as likely.
@@ -56,7 +54,6 @@ class Parameter:
     ratio: bool = False
     further: bool = False
     form: bool = False
-    kept: bool = False
     prior: float = 0.0
     prior_in: str = ""
 

@@ -72,6 +72,8 @@ class Fit:
         Derivatives at the fit.
     weight : dict of float
         What a squared newton of each output counts for, by the likelihood.
+    prior : float
+        How many times as wide the priors are as the effects state them.
     sweeps : BySweep
     """
 
@@ -81,6 +83,7 @@ class Fit:
     labels: list[tuple[int, str]] = field(default_factory=list)
     columns: dict[str, Array] = field(default_factory=dict)
     weight: Mapping[str, float] = field(default_factory=dict)
+    prior: float = 1.0
     sweeps: BySweep | None = None
 
     @property
@@ -93,7 +96,7 @@ class Fit:
         rows = [k for k, (i, _) in enumerate(self.labels) if i in kept]
         covariance = self.covariance[np.ix_(rows, rows)]
         changes, free = [self.changes[i] for i in kept], [self.free[i] for i in kept]
-        return linearised(system, changes, free, covariance, self.weight)
+        return linearised(system, changes, free, covariance, self.weight, self.prior)
 
     @property
     def errors(self) -> Array:
@@ -107,11 +110,13 @@ def linearised(
     free: Sequence[tuple[str, ...]],
     covariance: Array,
     weight: Mapping[str, float],
+    learnt_prior: float,
 ) -> Fit:
     """Return a set at its parameters, with columns and with what each sweep says of them."""
     data, rest = system.data, residual(system.data, changes)
     labels, columns = columns_of(data, list(changes), list(free))
     off, wide = prior(data, changes, labels)
+    wide = wide * learnt_prior
     wide = wide * widening(off / wide)
     count, k = system.count, len(labels)
     information, score = np.zeros((count, k, k)), np.zeros((count, k))
@@ -121,7 +126,7 @@ def linearised(
             information[number] += weight[o] * x[rows].T @ x[rows]
             score[number] += weight[o] * x[rows].T @ rest[o][rows]
     sweeps = BySweep(information, score, 1.0 / wide**2, -off / wide**2)
-    return Fit(list(changes), list(free), covariance, labels, columns, weight, sweeps)
+    return Fit(list(changes), list(free), covariance, labels, columns, weight, learnt_prior, sweeps)
 
 
 def columns_of(

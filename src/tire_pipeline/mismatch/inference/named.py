@@ -42,6 +42,6 @@ def _fit_of(analysis: Analysis, sets: Enumerated, answer: SetAnswer) -> Fit:
     weight = {
         o: w.precision / sets.products.largest[o] ** 2 / analysis.data.size for o, w in found.weights.items()
     }
-    fit = linearised(analysis.system, each.changes, each.free, inner, weight)
+    fit = linearised(analysis.system, each.changes, each.free, inner, weight, sets.likelihood.learnt.prior)
     kept = [i for i, (name, _) in enumerate(each.changes) if name in answer.names]
     return fit if len(kept) == len(each.changes) else fit.part(kept, analysis.system)

@@ -94,7 +94,7 @@ def refit_on_all(analysis: Analysis, data: Data) -> Fit:
     delta[live] = inverse(information[np.ix_(live, live)], _RCOND) @ score[live]
     most = _MOST_ERRORS_MOVED * fit.errors
     changes = moved(fit.changes, fit.labels, np.clip(delta, -most, most))
-    return linearised(analysis.system, changes, fit.free, fit.covariance, fit.weight)
+    return linearised(analysis.system, changes, fit.free, fit.covariance, fit.weight, fit.prior)
 
 
 def _normal_equations(analysis: Analysis, data: Data) -> tuple[Array, Array]:

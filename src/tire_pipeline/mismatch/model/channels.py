@@ -30,6 +30,13 @@ def moves(slow: Array, least: float) -> bool:
     return bool(high - low > least)
 
 
+def least_spread(name: str, values: Array) -> float:
+    """Return the spread, in the channel's unit, below which a channel counts as constant."""
+    if name in _RELATIVE_SPREAD:
+        return _RELATIVE_SPREAD[name] * abs(float(np.median(values)))
+    return ABSOLUTE_SPREAD.get(name, 0.0)
+
+
 class RecordedChannels:
     """What is recorded."""
 
@@ -66,10 +73,7 @@ class RecordedChannels:
         known = self.fixed.get("varies")
         if known is not None:
             return bool(known[name])
-        least = ABSOLUTE_SPREAD.get(name, 0.0)
-        if name in _RELATIVE_SPREAD:
-            least = _RELATIVE_SPREAD[name] * abs(float(np.median(self.channels[name])))
-        return moves(self.smooth(name), least)
+        return moves(self.smooth(name), least_spread(name, self.channels[name]))
 
     def smooth(self, name: str) -> Array:
         """Return a slow channel without its sensor noise: a running mean over half a second."""

@@ -126,8 +126,8 @@ class ByFold:
 
         From where the fit to all rows ended, they go as far as the likeliest parameters go when rows are left
         out. The linear step is asked for that change only: where a fit ended elsewhere than a linear model
-        has its optimum, no such optimum is promised. They are weighed without errors of form, with priors as
-        the effects state them and an error of any size. Those that one sweep determines stay where they are.
+        has its optimum, no such optimum is promised. They are weighed without errors of form, with priors of
+        the learnt width and an error of any size. Those that one sweep determines stay where they are.
         """
         data, each = self.products.data, self.each
         labels, _ = columns_of(data, list(each.changes), list(each.free))
@@ -139,6 +139,7 @@ class ByFold:
         return {o: x[:, -1] - x[:, : each.parameters] @ at for o, x in columns.items()}
 
     def _likeliest(self, likelihood: Likelihood, seen: OfSet) -> Array:
-        """Parameters by some rows, in widths of their priors."""
+        """Parameters by some rows, in widths of their priors as the effects state them."""
         own = seen.products.take(np.arange(self.each.parameters))
-        return likelihood.evidence(own, np.ones(self.each.parameters), wide=True).mode
+        scale = np.full(self.each.parameters, likelihood.learnt.prior)
+        return likelihood.evidence(own, scale, wide=True).mode

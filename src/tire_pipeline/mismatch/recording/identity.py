@@ -10,7 +10,7 @@ import numpy as np
 
 from tire_pipeline.channels import SLIP_AND_LOAD, SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
-from tire_pipeline.mismatch.model.channels import moves
+from tire_pipeline.mismatch.model.channels import least_spread, moves
 from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.usable import Drive
@@ -40,6 +40,9 @@ SEVERAL = 3
 LEAST_REMOVED = 0.5
 """So many figures, one of them a load slope, and with them right at least half of the mismatch is gone."""
 
+STATES = ("pressure", "tread_temperature")
+"""Channels by which friction and stiffness of the same tire change. What they explain is no other tire's."""
+
 _MOST_ROWS_FITTED = 4000
 _GAUSS_NEWTON_STEPS = 12
 _LARGEST_FIGURE = 2.0
@@ -56,7 +59,7 @@ class Figures:
         Logarithms of true over file's, in the order of ``FIGURES`` (curvature: of the effective slip in the
         bend); NaN where the recording does not tell.
     removed : float
-        Share of the squared mismatch that is gone with them.
+        Share of the squared mismatch that is gone with them, of what the recorded states leave.
     """
 
     output: str
@@ -118,24 +121,26 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
 def figures(tire: Any, arrays: Mapping[str, Array], output: str) -> Figures:
     """Fit the basic figures of one force by similarity, and an offset of the force.
 
-    ``F = m F_file(slip k / m exp(c w))`` with ``log m`` and ``log k`` linear in load and w between 0 (small
-    slip) and 1 (full sliding): Pacejka, Tire and Vehicle Dynamics, 3rd ed., section 4.2, with a bend.
-    Standard errors are by the scatter over stretches of rows.
+    ``F = m F_file(slip k / m exp(c w))`` with ``log m`` and ``log k`` linear in load and in each recorded
+    state that varies, and w between 0 (small slip) and 1 (full sliding): Pacejka, Tire and Vehicle Dynamics,
+    3rd ed., section 4.2, with a bend. A tread that warms in each sweep bends the curve as another tire does;
+    beside its temperature the bend is not known. Standard errors are by the scatter over stretches of rows.
     """
     step = max(1, arrays["normal_load"].size // _MOST_ROWS_FITTED)
-    a = {n: arrays[n][::step] for n in (*SLIP_AND_LOAD, output) if n in arrays}
+    a = {n: arrays[n][::step] for n in (*SLIP_AND_LOAD, *STATES, output) if n in arrays}
     model = _Similar(tire, a, output)
-    free = np.flatnonzero([True, model.loaded, True, model.loaded, True])
-    recorded = a[output]
-    p, left, columns = _fit(model, recorded, free)
-    before = float(np.sum((recorded - model(np.zeros(5))) ** 2))
+    free = np.array([True, model.loaded, True, model.loaded, True, *[True] * model.of_states])
+    recorded, count = a[output], len(FIGURES)
+    p, left, columns = _fit(model, recorded, np.flatnonzero(free))
+    states = np.arange(free.size) >= count
+    before = _fit(model, recorded, np.flatnonzero(states))[1] if states.any() else recorded - model(0.0 * p)
     inverse = np.linalg.pinv(columns.T @ columns, rcond=1e-12)
     stretch = np.arange(recorded.size) * INDEPENDENT_STRETCHES // recorded.size
     score = np.array([np.bincount(stretch, c * left, INDEPENDENT_STRETCHES) for c in columns.T])
-    errors, values = np.full(5, np.nan), np.full(5, np.nan)
-    errors[free] = np.sqrt(np.maximum(np.diag(inverse @ (score @ score.T) @ inverse), 0.0))[: free.size]
-    values[free] = p[free]
-    return Figures(output, values, errors, 1.0 - float(left @ left) / max(before, 1e-300))
+    errors, values = np.full(free.size, np.nan), np.where(free, p, np.nan)
+    errors[free] = np.sqrt(np.maximum(np.diag(inverse @ (score @ score.T) @ inverse), 0.0))[:-1]
+    removed = 1.0 - float(left @ left) / max(float(before @ before), 1e-300)
+    return Figures(output, values[:count], errors[:count], removed)
 
 
 class _Similar:
@@ -149,6 +154,9 @@ class _Similar:
         middle = float(np.median(load))
         self.excess = (load - middle) / middle
         self.loaded = moves(load, 0.1 * middle)
+        varying = {n: x - x.mean() for n, x in a.items() if n in STATES and moves(x, least_spread(n, x))}
+        self.states = np.array([x / x.std() for x in varying.values()]).reshape(-1, load.size)
+        self.of_states = 2 * len(varying)
         used = np.abs(self.points[self.slip]) * self._at(load, "stiffness") / self._at(load, "peak")
         self.bend = used / (1.0 + used)
 
@@ -167,14 +175,16 @@ class _Similar:
 
     def __call__(self, p: Array) -> Array:
         """Return the force with figures off by ``p``."""
-        m, k = p[0] + p[1] * self.excess, p[2] + p[3] * self.excess
+        of_friction, of_stiffness = p[len(FIGURES) :].reshape(2, -1)
+        m = p[0] + p[1] * self.excess + of_friction @ self.states
+        k = p[2] + p[3] * self.excess + of_stiffness @ self.states
         slip = self.points[self.slip] * np.exp(np.clip(k - m + p[4] * self.bend, -5.0, 5.0))
         return np.exp(m) * plain_forces(self.tire, **{**self.points, self.slip: slip})[self.output]
 
 
 def _fit(model: _Similar, recorded: Array, free: Array) -> tuple[Array, Array, Array]:
     """Gauss-Newton with halved steps; return parameters, the residual, and the columns of the last step."""
-    p = np.zeros(5)
+    p = np.zeros(len(FIGURES) + model.of_states)
     force = model(p)
     left = _centred(recorded - force)
     for _ in range(_GAUSS_NEWTON_STEPS):

@@ -37,7 +37,7 @@ class Nonuniformity(Effect):
         Parameter("angle_sine", "rad", -0.05, 0.05, 1e-4, prior=0.005),
         Parameter("load_cosine", "1", -0.3, 0.3, 1e-3, prior=0.05),
         Parameter("load_sine", "1", -0.3, 0.3, 1e-3, prior=0.05),
-        Parameter("radius", "m", 0.01, 2.0, 1e-5, form=True, kept=True),
+        Parameter("radius", "m", 0.01, 2.0, 1e-5, form=True),
     )
     looks_like = {"time_delay": "a delay needs slip that changes"}
     experiment = "record straight rolling at two steady speeds: the frequency must follow the speed"

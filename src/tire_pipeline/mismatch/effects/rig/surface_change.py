@@ -31,8 +31,8 @@ class SurfaceChange(Effect):
     prior_source = "Judged: dry surfaces differ by 10 to 20%, as LMUX and LMUY are set between rig and road"
     parameters = (
         Parameter("friction", "1", -0.8, 1.0, 0.01, prior=0.15),
-        Parameter("moment", "s", -1e12, 1e12, 0.05, form=True, kept=True),
-        Parameter("duration", "s", _STEP_SECONDS, 1e12, 0.05, form=True, kept=True),
+        Parameter("moment", "s", -1e12, 1e12, 0.05, form=True),
+        Parameter("duration", "s", _STEP_SECONDS, 1e12, 0.05, form=True),
     )
     looks_like = {
         "friction_scale": "a friction factor holds from the start",

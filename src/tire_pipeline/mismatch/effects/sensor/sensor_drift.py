@@ -36,7 +36,7 @@ class SensorDrift(Effect):
     parameters = (
         Parameter("fy", "N", -5000.0, 5000.0, 1.0, output="fy", prior=0.03, prior_in="load_nominal"),
         Parameter("fx", "N", -5000.0, 5000.0, 1.0, output="fx", prior=0.03, prior_in="load_nominal"),
-        Parameter("lag", "s", 0.0, 300.0, 0.5, form=True, kept=True),
+        Parameter("lag", "s", 0.0, 300.0, 0.5, form=True),
     )
     looks_like = {
         "wear": "wear scales the force and is nothing at zero slip",

@@ -33,7 +33,7 @@ class CombinedSlip(Effect):
     prior_source = "Published RBX1 and RBY1 lie at 5 to 15"
     parameters = (
         *(Parameter(n, "1", 0.5, 400.0, 0.2, ratio=True) for n in _WEIGHT_COEFFICIENTS),
-        *(Parameter(n, "1", 0.0, 60.0, 0.1, kept=True, prior=5.0) for n in _MORE_WEIGHT),
+        *(Parameter(n, "1", 0.0, 60.0, 0.1, prior=5.0) for n in _MORE_WEIGHT),
     )
     looks_like = {
         "friction_scale": "friction acts on pure slip too",

@@ -37,7 +37,7 @@ class InflationPressure(Effect):
         Parameter("stiffness_curvature", "1", -12.0, 12.0, 0.02, prior=1.5),
         Parameter("friction_curvature", "1", -6.0, 6.0, 0.02, further=True, prior=0.7),
         Parameter("stiffness_load", "1", -5.0, 5.0, 0.02, further=True, prior=0.7),
-        Parameter("reference", "Pa", 0.0, 5e6, 100.0, form=True, kept=True),
+        Parameter("reference", "Pa", 0.0, 5e6, 100.0, form=True),
     )
     looks_like = {"temperature": "temperature lags; pressure steps show at once"}
     experiment = "record the same sweep at three pressures, in an order that is not the order of time"

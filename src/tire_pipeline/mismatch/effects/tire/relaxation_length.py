@@ -34,7 +34,7 @@ class RelaxationLength(Effect):
     family = "lag"
     prior_source = "About a radius in side slip and less in braking (Pacejka, 3rd ed., ch. 7)"
     parameters = (
-        Parameter("length", "m", 0.0, 10.0, 0.002, kept=True, prior=1.0, prior_in="radius"),
+        Parameter("length", "m", 0.0, 10.0, 0.002, prior=1.0, prior_in="radius"),
         Parameter("fades", "1", 0.0, 1.0, 0.1, form=True),
         Parameter("load", "1", -1.0, 2.0, 0.02, further=True, prior=0.5),
         Parameter("along", "1", 0.05, 3.0, 0.02, zero=1.0, further=True, prior=0.5),

@@ -42,8 +42,8 @@ class Temperature(Effect):
         Parameter("friction", "1", -0.8, 0.8, 0.01, prior=0.15),
         Parameter("curvature", "1", 0.0, 0.8, 0.01, prior=0.15),
         Parameter("stiffness", "1", -1.0, 1.0, 0.01, prior=0.2),
-        Parameter("reference", "degC or 1", -1.0, 200.0, 0.02, form=True, kept=True),
-        Parameter("lag", "s", 1.0, 300.0, 0.2, form=True, kept=True),
+        Parameter("reference", "degC or 1", -1.0, 200.0, 0.02, form=True),
+        Parameter("lag", "s", 1.0, 300.0, 0.2, form=True),
     )
     looks_like = {
         "wear": "wear never goes back; temperature does, when the tire rests",
