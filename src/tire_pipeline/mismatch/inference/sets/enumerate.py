@@ -3,7 +3,7 @@ pairs."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -54,28 +54,61 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
     beside : iterable of tuple of str
         Sets that are fitted in any case: the truth of tuning cases.
     """
+    looked = screened_recording(analysis, sizes)
+    products, found = looked.products, looked.found
+    likelihood = looked.guess.counting(found.independent)
+    fits: dict[Names, OfSet] = {(): products.of_set([], [])}
+    singles, pairs = sets_to_fit(found, likelihood.unknown.expected, beside)
+    for name in singles:
+        choices = [fitted(products, likelihood, [form], _FIT_STEPS) for form in found.forms[name]]
+        fits[(name,)] = max(choices, key=lambda each: plain_evidence(likelihood, each))
+    for pair in pairs:
+        fits[pair] = fitted(products, likelihood, _from_singles(fits, pair), _FIT_STEPS)
+    for triple in _triples(likelihood, list(fits.values()), found):
+        fits[triple] = fitted(products, likelihood, _from_singles(fits, triple), _FIT_STEPS)
+    return Enumerated(products, likelihood, _with_forms(products, likelihood, fits))
+
+
+@dataclass(frozen=True)
+class ScreenedRecording:
+    """A recording with what the screen says of it, before any set is fitted."""
+
+    products: RecordingProducts
+    guess: Likelihood
+    found: Screened
+
+
+def screened_recording(analysis: Analysis, sizes: LearntSizes) -> ScreenedRecording:
+    """Return what the screen says of all effects of a recording."""
     forms = screened_forms(analysis.data, analysis.variants)
     background = make_background(
         analysis.data, ((f.variant.name, f.columns) for f in forms), analysis.largest
     )
     products = RecordingProducts(analysis, background)
     guess = Likelihood(products.unknown(dict.fromkeys(analysis.data.outputs, _INDEPENDENT)), sizes)
-    found = screen(products, guess, forms)
-    likelihood = guess.counting(found.independent)
-    fits: dict[Names, OfSet] = {(): products.of_set([], [])}
-    expected = sorted(likelihood.unknown.expected & set(found.forms))
+    return ScreenedRecording(products, guess, screen(products, guess, forms))
+
+
+def sets_to_fit(
+    found: Screened, expected: Collection[str], beside: Iterable[Names] = ()
+) -> tuple[list[str], list[Names]]:
+    """Return the single effects and the pairs that are fitted.
+
+    Parameters
+    ----------
+    found : Screened
+    expected : collection of str
+        Effects of which physics leaves no doubt: each alone, and with every other one.
+    beside : iterable of tuple of str
+        Sets that are fitted in any case.
+    """
+    sure = sorted(set(expected) & set(found.forms))
     wanted = [tuple(sorted(names)) for names in beside if set(names) <= set(found.forms)]
-    wanted += [(name,) for name in expected]
+    wanted += [(name,) for name in sure]
     pairs = [*_likeliest_pairs(found), *(names for names in wanted if len(names) == 2)]
-    pairs += [tuple(sorted((first, n))) for first in expected for n in found.forms if n != first]
-    for name in dict.fromkeys([*found.kept, *(n for names in pairs + wanted for n in names)]):
-        choices = [fitted(products, likelihood, [form], _FIT_STEPS) for form in found.forms[name]]
-        fits[(name,)] = max(choices, key=lambda each: plain_evidence(likelihood, each))
-    for pair in dict.fromkeys(pairs):
-        fits[pair] = fitted(products, likelihood, _from_singles(fits, pair), _FIT_STEPS)
-    for triple in _triples(likelihood, list(fits.values()), found):
-        fits[triple] = fitted(products, likelihood, _from_singles(fits, triple), _FIT_STEPS)
-    return Enumerated(products, likelihood, _with_forms(products, likelihood, fits))
+    pairs += [tuple(sorted((first, n))) for first in sure for n in found.forms if n != first]
+    singles = [*found.kept, *(n for names in pairs + wanted for n in names)]
+    return list(dict.fromkeys(singles)), list(dict.fromkeys(pairs))
 
 
 def _with_forms(
