@@ -98,6 +98,13 @@ class WithLabel:
         self.stream.wait_for(f"trying ({self.label})")
 
 
+@pytest.mark.parametrize("terminal", [True, False])
+def test_a_files_name_is_neither_markup_nor_does_it_act_on_the_terminal(monkeypatch, terminal):
+    stream = errors_to(monkeypatch, terminal=terminal)
+    for _ in track([1, 2], "reading [/red][bold]\x1b[31m\u202ea.tir", total=2):
+        stream.wait_for("reading [/red][bold]⟨U+001B⟩[31m⟨U+202E⟩a.tir")
+
+
 def test_of_loops_within_each_other_the_innermost_has_the_one_row(monkeypatch):
     stream = errors_to(monkeypatch, terminal=True)
     for _ in track([1, 2], "outer"):

@@ -13,6 +13,7 @@ from kedro.framework.cli.project import run as kedro_run
 from tire_pipeline import pipelines
 from tire_pipeline.errors import DomainError, did_you_mean
 from tire_pipeline.kedro_runs.run_errors import one_line
+from tire_pipeline.pages.visible_text import visible
 
 
 @click.group(name="tire_pipeline")
@@ -31,7 +32,7 @@ def _run(**options: Any) -> Any:
         line = one_line(error)
         if line is None:
             raise
-        click.secho(f"error: {line}", fg="red", err=True)
+        click.secho(f"error: {visible(line)}", fg="red", err=True)
         sys.exit(1)
 
 

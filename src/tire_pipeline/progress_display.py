@@ -16,6 +16,8 @@ from dataclasses import dataclass, field
 from multiprocessing import current_process
 from typing import TYPE_CHECKING
 
+from tire_pipeline.pages.visible_text import visible
+
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.progress import Progress, TaskID
@@ -56,7 +58,7 @@ class Activity:
     def label(self) -> str:
         """What is being done, and what of it at the moment."""
         at = self.now_at() if self.now_at is not None else ""
-        return f"{self.what} ({at})" if at else self.what
+        return visible(f"{self.what} ({at})" if at else self.what)
 
     def count(self) -> str:
         """How many are done of how many."""
@@ -230,7 +232,11 @@ def _row(console: Console) -> Progress:
     from rich.table import Column
 
     return Progress(
-        TextColumn("{task.description}", table_column=Column(no_wrap=True, overflow="ellipsis")),
+        TextColumn(
+            "{task.description}",
+            markup=False,  # brackets in a file's name are no markup
+            table_column=Column(no_wrap=True, overflow="ellipsis"),
+        ),
         BarColumn(),
         TextColumn("{task.fields[count]}"),
         TextColumn("{task.fields[pace]}"),

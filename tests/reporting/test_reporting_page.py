@@ -1,10 +1,14 @@
 """Pages hold everything they need, and nothing of what they show can act."""
 
 import html
+import io
 import re
+import warnings
+from itertools import pairwise
 
 import pandas as pd
 
+from tire_pipeline.pages.drawing import name_ticks
 from tire_pipeline.pages.safe_page import source_hash
 from tire_pipeline.reporting import Figure, Table, Text, inline_svg, new_figure, render_page
 
@@ -106,3 +110,25 @@ def test_a_table_without_rows_says_none_and_nothing_is_a_dash():
     assert "<table" not in page
     (row,) = Table(pd.DataFrame({"released": [None]}, dtype=object)).rows
     assert row[0] == [("–", False)]
+
+
+def test_long_names_leave_room_for_the_figure():
+    """Names of twenty letters and more overlapped, and left the axes no room at all."""
+    names = [f"Tire Testing Centre \u202eNumber {k}, Hall B" for k in range(6)]
+    figure, axes = new_figure(width=4.0, height=4.0)
+    name_ticks(axes.xaxis, names)
+    name_ticks(axes.yaxis, names)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # Matplotlib warns where axes have no room
+        figure.canvas.draw()
+    labels = axes.get_xticklabels()
+    boxes = [label.get_window_extent() for label in labels]
+    assert not any(one.overlaps(other) for one, other in pairwise(boxes))
+    assert [label.get_text()[-6:] for label in labels] == ["Hall B"] * 6
+
+
+def test_a_picture_shows_direction_characters_too():
+    figure, axes = new_figure()
+    axes.set_title("a\u202ex.tir")
+    figure.savefig(io.BytesIO(), format="png")
+    assert axes.get_title() == "a⟨U+202E⟩x.tir"

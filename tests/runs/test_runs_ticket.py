@@ -15,7 +15,7 @@ import pytest
 from tire_pipeline.datasets.storage.one_at_a_time import locked
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import check_before_replacing, replaced_file, replaced_folder
-from tire_pipeline.runs import LostTicketError, Note, Ticket, system_lock, take_turn
+from tire_pipeline.runs import LostTicketError, Note, Ticket, system_lock, take_turn, turn
 from tire_pipeline.runs import ticket as tickets
 from tire_pipeline.runs.system_lock import is_held
 
@@ -298,6 +298,37 @@ def test_what_a_killed_run_was_writing_is_removed_and_nothing_of_others(draw, ru
             each.communicate()
     _turn(draw("the one after"))
     assert _temporary(data) == ["03_primary"]
+
+
+def test_the_data_folder_is_walked_once_for_a_dead_run_and_again_if_that_walk_is_killed(
+    draw, runs, monkeypatch
+):
+    half = runs.parent / "03/.tire_pipeline-000001-abcdefgh.part"
+    half.parent.mkdir(parents=True)
+    half.touch()
+    _left(runs)
+    walked = []
+    remove = turn.remove_temporary
+
+    def killed_at_first(folder: Path, owners: set[str]) -> None:
+        walked.append(owners)
+        if len(walked) == 1:
+            raise KeyboardInterrupt
+        remove(folder, owners)
+
+    monkeypatch.setattr(turn, "remove_temporary", killed_at_first)
+    clearing = draw("killed while it clears")
+    with pytest.raises(KeyboardInterrupt):
+        _turn(clearing)
+    clearing.end()
+    assert half.exists()
+    for name in ("second", "third", "fourth"):
+        own = draw(name)
+        _turn(own)
+        own.end()
+        assert not half.exists()
+    assert walked[:2] == [{"000001"}, {"000001"}]
+    assert not any(walked[2:])
 
 
 def test_a_folder_that_a_killed_run_had_moved_aside_is_put_back(draw, runs):

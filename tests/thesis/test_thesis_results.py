@@ -8,6 +8,7 @@ import pytest
 
 from tire_pipeline.thesis.agents import curves_of_forces, judged_agent, thinned_learning_curve
 from tire_pipeline.thesis.files import key_of, pack_frames, unpack_frames
+from tire_pipeline.thesis.pages.class_scores import per_class_table
 from tire_pipeline.thesis.pages.words import least_within, plus_minus, points, rank_agreement
 from tire_pipeline.thesis.result_tables import over_seeds
 from tire_pipeline.translation.thesis.grid import Cell, train_cell
@@ -116,3 +117,13 @@ def test_words():
     assert least_within(curve, "trees") == 3
     assert rank_agreement([1, 2, 3], [10, 20, 30]) == pytest.approx(1.0)
     assert np.isnan(rank_agreement([1, 2], [1, 2]))
+
+
+@pytest.mark.parametrize("names", [["North", "South"], ["A", "North"]])
+def test_a_users_categories_have_any_name(names):
+    rows = [(split, name, 0.9, 0.8, 0.7) for split in ("random", "by_tire") for name in names]
+    own = pd.DataFrame(rows, columns=["split", "category", "precision", "recall", "f1"])
+    table = per_class_table(own).set_index("category")
+    assert (table.loc[names, ["precision, random", "precision, by tire"]] == 0.9).all(axis=None)
+    assert np.isnan(table.loc["North", "precision, thesis"])
+    assert table["precision, thesis"].notna().sum() == 6

@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 from tire_pipeline.errors import TirePipelineError
+from tire_pipeline.pages.visible_text import visible
 
 WRONG_INPUT = 2
 """Exit code for what the user can put right; click uses it for wrong options, too."""
@@ -73,7 +74,7 @@ class OnDemand(click.Group):
 
 
 def _fail(text: str) -> None:
-    click.secho(f"error: {' | '.join(text.split(chr(10)))}", fg="red", err=True)
+    click.secho(f"error: {' | '.join(visible(text).split(chr(10)))}", fg="red", err=True)
     sys.exit(WRONG_INPUT)
 
 
@@ -86,7 +87,7 @@ class _OneLine:
     def __call__(self, message: Warning | str, *_: Any, **__: Any) -> None:
         if str(message) not in self._shown:
             self._shown.add(str(message))
-            click.echo(f"warning: {message}", err=True)
+            click.echo(f"warning: {visible(message)}", err=True)
 
 
 @click.group(name="tire", cls=OnDemand, context_settings={"help_option_names": ["-h", "--help"]})

@@ -15,6 +15,7 @@ import numpy as np
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import write_bytes
 from tire_pipeline.pages.percentage import is_percentage
+from tire_pipeline.pages.visible_text import visible
 
 
 @dataclass(frozen=True)
@@ -105,27 +106,27 @@ def _print(outcome: CommandOutcome, written: Sequence[str]) -> None:
     from rich.text import Text
 
     console = Console(highlight=False)
-    console.print(Text(outcome.title, style="bold"))
+    console.print(Text(visible(outcome.title), style="bold"))
     for line in outcome.lines:
-        console.print(Text(line))
+        console.print(Text(visible(line)))
     for grid in outcome.grids:
         table = Table(box=None, pad_edge=False)
         numbers = [any(_right_aligned(row[k]) for row in grid.rows) for k in range(len(grid.header))]
         for heading, number in zip(grid.header, numbers, strict=True):
-            table.add_column(heading, justify="right" if number else "left", overflow="fold")
+            table.add_column(Text(visible(heading)), justify="right" if number else "left", overflow="fold")
         for row in grid.rows:
-            table.add_row(*(Text(digits(cell)) for cell in row))
+            table.add_row(*(Text(visible(digits(cell))) for cell in row))
         console.print()
         if grid.title:
-            console.print(Text(grid.title, style="italic"))
+            console.print(Text(visible(grid.title), style="italic"))
         console.print(table)
     if outcome.notes:
         console.print()
     for note in outcome.notes:
-        console.print(Text(f"note: {note}"))
+        console.print(Text(visible(f"note: {note}")))
     if written:
         console.print()
-        console.print(Text(f"written: {', '.join(written)}"))
+        console.print(Text(visible(f"written: {', '.join(written)}")))
 
 
 def _right_aligned(value: Any) -> bool:

@@ -18,6 +18,7 @@ from tire_pipeline.files.atomic import check_before_replacing
 from tire_pipeline.files.objects import Objects
 from tire_pipeline.kedro_runs.data_place import data_place
 from tire_pipeline.kedro_runs.newest_tables import tables_place
+from tire_pipeline.pages.visible_text import visible
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.runs import (
     ObjectTicket,
@@ -262,10 +263,10 @@ class OutcomeHooks:
         print(f"done in {_duration(time.monotonic() - self._began)}")
         for name in self.OUTCOMES:
             if name in made:
-                print(*catalog.load(name), sep="\n")
+                print(*map(visible, catalog.load(name)), sep="\n")
         for name in self.PAGES:
             if name in made:
-                print(*main_message(catalog.load(name)), sep="\n")
+                print(*map(visible, main_message(catalog.load(name))), sep="\n")
         if "ingest_summary" in made:
             print(_read(catalog.load("ingest_summary")))
         for name, what in self.RESULTS:

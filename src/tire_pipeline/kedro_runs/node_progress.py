@@ -12,6 +12,7 @@ from typing import Any
 
 from kedro.framework.hooks import hook_impl
 
+from tire_pipeline.pages.visible_text import VisibleFormatter
 from tire_pipeline.progress import under_way
 
 SAY_AFTER_SECONDS = 2.0
@@ -28,10 +29,14 @@ class NodeProgressHooks:
 
     @hook_impl
     def after_context_created(self) -> None:
-        """Have logs written above what shows progress; Kedro allows no handler of one's own."""
+        """Have logs written above what shows progress, with all in them visible.
+
+        Kedro allows no handler or formatter of one's own in the configuration.
+        """
         for handler in logging.getLogger().handlers:
             if isinstance(handler, logging.StreamHandler) and handler.stream is sys.stdout:
                 handler.setStream(StandardOutput())
+                handler.setFormatter(VisibleFormatter(handler.formatter or logging.Formatter()))
 
     @hook_impl
     def before_pipeline_run(self, pipeline: Any) -> None:

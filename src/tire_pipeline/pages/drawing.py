@@ -5,12 +5,13 @@ from __future__ import annotations
 import io
 import re
 import textwrap
+from collections.abc import Sequence
 from importlib.resources import files as package_files
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from markupsafe import Markup
 
-from tire_pipeline.pages.safe_page import visible
+from tire_pipeline.pages.visible_text import visible
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as MplFigure
@@ -33,6 +34,8 @@ STYLE: Any = {
     "figure.constrained_layout.use": True,
 }
 
+_LEVEL_NAME = 3
+"""Names of so many characters stand side by side."""
 _STYLE_ELEMENT = re.compile(
     r'<style type="text/css">\*\{stroke-linejoin: round; stroke-linecap: butt\}</style>\s*'
 )
@@ -77,6 +80,33 @@ def new_figure(
     return figure, axes
 
 
+def in_figure(name: object, most: int = 20) -> str:
+    """Return a name of the user's files as it fits into a figure: the middle of a long one is left out.
+
+    Examples
+    --------
+    >>> in_figure("North"), in_figure("Tire Testing Centre North", most=12)
+    ('North', 'Tire …North')
+    """
+    text = visible(name)
+    half = (most - 1) // 2
+    return text if len(text) <= most else f"{text[:half].rstrip()} …{text[-half:].lstrip()}"
+
+
+def name_ticks(axis: Any, names: Sequence[object]) -> None:
+    """Name the places 0, 1, 2 ... of an axis; names stand upright below a figure if they are long.
+
+    Parameters
+    ----------
+    axis : matplotlib.axis.Axis
+    names : sequence
+        Of categories.
+    """
+    shown = [in_figure(name) for name in names]
+    upright = axis.axis_name == "x" and max(map(len, shown), default=0) > _LEVEL_NAME
+    axis.set_ticks(range(len(shown)), shown, rotation=90 if upright else 0)
+
+
 def inline_svg(figure: MplFigure) -> Markup:
     """The figure as an SVG element that can stand in a page; the same figure gives the same text."""
     from matplotlib import rc_context
@@ -99,7 +129,7 @@ def svg_element(file: str) -> Markup:
     Parameters
     ----------
     file : str
-        Names in it (labels, legends) come out visible, see :func:`tire_pipeline.pages.safe_page.visible`.
+        Names in it (labels, legends) come out visible, see :func:`tire_pipeline.pages.visible_text.visible`.
 
     Returns
     -------

@@ -7,9 +7,14 @@ from typing import Any
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
+from tire_pipeline.pages.visible_text import visible
+
 
 class PlainTextFigure(Figure):
-    """A figure in which a dollar is a dollar: names of files and categories are no formulas."""
+    """A figure in which a dollar is a dollar: names of files and categories are no formulas.
+
+    Characters that are not seen, or that turn a text round, are drawn as their code points.
+    """
 
     def draw(self, renderer: Any) -> None:
         """Draw, with formulas only in the labels of logarithmic axes."""
@@ -21,4 +26,6 @@ class PlainTextFigure(Figure):
         for text in self.findobj(Text):
             if text not in powers:
                 text.set_parse_math(False)
+                if (shown := visible(text.get_text())) != text.get_text():
+                    text.set_text(shown)
         super().draw(renderer)

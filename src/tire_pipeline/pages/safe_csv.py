@@ -8,7 +8,7 @@ from typing import Any
 
 import pandas as pd
 
-from tire_pipeline.pages.safe_page import visible
+from tire_pipeline.pages.visible_text import visible
 
 # A spreadsheet that splits at another sign sees a new cell behind it; numbers stay numbers.
 _FORMULA = re.compile(r"(^|[;|\n])('*(?=[=+\-@＝＋－＠]))")

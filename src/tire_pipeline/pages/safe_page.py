@@ -4,29 +4,12 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import re
-import unicodedata
 from collections.abc import Iterable
 from typing import Any
 
 import jinja2
 
-_UNSEEN = ("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp")
-_PERHAPS_UNSEEN = re.compile(r"[^\n\x20-\x7e]")
-
-
-def visible(text: object) -> str:
-    r"""Return a text from a file as it can be shown: control and direction characters by their code points.
-
-    Examples
-    --------
-    >>> visible("a\u202erit.")
-    'a⟨U+202E⟩rit.'
-    """
-    return _PERHAPS_UNSEEN.sub(
-        lambda found: f"⟨U+{ord(found[0]):04X}⟩" if unicodedata.category(found[0]) in _UNSEEN else found[0],
-        str(text),
-    )
+from tire_pipeline.pages.visible_text import visible
 
 
 def page_environment(package: str) -> jinja2.Environment:

@@ -11,7 +11,8 @@ from tire_pipeline.evaluation import curves_of
 from tire_pipeline.evaluation.all_translators import NO_CHANGE
 from tire_pipeline.evaluation.compare_with_target import FLOOR
 from tire_pipeline.evaluation.curves import EvaluationGrid
-from tire_pipeline.reporting import HOME, Figure, Links, Table, Text, colour_of, new_figure, render_page
+from tire_pipeline.pages.drawing import colour_of, in_figure, new_figure
+from tire_pipeline.reporting import HOME, Figure, Links, Table, Text, render_page
 from tire_pipeline.reporting.training_figures import confusion_figure, learning_figure
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ def force_figure(translated_table: pd.DataFrame, references: pd.DataFrame, best:
     for column, tire in enumerate(tires):
         target = references[references["tire"] == tire] if len(references) else references
         _draw_tire(axes[:, column], part[part["tire"] == tire], target)
-        axes[0, column].set_title(str(tire))
+        axes[0, column].set_title(in_figure(tire))
         axes[-1, column].set_xlabel("slip angle (deg)")
     axes[0, 0].set_ylabel("lateral force at 6 kN (kN)")
     if rows > 1:
@@ -78,7 +79,7 @@ def _draw_tire(axes: np.ndarray, own: pd.DataFrame, target: pd.DataFrame) -> Non
         fy = _lateral_force(pd.DataFrame([row]))
         after = row["state"] == "after"
         style: Any = {"color": colour_of(categories.index(row["category"])), "ls": "--" if after else "-"}
-        label = f"{row['category']} translated" if after else f"{row['category']} as measured"
+        label = f"{in_figure(row['category'])} {'translated' if after else 'as measured'}"
         axes[0].plot(angles, fy, lw=1.1, label=label, **style)
         if reference is not None:
             axes[1].plot(angles, 1e3 * (fy - reference), lw=1.1, **style)

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.classifiers.score_on_splits import SPLITS
-from tire_pipeline.pages.drawing import colour_of, new_figure
+from tire_pipeline.pages.drawing import colour_of, name_ticks, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -23,8 +23,8 @@ def confusion_figure(confusion: pd.DataFrame) -> Figure:
         shares = part.pivot(index="true", columns="predicted", values="share")
         one.imshow(shares, vmin=0, vmax=1, cmap="Blues")
         one.grid(False)
-        one.set_xticks(range(len(shares)), shares.columns)
-        one.set_yticks(range(len(shares)), shares.index)
+        name_ticks(one.xaxis, shares.columns)
+        name_ticks(one.yaxis, shares.index)
         one.set_xlabel("predicted category")
         one.set_ylabel("true category")
         one.set_title(words[split])

@@ -28,7 +28,9 @@ BEAT_SECONDS = 5.0
 KEPT_TICKETS = 50
 """Notes of so many runs before the newest stay."""
 _STEP_NS = 2_000_000_000  # two seconds, the coarsest date of a file system
-_FILE_NAME = re.compile(r"(\d+)\.(json|ended|taken|lock)").fullmatch
+ENDED, TAKEN, CLEARED = "ended", "taken", "cleared"
+"""What a note becomes: its run ended; was declared dead; was, and what it was writing is gone, too."""
+_FILE_NAME = re.compile(rf"(\d+)\.(json|lock|{ENDED}|{TAKEN}|{CLEARED})").fullmatch
 
 
 class LostTicketError(DomainError):
@@ -188,7 +190,7 @@ class Ticket:
     def end(self) -> None:
         """Give the ticket back. The number stays taken."""
         self._stop.set()
-        retire(self.folder, self.note.number, "ended")
+        retire(self.folder, self.note.number, ENDED)
         if self._lock is not None:
             self._lock.release()
         prune(self.folder)
@@ -228,7 +230,7 @@ def open_notes(folder: Path, below: int) -> list[Note]:
 
 
 def retire(folder: Path, number: int, state: str) -> bool:
-    """Take a note away; its number stays remembered as ``ended``, or ``taken`` with what it says.
+    """Take a note away; its number stays remembered under another ending, with what the note says.
 
     Returns
     -------

@@ -15,7 +15,7 @@ from typing import Protocol
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import remove_temporary
 from tire_pipeline.runs.system_lock import is_held
-from tire_pipeline.runs.ticket import Note, Ticket, open_notes, prune, retire
+from tire_pipeline.runs.ticket import CLEARED, TAKEN, Note, Ticket, open_notes, prune, retire
 
 _LOG = logging.getLogger(__name__)
 EXPIRY_SECONDS = 30.0
@@ -231,7 +231,7 @@ def _declare_dead(folder: Path, note: Note) -> None:
 
     A run that ended while it was being looked at has taken its note away itself: its results stay.
     """
-    if not retire(folder, note.number, "taken"):
+    if not retire(folder, note.number, TAKEN):
         return
     _LOG.warning("An earlier run (%s) was killed; its results are removed.", note.run or note.number)
     take_back(folder.parent, note)
@@ -240,13 +240,18 @@ def _declare_dead(folder: Path, note: Note) -> None:
 def _take_back_again(folder: Path) -> None:
     """A run that stood still in the middle of a write ends that write when it wakes: take that back, too.
 
-    What dead runs were writing when they died goes as well, wherever it lies in the data folder.
+    What dead runs were writing when they died goes as well, wherever it lies in the data folder. That takes a
+    walk through all of it, so it is done once for each of them: their notes say so when it is finished. A
+    run that lives on after all removes what it was writing by itself.
     """
-    taken = sorted(folder.glob("*.taken"))
-    for path in taken:
+    for path in sorted([*folder.glob(f"*.{TAKEN}"), *folder.glob(f"*.{CLEARED}")]):
         with contextlib.suppress(FileNotFoundError):
             take_back(folder.parent, Note.from_json(0, path.read_bytes()))
+    taken = list(folder.glob(f"*.{TAKEN}"))
     remove_temporary(folder.parent, {path.stem for path in taken})
+    for path in taken:
+        with contextlib.suppress(FileNotFoundError):  # another run was faster
+            path.rename(path.with_suffix(f".{CLEARED}"))
     prune(folder)
 
 

@@ -9,7 +9,8 @@ import pandas as pd
 from markupsafe import Markup
 
 from tire_pipeline.pages.drawing import page_style
-from tire_pipeline.pages.safe_page import page_environment, policy, visible
+from tire_pipeline.pages.safe_page import page_environment, policy
+from tire_pipeline.pages.visible_text import visible
 from tire_pipeline.reporting.embedded import LEVELS, data_element, packed_json
 from tire_pipeline.reporting.page_parts import HOME, Table
 from tire_pipeline.reporting.translation.drawn_files import CURVES_TOGETHER, DrawnFiles

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.reporting import colour_of, new_figure
+from tire_pipeline.pages.drawing import colour_of, in_figure, new_figure
 from tire_pipeline.thesis.result_tables import Results, in_words
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ def force_figure(results: Results, representation: str) -> MplFigure | None:
         for column, supplier in enumerate(suppliers):
             one = grid[row, column]
             _draw_forces(one, frame[(frame["tire"] == tire) & (frame["category"] == supplier)])
-            one.set_title(f"{tire}, supplier {supplier}", fontsize=8)
+            one.set_title(f"{in_figure(tire)}, supplier {in_figure(supplier)}", fontsize=8)
             one.set_ylim(-limit, limit)
     _label_grid(figure, grid)
     return figure
@@ -145,11 +145,11 @@ def load_figure(results: Results, column: str, label: str, scale: float) -> MplF
                 after = ", translated" if kind == "translated" else ""
                 one.plot(
                     curve["normal_load"] / 1e3, curve[column] / scale, color=colour_of(number), ls=style,
-                    lw=1.1, label=f"supplier {supplier}{after}",
+                    lw=1.1, label=f"supplier {in_figure(supplier)}{after}",
                 )  # fmt: skip
         target = part[(part["kind"] == "target") & (part["category"] == suppliers[0])]
         one.plot(target["normal_load"] / 1e3, target[column] / scale, color="black", lw=2, label="target")
-        one.set_title(str(tire), fontsize=9)
+        one.set_title(in_figure(tire), fontsize=9)
         one.set_xlabel("normal load / kN")
     first = np.asarray(axes)[0, 0]
     first.set_ylabel(label)

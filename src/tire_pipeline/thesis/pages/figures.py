@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.classifiers.score_on_splits import SPLITS
+from tire_pipeline.pages.drawing import MARKERS, colour_of, name_ticks, new_figure
 from tire_pipeline.progress import track
-from tire_pipeline.reporting import MARKERS, colour_of, new_figure
 from tire_pipeline.thesis.pages.agent_figures import AGENT_FIGURES
 from tire_pipeline.thesis.result_tables import Results, in_words
 
@@ -46,7 +46,7 @@ def class_figure(results: Results, columns: tuple[str, ...]) -> MplFigure:
             places = np.arange(len(part)) + (number - (len(columns) - 1) / 2) * width
             label = {"all": "all files", "training": "training set", "training_smote": "with SMOTE"}[column]
             one.bar(places, part[column], width, color=colour_of(number), label=label)
-        one.set_xticks(np.arange(len(part)), part["category"])
+        name_ticks(one.xaxis, part["category"])
         one.set_xlabel("category")
         one.set_title(in_words(split))
     np.asarray(axes)[0].set_ylabel("files")
@@ -98,8 +98,8 @@ def confusion_figure(results: Results) -> MplFigure:
         top = float(np.nanmax(shares.to_numpy()))
         one.imshow(shares, vmin=0, vmax=top, cmap="Blues")
         one.grid(False)
-        one.set_xticks(range(len(shares)), shares.columns)
-        one.set_yticks(range(len(shares)), shares.index)
+        name_ticks(one.xaxis, shares.columns)
+        name_ticks(one.yaxis, shares.index)
         one.set_xlabel("predicted category")
         one.set_ylabel("true category")
         one.set_title(in_words(split))

@@ -9,6 +9,7 @@ import pandas as pd
 from tire_pipeline.classifiers.tuning import ANN_GRID
 from tire_pipeline.progress import track
 from tire_pipeline.reporting import Figure, Table, Text
+from tire_pipeline.thesis.pages.class_scores import per_class_table
 from tire_pipeline.thesis.pages.figures import BIN_FIGURES, CLASSIFIER_FIGURES, SPLITS
 from tire_pipeline.thesis.pages.words import least_within, listed, number, plus_minus, points
 from tire_pipeline.thesis.published import published_figure, published_table
@@ -261,17 +262,7 @@ def _spread(means: pd.DataFrame, name: str, smote: bool, split: str, column: str
 
 def _per_class(results: Results) -> list[Part]:
     frame = results["per_class"]
-    frame = frame[(frame["classifier"] == "random_forest") & frame["smote"]]
-    printed = published_table("5.8")
-    table = printed.frame.assign(category=printed.frame["Class"].str[-1])
-    table = table.rename(columns={"Precision": "precision", "Recall": "recall", "F1 score": "F1"})
-    table = table[["category", "precision", "recall", "F1"]].add_suffix(", thesis")
-    table = table.rename(columns={"category, thesis": "category"})
-    for split in SPLITS:
-        part = frame[frame["split"] == split].set_index("category")
-        for column, label in (("precision", "precision"), ("recall", "recall"), ("f1", "F1")):
-            short = "random" if split == "random" else "by tire"
-            table[f"{label}, {short}"] = table["category"].map(part[column])
+    table = per_class_table(frame[(frame["classifier"] == "random_forest") & frame["smote"]])
     lines = []
     for label in ("precision", "recall"):
         worst = {
@@ -287,7 +278,7 @@ def _per_class(results: Results) -> list[Part]:
     )
     return [
         *figure_part(results, "figure_5_3", "5.3", ["Ours: mean of the trainings."]),
-        Text(lines, heading=f"Table 5.8: {printed.caption}"),
+        Text(lines, heading=f"Table 5.8: {published_table('5.8').caption}"),
         Table(table, "The forest with SMOTE."),
     ]
 

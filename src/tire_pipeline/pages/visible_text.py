@@ -1,0 +1,48 @@
+"""Texts from files as pages, tables and terminals can show them: nothing in them is unseen or acts."""
+
+from __future__ import annotations
+
+import logging
+import re
+import unicodedata
+
+_UNSEEN = ("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp")
+_PERHAPS_UNSEEN = re.compile(r"[^\n\x20-\x7e]")
+
+
+def visible(text: object) -> str:
+    r"""Return a text from a file as it can be shown: control and direction characters by their code points.
+
+    Examples
+    --------
+    >>> visible("a\u202erit.")
+    'a⟨U+202E⟩rit.'
+    """
+    return _PERHAPS_UNSEEN.sub(
+        lambda found: f"⟨U+{ord(found[0]):04X}⟩" if unicodedata.category(found[0]) in _UNSEEN else found[0],
+        str(text),
+    )
+
+
+class VisibleFormatter(logging.Formatter):
+    r"""Lines of a log in which names and texts of files neither colour the terminal nor turn lines round.
+
+    Parameters
+    ----------
+    lines : logging.Formatter
+        Makes the lines.
+
+    Examples
+    --------
+    >>> record = logging.makeLogRecord({"msg": "\x1b[31ma.tir"})
+    >>> VisibleFormatter(logging.Formatter()).format(record)
+    '⟨U+001B⟩[31ma.tir'
+    """
+
+    def __init__(self, lines: logging.Formatter) -> None:
+        super().__init__()
+        self._lines = lines
+
+    def format(self, record: logging.LogRecord) -> str:
+        """The line, by :func:`visible`."""
+        return visible(self._lines.format(record))
