@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from mismatch_shared import shared
+from weighed import without_visible
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
@@ -122,7 +123,7 @@ def test_a_doubt_about_axes_that_the_forces_do_not_settle_stays_open(tire, recor
     assert report.corrected.question is not None
     assert "negative throughout" in report.summary
     assert any("ISO W axes, which were not stated" in a for a in report.assumed)
-    page = report.to_html(tmp_path / "page.html").read_text()
+    page = without_visible(report).to_html(tmp_path / "page.html").read_text()
     assert "Assumed:" in page
     with pytest.raises(RecordingError, match="negative throughout"):
         report.corrected.to_tir(tmp_path / "corrected.tir")
