@@ -7,10 +7,9 @@ import signal
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from tire_pipeline.errors import TirError
-from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.tir import read_tir
 
 
 def double(number: int) -> int:
@@ -44,9 +43,12 @@ class DiesUntil:
     def fingerprint(self) -> str:
         return "the file has not changed"
 
-    def __call__(self) -> TireModel:
+    def __call__(self) -> Any:
+        """Return the tire; only who reads one imports what that takes, not each process that is begun anew."""
         if not self.flag.exists():
             dies(self.log)
+        from tire_pipeline.tir import read_tir
+
         return read_tir(self.path)
 
 

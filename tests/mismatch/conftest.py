@@ -19,6 +19,12 @@ def tire() -> TireModel:
 
 
 @pytest.fixture(scope="session")
+def braked(tire) -> TireModel:
+    """The same tire with a longitudinal force, too."""
+    return tire.replace(PCX1=1.6, PDX1=1.1, PEX1=0.1, PKX1=22.0, PKX3=0.2)
+
+
+@pytest.fixture(scope="session")
 def record(tire):
     """Return a function that records the rig: ``record(friction=array or number, ...)``."""
 

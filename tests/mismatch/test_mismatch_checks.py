@@ -62,9 +62,8 @@ def test_neither_model_nor_simulation(record):
         explain_mismatch(None, record())
 
 
-def test_noise_of_a_slip_has_no_unit(tire, record):
+def test_noise_of_a_slip_has_no_unit(braked, record):
     """Less of it would always fit better, a hundredth best of all."""
-    braked = tire.replace(PCX1=1.6, PDX1=1.1, PEX1=0.1, PKX1=22.0, PKX3=0.2)
     recording = record(2)
     noise = np.random.default_rng(2).normal(0.0, [[4e-3], [5.0]], (2, len(recording)))
     assert explain_mismatch(braked, recording.assign(slip_ratio=noise[0], fx=noise[1])).effects == []

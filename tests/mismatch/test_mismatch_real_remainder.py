@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from weighed import without_visible
 
 from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.discrepancy.gaussian_form import gaussian_form
@@ -42,7 +43,7 @@ def test_the_form_is_in_dictionary_and_page_and_has_no_name(tire, record, tmp_pa
     t = recording["time"].to_numpy()
     wave = np.sin(2 * np.pi * (1.3 * t + 0.4 * np.sin(0.7 * t)))
     recording["fy"] += 400.0 * wave * (np.abs(recording["slip_angle"]) > 0.08)
-    report = explain_mismatch(tire, recording)
+    report = without_visible(explain_mismatch(tire, recording))
     assert report.verdict == "unexplained"
     form = report.to_dict()["remainder"]["gaussian"][0]
     assert form["output"] == "fy"

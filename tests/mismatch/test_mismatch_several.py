@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from weighed import without_visible
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_recordings
@@ -45,7 +46,7 @@ def test_the_held_out_recording_takes_no_part(tire, together, record):
 
 
 def test_page_and_data_have_the_held_out_recording(together, tmp_path):
-    report, _ = together
+    report = without_visible(together[0])
     data = report.to_dict()
     assert data["recordings"] == ["a", "c"]
     assert data["held_out"]["errors"]["fy"]["rms_after"] == report.held_out.errors["fy"].rms_after

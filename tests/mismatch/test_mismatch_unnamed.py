@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from weighed import without_visible
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
@@ -269,7 +270,7 @@ def test_after_the_recorded_time_it_is_gone_and_that_is_said(swinging):
 
 
 def test_the_page_and_the_dictionary_show_it_apart_from_ideas(swinging, tmp_path):
-    _, report = swinging
+    report = without_visible(swinging[1])
     page = report.to_html(tmp_path / "report.html").read_text("utf-8")
     assert "Unnamed physics" in page
     assert "Ideas to test" in page

@@ -52,7 +52,9 @@ def test_what_was_not_varied_is_said_so(clean):
 
 
 def test_sizes_stand_in_the_json_and_on_the_page(clean, tmp_path):
-    written = json.loads(clean.to_json(tmp_path / "r.json").read_text())["visible"]
+    table = json.loads(clean.to_json(tmp_path / "r.json").read_text())
+    assert json.loads(json.dumps(table, allow_nan=False)) == table
+    written = table["visible"]
     row = next(r for r in written if r["name"] == "friction_scale")
     assert 0.0 < row["ruled_out"] < row["seen"] < 0.2
     page = clean.to_html(tmp_path / "r.html").read_text()

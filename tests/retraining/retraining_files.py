@@ -8,6 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
+from tire_pipeline.retraining import Store, difference, ingest
+from tire_pipeline.tire_table.read_files import IngestParameters, join_files, read_files
+
 BIAS = {"A": 0.10, "B": -0.10, "D": 0.0}
 HEAD = """[UNITS]
 LENGTH = 'meter'
@@ -56,3 +59,16 @@ def put_fleet(folder: Path, tires: range, organisations: str = "ABD", shift: flo
     for tire in tires:
         for organisation in organisations:
             put(folder, f"{organisation}/T{tire:04d}.tir", tir_text(tire, organisation, shift))
+
+
+def update_store(folder: Path, store: Store | None = None) -> tuple[Store, dict[str, str], dict[str, str]]:
+    """Take up what lies in the folder now; the status and the reason of each file besides."""
+    store = store or Store()
+    store, report = ingest(store, folder, difference(folder, store.manifest, settle_seconds=0.0))
+    by_file = report.set_index("file")
+    return store, by_file["status"].to_dict(), by_file["reason"].to_dict()
+
+
+def ingest_all(partitions: dict, parameters: IngestParameters):
+    """Read all files as the pipeline ``ingest_tir`` does."""
+    return join_files(read_files(partitions), parameters)

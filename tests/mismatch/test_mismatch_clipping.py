@@ -1,0 +1,73 @@
+"""Before any explanation: whether forces are cut at a limit of their sensor."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.recording.prepare import prepare
+
+
+def slow_sine(limit=np.inf, digits=5, noise=0.0):
+    t = np.arange(0.0, 180.0, 0.01)
+    force = 5500.0 * np.sin(2.0 * np.pi * t / 90.0) + noise * np.random.default_rng(0).standard_normal(t.size)
+    force = np.clip(force, -limit, limit)
+    return t, np.array([float(f"{f:.{digits}g}") for f in force])
+
+
+@pytest.mark.parametrize("digits", [3, 4, 5, 6, 15])
+@pytest.mark.parametrize("noise", [0.0, 0.3, 30.0])
+def test_the_crest_of_a_slow_sine_in_few_digits_is_not_clipped(tire, digits, noise):
+    t, force = slow_sine(digits=digits, noise=noise)
+    r = pd.DataFrame({"time": t, "slip_angle": force / 1e5, "normal_load": 4000.0 + t, "fy": force})
+    assert [f for f in prepare(tire, r).findings if f.name == "clipping"] == []
+
+
+@pytest.mark.parametrize("limit", [5490.0, 5300.0, 3000.0])
+@pytest.mark.parametrize("digits", [4, 5, 15])
+def test_a_limit_is_found_whatever_the_digits(tire, limit, digits):
+    t, force = slow_sine(limit, digits)
+    r = pd.DataFrame({"time": t, "slip_angle": force / 1e5, "normal_load": 4000.0 + t, "fy": force})
+    assert "fy" in [f.channel for f in prepare(tire, r).findings if f.name == "clipping"]
+
+
+def _points(count, seed, noise=15.0):
+    """Steady points of a made-up force, in the digits of a table."""
+    rng = np.random.default_rng(seed)
+    slip = rng.uniform(-0.18, 0.18, count)
+    load = rng.choice([2000.0, 3500.0, 5000.0], count)
+    fy = load * np.tanh(12.0 * slip) + noise * rng.standard_normal(count)
+    return pd.DataFrame({"slip_angle": slip, "normal_load": load, "fy": np.round(fy, 2)})
+
+
+def _limits(tire, points):
+    return [f for f in prepare(tire, points).findings if f.name == "clipping"]
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_three_of_few_points_at_a_limit_of_either_sign_are_clipped(tire, seed):
+    points = _points(30, seed)
+    limit = np.sort(np.abs(points["fy"]))[-3] - 1.0
+    assert len(_limits(tire, points.assign(fy=points["fy"].clip(-limit, limit)))) == 1
+    assert _limits(tire, points) == []
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_points_that_coincide_for_another_reason_are_not_clipped(tire, seed):
+    """Coarse digits where the tire slides, a table with each row four times, a curve with a symmetry."""
+    points = _points(60, seed, noise=0.0)
+    sliding = points.assign(fy=np.round(points["fy"] / 100.0))
+    repeated = pd.concat([points] * 4).sample(frac=1.0, random_state=seed).assign(row=range(240))
+    mirrored = pd.concat([points, points.assign(slip_angle=-points["slip_angle"], fy=-points["fy"])])
+    for table in (sliding, repeated, mirrored):
+        assert _limits(tire, table) == []
+
+
+def test_no_limit_is_named_where_no_sample_stands_at_one(tire, record):
+    """A load sensitivity was taken for clipping twice: the largest forces are the ones that lack."""
+    r = record(0)
+    low = 1.0 - 0.25 * np.clip((r["normal_load"] - 3000.0) / 3000.0, 0.0, None)
+    report = explain_mismatch(tire, r.assign(fy=r["fy"] * low))
+    assert "clipping" not in [n for e in report.effects for n in (e.name, *e.alternatives)]
+    (row,) = [c for c in report.candidates if c["name"] == "clipping"]
+    assert row["gain"] is None
