@@ -52,7 +52,8 @@ def _simulated(
     parts += [_table(own, "All scores"), _beside(scores, "Beside the baselines")]
     parts += groups(details[OWN], "", "the noise")
     if len(misses):
-        parts.append(misses_table(misses, "Cases with a wrong answer.", "Every miss"))
+        said = "Cases with a wrong answer. After each true effect: its strength as a multiple of the noise."
+        parts.append(misses_table(misses, said, "Every miss"))
     return parts
 
 
@@ -86,7 +87,11 @@ def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -
     parts.append(_beside(scores[scores["source"] == "all"], "Real recordings: beside the baselines"))
     parts += groups(details, "Real recordings: ", "the misfit")
     if len(misses):
-        said = "Cases with a wrong answer, or with a larger error on held-out sweeps."
+        said = (
+            "Cases with a wrong answer, or with a larger error on held-out sweeps. After each true effect: "
+            "its strength as a multiple of the misfit, and whether it was hidden from the model's fit. "
+            "Held-out ratio: RMS error on held-out sweeps with the findings over that without them."
+        )
         parts.append(misses_table(misses, said, "Real recordings: every miss"))
     return parts
 
