@@ -137,10 +137,8 @@ def _table(own: pd.DataFrame, heading: str) -> Table:
 
 
 def _drawn(scores: pd.DataFrame, what: str) -> list[Part]:
-    """Every score that has a goal: ours with its interval, the baselines, and the goal."""
-    aimed = scores[
-        scores["target"].map(lambda goal: isinstance(goal, str)) & scores["value"].between(0.0, 1.0)
-    ]
+    """Every share that has a goal: ours with its interval, the baselines, and the goal."""
+    aimed = scores[scores["target"].map(_is_share)]
     own = aimed[aimed["method"] == OWN].set_index("name")
     names = list(own.index)
     if not names:
@@ -167,6 +165,11 @@ def _drawn(scores: pd.DataFrame, what: str) -> list[Part]:
         "where the goal is an upper bound (≤), and right of it where it is a lower one (≥)."
     )
     return [Figure(figure, caption)]
+
+
+def _is_share(goal: object) -> bool:
+    """Whether there is a goal, and it is a share or an overlap: a mean number of names is neither."""
+    return isinstance(goal, str) and float(goal.split()[1]) <= 1.0
 
 
 def _sign(goal: str) -> str:

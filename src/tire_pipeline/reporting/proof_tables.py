@@ -74,7 +74,7 @@ def groups(details: dict[str, Any], before: str, strength: str) -> list[Table]:
         table = pd.DataFrame(details.get(key, [])).dropna(axis="columns", how="all")
         if len(table):
             heading = before + (words.lower() if before else words)
-            out.append(Table(_plain(table), captions[key], heading=heading))
+            out.append(Table(_plain(table), captions[key], heading=heading, decimals=2))
     return out
 
 
