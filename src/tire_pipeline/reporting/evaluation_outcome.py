@@ -58,7 +58,9 @@ def _judged(
     part = table[(table["set"] == name) & (table["translator"] == best["name"])]
     acted = int((part["verdict"] == TRANSLATED).sum())
     others = [who for who in table["translator"].unique() if who not in (best["name"], NO_CHANGE)]
-    unchanged = _unchanged(len(part) - acted)
+    left = [
+        f"{_subject(who)} leaves {rms[who]:,.0f} N ({rms[who] / before:.0%})." for who in others if who in rms
+    ]
     tires = part["tire"].nunique()
     uncertain = f" With {tires} tires, both figures are uncertain." if tires < _FEW_TIRES else ""
     return [
@@ -67,11 +69,8 @@ def _judged(
         f"{tires} tires of the set '{name}', which no translator has seen. The floor is "
         f"{rms[FLOOR]:,.0f} N ({rms[FLOOR] / before:.0%}): {target} measuring the same tires again."
         f"{uncertain}",
-        f"In the set '{name}', it translated {acted} of {len(part)} files{unchanged}.",
-        *(
-            f"{_subject(who)} leaves {rms[who]:,.0f} N ({rms[who] / before:.0%} of doing nothing)."
-            for who in others
-            if who in rms
+        " ".join(
+            [f"It translated {acted} of these {len(part)} files{_unchanged(len(part) - acted)}.", *left]
         ),
     ]
 

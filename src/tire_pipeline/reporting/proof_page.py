@@ -52,7 +52,8 @@ def _simulated(
     parts += [_table(own, "All scores"), _beside(scores, "Beside the baselines")]
     parts += groups(details[OWN], "", "the noise")
     if len(misses):
-        parts.append(misses_table(misses, "Cases with a wrong answer.", "Every miss"))
+        said = "Cases with a wrong answer. After each true effect: its strength as a multiple of the noise."
+        parts.append(misses_table(misses, said, "Every miss"))
     return parts
 
 
@@ -86,7 +87,11 @@ def _real(scores: pd.DataFrame, misses: pd.DataFrame, details: dict[str, Any]) -
     parts.append(_beside(scores[scores["source"] == "all"], "Real recordings: beside the baselines"))
     parts += groups(details, "Real recordings: ", "the misfit")
     if len(misses):
-        said = "Cases with a wrong answer, or with a larger error on held-out sweeps."
+        said = (
+            "Cases with a wrong answer, or with a larger error on held-out sweeps. After each true effect: "
+            "its strength as a multiple of the misfit, and whether it was hidden from the model's fit. "
+            "Held-out ratio: RMS error on held-out sweeps with the findings over that without them."
+        )
         parts.append(misses_table(misses, said, "Real recordings: every miss"))
     return parts
 
@@ -132,10 +137,8 @@ def _table(own: pd.DataFrame, heading: str) -> Table:
 
 
 def _drawn(scores: pd.DataFrame, what: str) -> list[Part]:
-    """Every score that has a goal: ours with its interval, the baselines, and the goal."""
-    aimed = scores[
-        scores["target"].map(lambda goal: isinstance(goal, str)) & scores["value"].between(0.0, 1.0)
-    ]
+    """Every share that has a goal: ours with its interval, the baselines, and the goal."""
+    aimed = scores[scores["target"].map(_is_share)]
     own = aimed[aimed["method"] == OWN].set_index("name")
     names = list(own.index)
     if not names:
@@ -162,6 +165,11 @@ def _drawn(scores: pd.DataFrame, what: str) -> list[Part]:
         "where the goal is an upper bound (≤), and right of it where it is a lower one (≥)."
     )
     return [Figure(figure, caption)]
+
+
+def _is_share(goal: object) -> bool:
+    """Whether there is a goal, and it is a share or an overlap: a mean number of names is neither."""
+    return isinstance(goal, str) and float(goal.split()[1]) <= 1.0
 
 
 def _sign(goal: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pandas as pd
@@ -40,14 +41,9 @@ _COLUMN_TITLES = {
     "first": "named first",
     "among": "among the names",
     "true": "true effects",
-    "over_noise": "strength over noise",
-    "over_misfit": "strength over misfit",
     "missing_channels": "missing channels",
-    "hidden": "hidden from the model",
     "sets": "found, with confidence",
-    "not_first": "found, but not first",
-    "false": "sets without the truth",
-    "held_out_ratio": "held-out error, of before",
+    "held_out_ratio": "held-out ratio",
 }
 _SCORES = {"right": "all named, nothing else", "first": "named first", "among": "among the names"}
 
@@ -78,17 +74,63 @@ def groups(details: dict[str, Any], before: str, strength: str) -> list[Table]:
         table = pd.DataFrame(details.get(key, [])).dropna(axis="columns", how="all")
         if len(table):
             heading = before + (words.lower() if before else words)
-            out.append(Table(_plain(table), captions[key], heading=heading))
+            out.append(Table(_plain(table), captions[key], heading=heading, decimals=2))
     return out
+
+
+_FOLLOW = ("missed", "invented", "not_first", "false")
+"""Columns that follow from the truth and the names."""
 
 
 def misses_table(misses: pd.DataFrame, caption: str, heading: str) -> Table:
     """Every case with a wrong answer.
 
-    Columns in which nothing stands are left out, and those that follow from the truth and the names.
+    Columns in which nothing stands are left out, and those that follow from the truth and the names. What
+    belongs together stands in one column, so that a table fits the page.
     """
-    table = _plain(misses.drop(columns=["missed", "invented"], errors="ignore").astype(str))
+    rows = misses.to_dict("records")
+    table = misses.drop(columns=list(_FOLLOW), errors="ignore")
+    table["case"] = [str(row["case"]).rpartition("_")[2] for row in rows]
+    strengths = [name for name in ("over_noise", "over_misfit") if name in table]
+    table["true"] = [_truth(row, strengths) for row in rows]
+    if "rate" in table:
+        table["source"] = [_source(row) for row in rows]
+    if "held_out_ratio" in table:
+        table["held_out_ratio"] = table["held_out_ratio"].map(
+            lambda ratio: f"{ratio:.2f}", na_action="ignore"
+        )
+    table = _plain(table.drop(columns=[*strengths, "rate", "hidden"], errors="ignore").astype(str))
     return Table(without_empty_columns(table), caption, heading=heading, most_rows=400)
+
+
+def _truth(row: Mapping[str, Any], strengths: Sequence[str]) -> str:
+    """The true effects, each with its strength, and whether it was hidden from the model.
+
+    Examples
+    --------
+    >>> row = {"true": "['wear', 'camber']", "over_misfit": "[0.7, 2.9]", "hidden": "['camber']"}
+    >>> _truth(row, ["over_misfit"])
+    'wear (0.7), camber (2.9, hidden)'
+    """
+    effects, hidden = _items(row["true"]), _items(row.get("hidden", "[]"))
+    sizes = [size for name in strengths for size in _items(row[name])] or [None] * len(effects)
+    notes = [
+        ", ".join([*([] if size is None else [str(size)]), *(["hidden"] if effect in hidden else [])])
+        for effect, size in zip(effects, sizes, strict=True)
+    ]
+    both = zip(effects, notes, strict=True)
+    return ", ".join(f"{effect} ({note})" if note else str(effect) for effect, note in both)
+
+
+def _source(row: Mapping[str, Any]) -> str:
+    return f"{row['source']} at {row['rate']:g} Hz" if row["rate"] == row["rate"] else str(row["source"])
+
+
+def _items(value: Any) -> list[Any]:
+    """A list, also one that a CSV holds as text."""
+    if isinstance(value, str):
+        return list(ast.literal_eval(value)) if value.startswith("[") else []
+    return list(value) if isinstance(value, (list, tuple)) else []
 
 
 def _plain(table: pd.DataFrame) -> pd.DataFrame:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pandas as pd
@@ -43,10 +44,18 @@ def build_retraining_report(
                 heading="Files that wait, cannot be read or are gone",
                 caption="A file that cannot be read is tried again when its content changes.",
             ),
-            Table(pd.DataFrame(history_rows(registry.release)), heading="History"),
+            Table(_to_the_minute(history_rows(registry.release)), heading="History"),
         ],
         pages=HOME,
     )
+
+
+def _to_the_minute(history: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
+    """The last events with times that a person reads."""
+    table = pd.DataFrame(history)
+    if "time" in table:
+        table["time"] = table["time"].str[:16].str.replace("T", " ") + " UTC"
+    return table
 
 
 def _decision(files: pd.DataFrame, outcome: dict[str, Any], registry: ModelRegistry) -> Text:

@@ -16,6 +16,7 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.evaluation.target_measurements import measured
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
+from tire_pipeline.tasks import Labelled
 from tire_pipeline.thesis import agents as thesis_agents
 from tire_pipeline.thesis import files
 from tire_pipeline.thesis.parameters import ReproduceThesisParameters
@@ -85,7 +86,9 @@ def fitter(name: str) -> Callable[..., Work]:
         kind = FORM_OF.get(name, name)
         key = files.key_of(code_hash(*FITTING_CODE), training, name, options)
         return {
-            f"{key}/seed_{seed}.npz": partial(files.represented, training, kind, seed, options)
+            f"{key}/seed_{seed}.npz": Labelled(
+                f"seed {seed}", partial(files.represented, training, kind, seed, options)
+            )
             for seed in parameters.agents.seeds
         }
 
@@ -110,7 +113,8 @@ def trainer(cell: Cell) -> Callable[..., Work]:
         for name, read in fitted.items():
             seed = seed_of(name)
             key = files.key_of(data, name)
-            work[f"{key}/seed_{seed}.npz"] = partial(files.trained, training, cell, seed, read, **options)
+            task = partial(files.trained, training, cell, seed, read, **options)
+            work[f"{key}/seed_{seed}.npz"] = Labelled(f"seed {seed}", task)
         return work
 
     return train_agents
@@ -143,9 +147,8 @@ def judge_of(cell: Cell) -> Callable[..., Work]:
         for name, read in trained.items():
             seed = seed_of(name)
             key = files.key_of(data, name)
-            work[f"{key}/seed_{seed}.npz"] = partial(
-                files.judged, read, cell, seed, thesis_sources, references
-            )
+            task = partial(files.judged, read, cell, seed, thesis_sources, references)
+            work[f"{key}/seed_{seed}.npz"] = Labelled(f"seed {seed}", task)
         return work
 
     return judge

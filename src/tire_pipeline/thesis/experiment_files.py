@@ -17,6 +17,7 @@ from tire_pipeline.classifiers.tuning import (
     random_combinations,
 )
 from tire_pipeline.code_hash import code_hash
+from tire_pipeline.tasks import Labelled
 from tire_pipeline.thesis import classifier_experiments as experiments
 from tire_pipeline.thesis import files
 from tire_pipeline.thesis.classifier_experiments import FURTHER_CLASSIFIERS, THESIS_CLASSIFIERS
@@ -36,7 +37,8 @@ def _part(
     name: str, function: Callable[..., Any], table: pd.DataFrame, *arguments: Any, **options: Any
 ) -> Work:
     key = files.key_of(_code(), name, table, *arguments, options)
-    return {f"{name}_{key}.npz": partial(files.computed, function, table, *arguments, **options)}
+    task = partial(files.computed, function, table, *arguments, **options)
+    return {f"{name}_{key}.npz": Labelled(name.replace("_", " "), task)}
 
 
 def count_classes(
@@ -192,7 +194,8 @@ def _rows(
     """A part that trains and tests on the rows of one split."""
     rows = split_rows(table, splits, split)
     key = files.key_of(_code(), name, table, *rows, options)
-    return {f"{name}_{key}.npz": partial(files.computed, function, table, rows, split=split, **options)}
+    task = partial(files.computed, function, table, rows, split=split, **options)
+    return {f"{name}_{key}.npz": Labelled(name.replace("_", " "), task)}
 
 
 def together(*folders: Folder) -> dict[str, pd.DataFrame]:

@@ -297,8 +297,8 @@ def _size(effects: Sequence[EffectReport], fit: dict[str, OutputFit]) -> str:
         o, f = max(fit.items(), key=lambda t: t[1].rms_before ** 2 - t[1].rms_after ** 2)
         goes = "falls" if f.rms_after < f.rms_before else "goes"
         return (
-            f"{lead}, the RMS error of {o.capitalize()} {goes} from {newtons(f.rms_before)} N to "
-            f"{newtons(f.rms_after)} N on held-out sweeps (noise {newtons(f.noise_floor)} N)"
+            f"{lead}, the RMS error of {o.capitalize()} over all held-out sweeps {goes} from "
+            f"{newtons(f.rms_before)} N to {newtons(f.rms_after)} N (noise {newtons(f.noise_floor)} N)"
         )
     sizes = ", ".join(
         f"{o.capitalize()} {newtons(f.rms_after)} N (noise {newtons(f.noise_floor)} N)"

@@ -25,17 +25,32 @@ MORE = {
 }
 IN_WORDS = {
     "no_change": "doing nothing",
-    "greedy_forest": "greedy maximum of the forest's probability",
-    "cycle_consistent": "cycle-consistent networks, no pairs",
-    "curious_agent": "agent with random network distillation, no pairs",
-    "likelihood_agent": "agent rewarded by the likelihood given the metadata, no pairs",
-    "mixed_model": "mixed model conditioned on the metadata, no pairs",
-    "batch_mixed_model": "the same, learning from the files to translate, too",
-    "paired_mixed_model": "mixed model with the tires that several organisations measured",
-    "paired_batch_mixed_model": "the same with these tires, learning from the files to translate, too",
-    "oracle": "oracle: fitted on the hidden truth itself",
-    "floor": "floor: the target measures the tire a second time",
+    "greedy_forest": "greedy forest",
+    "cycle_consistent": "cycle-consistent networks",
+    "curious_agent": "curious agent",
+    "likelihood_agent": "likelihood agent",
+    "mixed_model": "mixed model",
+    "batch_mixed_model": "mixed model with batch",
+    "paired_mixed_model": "mixed model with pairs",
+    "paired_batch_mixed_model": "mixed model with pairs and batch",
+    "oracle": "oracle",
+    "floor": "floor",
 }
+_METHODS = {
+    "greedy forest": "moves a file to where the classifier gives the target the highest probability",
+    "cycle-consistent networks": "learn to translate there and back",
+    "likelihood agent": "learns by reinforcement, rewarded for how likely the target's files are",
+    "curious agent": "a likelihood agent that is also rewarded for exploring",
+    "mixed model": "describes the bias of each organisation by size, mass and kind of tire",
+    "with pairs": "also uses the tires that several organisations measured",
+    "with batch": "also learns from the files to translate",
+    "oracle": "is fitted on the hidden truth: what could be reached",
+    "floor": "the target measures the tires a second time",
+}
+_KINDS = (
+    "Kinds of fleet: additive (every tire reacts to a rig as the mean tire does), interacting (as its "
+    "compound and carcass make it react), drifting (one organisation changes how it measures)."
+)
 MIXED = ("mixed_model", "batch_mixed_model", "paired_mixed_model", "paired_batch_mixed_model")
 DRAWN = (
     "mixed_model",
@@ -90,20 +105,25 @@ def translation_page(
         Figure(
             _by_size(hidden),
             "RMS error over that of the untranslated files: 1 is nothing gained, lower is better. Bias "
-            "size 1 is the calibrated bias; at 0 only the fits differ. Floor: the target measures again.",
+            f"size 1 is the calibrated bias; at 0 only the fits differ. {_KINDS}",
             "By size of the bias",
+        ),
+        Table(
+            pd.DataFrame(list(_METHODS.items()), columns=["translator", "what it does"]),
+            heading="What is compared",
         ),
         Table(
             _at_calibrated(hidden),
             "RMS error over that of the untranslated files (1: nothing gained), over all seeds, "
-            "100 hidden tires from five organisations each; improved: share of improved curves.",
+            "100 hidden tires from five organisations each. Improved: share of the curves that came closer.",
             heading="Every translator at the calibrated bias",
             decimals=3,
         ),
         Table(
             check_goals(hidden).assign(translator=lambda t: t["translator"].map(_words)),
-            "The goals were fixed beforehand, for the squared error: these are squares of those above. "
-            "Oracle: the same of a method that was given the hidden truth.",
+            "The goals were fixed beforehand. They are ratios of squared errors, the squares of the ratios "
+            "above. Three numbers are of forces / cornering stiffness / peak friction, over the floor's "
+            "where the goal is a multiple of the floor. Improved: share of the curves that came closer.",
             heading="Goals, met and missed",
         ),
         Table(
@@ -132,7 +152,7 @@ def translation_page(
 
 def _words(translator: str) -> str:
     """Return the name of a translator as it stands in a sentence."""
-    return translator.replace("_", " ")
+    return IN_WORDS.get(translator, translator.replace("_", " "))
 
 
 def _summary(hidden: pd.DataFrame) -> list[str]:

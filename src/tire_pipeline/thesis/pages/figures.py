@@ -144,7 +144,7 @@ CLASSIFIER_FIGURES: dict[str, Callable[[Results], MplFigure | None]] = {
     "figure_4_1": lambda results: class_figure(results, ("all",)),
     "figure_4_2": lambda results: class_figure(results, ("training", "training_smote")),
     "figure_5_1": lambda results: score_figure(results["forest_trees"], "trees", "trees, no limit on depth"),
-    "figure_5_2": lambda results: score_figure(results["forest_depth"], "depth", "greatest depth of a tree"),
+    "figure_5_2": lambda results: score_figure(results["forest_depth"], "depth", "maximum depth of a tree"),
     "figure_5_3": confusion_figure,
     "figure_5_4": lambda results: score_figure(
         results["latent"], "features", "latent features (10 bins each)", spread=True

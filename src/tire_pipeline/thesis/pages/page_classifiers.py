@@ -56,14 +56,14 @@ def figure_part(results: Results, name: str, number: str, words: list[str]) -> l
 def _to_see(name: str) -> str:
     """What to look at in a figure of ours."""
     return {
-        "figure_4_1": "Our files of each category: those that both splits share out.",
+        "figure_4_1": "Our files of each category, before they are split.",
         "figure_4_2": "Our training files of each category. With SMOTE all bars are equally high.",
-        "figure_5_3": "Shares of our test files. What lies off the diagonal was taken for another category: "
-        "the row is the true one.",
+        "figure_5_3": "Shares of our test files. Rows are the true categories; what lies off the diagonal "
+        "was assigned to another one.",
     }.get(
         name,
-        "Ours. Where a line is level, going further to the right gains nothing. The gap between the splits "
-        "is what variants of one tire on both sides are worth.",
+        "Ours. Where a line is level, more of it gains nothing. The gap between the splits is the "
+        "advantage of having seen other files of the same tire.",
     )
 
 
@@ -98,11 +98,11 @@ def _ann(results: Results) -> list[Part]:
     parts: list[Part] = []
     for table_number, frame, most in (("5.1", found, 5), ("5.3", grid, 3)):
         published = published_table(table_number)
-        shown = [published.frame.assign(whose="thesis")]
+        shown = [published.frame.assign(source="thesis")]
         for split in SPLITS:
             part = frame[frame["split"] == split].nlargest(most, "accuracy")
-            shown.append(part.assign(whose=f"ours, {_folds(split)}"))
-        table = pd.concat(shown, ignore_index=True)[["whose", *keys, "accuracy", "f1"]]
+            shown.append(part.assign(source=f"ours, {_folds(split)}"))
+        table = pd.concat(shown, ignore_index=True)[["source", *keys, "accuracy", "f1"]]
         table = table.rename(columns=lambda name: name.replace("_", " "))
         words = _tuning_words(frame, published.frame, most)
         if table_number == "5.3":
@@ -116,7 +116,8 @@ def _ann(results: Results) -> list[Part]:
     rows = [[key, thesis[key], *(best[s][key] for s in SPLITS)] for key in keys]
     columns = ["hyperparameter", "thesis", *(f"ours, {_folds(s)}" for s in SPLITS)]
     selected = pd.DataFrame([[str(v) for v in row] for row in rows], columns=columns)
-    same = [row[0] for row in rows if str(row[1]) == str(row[2])]
+    same = [row[0].replace("_", " ") for row in rows if str(row[1]) == str(row[2])]
+    selected["hyperparameter"] = selected["hyperparameter"].str.replace("_", " ")
     words = [f"On random folds ours agrees with the thesis on {len(same)} of {len(keys)}: {listed(same)}."]
     parts += [
         Text(words, heading=f"Table 5.4: {published_table('5.4').caption}"),
@@ -146,8 +147,8 @@ def _left_out(found: pd.DataFrame, grid: pd.DataFrame) -> list[str]:
         first, second = (frame.loc[frame["split"] == split, "accuracy"].max() for frame in (found, grid))
         if first > second:
             lines.append(
-                f"On {_folds(split)} the random search has a better one, {first:.3f}, with values that stand "
-                "once among its best, so that this grid does not hold it."
+                f"On {_folds(split)} the random search found a better combination ({first:.3f}). Some of its "
+                "values occur only once among the best, so the narrowed grid does not contain it."
             )
     return lines
 
@@ -160,7 +161,7 @@ def _narrowed(grid: pd.DataFrame) -> list[Part]:
         used = [set(grid.loc[grid["split"] == split, key]) for split in SPLITS]
         order = {value: k for k, value in enumerate(values)}
         ours = ["{" + ", ".join(map(str, sorted(own, key=lambda v: order.get(v, -1)))) + "}" for own in used]
-        rows.append([key, thesis[label], *ours])
+        rows.append([key.replace("_", " "), thesis[label], *ours])
     columns = ["hyperparameter", "thesis", *(f"ours, {_folds(split)}" for split in SPLITS)]
     return [
         Table(
@@ -189,8 +190,8 @@ def _forest(results: Results) -> list[Part]:
 
     def words(place: int, what: str) -> list[str]:
         return [
-            f"Ours: the least {what} within half a percentage point of the best is {best['random'][place]} "
-            f"on random folds and {best['by_tire'][place]} on folds by tire."
+            f"Ours: the smallest {what} within half a percentage point of the best is "
+            f"{best['random'][place]} on random folds and {best['by_tire'][place]} on folds by tire."
         ]
 
     return [
@@ -274,7 +275,8 @@ def _per_class(results: Results) -> list[Part]:
             f"random split, {worst['by tire']} on our split by tire."
         )
     lines.append(
-        "The letters of our categories are not the thesis' companies: compare the pattern, not the row."
+        "The letters of our categories do not stand for the thesis' companies: compare the pattern, not "
+        "the rows."
     )
     return [
         *figure_part(results, "figure_5_3", "5.3", ["Ours: mean of the trainings."]),

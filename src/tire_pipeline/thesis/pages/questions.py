@@ -32,12 +32,12 @@ def _classify(results: Results) -> list[str]:
     known, new = best.loc["random"], best.loc["by_tire"]
     yes = new["accuracy"] - 3 * max(new["accuracy_std"], 0.01) > share
     return [
-        f"{'Yes' if yes else 'Not on new tires'}: at best {known['accuracy']:.1%} of the test files are put "
-        f"to the right category on the random split ({in_words(known['classifier'])}), and "
-        f"{new['accuracy']:.1%} on tires that training has not seen ({in_words(new['classifier'])}); always "
-        f"naming the largest category gives {share:.1%}.",
-        f"The thesis' 97.0% is of a random split, where variants of one tire are on both sides. On our files "
-        f"that alone is worth {(known['accuracy'] - new['accuracy']) * 100:.1f} percentage points.",
+        f"{'Yes' if yes else 'Not on new tires'}: the best classifier is right for {known['accuracy']:.1%} "
+        f"of the test files on the random split ({in_words(known['classifier'])}), and for "
+        f"{new['accuracy']:.1%} on tires that training has not seen ({in_words(new['classifier'])}). Always "
+        f"naming the largest category would be right for {share:.1%}.",
+        f"The thesis' 97.0% comes from a random split, where variants of one tire are on both sides. On our "
+        f"files this alone adds {(known['accuracy'] - new['accuracy']) * 100:.1f} percentage points.",
     ]
 
 
@@ -45,11 +45,13 @@ def _learn(results: Results) -> list[str]:
     ends, tires = rising(results), results["agent_tires"]
     up = int((ends["late"] > ends["early"]).sum())
     before, after = tires["before"].mean(), tires["after"].mean()
-    verdict = "Yes" if up > 0.9 * len(ends) and after > before else "Only in part"
+    verdict = (
+        "Yes" if up > 0.9 * len(ends) and after > before else "Only in part" if up or after > before else "No"
+    )
     by_reward = tires.groupby("reward")[["before", "after", "reached"]].mean()
     lines = [
-        f"{verdict}: the reward rises during training in {up} of {len(ends)} cells, and over all evaluation "
-        f"tires the classifier's probability of the target rises from {before:.2f} to {after:.2f}.",
+        f"{verdict}: the reward rises during training in {up} of {len(ends)} cells. Over all evaluation "
+        f"tires the classifier's probability of the target goes from {before:.2f} to {after:.2f}.",
     ]
     lines += [
         f"{in_words(reward)}: from {row['before']:.2f} to {row['after']:.2f}; the target becomes the most "
@@ -87,7 +89,7 @@ def _translate(results: Results) -> list[str]:
     return [
         verdict,
         *lines,
-        "This page keeps to the thesis' agents; the project's other translators are judged elsewhere.",
+        "This page is about the thesis' agents only. The pages linked above judge the other translators.",
     ]
 
 
@@ -102,12 +104,14 @@ def _policies(results: Results) -> list[str]:
     both = pd.concat([spread, ratio], axis=1).dropna()
     rank = rank_agreement(both["evenness"].to_list(), both["value"].to_list())
     if np.isnan(rank):
-        first = "Too few configurations were run to say whether even action distributions go with bad ones."
-    else:
-        agrees = "as the thesis supposes" if rank > 0.3 else "which does not bear out the thesis' supposition"
         first = (
-            "The thesis supposes that policies whose actions are spread evenly are the struggling ones: over "
-            f"our {len(both)} cells the rank correlation of evenness and average error is {rank:.2f}, "
+            "Too few configurations were run to say whether agents whose actions are spread evenly do worse."
+        )
+    else:
+        agrees = "as the thesis supposes" if rank > 0.3 else "which does not confirm it"
+        first = (
+            "The thesis supposes that agents whose actions are spread evenly do worse. Over our "
+            f"{len(both)} cells the rank correlation of evenness and average error is {rank:.2f}, "
             f"{agrees}."
         )
     lines = [first]
@@ -115,12 +119,12 @@ def _policies(results: Results) -> list[str]:
         own = part[part["representation"] == name].groupby("action")["share"].mean()
         if own.sum() > 0:
             top = own.sort_values(ascending=False).head(4)
-            words = listed(f"{action} ({share:.0%})" for action, share in top.items())
-            lines.append(f"Most frequent with {in_words(name)}, mean of all its agents: {words}.")
+            words = listed(f"{action.replace('_', ' ')} ({share:.0%})" for action, share in top.items())
+            lines.append(f"Most frequent actions with {in_words(name)}, mean of all agents: {words}.")
     lines.append(
-        f"A frequent step up says that the classifier takes larger values for "
-        f"{results.facts['target']}'s: a difference between the categories, "
-        "not yet a correction that makes a tire right."
+        "If a step up is frequent, the classifier takes larger values as a sign of "
+        f"{results.facts['target']}. This is a difference between the categories, not yet a correction that "
+        "makes the forces right."
     )
     return lines
 

@@ -49,13 +49,16 @@ def _main(results: Results) -> list[str]:
         part = ours[ours["set"] == name]
         below = int((part["value"] < BETTER).sum())
         lines.append(
-            f"Set {name}: averaged over the three metrics, {below} of {len(part)} configurations bring tires "
-            f"nearer to {results.facts['target']}'s measurement than doing nothing (1); the median is "
-            f"{number(float(part['value'].median()))}. In the thesis it is none of 48."
+            f"Set {name}: {below} of {len(part)} configurations of the thesis' agents bring tires nearer to "
+            f"{results.facts['target']}'s measurement than doing nothing, averaged over the three metrics. "
+            f"The median error ratio is {number(float(part['value'].median()))} (1: nothing gained). In "
+            "the thesis it is none of 48."
         )
+    tires = results["agent_tires"]
     lines.append(
-        "Agents learn to convince the classifier in either case. What convinces it is not what "
-        "makes a tire right."
+        "Training moves the classifier's mean probability of the target from "
+        f"{tires['before'].mean():.2f} to {tires['after'].mean():.2f}. A file that convinces the "
+        "classifier is not a file with the right forces."
     )
     return lines
 
@@ -78,14 +81,12 @@ def _comparable(results: Results) -> list[Part]:
     table = pd.DataFrame(rows, columns=["in the thesis", "compared as", "why"])
     words = [
         f"The thesis' {THESIS_FILES:,} files are proprietary. Ours are {facts['files']:,} files of a "
-        "demonstration fleet (or of the user's folder): equal values are not to be expected, "
-        "equal patterns are "
-        "what can be tested.",
+        "demonstration fleet or of the user's folder. So values may differ; the patterns can be compared.",
         f"{results.cells_run} cells of the agents' grid were run with {len(facts['seeds'])} seed"
         f"{'s' if len(facts['seeds']) != 1 else ''} each; classifiers were trained "
         f"{facts['trainings']} time{'s' if facts['trainings'] != 1 else ''}. "
-        "Every figure on classifiers is given on the random split and on the split by physical tire. The "
-        "agents are always judged on tires that are in no training file.",
+        "All classifiers are judged on the random split and on the split by physical tire. The agents are "
+        "always judged on tires that are in no training file.",
     ]
     return [Text(words, heading="What can be compared"), Table(table)]
 
@@ -93,8 +94,7 @@ def _comparable(results: Results) -> list[Part]:
 def _footer(results: Results) -> str:
     seconds = results["seconds"]["seconds"]
     return (
-        f"{len(seconds)} agents, {number(float(seconds.sum() / 60))} minutes of training added up over all "
-        f"processes; {number(float(seconds.mean()))} s each. Every table as CSV and every "
-        f"figure as SVG is in the "
-        "folder thesis beside this page."
+        f"{len(seconds)} agents were trained in {number(float(seconds.sum() / 60))} minutes, added up over "
+        f"all processes ({number(float(seconds.mean()))} s each). The folder thesis beside this page holds "
+        "every table as CSV and every figure as SVG."
     )
