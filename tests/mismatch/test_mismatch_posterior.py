@@ -1,7 +1,9 @@
 """The posterior over sets of effects: likelihood, background, priors, answers, and what is learnt."""
 
 import dataclasses
+import pickle
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -9,6 +11,7 @@ import pytest
 from scipy.stats import multivariate_normal, norm
 from small_rig import rig_force, schedule
 
+from tire_pipeline.calibration.learning import CalibrateMismatchParameters, learn_sizes, weigh_cases
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.discrepancy.background import principal
 from tire_pipeline.mismatch.effects import catalogue
@@ -177,6 +180,21 @@ def test_learning_betters_the_log_score(tuning):
     assert log_scores(tuning, found.sizes).mean() == pytest.approx(found.score)
     assert found.score > found.start
     assert set(found.curvature) >= {"error", "side", "effect"}
+
+
+def test_the_nodes_learn_what_one_call_learns(tuning):
+    """Evidence that is worked out case by case, by any worker, and stored; a stopped case is passed over."""
+    parameters = CalibrateMismatchParameters(processes=1)
+    stored = [*(pickle.dumps(each) for each in tuning), pickle.dumps(None)]
+    reduced = {f"code/{k}.pkl": partial(bytes, each) for k, each in enumerate(stored)}
+    work = weigh_cases(reduced, parameters)
+    assert len({name.rsplit("/", 1)[-1] for name in work}) == 3
+    weighed = {name: partial(bytes, pickle.loads(pickle.dumps(make))()) for name, make in work.items()}
+    made, table = learn_sizes(reduced, weighed, parameters)
+    told = learn(tuning, learnt(), step=parameters.step)
+    assert made["sizes"] == told.sizes.to_dict()
+    assert made["provenance"]["log_score"] == pytest.approx(told.score)
+    assert list(table["source"]) == sorted(each.source for each in tuning)
 
 
 def test_a_source_that_is_left_out_teaches_nothing(tuning):

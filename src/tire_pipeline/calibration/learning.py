@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +22,14 @@ from tire_pipeline.code_hash import code_hash
 from tire_pipeline.concealed.scoring.overlap_and_calibration import calibration_error
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.mismatch.inference.analysis import analyse
-from tire_pipeline.mismatch.inference.learn_sizes import Learnt, Tuning, learn, log_scores, pruned
+from tire_pipeline.mismatch.inference.learn_sizes import (
+    Learnt,
+    Tuning,
+    evidence_about,
+    learn,
+    log_scores,
+    pruned,
+)
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes, learnt
 from tire_pipeline.mismatch.inference.sets.answer import answered
 from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets
@@ -90,10 +99,33 @@ def reduced(known: KnownCase) -> Tuning | None:
     return pruned(tuning, sizes) if tuning.rights().any() else None
 
 
+def weigh_cases(reduced_cases: Folder, parameters: CalibrateMismatchParameters) -> Work:
+    """Work out the evidence of each case's hypotheses about the sizes in use; done once for these sizes."""
+    sizes = sha256(json.dumps([learnt().to_dict(), parameters.step]).encode()).hexdigest()[:12]
+    return {f"{sizes}/{name}": _WeighedCase(read, parameters.step) for name, read in reduced_cases.items()}
+
+
+class _WeighedCase:
+    """The evidence of one case, when it is asked for."""
+
+    def __init__(self, read: Callable[[], bytes], step: float) -> None:
+        self.read, self.step = read, step
+
+    def __call__(self) -> bytes:
+        case = pickle.loads(self.read())
+        return _STOPPED_CASE if case is None else pickle.dumps(evidence_about(case, learnt(), self.step))
+
+
 def learn_sizes(
-    reduced_cases: Folder, parameters: CalibrateMismatchParameters
+    reduced_cases: Folder, weighed_cases: Folder, parameters: CalibrateMismatchParameters
 ) -> tuple[dict[str, Any], pd.DataFrame]:
     """Learn from all sources, and judge each by sizes that were learnt without it.
+
+    Parameters
+    ----------
+    reduced_cases, weighed_cases : mapping of callable
+        Of :func:`reduce_cases` and :func:`weigh_cases`, in one order.
+    parameters : CalibrateMismatchParameters
 
     Returns
     -------
@@ -103,8 +135,9 @@ def learn_sizes(
         Of :func:`judged`, a row for each source.
     """
     cases = [t for read in reduced_cases.values() if (t := pickle.loads(read())) is not None]
+    about = [e for read in weighed_cases.values() if (e := pickle.loads(read())) is not None]
     mapped = _Mapped(parameters.processes)
-    found = learn(cases, learnt(), step=parameters.step, mapped=mapped)
+    found = learn(cases, learnt(), step=parameters.step, about=about, mapped=mapped)
     rows = []
     for source, sizes in found.without.items():
         own = [each for each in cases if each.source == source]

@@ -123,7 +123,38 @@ def log_scores(cases: Sequence[Tuning], sizes: LearntSizes, mapped: Map = map) -
     return weighed.scores(evidence + weighed.odds(sizes))[0]
 
 
-def learn(cases: Sequence[Tuning], start: LearntSizes, *, step: float, mapped: Map = map) -> Learnt:
+def evidence_about(case: Tuning, start: LearntSizes, step: float) -> Array:
+    """Return the log evidence of a case's hypotheses at some sizes, and a step to either side of each.
+
+    Parameters
+    ----------
+    case : Tuning
+    start : LearntSizes
+    step : float
+        Factor by which each size is moved; 1 for the start alone.
+
+    Returns
+    -------
+    ndarray, shape (1 + 2 k, h)
+        At the start; then, for each of the ``k`` sizes, larger and smaller. Each row is below its largest.
+    """
+    steps: list[dict[str, float]] = [{}]
+    steps += [{name: sign} for name in _moved_names(start, step) for sign in (1.0, -1.0)]
+    return np.array([_EvidenceBy(moved(start, step, each))(case) for each in steps])
+
+
+def _moved_names(start: LearntSizes, step: float) -> Names:
+    return (*_SCALED_SIZES, *start.background) if step > 1.0 else ()
+
+
+def learn(
+    cases: Sequence[Tuning],
+    start: LearntSizes,
+    *,
+    step: float,
+    about: Sequence[Array] | None = None,
+    mapped: Map = map,
+) -> Learnt:
     """Return the sizes with the best mean log score about a start, each source of cases counting alike.
 
     Parameters
@@ -133,10 +164,13 @@ def learn(cases: Sequence[Tuning], start: LearntSizes, *, step: float, mapped: M
         No size goes farther from it than two steps: beyond, learning is begun again where it ended.
     step : float
         Factor by which each size is moved to see what it does; 1 to learn the odds alone.
+    about : sequence of ndarray, optional
+        :func:`evidence_about` of each case, where it is at hand.
     mapped : callable
         ``map``, or one that spreads the work.
     """
-    around = _Parabolas(cases, start, step, mapped)
+    known = [evidence_about(each, start, step) for each in cases] if about is None else about
+    around = _Parabolas(cases, start, step, known)
     best, before, score = _bettered(around, mapped)
     sources = sorted({each.source for each in cases})
     without = {s: _bettered(around, mapped, s)[0] for s in sources if len(sources) > 1}
@@ -177,21 +211,21 @@ class _Parabolas:
     centre : LearntSizes
     step : float
         Factor between the sizes through which the parabolas go.
-    mapped : callable
+    about : sequence of ndarray
+        :func:`evidence_about` of each case.
     """
 
-    def __init__(self, cases: Sequence[Tuning], centre: LearntSizes, step: float, mapped: Map) -> None:
+    def __init__(
+        self, cases: Sequence[Tuning], centre: LearntSizes, step: float, about: Sequence[Array]
+    ) -> None:
         self.cases, self.centre, self.step = list(cases), centre, step
-        self.names = (*_SCALED_SIZES, *centre.background) if step > 1.0 else ()
+        self.names = _moved_names(centre, step)
         self.weighed = _Weighed(self.cases)
         self.counts = self.weighed.counts(centre)
-        self.middle = self._at({}, mapped)
-        sides = [[self._at({n: sign}, mapped) for sign in (1.0, -1.0)] for n in self.names]
-        self.slope = [0.5 * (more - less) for more, less in sides]
-        self.bend = [0.5 * (more + less) - self.middle for more, less in sides]
-
-    def _at(self, steps: Mapping[str, float], mapped: Map) -> Array:
-        return self.weighed.evidence(moved(self.centre, self.step, steps), mapped)
+        self.middle, *sides = (self.weighed.padded(each) for each in zip(*about, strict=True))
+        pairs = list(zip(sides[::2], sides[1::2], strict=True))
+        self.slope = [0.5 * (more - less) for more, less in pairs]
+        self.bend = [0.5 * (more + less) - self.middle for more, less in pairs]
 
     def scores_at_centre(self) -> Array:
         """Return the log probability of what is right in each case at the centre, shape (cases,)."""
@@ -290,9 +324,13 @@ class _Weighed:
 
     def evidence(self, sizes: LearntSizes, mapped: Map) -> Array:
         """Return the log evidence of each hypothesis by some sizes, shape (cases, h), below the largest."""
+        return self.padded(mapped(_EvidenceBy(sizes), self.cases))
+
+    def padded(self, evidence: Iterable[Array]) -> Array:
+        """Return what is said of each case's hypotheses in one array, shape (cases, h)."""
         out = np.zeros(self.right.shape)
-        for k, each in enumerate(mapped(_EvidenceBy(sizes), self.cases)):
-            out[k, : each.size] = each - each.max()
+        for k, each in enumerate(evidence):
+            out[k, : each.size] = each
         return out
 
     def scores(self, value: Array) -> tuple[Array, Array]:
@@ -306,12 +344,13 @@ class _Weighed:
 
 @dataclass(frozen=True)
 class _EvidenceBy:
-    """Log evidence of a case by some sizes; can be sent to another process."""
+    """Log evidence of a case by some sizes, below the largest; can be sent to another process."""
 
     sizes: LearntSizes
 
     def __call__(self, each: Tuning) -> Array:
-        return log_evidence(each.case, self.sizes, which=each.kept)
+        found = log_evidence(each.case, self.sizes, which=each.kept)
+        return np.asarray(found - found.max())
 
 
 def learnt_left(cases: Sequence[Tuning], sizes: LearntSizes) -> tuple[float, float]:

@@ -2,7 +2,7 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.calibration.learning import learn_sizes, reduce_cases
+from tire_pipeline.calibration.learning import learn_sizes, reduce_cases, weigh_cases
 
 
 def create_pipeline(**_: object) -> Pipeline:
@@ -16,8 +16,14 @@ def create_pipeline(**_: object) -> Pipeline:
                 name="reduce_cases",
             ),
             Node(
-                learn_sizes,
+                weigh_cases,
                 inputs=["tuning_reductions", "params:calibrate_mismatch"],
+                outputs="tuning_evidence",
+                name="weigh_cases",
+            ),
+            Node(
+                learn_sizes,
+                inputs=["tuning_reductions", "tuning_evidence", "params:calibrate_mismatch"],
                 outputs=["mismatch_sizes", "calibration_scores"],
                 name="learn_sizes",
             ),
