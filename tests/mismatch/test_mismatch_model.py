@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -214,3 +216,16 @@ def test_a_quarter_turn_is_the_derivative_by_the_wheels_angle():
     there = 3.0 * np.cos(phi + np.pi / 2.0) + 4.0 * np.sin(phi + np.pi / 2.0)
     np.testing.assert_allclose(later["cosine_y"] * np.cos(phi) + later["sine_y"] * np.sin(phi), there)
     assert later["radius"] == 0.3
+
+
+def test_what_comes_back_once_a_turn_is_added_where_the_angle_of_the_wheel_is_known(tire, record):
+    """In the recording that was explained; in another one it would be added at any angle."""
+    recording = _out_of_round(tire, record)
+    report = explain_mismatch(tire, recording)
+    other = recording.assign(time=recording["time"] + 1000.0)
+    corrected = replace(report.corrected, cleaned={})
+    found, elsewhere = corrected.predict(recording), corrected.predict(other)
+    assert np.std(found["fy"] - recording["fy"]) < 30.0
+    assert "notes" not in found.attrs
+    np.testing.assert_allclose(elsewhere["fy"], corrected.as_it_came.predict(other)["fy"])
+    assert "angle of the wheel" in elsewhere.attrs["notes"][0]

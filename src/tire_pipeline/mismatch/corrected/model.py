@@ -40,7 +40,8 @@ class CorrectedModel:
     changes : tuple of (name, parameters)
         Effects of the catalogue, with their parameters in SI, in the order they are added.
     reference : dict
-        Nominal pressure and speed, and what work, heat and time are measured by.
+        Nominal pressure and speed, what work, heat and time are measured by, and as ``rolled`` where the
+        wheel stood (:class:`.Rolled`).
     outputs : tuple of str
         Forces that were recorded.
     stands_in : bool
@@ -125,7 +126,8 @@ class CorrectedModel:
             model was corrected), index as the recording's. Artefacts are added, too, wrong signs and
             units and clipping as well: this is what would be recorded. Without effects and repairs it is
             what ``tire.forces`` gives at the rows as they are. ``attrs["notes"]`` says where physics without
-            a name was outside of its range and faded.
+            a name was outside of its range and faded, and where the angle of the wheel is not known: what
+            comes back once a turn is left out there.
 
         Raises
         ------
@@ -140,7 +142,7 @@ class CorrectedModel:
                     f"{name} needs the channel {channel}", where=channel, todo="add the column"
                 )
         forces = simulate(data, self.changes)
-        notes = self._put_unnamed(data, forces)
+        notes = [*self._of_unknown_phase(data), *self._put_unnamed(data, forces)]
         if self.moments:
             forces |= simulate_moments(data, self.changes, self.moments)
         recorded = {name: force / self.factors.get(name, 1.0) for name, force in forces.items()}
@@ -150,6 +152,17 @@ class CorrectedModel:
         if notes:
             out.attrs["notes"] = notes
         return out
+
+    def _of_unknown_phase(self, data: Data) -> list[str]:
+        """Say which effects are left out because nobody knows the angle of the wheel."""
+        unknown = float(np.mean(np.isnan(data.fixed.get("wheel_way", 0.0))))
+        turning = [e.title for n, p in self.changes if (e := catalogue()[n]).quarter_turn(p) is not None]
+        return [
+            f"{title}: left out at {unknown:.1%} of the samples, which are not of the recording that was "
+            "explained: the angle of the wheel is not known there"
+            for title in turning
+            if unknown
+        ]
 
     def _put_unnamed(self, data: Data, forces: dict[str, Array]) -> list[str]:
         """Add what has no name to the forces, and say where it fades."""
@@ -225,6 +238,9 @@ class CorrectedModel:
                 )
             own = plain_forces(self.tire, **{n: channels[n] for n in SLIP_AND_LOAD})
             beside = {o: recording[f"simulated_{o}"].to_numpy(dtype=float) - own[o] for o in self.outputs}
+        fixed = {**self.reference, "own_relaxation": own_relaxation(self.tire) if self._changed else None}
+        if time is not None and "rolled" in fixed:
+            fixed["wheel_way"] = fixed["rolled"].at(time, channels["speed"])
         return Data(
             tire=self.tire,
             channels=channels,
@@ -233,7 +249,7 @@ class CorrectedModel:
             start=start,
             present={c for c in channels if c in recording.columns},
             beside=beside,
-            fixed={**self.reference, "own_relaxation": own_relaxation(self.tire) if self._changed else None},
+            fixed=fixed,
         )
 
     def tire_model(self) -> tuple[Any, dict[str, dict[str, object]]]:

@@ -13,6 +13,7 @@ import pandas as pd
 from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.corrected.as_recorded import as_recorded, never_worse, with_unnamed
 from tire_pipeline.mismatch.corrected.model import CorrectedModel, force_limits
+from tire_pipeline.mismatch.corrected.wheel_phase import Rolled
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.inference.analysis import Analysis
@@ -193,6 +194,8 @@ def _model(it: Explained, changes: Sequence[Any]) -> CorrectedModel:
         reference["pressure_nominal"] = data.pressure_nominal
     if "speed" in data.present:
         reference["speed_nominal"] = data.speed_nominal
+    if any(catalogue()[n].quarter_turn(p) is not None for n, p in changes):
+        reference["rolled"] = _rolled(it)
     return CorrectedModel(
         data.tire,
         tuple(changes),
@@ -205,6 +208,14 @@ def _model(it: Explained, changes: Sequence[Any]) -> CorrectedModel:
         question=prepared.question,
         cleaned={c.channel: c.removed for c in prepared.cleaned if c.smoothed},
     ).cleaned_where_it_helps(it.recording)
+
+
+def _rolled(it: Explained) -> Rolled:
+    """Return where the wheel stood at each recorded sample."""
+    data = it.prepared.data
+    assert data.time is not None  # what follows the wheel needs a time line
+    speed = it.recording["speed"].to_numpy(dtype=float)[it.prepared.rows]
+    return Rolled(data.time, speed * it.prepared.factors.get("speed", 1.0), data.wheel_way)
 
 
 def _unnamed(

@@ -14,7 +14,8 @@ class Nonuniformity(Effect):
     """A harmonic of the wheel's rotation: a force of its own, or a wobble of slip angle and load.
 
     Covers the first harmonic of lateral and tangential force, of the angle (lateral run-out) and of the
-    load (radial run-out). Not covered: higher harmonics, and resonance that makes it grow with speed.
+    load (radial run-out). Not covered: higher harmonics, and resonance that makes it grow with speed. The
+    angle of the wheel is known in the recording that was explained; a corrected model adds it nowhere else.
     """
 
     name = "nonuniformity"
@@ -89,4 +90,4 @@ class Nonuniformity(Effect):
     @staticmethod
     def _turn(data: object, p: Parameters) -> tuple[np.ndarray, np.ndarray]:
         phase = data.wheel_way / p["radius"]  # type: ignore[attr-defined]
-        return np.cos(phase), np.sin(phase)
+        return np.nan_to_num(np.cos(phase)), np.nan_to_num(np.sin(phase))  # NaN: the angle is not known
