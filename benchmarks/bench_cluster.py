@@ -45,6 +45,8 @@ ROOT = Path(__file__).resolve().parents[1]
 EXAMPLE = ROOT / "examples"
 PAGE = ROOT / "docs/how-to/cluster.md"
 EMPTY = 300
+LEAST_SECONDS = 5.0
+"""A piece takes so long, if there is so much: in a shorter one its beginning and end weigh too much."""
 WHOLE = [(100_000, 0, 0), (0, 300, 18_000), (0, 5000, 500)]
 Found = dict[str, list[dict[str, Any]]]
 
@@ -94,7 +96,7 @@ def measure(place: Path, jobs: dict[str, Any], found: Found, out: Path, end: flo
             if done:
                 seconds = _sum(done, "seconds") * workers / _sum(done, "tasks")
             first = _sum(done, "tasks")
-            turns = max(int((last - time.monotonic()) / seconds), 1)
+            turns = max(int(max(last - time.monotonic(), LEAST_SECONDS) / seconds), 1)
             piece = {name: jobs[job][name] for name in names[first : first + workers * turns]}
             done.append(measured(work, piece, job) | {"of": len(names)})
         out.parent.mkdir(parents=True, exist_ok=True)
@@ -276,9 +278,9 @@ def processes(workers: int, place: Path) -> Iterator[Map]:
         one.bind(("127.0.0.1", 0))
         port = one.getsockname()[1]
     address = f"tcp://127.0.0.1:{port}"
-    parts = (
-        ("scheduler", "--port", str(port)),
-        ("worker", address, "--nworkers", str(workers), "--nthreads", "1"),
+    parts = (  # a call that is killed leaves them: they end by themselves, and spoil no later one
+        ("scheduler", "--port", str(port), "--idle-timeout", "120"),
+        ("worker", address, "--nworkers", str(workers), "--nthreads", "1", "--death-timeout", "60"),
     )
     log = (place / "dask.log").open("ab")
     command = [sys.executable, "-m", "dask"]

@@ -92,6 +92,14 @@ def on_page_content(html: str, page: Page, **_: Any) -> str:
     return _ROLE.sub(named, html)
 
 
+def on_post_page(output: str, **_: Any) -> str:
+    """Let nothing run in a page but the site's own scripts."""
+    _reach()
+    from site_policy import with_policy
+
+    return with_policy(output)
+
+
 def on_post_build(config: MkDocsConfig, **_: Any) -> None:
     """Take away the page for addresses that a server does not find: opened from a file it lacks its looks."""
     (Path(config.site_dir) / "404.html").unlink(missing_ok=True)

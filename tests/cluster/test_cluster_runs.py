@@ -86,7 +86,7 @@ def _stored(raw: Path, folder: Path) -> dict[str, bytes]:
     """Read all files and explain all recordings with the run's workers; every file that this leaves."""
     files = TirFolderDataset(path=str(raw / "tir")).load()
     recordings = RecordingFolderDataset(path=str(raw / "recordings")).load()
-    blocks = ComputedFolderDataset(path=str(folder / "blocks"), one_after_another=True)
+    blocks = ComputedFolderDataset(path=str(folder / "blocks"))
     blocks.save(read_files(files))
     table, report, _ = join_files(blocks.load(), IngestParameters())
     assert list(table.frame()["file"]) == sorted(f for f in files if "bad" not in f)
@@ -170,7 +170,7 @@ def test_a_file_that_ends_its_reader_is_in_the_report_by_name(tmp_path, chosen):
     good = ROOT / "examples" / "tire.tir"
     files = {f"A/{n}.tir": TirLoader(str(good)) for n in range(3)}
     files["A/killer.tir"] = tasks.DiesUntil(tmp_path / "more memory", tmp_path / "log", str(good))
-    dataset = ComputedFolderDataset(path=str(tmp_path / "blocks"), one_after_another=True)
+    dataset = ComputedFolderDataset(path=str(tmp_path / "blocks"))
     dataset.save(read_files(files))
     table, report, summary = join_files(dataset.load(), IngestParameters())
     assert table.frame()["file"].tolist() == ["A/0.tir", "A/1.tir", "A/2.tir"]

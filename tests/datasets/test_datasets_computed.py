@@ -19,7 +19,7 @@ def _count(folder: Path, name: str, fails: bool = False) -> bytes:
 
 
 def _dataset(tmp_path: Path) -> ComputedFolderDataset:
-    return ComputedFolderDataset(path=str(tmp_path / "out"), one_after_another=True)
+    return ComputedFolderDataset(path=str(tmp_path / "out"))
 
 
 def test_what_is_there_is_not_computed_again(tmp_path):

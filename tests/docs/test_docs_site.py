@@ -128,3 +128,43 @@ def test_search_works_from_a_file(site, tmp_path):
             found = driver.find_elements("css selector", ".md-search-result__link")
             links = [link.get_attribute("href") for link in found]
     assert any("effects.html" in link for link in links), links
+
+
+def test_every_page_has_a_policy_that_lets_no_other_script_run(site, tmp_path):
+    needs_browser()
+    for page in pages(site):
+        head = page.read_text("utf-8").partition("<script")[0]
+        assert "default-src 'none'" in head, page  # before anything that it is about
+        assert "unsafe-inline'; img" in head  # attributes only
+        assert "unsafe-eval" not in head
+    with browser(tmp_path) as driver:
+        driver.get((site / "index.html").as_uri())
+        driver.execute_script(
+            "const one = document.createElement('script'); one.textContent = 'window.hacked = 1';"
+            "document.body.append(one);"
+            "document.body.insertAdjacentHTML('beforeend', '<img src=x onerror=window.hacked=1>');"
+        )
+        time.sleep(0.5)
+        assert driver.execute_script("return window.hacked") is None
+        refused = [
+            e["message"] for e in driver.get_log("browser") if "Content Security Policy" in e["message"]
+        ]
+    assert len(refused) == 2, refused
+
+
+def test_light_and_dark_are_chosen_and_kept(site, tmp_path):
+    needs_browser()
+    colour = "return getComputedStyle(document.body).backgroundColor"
+    with browser(tmp_path) as driver:
+        media = [{"name": "prefers-color-scheme", "value": "light"}]
+        driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": media})
+        driver.get((site / "index.html").as_uri())
+        light = driver.execute_script(colour)
+        for _ in range(2):  # as the system, light, dark
+            driver.find_element(
+                "css selector", "label.md-header__button:not([hidden])[for^='__palette']"
+            ).click()
+        assert driver.execute_script(colour) != light
+        dark = driver.execute_script(colour)
+        driver.get((site / "reference" / "glossary.html").as_uri())
+        assert driver.execute_script(colour) == dark

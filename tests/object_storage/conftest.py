@@ -3,9 +3,18 @@
 from __future__ import annotations
 
 import itertools
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
 
 import pytest
+from bucket_runs import ROOT
 from moto_keys import KEY, SECRET
+
+from tire_pipeline.files.objects import Objects
 
 _NUMBERS = itertools.count()
 
@@ -34,3 +43,35 @@ def bucket(server, monkeypatch):
     name = f"bucket{next(_NUMBERS)}"
     fsspec.filesystem("s3", use_listings_cache=False).mkdir(name)
     return f"s3://{name}"
+
+
+@pytest.fixture
+def data(bucket):
+    return Objects(f"{bucket}/tires")
+
+
+@pytest.fixture
+def kedro(data, tmp_path):
+    """Starts ``kedro run --env small`` with all data in the bucket."""
+    conf = tmp_path / "conf"
+    shutil.copytree(ROOT / "conf", conf)
+    text = f"data: {data}\ntir_folder: {data}/01_raw/tir\n"
+    (conf / "small" / "globals.yml").write_text(text)
+    said = []
+
+    def start(*arguments: str, program: Sequence[str] = ("-m", "kedro")) -> subprocess.Popen[str]:
+        command = [sys.executable, *program, "run", "--env", "small", "--conf-source", str(conf)]
+        log = (tmp_path / f"log{len(said)}").open("w+")
+        said.append(log)
+        here = {**os.environ, "OMP_NUM_THREADS": "1"}
+        command += arguments
+        process = subprocess.Popen(command, cwd=ROOT, env=here, stdout=log, stderr=log, text=True)
+        process.said = lambda: Path(log.name).read_text()
+        return process
+
+    yield start
+    for log in said:
+        text = Path(log.name).read_text()
+        assert SECRET not in text
+        assert KEY not in text
+    assert not (ROOT / "s3:").exists()

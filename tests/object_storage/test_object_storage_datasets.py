@@ -129,7 +129,7 @@ def test_what_is_computed_is_not_computed_again(folder, tmp_path):
             file.write("x")
         return name.encode()
 
-    dataset = ComputedFolderDataset(path=f"{folder}/out", one_after_another=True)
+    dataset = ComputedFolderDataset(path=f"{folder}/out")
     dataset.save({"k/a": partial(count, "a")})
     dataset.save({"k/a": partial(count, "a"), "k/b": partial(count, "b")})
     reads = pickle.loads(pickle.dumps(dataset.load()))  # workers read, too

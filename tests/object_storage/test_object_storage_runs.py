@@ -3,73 +3,26 @@
 from __future__ import annotations
 
 import json
-import os
-import shutil
 import signal
-import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
-from kedro.framework.session import KedroSession
-from kedro.framework.startup import bootstrap_project
+from bucket_runs import ROOT, run_here
 from moto_keys import KEY, SECRET
 
 from tire_pipeline.files.objects import Objects
 
-ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "retraining"))
-from retraining_files import tir_text  # noqa: E402
+from retraining_files import tir_text
 
 pytestmark = pytest.mark.long
 QUICK = "one_run_at_a_time.expiry_seconds=3"
 
 
-@pytest.fixture
-def data(bucket):
-    return Objects(f"{bucket}/tires")
-
-
-@pytest.fixture
-def kedro(data, tmp_path):
-    """Starts ``kedro run --env small`` with all data in the bucket."""
-    conf = tmp_path / "conf"
-    shutil.copytree(ROOT / "conf", conf)
-    text = f"data: {data}\ntir_folder: {data}/01_raw/tir\n"
-    (conf / "small" / "globals.yml").write_text(text)
-    said = []
-
-    def start(*arguments: str) -> subprocess.Popen[str]:
-        command = [sys.executable, "-m", "kedro", "run", "--env", "small", "--conf-source", str(conf)]
-        log = (tmp_path / f"log{len(said)}").open("w+")
-        said.append(log)
-        here = {**os.environ, "OMP_NUM_THREADS": "1"}
-        command += arguments
-        process = subprocess.Popen(command, cwd=ROOT, env=here, stdout=log, stderr=log, text=True)
-        process.said = lambda: Path(log.name).read_text()
-        return process
-
-    yield start
-    for log in said:
-        text = Path(log.name).read_text()
-        assert SECRET not in text
-        assert KEY not in text
-    assert not (ROOT / "s3:").exists()
-
-
 def _done(process) -> str:
     assert process.wait(timeout=500) == 0, process.said()
     return process.said()
-
-
-def _run(conf: Path, *pipelines: str, **parameters: object) -> None:
-    """The same in this process: a run takes long to start."""
-    bootstrap_project(ROOT)
-    with KedroSession.create(
-        project_path=ROOT, env="small", conf_source=str(conf), runtime_params=parameters
-    ) as session:
-        session.run(pipeline_names=list(pipelines))
 
 
 def _put(data: Objects, tires: range) -> None:
@@ -80,11 +33,11 @@ def _put(data: Objects, tires: range) -> None:
 
 def test_files_and_recordings_go_from_bucket_to_bucket(kedro, data, tmp_path, capsys):
     conf = tmp_path / "conf"
-    _run(conf, "make_fleet")
-    _run(conf, "ingest_tir", "dedupe_filter", "normalize", "translate", translate={"trials": 12})
+    run_here(conf, "make_fleet")
+    run_here(conf, "ingest_tir", "dedupe_filter", "normalize", "translate", translate={"trials": 12})
     for name, source in (("model.tir", "tire.tir"), ("recording.csv", "rig_run.csv")):
         data.write(f"01_raw/recordings/rig/{name}", (ROOT / "examples" / source).read_bytes())
-    _run(conf, "explain_mismatch")
+    run_here(conf, "explain_mismatch")
     said = capsys.readouterr()
     assert SECRET not in said.out + said.err
     names = data.names()
@@ -111,14 +64,14 @@ def test_a_model_is_released_in_a_bucket_and_taken_back(kedro, data, tmp_path, c
     few = {"dedupe_filter": {"minimum_per_category": 5}}
     _put(data, range(30))
     data.write("01_raw/tir/A/bad.tir", b"no tire")
-    _run(conf, "retrain", **few)
+    run_here(conf, "retrain", **few)
     _put(data, range(100, 110))
     data.write("01_raw/tir/A/bad.tir", tir_text(200, "A").encode())
-    _run(conf, "retrain", **few)
-    _run(conf, "retrain", **few)
+    run_here(conf, "retrain", **few)
+    run_here(conf, "retrain", **few)
     record = json.loads(data.read("06_models/released/record.json"))
     assert [event["event"] for event in record["history"]] == ["released", "released"]
-    _run(conf, "rollback")
+    run_here(conf, "rollback")
     record = json.loads(data.read("06_models/released/record.json"))
     assert record["models"] == [record["history"][0]["model"]]
     names = data.names()

@@ -121,7 +121,7 @@ class Same:
 
 def test_a_run_for_some_files_keeps_what_was_translated_of_the_others(mixed, files, training, tmp_path):
     folder = TextFolderDataset(path=str(tmp_path / "translated"))
-    blocks = ComputedFolderDataset(path=str(tmp_path / "blocks"), one_after_another=True, only_the_last=True)
+    blocks = ComputedFolderDataset(path=str(tmp_path / "blocks"), only_the_last=True)
     state = mixed.to_state()
 
     def run(files, **asked):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import partial, update_wrapper
 from typing import Any, TypeVar
 
@@ -18,44 +17,30 @@ _T = TypeVar("_T")
 _CHOSEN_CLUSTER = {"parameters": ClusterParameters()}
 
 
-def work_map(*, without_cluster: int | None = None) -> Map:
-    """Return the run's map.
-
-    Parameters
-    ----------
-    without_cluster : int, optional
-        How many processes are used where there is no cluster; the run's parameter if left out.
-    """
+def work_map() -> Map:
+    """Return the run's map."""
     chosen = _CHOSEN_CLUSTER["parameters"]
     if chosen.scheduler:
         from tire_pipeline.cluster.dask_map import dask_map
 
         return dask_map(chosen)
-    return in_processes(without_cluster or chosen.processes)
+    return in_processes(chosen.processes)
 
 
-@dataclass(frozen=True)
-class _RunMap:
+def _of_the_run(tasks: Mapping[str, Task[_T]], what: str) -> Iterator[Done[_T]]:
     """The run's map: which one it is, is known when it is called."""
-
-    without_cluster: int | None
-
-    def __call__(self, tasks: Mapping[str, Task[_T]], what: str) -> Iterator[Done[_T]]:
-        return work_map(without_cluster=self.without_cluster)(tasks, what)
+    return work_map()(tasks, what)
 
 
-def given_map(function: Callable[..., _T], *, without_cluster: int | None = None) -> Callable[..., _T]:
+def given_map(function: Callable[..., _T]) -> Callable[..., _T]:
     """Give a node's function the run's map as its argument ``work``.
 
     Parameters
     ----------
     function : callable
         Takes ``work`` by name.
-    without_cluster : int, optional
-        As in :func:`work_map`.
     """
-
-    return update_wrapper(partial(function, work=_RunMap(without_cluster)), function)
+    return update_wrapper(partial(function, work=_of_the_run), function)
 
 
 class ClusterHooks:

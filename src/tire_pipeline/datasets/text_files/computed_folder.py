@@ -36,9 +36,6 @@ class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Com
         The folder.
     what : str, optional
         Is said while they are computed.
-    one_after_another : bool
-        Without a cluster one function after another is done in this process: for what takes less time than
-        starting processes.
     only_the_last : bool
         Delete files of other names: for results that are no longer wanted when what they depend on changes.
         :class:`.AddedFiles` functions delete none.
@@ -54,13 +51,11 @@ class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Com
         *,
         path: str,
         what: str | None = None,
-        one_after_another: bool = False,
         only_the_last: bool = False,
         metadata: dict[str, Any] | None = None,
     ) -> None:
         self._path = path
         self._what = what or f"computing {Path(path).name}"
-        self._one_after_another = one_after_another
         self._only_the_last = only_the_last
         self.metadata = metadata
 
@@ -84,8 +79,7 @@ class ComputedFolderDataset(AbstractDataset[Mapping[str, Compute], dict[str, Com
         self, folder: Files | Objects, missing: Mapping[str, Compute], places: Mapping[str, str], what: str
     ) -> None:
         lost: list[str] = []
-        work = work_map(without_cluster=1 if self._one_after_another else None)
-        for done in work(missing, what):
+        for done in work_map()(missing, what):
             if isinstance(done.error, LostTaskError):
                 lost.append(f"{done.name}: {done.error}")
                 continue

@@ -29,7 +29,7 @@ def create_pipeline(**_: object) -> Pipeline:
     """Retrain on what has arrived; the steps from table to table are those of the other pipelines."""
     reading = [
         Node(
-            given_map(read_new_files, without_cluster=1),
+            given_map(read_new_files),
             inputs=["ingested", "tir_folder", "params:retrain"],
             outputs=["ingested_updated", "retraining_files"],
             name="read_new_files",
