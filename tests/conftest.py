@@ -20,6 +20,9 @@ _SLOW_FOLDERS = frozenset(
 )
 """Whole runs, browsers, simulators and explanations. Elsewhere the slow files say so themselves."""
 
+_SHARE_WHAT_THEY_TEST = frozenset(("cluster", "translation"))
+"""Folders whose files need the same workers or the same fitted models: they are done in one process."""
+
 _LONGEST_FIRST = (
     "mismatch/test_mismatch_explain.py",
     "thesis/test_thesis_run.py",
@@ -67,7 +70,7 @@ def _listed(path: Path) -> set[str]:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark known misses as expected failures and slow folders as slow; begin with what takes longest."""
+    """Mark known misses, slow folders and what is done in one process; begin with what takes longest."""
     known, ci_only = _listed(_KNOWN), _listed(_CI_ONLY)
     for item in items:
         if ci_only & {item.nodeid, item.nodeid.partition("[")[0], item.nodeid.partition("::")[0]}:
@@ -77,5 +80,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         folder = item.path.relative_to(_HERE).parts[0]
         if folder in _SLOW_FOLDERS:
             item.add_marker(pytest.mark.slow)
+        group = folder if folder in _SHARE_WHAT_THEY_TEST else item.path.relative_to(_HERE).as_posix()
+        item.add_marker(pytest.mark.xdist_group(group))
     place = {name: number for number, name in enumerate(_LONGEST_FIRST)}
     items.sort(key=lambda item: place.get(item.path.relative_to(_HERE).as_posix(), len(place)))

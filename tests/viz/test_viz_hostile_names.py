@@ -88,6 +88,7 @@ def test_no_cell_of_a_table_begins_a_formula(data):
         text = path.read_text(encoding="utf-8")
         assert not UNSEEN.search(text), path
         for cell in (cell for row in csv.reader(text.splitlines()) for cell in row):
-            assert not FORMULA.match(cell) or NUMBER.fullmatch(cell), (path, cell)
+            if FORMULA.match(cell):
+                assert NUMBER.fullmatch(cell), (path, cell)
             hostile += cell.startswith(("'=1+1", "'-2+3", "'@SUM", "'+1"))
     assert hostile >= 3
