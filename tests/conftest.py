@@ -25,38 +25,41 @@ _SHARE_WHAT_THEY_TEST = frozenset(("cluster", "translation"))
 
 _LONGEST_FIRST = (
     "mismatch/test_mismatch_explain.py",
-    "thesis/test_thesis_run.py",
-    "pipelines/test_pipelines_small_run.py",
-    "mismatch/test_mismatch_usable.py",
-    "mismatch/test_mismatch_units_and_axes.py",
-    "mismatch/test_mismatch_checks.py",
-    "cluster/test_cluster_runs.py",
+    "translation/test_translation_learns_from_batch.py",
     "mismatch/test_mismatch_effects.py",
-    "mismatch/test_mismatch_few_channels.py",
+    "thesis/test_thesis_run.py",
+    "mismatch/test_mismatch_checks.py",
     "mismatch/test_mismatch_real_recordings.py",
+    "mismatch/test_mismatch_few_channels.py",
+    "pipelines/test_pipelines_small_run.py",
+    "docs/test_docs_site.py",
+    "mismatch/test_mismatch_units_and_axes.py",
     "mismatch/test_mismatch_spent.py",
-    "mismatch/test_mismatch_flat_belt.py",
-    "viz/test_viz_pages.py",
+    "mismatch/test_mismatch_usable.py",
+    "mismatch/test_mismatch_visible.py",
     "viz/test_viz_browser.py",
+    "viz/test_viz_pages.py",
+    "cluster/test_cluster_map.py",
+    "mismatch/test_mismatch_flat_belt.py",
     "retraining/test_retraining_runs.py",
+    "pipelines/test_pipelines_explain.py",
     "pipelines/test_pipelines_bad_input.py",
     "pipelines/test_pipelines_public_files.py",
     "mismatch/test_mismatch_model.py",
-    "mismatch/test_mismatch_visible.py",
     "notebooks/test_notebooks_run.py",
     "mismatch/test_mismatch_brake_sweeps.py",
     "mismatch/test_mismatch_lags.py",
     "mismatch/test_mismatch_guard.py",
     "mismatch/test_mismatch_rates.py",
-    "translation/test_translation_bias_translators.py",
-    "translation/test_translation_learns_from_batch.py",
-    "docs/test_docs_site.py",
     "fleet/test_fleet_bias.py",
-    "cluster/test_cluster_map.py",
+    "docs/test_docs_snippets.py",
+    "runs/test_runs_namespaces.py",
     "magic_formula/test_magic_formula_gradients.py",
     "concealed/test_concealed_second.py",
 )
-"""Files that take long, longest first: begun last, they would leave one process with nothing to do."""
+"""Files that take long, longest first: begun last, they would leave one process with nothing to do.
+
+Of a folder that is done in one process the first file stands for all."""
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
