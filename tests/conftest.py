@@ -7,6 +7,7 @@ that. What is marked long is for `make long`. CI runs `make test-and-checks`, wh
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -68,12 +69,26 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
     return True if slow and "not slow" in config.option.markexpr else None
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Give each file to one process, and each folder whose files share what they test."""
+    from xdist.scheduler import LoadFileScheduling
+
+    class FilesAndFolders(LoadFileScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            file = nodeid.partition("::")[0]
+            folder = Path(file).parent
+            return folder.as_posix() if folder.name in _SHARE_WHAT_THEY_TEST else file
+
+    return FilesAndFolders(config, log)
+
+
 def _listed(path: Path) -> set[str]:
     return {line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("tests/")}
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark known misses, slow folders and what is done in one process; begin with what takes longest."""
+    """Mark known misses as expected failures and slow folders as slow; begin with what takes longest."""
     known, ci_only = _listed(_KNOWN), _listed(_CI_ONLY)
     for item in items:
         if ci_only & {item.nodeid, item.nodeid.partition("[")[0], item.nodeid.partition("::")[0]}:
@@ -83,7 +98,5 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         folder = item.path.relative_to(_HERE).parts[0]
         if folder in _SLOW_FOLDERS:
             item.add_marker(pytest.mark.slow)
-        group = folder if folder in _SHARE_WHAT_THEY_TEST else item.path.relative_to(_HERE).as_posix()
-        item.add_marker(pytest.mark.xdist_group(group))
     place = {name: number for number, name in enumerate(_LONGEST_FIRST)}
     items.sort(key=lambda item: place.get(item.path.relative_to(_HERE).as_posix(), len(place)))
