@@ -8,7 +8,7 @@ EXTRAS ?= dev
 COMMA := ,
 export OMP_NUM_THREADS ?= 2
 export PYTHONUNBUFFERED = 1
-# Two processes, each file of tests in one of them, in the order of tests/conftest.py.
+# Two processes, each file of tests in one of them, by tests/conftest.py.
 TWO := -n 2 --dist loadfile --no-loadscope-reorder
 
 .PHONY: run cluster quick test checks test-and-checks docs lint long bench coverage audit build sbom viz viz-page schedule install

@@ -7,6 +7,7 @@ that. What is marked long is for `make long`. CI runs `make test-and-checks`, wh
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -20,46 +21,66 @@ _SLOW_FOLDERS = frozenset(
 )
 """Whole runs, browsers, simulators and explanations. Elsewhere the slow files say so themselves."""
 
+_SHARE_WHAT_THEY_TEST = frozenset(("cluster", "translation"))
+"""Folders whose files need the same workers or the same fitted models: they are done in one process."""
+
 _LONGEST_FIRST = (
     "mismatch/test_mismatch_explain.py",
-    "thesis/test_thesis_run.py",
-    "pipelines/test_pipelines_small_run.py",
-    "mismatch/test_mismatch_usable.py",
-    "mismatch/test_mismatch_units_and_axes.py",
-    "mismatch/test_mismatch_checks.py",
-    "cluster/test_cluster_runs.py",
+    "translation/test_translation_learns_from_batch.py",
     "mismatch/test_mismatch_effects.py",
-    "mismatch/test_mismatch_few_channels.py",
+    "thesis/test_thesis_run.py",
+    "mismatch/test_mismatch_checks.py",
     "mismatch/test_mismatch_real_recordings.py",
+    "mismatch/test_mismatch_few_channels.py",
+    "pipelines/test_pipelines_small_run.py",
+    "docs/test_docs_site.py",
+    "mismatch/test_mismatch_units_and_axes.py",
     "mismatch/test_mismatch_spent.py",
-    "mismatch/test_mismatch_flat_belt.py",
-    "viz/test_viz_pages.py",
+    "mismatch/test_mismatch_usable.py",
+    "mismatch/test_mismatch_visible.py",
     "viz/test_viz_browser.py",
+    "viz/test_viz_pages.py",
+    "cluster/test_cluster_map.py",
+    "mismatch/test_mismatch_flat_belt.py",
     "retraining/test_retraining_runs.py",
+    "pipelines/test_pipelines_explain.py",
     "pipelines/test_pipelines_bad_input.py",
     "pipelines/test_pipelines_public_files.py",
     "mismatch/test_mismatch_model.py",
-    "mismatch/test_mismatch_visible.py",
     "notebooks/test_notebooks_run.py",
     "mismatch/test_mismatch_brake_sweeps.py",
     "mismatch/test_mismatch_lags.py",
     "mismatch/test_mismatch_guard.py",
     "mismatch/test_mismatch_rates.py",
-    "translation/test_translation_bias_translators.py",
-    "translation/test_translation_learns_from_batch.py",
-    "docs/test_docs_site.py",
     "fleet/test_fleet_bias.py",
-    "cluster/test_cluster_map.py",
+    "docs/test_docs_snippets.py",
+    "runs/test_runs_namespaces.py",
     "magic_formula/test_magic_formula_gradients.py",
     "concealed/test_concealed_second.py",
 )
-"""Files that take long, longest first: begun last, they would leave one process with nothing to do."""
+"""Files that take long, longest first: begun last, they would leave one process with nothing to do.
+
+Of a folder that is done in one process the first file stands for all."""
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     """Do not import the slow folders where no slow test is wanted."""
     slow = collection_path.parent == _HERE and collection_path.name in _SLOW_FOLDERS
     return True if slow and "not slow" in config.option.markexpr else None
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Give each file to one process, and each folder whose files share what they test."""
+    from xdist.scheduler import LoadFileScheduling
+
+    class FilesAndFolders(LoadFileScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            file = nodeid.partition("::")[0]
+            folder = Path(file).parent
+            return folder.as_posix() if folder.name in _SHARE_WHAT_THEY_TEST else file
+
+    return FilesAndFolders(config, log)
 
 
 def _listed(path: Path) -> set[str]:

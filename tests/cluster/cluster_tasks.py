@@ -44,7 +44,7 @@ class DiesUntil:
         return "the file has not changed"
 
     def __call__(self) -> Any:
-        """Return the tire; only who reads one imports what that takes, not each process begun anew."""
+        """Return the tire; what that takes is not imported by each process that is begun anew."""
         if not self.flag.exists():
             dies(self.log)
         from tire_pipeline.tir import read_tir

@@ -53,7 +53,7 @@ def record(name: str, *, seed: int = 0, friction: float = 1.0, seconds: float = 
         friction
         * TireModel.from_coefficients(COEFFICIENTS).forces(slip_angle=angle / friction, normal_load=load).fy
     )
-    columns = {"time": time, "slip_angle": angle, "normal_load": load, "speed": 16.7 + 0.0 * time}
+    columns = {"time": time, "slip_angle": angle, "normal_load": load}
     noise = 25.0 * rng.standard_normal(time.size)
     pd.DataFrame({**columns, "fy": fy + noise}).to_csv(name, index=False)
 
@@ -255,8 +255,8 @@ def test_explain_several_together_and_one_held_out(folder):
 
 
 def test_a_held_out_recording_need_not_be_among_the_explained(folder):
-    record("one.csv", friction=0.88)
-    record("two.csv", seed=1, friction=0.88)
+    record("one.csv", friction=0.88, seconds=45.0)
+    record("two.csv", seed=1, friction=0.88, seconds=45.0)
     text = run("explain", "a.tir", "one.csv", "--hold-out", "two.csv", "--no-page").stdout
     assert "On two.csv, which was held out" in text
 

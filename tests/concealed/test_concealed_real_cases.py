@@ -66,7 +66,7 @@ def test_a_case_shows_and_holds_out_different_sweeps_of_its_pool(recordings, sou
         case, answer = make_real_case(plan, recordings)
         assert not set(answer.shown) & set(answer.held_out)
         assert {*answer.fit, *answer.shown, *answer.held_out} <= allowed
-        assert answer.kind == "nothing" or answer.effects
+        assert (answer.kind == "nothing") == (not answer.effects)
         assert all(e.over_misfit >= 0.5 for e in answer.effects)
         assert "piece" not in case.recording
         if "time" in case.recording:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import re
 import shlex
+from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import pandas as pd
 import pytest
 from click.testing import CliRunner
 
-import tire_pipeline.mismatch
 from tire_pipeline.command.cli import tire
+from tire_pipeline.mismatch import Explainer
 
 pytestmark = pytest.mark.slow
 
@@ -49,18 +51,20 @@ def test_readme_and_tutorials_have_something_to_run():
 
 @pytest.fixture(scope="module")
 def explained_once():
-    """``explain_mismatch`` that explains a recording against a tire once; most pages show the same two."""
-    explain, known = tire_pipeline.mismatch.explain_mismatch, {}
+    """A recording is explained against a tire once; most pages and commands show the same two."""
+    explain, known = Explainer.explain, {}
 
-    def remembered(tire, recording, **options):
+    def remembered(self, tire, recording):
         rows = int(pd.util.hash_pandas_object(recording).sum())
-        key = (tuple(sorted(tire.coefficients.items())), tuple(recording.columns), rows, repr(options))
+        key = (tuple(sorted(tire.coefficients.items())), tuple(recording.columns), rows)
+        key = (*key, repr(self), repr(recording.attrs))
         if key not in known:
-            known[key] = explain(tire, recording, **options)
-        return known[key]
+            report = explain(self, tire, recording)
+            known[key] = replace(report, find_visible=cache(report.find_visible))
+        return replace(known[key])
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(tire_pipeline.mismatch, "explain_mismatch", remembered)
+        patch.setattr(Explainer, "explain", remembered)
         yield
 
 
@@ -69,11 +73,11 @@ def test_python_runs(page, folder, explained_once):
     names: dict[str, object] = {}
     for block in blocks(page, "python"):
         exec(compile(block, str(page), "exec"), names)
-    assert "tire" in names or "report" in names or "run" in names
+    assert {"tire", "report", "run"} & set(names)
 
 
 @pytest.mark.parametrize("command", list(dict.fromkeys(each for page in PAGES for each in commands(page))))
-def test_commands_run(command, folder):
+def test_commands_run(command, folder, explained_once):
     before = {path.name: path.read_bytes() for path in (ROOT / "examples").iterdir() if path.is_file()}
     result = CliRunner().invoke(tire, shlex.split(command)[1:])
     assert result.exit_code == 0, result.output

@@ -62,7 +62,7 @@ def test_the_first_place_is_the_largest_that_is_sure_and_no_share_is_of_next_to_
         sizes = [abs(f.mean) for f in found]
         assert sizes == sorted(sizes, reverse=True)
         assert all(f.p_value <= 0.05 for f in found)
-        assert all(np.isnan(f.share) or abs(f.share) < 1.0 for f in found), found
+        assert max(abs(f.share) for f in found if np.isfinite(f.share)) < 1.0, found
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -49,7 +49,7 @@ def interrupted_run(tmp_path_factory: pytest.TempPathFactory) -> InterruptedRun:
     helper = _module(TESTS / "pipelines" / "conftest_kedro.py", "conftest_kedro_for_thesis")
     folder = tmp_path_factory.mktemp("thesis_run")
     shutil.copytree(helper.fleet_folder(tmp_path_factory) / "data", folder / "data")
-    made = helper.kedro(folder, "--pipelines", "ingest_tir,dedupe_filter,normalize,represent,bin")
+    made = helper.kedro_here(folder, "--pipelines", "ingest_tir,dedupe_filter,normalize,represent,bin")
     assert made.returncode == 0, made.stdout + made.stderr
     command = [sys.executable, "-m", "kedro", "run", "--env", "small", "--conf-source", str(folder / "conf")]
     running = subprocess.Popen(
@@ -66,5 +66,5 @@ def interrupted_run(tmp_path_factory: pytest.TempPathFactory) -> InterruptedRun:
     running.wait()
     time.sleep(1.0)  # workers notice that they are alone
     left = stored_results(folder)
-    done = helper.kedro(folder, "--pipeline", "reproduce_thesis")
+    done = helper.kedro_here(folder, "--pipeline", "reproduce_thesis")
     return InterruptedRun(folder, left, done, helper.kedro)

@@ -35,7 +35,8 @@ def data(tmp_path_factory) -> Path:
     rig = raw / "recordings" / CATEGORY
     rig.mkdir(parents=True)
     (rig / f"{IMAGE}model.tir").write_text(SAID + tire, encoding="utf-8")
-    shown = pd.read_csv(ROOT / "examples" / "rig_run.csv").iloc[::4].assign(**{SCRIPT: IMAGE, "=1+1": 1.0})
+    shown = pd.read_csv(ROOT / "examples" / "rig_run.csv").iloc[::4].drop(columns=["V", "P"])
+    shown = shown.assign(**{SCRIPT: IMAGE, "=1+1": 1.0})
     shown.to_csv(rig / RECORDING, index=False)
     bad = raw / "recordings" / "bad"
     bad.mkdir()
