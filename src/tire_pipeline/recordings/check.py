@@ -264,7 +264,7 @@ def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:
             "angle_in_degrees" if unit == "deg" else "slip_in_percent",
             "warning",
             f"{column}, up to {np.nanmax(np.abs(values)):.3g}{' rad' if unit == 'deg' else ''}",
-            f"no wheel reaches this; explain_mismatch takes it for {unit}. State the unit: "
+            f"no wheel reaches this; explain_mismatch reads it as {unit}. State the unit: "
             f"--unit {name}={unit}, in Python units={{{name!r}: {unit!r}}}",
         )
     ]
