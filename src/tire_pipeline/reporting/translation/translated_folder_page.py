@@ -17,9 +17,9 @@ from tire_pipeline.translation.translated_block import curves_in, has_tables, ta
 
 _PROTOCOLS = (
     "Categories that changed how they measure, as their files show: the day with its 90% range, the "
-    "probability of a change, and how far it moved the curves of the mean tire (90% intervals). A file counts "
-    "by its date; one without a date counts as the mean of both protocols. Of the target, the newest protocol "
-    "counts."
+    "probability of a change, and how far it moved the curves of the mean tire (90% intervals). A file "
+    "counts by its date; one without a date counts as the mean of both protocols. Of the target, the "
+    "newest protocol counts."
 )
 
 
