@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.reporting.translation.drawn_files import DrawnFiles
 from tire_pipeline.reporting.translation.translated_files_page import translated_page
 from tire_pipeline.translation.curves.of_files import DRAWN_OUTPUTS
 
@@ -90,7 +91,9 @@ def made_up(count: int) -> str:
     moved = pd.DataFrame([(file, name) for file in files for name in names], columns=["file", "coefficient"])
     moved = moved.assign(**{side: generator.normal(size=len(moved)) for side in ("from", "to")})
     tires = {file: f"{195 + 10 * (i % 9)}/55 rim 203.2" for i, file in enumerate(files)}
-    return translated_page("Translated to D", ["Made up."], report, curves, moved, own=set(), tires=tires)
+    drawn = DrawnFiles()
+    drawn.add(curves, moved)
+    return translated_page("Translated to D", ["Made up."], report, drawn, own=set(), tires=tires)
 
 
 def measure(page: Path, profile: Path) -> tuple[float, list[float]]:

@@ -8,6 +8,8 @@ import pytest
 from kedro.io import DatasetError
 
 from tire_pipeline.datasets import HtmlPageDataset, TextFolderDataset, TirFolderDataset
+from tire_pipeline.errors import DomainError
+from tire_pipeline.files.folder_walk import walk
 
 
 def test_text_folder_round_trip_and_replacement(tmp_path):
@@ -99,6 +101,11 @@ def test_an_empty_folder_says_what_to_do(tmp_path):
     with pytest.raises(DatasetError, match="make_fleet"):
         TirFolderDataset(path=str(tmp_path)).load()
     assert TirFolderDataset(path=str(tmp_path / "none"), may_be_absent=True).load() == {}
+
+
+def test_a_folder_that_is_not_there_is_not_called_closed(tmp_path):
+    with pytest.raises(DomainError, match="there is no such folder -> make it"):
+        walk(tmp_path / "none", lambda name: True)
 
 
 def test_files_are_found_in_any_case_and_depth(tmp_path):

@@ -91,9 +91,18 @@ def test_unknown_units_are_si_and_said_so(tmp_path):
     assert any("SI units of SA (rad), FZ (N), FY (N)" in text for text in recording.attrs["assumed"])
     assert not any("SA (rad)" in note for note in notes_beside_assumed(recording)), "said twice in a report"
     assert recording.attrs["steady_points"]
-    told = read_recording(file, units={"SA": "deg", "FZ": "furlong"})
+    told = read_recording(file, units={"SA": "deg"})
     np.testing.assert_allclose(told["slip_angle"], SA * DEG)
-    assert any("'furlong' is not known" in n for n in told.attrs["notes"])
+
+
+def test_an_unknown_unit_in_the_file_is_noted_and_one_that_is_stated_is_refused(tmp_path):
+    file = tmp_path / "a.csv"
+    pd.DataFrame({"SA": SA, "FZ [furlong]": FZ, "FY": FY}).to_csv(file, index=False)
+    assert any("'furlong' is not known" in n for n in read_recording(file).attrs["notes"])
+    with pytest.raises(RecordingError, match=r"the stated unit 'dge' of channel SA is not known.* 'deg'"):
+        read_recording(file, units={"SA": "dge"})
+    with pytest.raises(RecordingError, match="a unit is stated for 'SB', which the file does not have"):
+        read_recording(file, units={"SB": "deg"})
 
 
 def test_units_of_the_wrong_kind_are_refused(tmp_path):

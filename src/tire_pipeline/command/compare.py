@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -45,9 +46,13 @@ def command(
 
 
 def compared(
-    models: dict[str, TireModel], loads: tuple[float, ...] = (), camber: float = 0.0, title: str = ""
+    models: dict[str, TireModel],
+    loads: tuple[float, ...] = (),
+    camber: float = 0.0,
+    title: str = "",
+    notes: Sequence[str] = (),
 ) -> CommandOutcome:
-    """Compare two models by name; ``camber`` in degrees."""
+    """Compare two models by name, ``camber`` in degrees; ``notes`` for a section of their own on the page."""
     from tire_pipeline.magic_formula.compare import changed_values, compare_models
     from tire_pipeline.magic_formula.key_figures import key_figures, usual_loads
 
@@ -78,7 +83,7 @@ def compared(
     }
 
     def page() -> str:
-        return _page(models, lines, [figures, forces], changed, at, camber, title)
+        return _page(models, [figures, forces], changed, title, lines, notes, at, camber)
 
     return CommandOutcome(title or f"{a} and {b}", lines, data, page, [figures, forces])
 
@@ -123,12 +128,13 @@ def _change(before: float, after: float) -> str:
 
 def _page(
     models: dict[str, TireModel],
-    lines: list[str],
     grids: list[Grid],
     changed: list[tuple[str, float, float]],
+    title: str,
+    lines: list[str],
+    notes: Sequence[str],
     loads: list[float],
     camber: float,
-    title: str,
 ) -> str:
     import pandas as pd
 
@@ -137,6 +143,7 @@ def _page(
 
     parts: list[Any] = [
         Text(lines, emphasis=True),
+        *([Text(notes, heading="What other software will see")] if notes else []),
         Figure(
             *draw_models(
                 dict(zip("AB", models.values(), strict=True)), loads=loads, camber=math.radians(camber)
@@ -150,4 +157,5 @@ def _page(
     if len(frame):
         said = "SI units; a dash: the version does not use it, or the file lacks it."
         parts.append(Table(frame, said, "Coefficients that differ", digits=6, unlike=True, most_rows=1000))
-    return render_page(title or " and ".join(models), parts, footer=f"tire compare {' '.join(models)}")
+    footer = title or f"tire compare {' '.join(models)}"
+    return render_page(title or " and ".join(models), parts, footer=footer)

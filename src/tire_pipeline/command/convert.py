@@ -41,7 +41,8 @@ def command(
     said = f"converted from {model.version} to {version} by tire_pipeline; source file: {file.name}"
     write_tir(converted, target, comments=[said, *notes], overwrite=overwrite)
     again = read_tir(target)
-    result = compared({file.name: model, target.name: again}, title=f"{file.name} as Magic Formula {version}")
+    both = {file.name: model, target.name: again}
+    result = compared(both, title=f"{file.name} as Magic Formula {version}", notes=notes)
     outcome = CommandOutcome(
         result.title,
         result.lines,

@@ -68,12 +68,14 @@ def command(
     """Explain a mismatch."""
     from tire_pipeline.mismatch import Explainer, explain_recordings
     from tire_pipeline.recordings.conventions.canonical import notes_beside_assumed
+    from tire_pipeline.reporting.explained_recordings import check_effects
     from tire_pipeline.tir import read_tir
 
     if corrected is not None:
         if str(file) == NO_TIRE:
             raise RecordingError("without a .tir file there is none to correct", todo="leave --corrected out")
         check_target(corrected, overwrite, file)
+    check_effects(without, "--without")
     tire = None if str(file) == NO_TIRE else read_tir(file, unloaded_radius=radius)
     paths = list(dict.fromkeys([*runs, *([_among(hold_out, runs)] if hold_out else [])]))
     read = read_runs(paths, axes=axes, units=units, names=names, format_=format_)

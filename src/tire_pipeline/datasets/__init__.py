@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from tire_pipeline.datasets.tables.csv_table import CsvTableDataset
     from tire_pipeline.datasets.tables.frame_parts import FramePartsDataset
     from tire_pipeline.datasets.tables.ingest_store import IngestStoreDataset
+    from tire_pipeline.datasets.tables.previewed import ParquetTableDataset
     from tire_pipeline.datasets.tables.table_parts import TablePartsDataset
     from tire_pipeline.datasets.text_files.computed_folder import ComputedFolderDataset
     from tire_pipeline.datasets.text_files.html_page import HtmlPageDataset
@@ -29,6 +30,7 @@ _MODULE_OF_DATASET = {
     "HtmlPageDataset": "text_files.html_page",
     "IngestStoreDataset": "tables.ingest_store",
     "MadeFilesDataset": "text_files.made_files",
+    "ParquetTableDataset": "tables.previewed",
     "RecordingFolderDataset": "users_files.recording_folder",
     "ReleaseDataset": "trained_models.release",
     "StateDataset": "trained_models.model_state",
@@ -46,6 +48,7 @@ __all__ = [
     "HtmlPageDataset",
     "IngestStoreDataset",
     "MadeFilesDataset",
+    "ParquetTableDataset",
     "RecordingFolderDataset",
     "ReleaseDataset",
     "StateDataset",

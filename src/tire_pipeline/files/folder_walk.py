@@ -68,7 +68,7 @@ def walk(folder: str | os.PathLike[str], wanted: Callable[[str], bool]) -> Found
     Raises
     ------
     DomainError
-        The folder itself may not be read.
+        The folder itself does not exist or may not be read.
     """
     search = _Search(os.path.abspath(folder), wanted)
     search.go_into(search.root)
@@ -203,6 +203,12 @@ class _Search:
 
     def _closed(self, here: _WalkedEntry, error: OSError) -> None:
         if not here.name:
+            if isinstance(error, FileNotFoundError):
+                raise DomainError(
+                    "there is no such folder",
+                    where=shown_name(here.path),
+                    todo="make it and put your files into it, or choose another folder",
+                ) from error
             raise DomainError(
                 f"this folder may not be read ({error.strerror})",
                 where=shown_name(here.path),

@@ -101,6 +101,6 @@ def _missing(text: str) -> str:
         return text
     name, path = found.groups()
     return (
-        f"{name}{path} is not there yet -> run first what makes it: `kedro run` runs the eight pipelines in "
-        "their order (with the same --env and --params)"
+        f"{name}{path} is not there yet -> first run the pipeline that makes it: `kedro run` runs the eight "
+        "pipelines in order (use the same --env and --params)"
     )

@@ -264,8 +264,8 @@ def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:
             "angle_in_degrees" if unit == "deg" else "slip_in_percent",
             "warning",
             f"{column}, up to {np.nanmax(np.abs(values)):.3g}{' rad' if unit == 'deg' else ''}",
-            f"no wheel does this: an explanation takes it for {unit}; say so when you read the file, "
-            f"units={{{name!r}: {unit!r}}} or --unit {name}={unit}",
+            f"no wheel reaches this; explain_mismatch reads it as {unit}. State the unit: "
+            f"--unit {name}={unit}, in Python units={{{name!r}: {unit!r}}}",
         )
     ]
 

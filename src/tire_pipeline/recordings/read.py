@@ -141,7 +141,9 @@ def _format(file: Path, format: str | None) -> str:
         raise RecordingError(
             f"suffix {file.suffix!r} is not known",
             where=str(file),
-            todo=f"say format=...: one of {', '.join(READERS)}",
+            todo="a tire model is no recording: give a recording"
+            if file.suffix.lower() == ".tir"
+            else f"state the format (format=..., --format): one of {', '.join(READERS)}",
         )
     return kind
 

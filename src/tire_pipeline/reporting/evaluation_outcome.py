@@ -57,6 +57,7 @@ def _judged(
     before = rms[NO_CHANGE]
     part = table[(table["set"] == name) & (table["translator"] == best["name"])]
     acted = int((part["verdict"] == TRANSLATED).sum())
+    acted_on = f"It translated {acted} of these {len(part)} files{_unchanged(len(part) - acted)}."
     others = [who for who in table["translator"].unique() if who not in (best["name"], NO_CHANGE)]
     left = [
         f"{_subject(who)} leaves {rms[who]:,.0f} N ({rms[who] / before:.0%})." for who in others if who in rms
@@ -69,9 +70,7 @@ def _judged(
         f"{tires} tires of the set '{name}', which no translator has seen. The floor is "
         f"{rms[FLOOR]:,.0f} N ({rms[FLOOR] / before:.0%}): {target} measuring the same tires again."
         f"{uncertain}",
-        " ".join(
-            [f"It translated {acted} of these {len(part)} files{_unchanged(len(part) - acted)}.", *left]
-        ),
+        " ".join([acted_on, *left]),
     ]
 
 

@@ -116,7 +116,8 @@ def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, 
     RecordingError
         None matches ``only``, ``hold_out`` or a rule, or the catalogue has no such effect.
     """
-    _check_effects(parameters)
+    excluded = [*parameters.without, *(each for rule in parameters.recordings for each in rule.without)]
+    check_effects(excluded, "explain_mismatch: without")
     recordings = _chosen(recordings, parameters)
     groups = by_folder(recordings) if parameters.together else {name: [name] for name in recordings}
     held_out = _held_out(groups, parameters)
@@ -188,13 +189,26 @@ def _member(read: Read, name: str) -> bytes:
     return unpack(read())[name]
 
 
-def _check_effects(parameters: ExplainParameters) -> None:
+def check_effects(names: Iterable[str], where: str) -> None:
+    """Refuse a name that is not in the catalogue of effects.
+
+    Parameters
+    ----------
+    names : iterable of str
+    where : str
+        Who names them, for the message.
+
+    Raises
+    ------
+    RecordingError
+        With the nearest name, or else all of them.
+    """
     known = catalogue()
-    for effect in [*parameters.without, *(each for rule in parameters.recordings for each in rule.without)]:
+    for effect in names:
         if effect not in known:
             raise RecordingError(
                 f"the catalogue has no effect {effect!r}",
-                where="explain_mismatch: without",
+                where=where,
                 todo=did_you_mean(effect, known, f"there are {', '.join(known)}"),
             )
 

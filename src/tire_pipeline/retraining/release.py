@@ -186,7 +186,7 @@ def roll_back(release: Release, *, time: str, unusable: Mapping[str, str] | None
     if not earlier:
         raise _nothing_left(release, broken)
     left = [name for name in release.models[len(earlier) :] if name in broken]
-    reason = f"{release.models[-1]} was taken back by hand"
+    reason = f"{release.models[-1]} was taken back by the pipeline rollback"
     if left:
         reason += f" (unusable: {', '.join(left)})"
     event = {"time": time, "event": _ROLLED_BACK_EVENT, "model": earlier[-1], "reason": reason}

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import pandas as pd
+from kedro_datasets._typing import TablePreview
 from kedro_datasets.pandas import CSVDataset
 
+from tire_pipeline.datasets.tables.previewed import preview_of
 from tire_pipeline.pages.safe_csv import original_table, safe_table
 
 
@@ -21,3 +23,13 @@ class CsvTableDataset(CSVDataset):
     def save(self, data: pd.DataFrame) -> None:
         """Write the table."""
         super().save(safe_table(data))
+
+    def preview(self, nrows: int = 5) -> TablePreview:
+        """Return the first rows for kedro-viz, with few digits.
+
+        Parameters
+        ----------
+        nrows : int
+        """
+        shown = super().preview(nrows)
+        return preview_of(pd.DataFrame(shown["data"], shown["index"], shown["columns"]))

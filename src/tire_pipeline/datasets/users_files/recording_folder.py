@@ -236,9 +236,9 @@ def read_pair(
         stated = next((place for place in places if place.is_file()), None)
         if stated is None:
             raise RecordingError(
-                f"the .tir file that belongs to it is not there: {tir}",
+                f"the stated .tir file does not exist: {tir}",
                 where=str(path),
-                todo="give it relative to the recording's folder, or to that of all recordings",
+                todo="state its path relative to the recording's folder or to the folder of all recordings",
             )
         return read_tir(stated), recording
     tirs = sorted(p for p in path.parent.iterdir() if p.suffix.lower() == ".tir" and p.is_file())

@@ -156,11 +156,11 @@ def _moments_to_contact(
             why = "the loaded radius" if radius is None else ", ".join(lacking)
             if moment == "mz":
                 notes.append(
-                    f"mz is about the wheel centre: {why} is not there, so its part in mz, radius "
-                    "x fx x sin(camber), is left out (zero in free rolling but for rolling drag)"
+                    f"mz is about the wheel centre: without {why} the part radius x fx x sin(camber) is "
+                    "left out (in free rolling it comes from rolling resistance alone)"
                 )
                 continue
-            notes.append(f"{moment} is about the wheel centre and stays so: {why} is not there")
+            notes.append(f"{moment} stays about the wheel centre: it cannot be moved without {why}")
             frame.rename(columns={moment: f"{moment}_wheel_centre"}, inplace=True)
             continue
         frame[moment] = frame[moment] + sum(radius * frame[c] * k for c, k in parts)

@@ -10,10 +10,10 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from tire_pipeline.channels import SLIP_AND_LOAD
-from tire_pipeline.errors import RecordingError
+from tire_pipeline.errors import RecordingError, did_you_mean
 from tire_pipeline.recordings.conventions.axis_systems import to_iso_w
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL, Channel, find_channel
-from tire_pipeline.recordings.conventions.units import find_unit
+from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit
 
 _SI = {c.name: c.unit for c in CANONICAL}
 _SI_ASSUMED = "no unit given, SI assumed"
@@ -69,6 +69,7 @@ def canonical_frame(
     DataFrame
         See :func:`tire_pipeline.recordings.read_recording`.
     """
+    _check_units(raw, units or {}, source)
     notes, conversions, assumed = list(raw.notes), [], []
     chosen = _assign(raw, dict(names or {}), notes, source)
     columns: dict[str, NDArray[np.float64]] = {}
@@ -117,6 +118,29 @@ def canonical_frame(
     return frame
 
 
+def _check_units(raw: RawRecording, units: Mapping[str, str], source: str) -> None:
+    """A unit that is stated is one that is known, of a channel that is there."""
+    there = [c.name for c in raw.channels]
+    strange = [name for name in units if name not in there]
+    if strange:
+        raise RecordingError(
+            f"a unit is stated for {', '.join(map(repr, strange))}, which the file does not have",
+            where=source,
+            todo=f"its channels are {', '.join(there[:30])}",
+        )
+    for name, unit in units.items():
+        if find_unit(unit) is None:
+            raise RecordingError(
+                f"the stated unit {unit!r} of channel {name} is not known",
+                where=source,
+                todo=did_you_mean(
+                    unit,
+                    UNITS_BY_NAME,
+                    "spell it as docs/reference/recordings.md does, such as deg, km/h or kPa",
+                ),
+            )
+
+
 def _assign(
     raw: RawRecording, names: dict[str, str], notes: list[str], source: str
 ) -> list[tuple[RawChannel, Channel | None, str]]:
@@ -124,7 +148,7 @@ def _assign(
     unknown = [n for n in names if n not in {c.name for c in raw.channels}]
     if unknown:
         raise RecordingError(
-            f"names= mentions {', '.join(map(repr, unknown))}, which the file does not have",
+            f"a name is stated for {', '.join(map(repr, unknown))}, which the file does not have",
             where=source,
             todo="its channels are " + ", ".join(c.name for c in raw.channels[:30]),
         )

@@ -16,9 +16,10 @@ from tire_pipeline.translation.result import EDGE, REFUSED, TRANSLATED, UNKNOWN
 from tire_pipeline.translation.translated_block import curves_in, has_tables, table_in
 
 _PROTOCOLS = (
-    "Categories whose files show that the way of measuring changed on a day: that day with its 90% range, "
-    "how probable a change is, and by how much it moved the curves of the mean tire (90% intervals). Files "
-    "count by their dates, those without one as the mean of both; a target is given by its newest protocol."
+    "Categories that changed how they measure, as their files show: the day with its 90% range, the "
+    "probability of a change, and how far it moved the curves of the mean tire (90% intervals). A file "
+    "counts by its date; one without a date counts as the mean of both protocols. Of the target, the "
+    "newest protocol counts."
 )
 
 
