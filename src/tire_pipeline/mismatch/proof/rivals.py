@@ -66,7 +66,9 @@ class Rivals:
         """
         truth = self._truth(variant, added)
         own = truth.value + self.odds[variant.name]
-        value = self._rivals({o: self.rest[o] + added[o] for o in self.rest}, truth, own - _NO_RIVAL)
+        value = self._rivals({o: self.rest[o] + added[o] for o in self.rest}, truth, variant.name, own)
+        if value is None:
+            return False
         value[variant.name] = own
         total = float(scipy.special.logsumexp(list(value.values())))
         effects = sorted((n for n in value if n), key=lambda n: -value[n])
@@ -80,31 +82,38 @@ class Rivals:
         each = self.products.of_set(changes, [*self.beside.named.free, variant.free], added)
         return plain(self.beside.likelihood, each)
 
-    def _rivals(self, rest: Mapping[str, Array], truth: Evidence, least: float) -> dict[str, float]:
+    def _rivals(
+        self, rest: Mapping[str, Array], truth: Evidence, name_of_truth: str, own: float
+    ) -> dict[str, float] | None:
         """Return log evidence and odds of each rival; nothing and all unnamed forms together are "".
 
         Of an effect the form counts whose columns take most from the residual, as precisely as the truth
-        leaves it. Rivals are left out that stay below ``least`` even so.
+        leaves it. Rivals are left out that stay far below the truth's ``own`` even so. None as soon as one of
+        them, the strongest first, is so far above it that the truth is not named whatever the others are.
         """
         beside = self.beside
         likelihood, scale, tailed, positive = beside.likelihood, beside.scale, beside.tailed, beside.positive
         moved = self._with_residual(rest)
-        own = moved.take(range(scale.size))
-        nothing = likelihood.evidence(own, scale, tailed=tailed, positive=positive).value
+        alone = moved.take(range(scale.size))
+        nothing = likelihood.evidence(alone, scale, tailed=tailed, positive=positive).value
         value: dict[str, float] = {"": nothing}
+        above = own - np.log(OPEN)
+        unsure = above + np.log((1 + MOST_ALTERNATIVES) * (1.0 - LEVEL) / LEVEL)
         each = [
-            truth.weights[o].shrunk(own, moved.parts[o][truth.weights[o].cell])
-            for o, own in moved.own.items()
+            truth.weights[o].shrunk(products, moved.parts[o][truth.weights[o].cell])
+            for o, products in moved.own.items()
         ]
         reduced = np.sum(each, axis=0)
         most = {k: _most(reduced, pick) for k, pick in enumerate(self.picks)}
         forms: dict[str, list[int]] = {}
         for k in most:
             forms.setdefault(self.names[k] or str(k), []).append(k)
-        for alike in forms.values():
-            k = max(alike, key=most.__getitem__)
+        best = [max(alike, key=most.__getitem__) for alike in forms.values()]
+        for k in sorted(best, key=lambda k: -most[k] - self.odds[self.names[k]]):
             pick, name, odds = self.picks[k], self.names[k], self.odds[self.names[k]]
-            if nothing + most[k] + odds < least:
+            if nothing + most[k] + odds < own - _NO_RIVAL:
+                break
+            if name == name_of_truth:
                 continue
             more = pick.size - scale.size
             spread = likelihood.learnt.prior if name else likelihood.learnt.wide
@@ -115,6 +124,8 @@ class Rivals:
                 positive=np.r_[positive, np.zeros(more, bool)],
             ).value
             value[name] = found + odds if name else float(np.logaddexp(value[""], found + odds))
+            if (name and value[name] >= above) or value[""] > unsure:
+                return None  # ``named`` says no from here on, whatever the others are worth
         return value
 
     def _odds(self) -> dict[str, float]:
