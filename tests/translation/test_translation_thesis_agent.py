@@ -3,6 +3,7 @@ import sys
 
 import numpy as np
 import pytest
+from scipy.special import softmax
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.state_files import pack_state, unpack_state
@@ -102,9 +103,13 @@ def test_greedy_policy_is_that_of_stable_baselines3(binned, forest):
     rules = Rules(11, 10, target=2)
     env = BatchEnv(binned, forest, rules, n_envs=4, seed=0)
     model = make_model(env, algorithm="PPO", seed=0)
+    model.policy.action_net.weight.data.mul_(100.0)  # a policy that has learnt nothing has logits of 0.01
     greedy = GreedyPolicy.from_model(model, 10)
     expected, _ = model.predict(binned, deterministic=True)
     np.testing.assert_array_equal(greedy.actions(binned), expected)
+    observed, _ = model.policy.obs_to_tensor(binned)
+    probabilities = model.policy.get_distribution(observed).distribution.probs.detach().numpy()
+    np.testing.assert_allclose(softmax(greedy.scores(binned), axis=1), probabilities, rtol=1e-5)
 
 
 @pytest.mark.parametrize(
