@@ -133,6 +133,18 @@ def test_a_name_that_is_not_utf8_is_kept_and_shown(folder, tmp_path):
     assert report["file"].str.contains("xff").sum() == 1
 
 
+def test_a_name_with_a_line_break_forges_no_line(folder):
+    name = "a\nerror: all is lost\x1b[31m.tir"
+    (folder / name).write_text("no tire")
+    with pytest.raises(TirError) as raised:
+        read_tir(folder / name)
+    assert "\n" not in str(raised.value)
+    assert "a\\x0aerror: all is lost\\x1b[31m.tir" in str(raised.value)
+    _, report = ingest(Store(), folder, difference(folder, Manifest(), settle_seconds=0))
+    (row,) = report[report["file"].str.contains("lost")].to_dict("records")
+    assert "\n" not in row["file"] + row["reason"]
+
+
 def test_fifos_sockets_and_devices_are_told_and_never_opened(folder, tmp_path):
     os.mkfifo(folder / "A/pipe.tir")
     os.mkfifo(folder / "A/1.tir.sidecar.json")
