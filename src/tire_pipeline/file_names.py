@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 _ODD = re.compile(r"[\udc80-\udcff]|[\x00-\x1f\x7f]|\\(?=x[0-9a-f]{2})")
-_CONTROL = re.compile(r"[\x00-\x1f\x7f]")
+_ASCII_CONTROL = re.compile(r"[\x00-\x1f\x7f]")
 _NOT_UTF8 = re.compile(r"[\udc80-\udcff]")
 _ESCAPED_BYTE = re.compile(rb"\\x([0-9a-f]{2})")
 
@@ -66,7 +66,7 @@ def printable_name(name: str) -> str:
     >>> printable_name("a\nerror: b.tir")
     'a\\x0aerror: b.tir'
     """
-    return printable(_CONTROL.sub(lambda found: f"\\x{ord(found[0]):02x}", name))
+    return printable(_ASCII_CONTROL.sub(lambda found: f"\\x{ord(found[0]):02x}", name))
 
 
 def _byte(character: str) -> int:
