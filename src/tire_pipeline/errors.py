@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from tire_pipeline.file_names import printable
+from tire_pipeline.file_names import printable, printable_name
 
 
 def did_you_mean(name: str, known: Iterable[str], otherwise: str, cutoff: float = 0.6) -> str:
@@ -42,7 +42,7 @@ class TirePipelineError(Exception):
         super().__init__(what, where, todo)
 
     def __str__(self) -> str:
-        text = f"{self.where}: {self.what}" if self.where else self.what
+        text = f"{printable_name(str(self.where))}: {self.what}" if self.where else self.what
         return printable(f"{text} -> {self.todo}" if self.todo else text)
 
     def __reduce__(self) -> tuple[Any, ...]:

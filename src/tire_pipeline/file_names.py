@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 _ODD = re.compile(r"[\udc80-\udcff]|[\x00-\x1f\x7f]|\\(?=x[0-9a-f]{2})")
+_ASCII_CONTROL = re.compile(r"[\x00-\x1f\x7f]")
 _NOT_UTF8 = re.compile(r"[\udc80-\udcff]")
 _ESCAPED_BYTE = re.compile(rb"\\x([0-9a-f]{2})")
 
@@ -55,6 +56,17 @@ def path_of(folder: str | os.PathLike[str], shown: str) -> Path:
 def printable(text: str) -> str:
     """A text that may quote names as they are on the disk, so that it can be written as UTF-8."""
     return _NOT_UTF8.sub(lambda found: f"\\x{_byte(found[0]):02x}", text)
+
+
+def printable_name(name: str) -> str:
+    r"""A name or place, as it is on the disk or shown already, so that it stays in its line of a message.
+
+    Examples
+    --------
+    >>> printable_name("a\nerror: b.tir")
+    'a\\x0aerror: b.tir'
+    """
+    return printable(_ASCII_CONTROL.sub(lambda found: f"\\x{ord(found[0]):02x}", name))
 
 
 def _byte(character: str) -> int:

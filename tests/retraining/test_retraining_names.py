@@ -13,8 +13,10 @@ from hypothesis import strategies as st
 from retraining_files import ingest_all, put, tir_text, update_store
 
 from tire_pipeline.datasets import TextFolderDataset, TirFolderDataset
+from tire_pipeline.errors import TirError
 from tire_pipeline.file_names import name_on_disk, path_of, shown_name
-from tire_pipeline.retraining import Manifest, difference
+from tire_pipeline.retraining import Manifest, Store, difference, ingest
+from tire_pipeline.tir import read_tir
 from tire_pipeline.tire_table.read_files import IngestParameters
 
 LATIN = os.fsdecode(b"M\xfcnchen.tir")
@@ -111,3 +113,15 @@ def _remove_deep(folder: Path) -> None:
             os.rmdir("d")
     finally:
         os.chdir(here)
+
+
+def test_a_name_with_a_line_break_forges_no_line(folder):
+    name = "a\nerror: all is lost\x1b[31m.tir"
+    (folder / name).write_text("no tire")
+    with pytest.raises(TirError) as raised:
+        read_tir(folder / name)
+    assert "\n" not in str(raised.value)
+    assert "a\\x0aerror: all is lost\\x1b[31m.tir" in str(raised.value)
+    _, report = ingest(Store(), folder, difference(folder, Manifest(), settle_seconds=0))
+    (row,) = report[report["file"].str.contains("lost")].to_dict("records")
+    assert "\n" not in row["file"] + row["reason"]
