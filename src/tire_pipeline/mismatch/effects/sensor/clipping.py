@@ -31,7 +31,7 @@ class Clipping(Effect):
 
     def absent(self, data: object) -> str | None:
         """Never a candidate of the fit: at a limit samples stand, or there is none."""
-        return "found in the channel itself, not by a fit"
+        return "looked for in the channel itself, not by a fit"
 
     def detect(self, channels: Mapping[str, Array], simulate: object) -> list[Finding]:
         """Find many samples exactly at one end of a channel's range."""

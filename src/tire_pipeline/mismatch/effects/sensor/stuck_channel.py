@@ -33,7 +33,7 @@ class StuckChannel(Effect):
 
     def absent(self, data: object) -> str | None:
         """Never a candidate of the fit: it is found in the channel itself."""
-        return "found in the channel itself, not by a fit"
+        return "looked for in the channel itself, not by a fit"
 
     def detect(self, channels: Mapping[str, Array], simulate: object) -> list[Finding]:
         """Find long runs of one value in channels that otherwise change all the time."""
