@@ -199,9 +199,9 @@ def judged(
     Returns
     -------
     dict
-        Cases; mean log score, that of ``every`` and that of base rates, which know the odds alone; and of
-        the sets of names how many there are, their mean confidence, how many hold the truth, and how far
-        confidences are off (expected calibration error).
+        Cases; mean log score, that of ``every``, that of the sizes in use and that of base rates, which know
+        the odds alone; and of the sets of names how many there are, their mean confidence, how many hold the
+        truth, and how far confidences are off (expected calibration error).
     """
     said = [each for found in mapped(_SaidBy(without), cases) for each in found]
     sure, held = np.array(said, dtype=float).reshape(-1, 2).T
@@ -210,6 +210,7 @@ def judged(
         "cases": len(cases),
         "log_score": float(log_scores(cases, without, mapped).mean()),
         "log_score_learnt_with_it": float(log_scores(cases, every, mapped).mean()),
+        "log_score_of_the_sizes_in_use": float(log_scores(cases, learnt(), mapped).mean()),
         "log_score_of_base_rates": float(log_scores(cases, odds_alone, mapped).mean()),
         "sets": len(said),
         "mean_confidence": float(sure.mean()) if said else float("nan"),
