@@ -94,6 +94,9 @@ class Figures:
 def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -> Question | None:
     """Return the question whether this is the file of this tire, if its basic figures are off in every force.
 
+    They have to be off whether or not friction and stiffness may follow the recorded states: what these do
+    to the tire is not known, and where one of the two accounts needs no other tire, it may be this one.
+
     Parameters
     ----------
     tire : TireModel
@@ -102,8 +105,10 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
     counted : list of Drive
         Forces that their slip drives.
     """
-    found = [figures(tire, arrays, d.output) for d in counted if d.varies and d.works]
-    if not found or not all(f.another for f in found):
+    outputs = [d.output for d in counted if d.varies and d.works]
+    found = [figures(tire, arrays, o) for o in outputs]
+    steady = (figures(tire, arrays, o, states=()) for o in outputs)
+    if not found or not all(f.another for f in found) or not all(f.another for f in steady):
         return None
     said = "; ".join(f.in_words for f in found)
     gone = min(f.removed for f in found)
@@ -118,22 +123,34 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
     )
 
 
-def figures(tire: Any, arrays: Mapping[str, Array], output: str) -> Figures:
+def figures(tire: Any, arrays: Mapping[str, Array], output: str, states: tuple[str, ...] = STATES) -> Figures:
     """Fit the basic figures of one force by similarity, and an offset of the force.
 
     ``F = m F_file(slip k / m exp(c w))`` with ``log m`` and ``log k`` linear in load and in each recorded
     state that varies, and w between 0 (small slip) and 1 (full sliding): Pacejka, Tire and Vehicle Dynamics,
     3rd ed., section 4.2, with a bend. A tread that warms in each sweep bends the curve as another tire does;
     beside its temperature the bend is not known. Standard errors are by the scatter over stretches of rows.
+
+    Parameters
+    ----------
+    tire : TireModel
+    arrays : mapping of ndarray, shape (n,)
+        As for :func:`another_tire`.
+    output : str
+        The force.
+    states : tuple of str
+        Channels that friction and stiffness may follow.
     """
     step = max(1, arrays["normal_load"].size // _MOST_ROWS_FITTED)
-    a = {n: arrays[n][::step] for n in (*SLIP_AND_LOAD, *STATES, output) if n in arrays}
+    a = {n: arrays[n][::step] for n in (*SLIP_AND_LOAD, *states, output) if n in arrays}
     model = _Similar(tire, a, output)
     free = np.array([True, model.loaded, True, model.loaded, True, *[True] * model.of_states])
     recorded, count = a[output], len(FIGURES)
     p, left, columns = _fit(model, recorded, np.flatnonzero(free))
-    states = np.arange(free.size) >= count
-    before = _fit(model, recorded, np.flatnonzero(states))[1] if states.any() else recorded - model(0.0 * p)
+    by_states = np.arange(free.size) >= count
+    before = (
+        _fit(model, recorded, np.flatnonzero(by_states))[1] if by_states.any() else recorded - model(0.0 * p)
+    )
     inverse = np.linalg.pinv(columns.T @ columns, rcond=1e-12)
     stretch = np.arange(recorded.size) * INDEPENDENT_STRETCHES // recorded.size
     score = np.array([np.bincount(stretch, c * left, INDEPENDENT_STRETCHES) for c in columns.T])
