@@ -6,7 +6,7 @@ import pandas as pd
 from kedro_datasets._typing import TablePreview
 from kedro_datasets.pandas import ParquetDataset
 
-_DIGITS = 4
+_PREVIEWED_DIGITS = 4
 
 
 def preview_of(table: pd.DataFrame) -> TablePreview:
@@ -22,7 +22,7 @@ def preview_of(table: pd.DataFrame) -> TablePreview:
 
 
 def _rounded(value: float) -> float:
-    return float(f"{value:.{_DIGITS}g}")
+    return float(f"{value:.{_PREVIEWED_DIGITS}g}")
 
 
 class ParquetTableDataset(ParquetDataset):

@@ -41,7 +41,7 @@ class CorrectedModel:
         Effects of the catalogue, with their parameters in SI, in the order they are added.
     reference : dict
         Nominal pressure and speed, what work, heat and time are measured by, and as ``rolled`` where the
-        wheel stood (:class:`.Rolled`).
+        wheel stood (:class:`.WheelWay`).
     outputs : tuple of str
         Forces that were recorded.
     stands_in : bool

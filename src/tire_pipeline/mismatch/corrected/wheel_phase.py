@@ -10,7 +10,7 @@ Array = np.ndarray
 
 
 @dataclass(frozen=True)
-class Rolled:
+class WheelWay:
     """How far the wheel had rolled at each sample of a recording.
 
     Parameters

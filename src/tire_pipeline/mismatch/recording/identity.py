@@ -40,7 +40,7 @@ SEVERAL = 3
 LEAST_REMOVED = 0.5
 """So many figures, one of them a load slope, and with them right at least half of the mismatch is gone."""
 
-STATES = ("pressure", "tread_temperature")
+RECORDED_STATES = ("pressure", "tread_temperature")
 """Channels by which friction and stiffness of the same tire change. What they explain is no other tire's."""
 
 _MOST_ROWS_FITTED = 4000
@@ -123,7 +123,9 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
     )
 
 
-def figures(tire: Any, arrays: Mapping[str, Array], output: str, states: tuple[str, ...] = STATES) -> Figures:
+def figures(
+    tire: Any, arrays: Mapping[str, Array], output: str, states: tuple[str, ...] = RECORDED_STATES
+) -> Figures:
     """Fit the basic figures of one force by similarity, and an offset of the force.
 
     ``F = m F_file(slip k / m exp(c w))`` with ``log m`` and ``log k`` linear in load and in each recorded
@@ -171,7 +173,9 @@ class _Similar:
         middle = float(np.median(load))
         self.excess = (load - middle) / middle
         self.loaded = moves(load, 0.1 * middle)
-        varying = {n: x - x.mean() for n, x in a.items() if n in STATES and moves(x, least_spread(n, x))}
+        varying = {
+            n: x - x.mean() for n, x in a.items() if n in RECORDED_STATES and moves(x, least_spread(n, x))
+        }
         self.states = np.array([x / x.std() for x in varying.values()]).reshape(-1, load.size)
         self.of_states = 2 * len(varying)
         used = np.abs(self.points[self.slip]) * self._at(load, "stiffness") / self._at(load, "peak")

@@ -13,7 +13,7 @@ import pandas as pd
 from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.corrected.as_recorded import as_recorded, never_worse, with_unnamed
 from tire_pipeline.mismatch.corrected.model import CorrectedModel, force_limits
-from tire_pipeline.mismatch.corrected.wheel_phase import Rolled
+from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.inference.analysis import Analysis
@@ -210,12 +210,12 @@ def _model(it: Explained, changes: Sequence[Any]) -> CorrectedModel:
     ).cleaned_where_it_helps(it.recording)
 
 
-def _rolled(it: Explained) -> Rolled:
+def _rolled(it: Explained) -> WheelWay:
     """Return where the wheel stood at each recorded sample."""
     data = it.prepared.data
     assert data.time is not None  # what follows the wheel needs a time line
     speed = it.recording["speed"].to_numpy(dtype=float)[it.prepared.rows]
-    return Rolled(data.time, speed * it.prepared.factors.get("speed", 1.0), data.wheel_way)
+    return WheelWay(data.time, speed * it.prepared.factors.get("speed", 1.0), data.wheel_way)
 
 
 def _unnamed(

@@ -36,7 +36,7 @@ IN_WORDS = {
     "oracle": "oracle",
     "floor": "floor",
 }
-_METHODS = {
+_TRANSLATOR_METHODS = {
     "greedy forest": "moves a file to where the classifier gives the target the highest probability",
     "cycle-consistent networks": "learn to translate there and back",
     "likelihood agent": "learns by reinforcement, rewarded for how likely the target's files are",
@@ -109,7 +109,7 @@ def translation_page(
             "By size of the bias",
         ),
         Table(
-            pd.DataFrame(list(_METHODS.items()), columns=["translator", "what it does"]),
+            pd.DataFrame(list(_TRANSLATOR_METHODS.items()), columns=["translator", "what it does"]),
             heading="What is compared",
         ),
         Table(
