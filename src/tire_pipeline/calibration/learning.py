@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from hashlib import sha256
+from itertools import compress
 from pathlib import Path
 from typing import Any
 
@@ -132,16 +133,20 @@ def learn_sizes(
     sizes : dict
         ``sizes`` and their ``provenance``.
     table : DataFrame
-        Of :func:`judged`, a row for each source.
+        Of :func:`judged`, a row for each source, and the mean log score of the sizes in use.
     """
     cases = [t for read in reduced_cases.values() if (t := pickle.loads(read())) is not None]
     about = [e for read in weighed_cases.values() if (e := pickle.loads(read())) is not None]
     mapped = _Mapped(parameters.processes)
     found = learn(cases, learnt(), step=parameters.step, about=about, mapped=mapped)
     rows = []
+    in_use = log_scores(cases, learnt(), evidence=[each[0] for each in about])
     for source, sizes in found.without.items():
-        own = [each for each in cases if each.source == source]
-        rows.append({"source": source, **judged(own, sizes, found.sizes, mapped)})
+        here = [each.source == source for each in cases]
+        own = list(compress(cases, here))
+        of_source = judged(own, sizes, found.sizes, mapped)
+        of_source["log_score_of_the_sizes_in_use"] = float(in_use[here].mean())
+        rows.append({"source": source, **of_source})
     made = {"sizes": found.sizes.to_dict(), "provenance": _made_with(cases, found, parameters)}
     return made, pd.DataFrame(rows)
 
@@ -199,9 +204,9 @@ def judged(
     Returns
     -------
     dict
-        Cases; mean log score, that of ``every``, that of the sizes in use and that of base rates, which know
-        the odds alone; and of the sets of names how many there are, their mean confidence, how many hold the
-        truth, and how far confidences are off (expected calibration error).
+        Cases; mean log score, that of ``every`` and that of base rates, which know the odds alone; and of
+        the sets of names how many there are, their mean confidence, how many hold the truth, and how far
+        confidences are off (expected calibration error).
     """
     said = [each for found in mapped(_SaidBy(without), cases) for each in found]
     sure, held = np.array(said, dtype=float).reshape(-1, 2).T
@@ -210,7 +215,6 @@ def judged(
         "cases": len(cases),
         "log_score": float(log_scores(cases, without, mapped).mean()),
         "log_score_learnt_with_it": float(log_scores(cases, every, mapped).mean()),
-        "log_score_of_the_sizes_in_use": float(log_scores(cases, learnt(), mapped).mean()),
         "log_score_of_base_rates": float(log_scores(cases, odds_alone, mapped).mean()),
         "sets": len(said),
         "mean_confidence": float(sure.mean()) if said else float("nan"),

@@ -6,7 +6,7 @@ import pandas as pd
 from kedro_datasets._typing import TablePreview
 from kedro_datasets.pandas import CSVDataset
 
-from tire_pipeline.datasets.tables.previewed import preview_of
+from tire_pipeline.datasets.tables.previewed import few_digits
 from tire_pipeline.pages.safe_csv import original_table, safe_table
 
 
@@ -31,5 +31,4 @@ class CsvTableDataset(CSVDataset):
         ----------
         nrows : int
         """
-        shown = super().preview(nrows)
-        return preview_of(pd.DataFrame(shown["data"], shown["index"], shown["columns"]))
+        return few_digits(super().preview(nrows))

@@ -9,14 +9,15 @@ from kedro_datasets.pandas import ParquetDataset
 _PREVIEWED_DIGITS = 4
 
 
-def preview_of(table: pd.DataFrame) -> TablePreview:
-    """Return a table as kedro-viz shows it: floats with four significant digits.
+def few_digits(shown: TablePreview) -> TablePreview:
+    """Return a preview of Kedro's with four significant digits of each float.
 
     Examples
     --------
-    >>> preview_of(pd.DataFrame({"PKY1": [-17.340312345], "files": [3648]}))["data"]
+    >>> few_digits({"index": [0], "columns": ["PKY1", "files"], "data": [[-17.340312345, 3648]]})["data"]
     [[-17.34, 3648]]
     """
+    table = pd.DataFrame(shown["data"], shown["index"], shown["columns"])
     floats = table.select_dtypes("float")
     return TablePreview(table.assign(**floats.map(_rounded)).to_dict(orient="split"))
 
@@ -35,5 +36,4 @@ class ParquetTableDataset(ParquetDataset):
         ----------
         nrows : int
         """
-        shown = super().preview(nrows)
-        return preview_of(pd.DataFrame(shown["data"], shown["index"], shown["columns"]))
+        return few_digits(super().preview(nrows))

@@ -116,11 +116,26 @@ class Learnt:
     without: Mapping[str, LearntSizes]
 
 
-def log_scores(cases: Sequence[Tuning], sizes: LearntSizes, mapped: Map = map) -> Array:
-    """Return the log probability of the right answer of each case, shape (cases,)."""
+def log_scores(
+    cases: Sequence[Tuning],
+    sizes: LearntSizes,
+    mapped: Map = map,
+    evidence: Iterable[Array] | None = None,
+) -> Array:
+    """Return the log probability of the right answer of each case, shape (cases,).
+
+    Parameters
+    ----------
+    cases : sequence of Tuning
+    sizes : LearntSizes
+    mapped : callable
+        ``map``, or one that spreads the work.
+    evidence : iterable of ndarray, optional
+        Log evidence of each case's hypotheses by these sizes, where it is at hand.
+    """
     weighed = _Weighed(cases)
-    evidence = weighed.evidence(sizes, mapped)
-    return weighed.scores(evidence + weighed.odds(sizes))[0]
+    known = weighed.evidence(sizes, mapped) if evidence is None else weighed.padded(evidence)
+    return weighed.scores(known + weighed.odds(sizes))[0]
 
 
 def evidence_about(case: Tuning, start: LearntSizes, step: float) -> Array:
