@@ -109,6 +109,20 @@ def test_a_slip_angle_that_is_off_by_twice_the_ply_steer_is_no_sign(tire):
     assert findings(steered, frame.assign(slip_angle=slip - 0.006, fy=fy)) == []
 
 
+@pytest.mark.parametrize(("thrust", "over_load"), [(0.35, -0.1), (1.0, -0.3)])
+def test_a_drift_of_the_force_is_no_sign(tire, thrust, over_load):
+    """Sweeps at one camber, and later at another: a drift adds to the second what a mirrored thrust would."""
+    leaned = tire.replace(PVY3=thrust, PVY4=over_load)
+    t = np.r_[np.arange(0.0, 25.0, 0.02), np.arange(170.0, 182.5, 0.02)]
+    slip = 0.15 * np.sin(2.0 * np.pi * t / 12.5)
+    camber, load = np.where(t < 100.0, 0.0, 0.028), np.full(t.size, 2500.0)
+    fy = leaned.forces(slip_angle=slip, camber=camber, normal_load=load).fy
+    fy = fy + 20.0 * np.random.default_rng(1).standard_normal(t.size)
+    recorded = pd.DataFrame({"time": t, "slip_angle": slip, "camber": camber, "normal_load": load})
+    for drift in (-400.0, -200.0, -100.0, -50.0, 50.0, 100.0, 200.0, 400.0):
+        assert findings(leaned, recorded.assign(fy=fy + drift * t / t[-1])) == []
+
+
 def test_a_camber_of_another_size_is_no_sign(cambered):
     """The model's thrust is half of the true one: that has a size, and is physics."""
     tire, recording = cambered

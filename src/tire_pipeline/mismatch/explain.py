@@ -157,15 +157,18 @@ class Explainer:
             )
 
     def _answer(self, prepared: Prepared, analysis: Analysis, sets: Enumerated) -> SetAnswer:
-        """Return what the posterior says, if the recording carries an answer or one effect could give it."""
+        """Return what the posterior says, if the recording carries an answer or sets of effects settle it."""
         answer = answered(sets.case, self.learnt, self.level, sets.likelihood)
         question = prepared.question
         if not prepared.stopped or question is None:
             return answer
-        left = residual(analysis.data, answer.named.changes)
-        removed = 1.0 - max(shares_left(left, residual(analysis.data, [])).values())
-        if len(answer.names) == 1 and question.answered(removed):
-            prepared.question = None
+        before = residual(analysis.data, [])
+        removed = (
+            1.0 - max(shares_left(residual(analysis.data, each.changes), before).values())
+            for each in answer.likely
+        )
+        if answer.unnamed < self.level and any(question.answered(r) for r in removed):
+            prepared.questions.pop(0)
             return answer
         return nothing(sets.case)
 

@@ -66,12 +66,13 @@ def repair(
     if tire.coefficients.get("FNOMIN", 0.0) > 0.0:
         nominal["_nominal_load"] = np.array([float(tire.coefficients["FNOMIN"])])
     still = _still(arrays, time)
+    known = nominal if time is None else {**nominal, "time": time[pick]}
     signs: list[Finding] = []
     factors: dict[str, float] = {}
     for _ in range(3):
         again = False
         for effect in _found_in("factors"):
-            some = {k: still.get(k, a)[pick] for k, a in arrays.items()} | nominal
+            some = {k: still.get(k, a)[pick] for k, a in arrays.items()} | known
             for finding in effect.detect(some, run):
                 for channel, repaired in finding.repaired.items():
                     factor = _ratio(repaired, some[channel])
@@ -88,7 +89,7 @@ def repair(
 
 
 def open_axes(
-    tire: Any, arrays: Mapping[str, Array], findings: Iterable[Finding], against: str
+    tire: Any, arrays: Mapping[str, Array], time: Array | None, findings: Iterable[Finding], against: str
 ) -> Question | None:
     """Return what is open about the axes of a recording.
 
@@ -97,6 +98,8 @@ def open_axes(
     tire : TireModel
     arrays : mapping of ndarray, shape (n,)
         Channels as they are used.
+    time : ndarray, shape (n,), optional
+        s.
     findings : iterable of Finding
     against : str
         What the reader saw in the file that speaks against the axes it was read in.
@@ -105,7 +108,8 @@ def open_axes(
     if signs:
         said = "; ".join(f.text for f in signs)
         return Question(f"the recording agrees with the model only in other axes: {said}", _READ_AGAIN)
-    some = {n: a[:: max(1, a.size // 4000)] for n, a in arrays.items()}
+    known = arrays if time is None else {**arrays, "time": time}
+    some = {n: a[:: max(1, a.size // 4000)] for n, a in known.items()}
     if against and not excludes_sae(some, partial(_run, tire)):
         both = "the forces do not tell whether slip_angle and fy have the other sign too"
         return Question(f"{against}, and {both}", _READ_AGAIN)

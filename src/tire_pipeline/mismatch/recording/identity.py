@@ -24,9 +24,8 @@ FIGURES = (
     "change of stiffness with load",
     "curvature",
 )
-LOADED = (1, 3)
-"""Figures that say how the others change with load. What a tire's state does (surface, temperature, wear,
-less so pressure) scales friction and stiffness and bends the curve; it leaves these nearly alone."""
+_LOADED = (1, 3)
+"""Figures that say how the others change with load."""
 
 TOLERANCE = (0.05, 0.05, 0.10, 0.10, 0.25)
 """How far a figure may be off in a recording of the file's own tire, in logarithms (load slopes: per change
@@ -38,7 +37,8 @@ _ERRORS_OFF = 3.0
 
 SEVERAL = 3
 LEAST_REMOVED = 0.5
-"""So many figures, one of them a load slope, and with them right at least half of the mismatch is gone."""
+"""So many figures are off, and with them right at least half of the mismatch is gone. Then the report asks if
+this is the file of this tire, unless a set of effects answers that."""
 
 RECORDED_STATES = ("pressure", "tread_temperature")
 """Channels by which friction and stiffness of the same tire change. What they explain is no other tire's."""
@@ -76,16 +76,14 @@ class Figures:
     @property
     def another(self) -> bool:
         """Whether this force says that it is another tire."""
-        return bool(
-            self.off.sum() >= SEVERAL and self.off[list(LOADED)].any() and self.removed > LEAST_REMOVED
-        )
+        return bool(self.off.sum() >= SEVERAL and self.removed > LEAST_REMOVED)
 
     @property
     def in_words(self) -> str:
         """The figures that are off, in words."""
         parts = []
         for i in np.flatnonzero(self.off):
-            per = " (from the median load to twice that)" if i in LOADED else ""
+            per = " (from the median load to twice that)" if i in _LOADED else ""
             name = "cornering stiffness" if (i, self.output) == (2, "fy") else FIGURES[i]
             parts.append(f"{name} {100.0 * np.expm1(self.values[i]):+.0f}%{per}")
         return f"{self.output.capitalize()}: {', '.join(parts)}"
@@ -95,7 +93,8 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
     """Return the question whether this is the file of this tire, if its basic figures are off in every force.
 
     They have to be off whether or not friction and stiffness may follow the recorded states: what these do
-    to the tire is not known, and where one of the two accounts needs no other tire, it may be this one.
+    to the tire is not known, and where one of the two accounts needs no other tire, it may be this one. Sets
+    of effects answer the question, too: one or two effects may put several figures off.
 
     Parameters
     ----------

@@ -23,8 +23,8 @@ class Question:
         The report's verdict if nothing can be explained before it is settled; "" if effects can be looked
         for all the same, and only no corrected file may be written.
     removed : float, optional
-        Share of the squared mismatch that is gone if what is asked is so. One cause that removes as much
-        answers the question: it needs less to be assumed.
+        Share of the squared mismatch that is gone if what is asked is so. A set of effects that removes as
+        much answers the question: it needs less to be assumed.
     """
 
     why: str
@@ -33,5 +33,5 @@ class Question:
     removed: float | None = None
 
     def answered(self, removed: float) -> bool:
-        """Whether one cause that removes this share of the squared mismatch leaves as little."""
+        """Whether a set of effects that removes this share of the squared mismatch leaves as little."""
         return self.removed is not None and 1.0 - removed <= AS_WELL * (1.0 - self.removed)

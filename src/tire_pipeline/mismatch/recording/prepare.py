@@ -51,8 +51,9 @@ class Prepared:
         What was done to each input channel that fluctuates.
     assumed : list of str
         What was not stated: axes, units, repairs, channels taken as zero.
-    question : Question, optional
-        What has to be settled before anything is explained, or before anything corrected is written.
+    questions : list of Question
+        What has to be settled before anything is explained, or before anything corrected is written; the
+        first comes first.
     """
 
     data: Data
@@ -62,7 +63,12 @@ class Prepared:
     factors: dict[str, float]
     cleaned: list[Cleaning] = field(default_factory=list)
     assumed: list[str] = field(default_factory=list)
-    question: Question | None = None
+    questions: list[Question] = field(default_factory=list)
+
+    @property
+    def question(self) -> Question | None:
+        """What has to be settled first."""
+        return self.questions[0] if self.questions else None
 
     @property
     def stopped(self) -> str:
@@ -143,11 +149,12 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
         _check_what_is_left(rows.size, int(bad.sum()))
     _overlap(tire, arrays)
     _dead_forces(arrays, notes)
-    question, driven = judge(tire, arrays, time, notes)
-    if question is None and beside is None:
-        question = another_tire(tire, arrays, driven) or open_axes(
-            tire, arrays, findings, str(recording.attrs.get("axes_unclear", ""))
-        )
+    unusable, driven = judge(tire, arrays, time, notes)
+    asked = [unusable]
+    if unusable is None and beside is None:
+        against = str(recording.attrs.get("axes_unclear", ""))
+        axes = open_axes(tire, arrays, time, findings, against)
+        asked = [another_tire(tire, arrays, driven), axes]
     present = {n for n in INPUT_CHANNELS if n in recording.columns and n in arrays}
     assumed = _assumed(recording, factors) + _zeros(arrays, rows.size)
     start = _pieces(time, rows, notes)
@@ -168,7 +175,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
         beside=beside,
         fixed={"own_relaxation": own},
     )
-    return Prepared(data, findings, notes, rows, factors, cleaned, assumed, question)
+    return Prepared(data, findings, notes, rows, factors, cleaned, assumed, [q for q in asked if q])
 
 
 def _assumed(recording: pd.DataFrame, factors: Mapping[str, float]) -> list[str]:

@@ -117,7 +117,7 @@ def convention(
     ok = np.isfinite(channels[force]) & np.all([np.isfinite(p) for p in turned.values()], axis=0)
     recorded = channels[force][ok]
     turned = {s: p[ok] for s, p in turned.items()}
-    beside = _off_by_slip(channels, simulate, force)[ok]
+    beside = _beside(channels, simulate, force)[ok]
     if ok.sum() < INDEPENDENT_STRETCHES or float(np.var(recorded)) == 0.0:
         return (), []
     share = {s: _explained(recorded, p) for s, p in turned.items()}
@@ -160,17 +160,22 @@ def excludes_sae(channels: Mapping[str, Array], simulate: Simulate) -> bool:
     ok = np.isfinite(channels["fy"]) & np.isfinite(given) & np.isfinite(sae)
     if ok.sum() < INDEPENDENT_STRETCHES:
         return False
-    beside = _off_by_slip(channels, simulate, "fy")[ok]
+    beside = _beside(channels, simulate, "fy")[ok]
     return _likelier(channels["fy"][ok], given[ok], sae[ok], beside, sized=False) <= -_NOT_TOLD_APART
 
 
-def _off_by_slip(channels: Mapping[str, Array], simulate: Simulate, force: str) -> Array:
-    """What the force changes by where its slip is off as far as slips are, shape (n,)."""
-    slip = SLIP_OF_FORCE[force]
-    if slip not in channels:
-        return np.zeros_like(channels[force])
-    there = simulate({**channels, slip: channels[slip] + _SLIP_OFF})[force]
-    return there - simulate(channels)[force]
+def _beside(channels: Mapping[str, Array], simulate: Simulate, force: str) -> Array:
+    """What a force changes by where a sensor is off as far as sensors are, shape (n, 2).
+
+    By an offset of the slip, and by a drift of the force. A drift puts an offset on some sweeps and not on
+    others, which a camber thrust or a ply steer to the other side does, too.
+    """
+    model = simulate(channels)[force]
+    slip, time = SLIP_OF_FORCE[force], channels.get("time")
+    there = simulate({**channels, slip: channels[slip] + _SLIP_OFF})[force] if slip in channels else model
+    span = 0.0 if time is None else float(np.ptp(time))
+    so_far = np.zeros(model.size) if time is None or span == 0.0 else (time - time.min()) / span
+    return np.column_stack([there - model, so_far * _OFFSET * float(np.nanmax(np.abs(model)))])
 
 
 def _turned(channels: Mapping[str, Array], simulate: Simulate, force: str, names: tuple[str, ...]) -> Array:
@@ -195,9 +200,9 @@ def _alike(recorded: Array, base: Array, other: Array, beside: Array) -> bool:
 def _likelier(recorded: Array, base: Array, other: Array, beside: Array, *, sized: bool = True) -> float:
     """Log evidence by which ``other`` is likelier than ``base``, by what is recorded of their difference.
 
-    ``recorded - base`` is fitted by a gain, an offset, ``beside`` (what an offset of the slip changes) and b
-    times the difference: b is 0 if ``base`` is right and 1 if ``other`` is. Gain and offsets are as far off
-    as sensors are: with a free one the ply steer of the other side would be an offset. b's error is the
+    ``recorded - base`` is fitted by a gain, an offset, ``beside`` (:func:`_beside`, shape (n, m)) and b times
+    the difference: b is 0 if ``base`` is right and 1 if ``other`` is. Gain and offsets are as far off as
+    sensors are: with a free one the ply steer of the other side would be an offset. b's error is the
     scatter of the residual over stretches of rows, what these may be off, and the form error. With ``sized``
     nothing is returned (-inf) where a b of any size is likelier than one of exactly 1.
     """
@@ -206,9 +211,9 @@ def _likelier(recorded: Array, base: Array, other: Array, beside: Array, *, size
     size = np.sqrt(np.mean(x**2, axis=0))
     if size[2] < 1e-4 * size[0]:
         return 0.0 if not sized else -np.inf
-    size[3] = size[3] or 1.0
+    size[3:] = np.where(size[3:] > 0.0, size[3:], 1.0)
     x, gap = x / size, recorded - base
-    off = np.array([_GAIN_OFF * size[0], _OFFSET * float(np.max(np.abs(base))), np.inf, size[3]])
+    off = np.r_[_GAIN_OFF * size[0], _OFFSET * float(np.max(np.abs(base))), np.inf, size[3:]]
     square = x.T @ x
     left = gap - x @ (np.linalg.pinv(square, rcond=1e-10) @ (x.T @ gap))
     spread = float(np.mean(left**2)) * base.size / INDEPENDENT_STRETCHES
@@ -217,7 +222,7 @@ def _likelier(recorded: Array, base: Array, other: Array, beside: Array, *, size
     fit = inverse @ (x.T @ gap)
     left = gap - x @ fit
     stretch = np.arange(base.size) * INDEPENDENT_STRETCHES // base.size
-    score = np.array([np.bincount(stretch, x[:, k] * left, INDEPENDENT_STRETCHES) for k in range(4)])
+    score = np.array([np.bincount(stretch, x[:, k] * left, INDEPENDENT_STRETCHES) for k in range(size.size)])
     scatter = score @ score.T + spread * prior
     error = np.sqrt(max((inverse @ scatter @ inverse)[2, 2], 0.0)) / size[2]
     b = fit[2] / size[2]

@@ -69,6 +69,13 @@ class SetAnswer:
         return next(each.changes for each in self.case.sets if each.names == (name,))
 
     @property
+    def likely(self) -> tuple[OfSet, ...]:
+        """The sets that hold names and are at least 1 in 20 as likely as the likeliest of them."""
+        named = [each for each in self.case.sets if each.names and each.names in self.probabilities]
+        most = max((self.probabilities[each.names] for each in named), default=0.0)
+        return tuple(each for each in named if self.probabilities[each.names] > OPEN * most)
+
+    @property
     def names(self) -> Names:
         """First name of each set."""
         return tuple(names[0] for names, _ in self.sets)
