@@ -31,6 +31,18 @@ def test_a_limit_is_found_whatever_the_digits(tire, limit, digits):
     assert "fy" in [f.channel for f in prepare(tire, r).findings if f.name == "clipping"]
 
 
+@pytest.mark.parametrize("limit", [1500.0, 2500.0])
+def test_a_short_recording_that_is_cut_for_much_of_its_time_is_clipped(tire, limit):
+    """Two limits among few values: how often values come back is counted without them."""
+    t = np.arange(0.0, 25.0, 0.1)
+    noise = 15.0 * np.random.default_rng(0).standard_normal(t.size)
+    force = 4000.0 * np.sin(2.0 * np.pi * t / 12.5) + noise
+    r = pd.DataFrame({"time": t, "slip_angle": force / 1e5, "normal_load": 4000.0 + t})
+    r["fy"] = np.clip(force, -limit, limit)
+    (found,) = [f for f in prepare(tire, r).findings if f.name == "clipping"]
+    assert found.limits == (-limit, limit)
+
+
 def _points(count, seed, noise=15.0):
     """Steady points of a made-up force, in the digits of a table."""
     rng = np.random.default_rng(seed)

@@ -62,6 +62,18 @@ def test_a_dozen_points_are_enough_for_a_wrong_unit(tire, unit):
     assert found.parameters["ratio"][0] == pytest.approx(1.0 / unit)
 
 
+@pytest.mark.parametrize("turned", ["slip_angle", "fy"])
+def test_a_dozen_points_are_enough_for_a_sign_that_is_wrong_throughout(tire, turned):
+    angles, loads = np.meshgrid([-0.12, -0.06, 0.0, 0.06, 0.1, 0.15], [3000.0, 5000.0])
+    points = pd.DataFrame({"slip_angle": angles.ravel(), "normal_load": loads.ravel()})
+    fy = tire.forces(slip_angle=points["slip_angle"], normal_load=points["normal_load"]).fy
+    points["fy"] = fy + 20.0 * np.random.default_rng(3).standard_normal(len(points))
+    assert findings(tire, points) == []
+    (found,) = prepare(tire, points.assign(**{turned: -points[turned]})).findings
+    assert found.name == "sign_convention"
+    assert turned in {found.channel, *(name for names in found.alike for name in names)}
+
+
 @pytest.fixture(scope="module")
 def cambered(tire):
     """A model with camber thrust and ply steer, and what it records at three cambers."""

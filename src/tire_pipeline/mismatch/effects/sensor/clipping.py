@@ -64,7 +64,8 @@ def _at_the_ends(x: Array) -> tuple[Array | None, list[float]]:
     if finite.size < 50 or np.ptp(finite) == 0.0:
         return None, []
     values, counts = np.unique(finite, return_counts=True)
-    least = max(12.0, 4.0 * np.quantile(counts, 0.99))
+    between = counts[1:-1]  # the ends themselves say nothing about how often a value comes back
+    least = max(12.0, 4.0 * np.quantile(between, 0.99)) if between.size else np.inf
     bad = np.zeros(x.size, bool)
     limits = []
     for value in (values[-1], values[0]):

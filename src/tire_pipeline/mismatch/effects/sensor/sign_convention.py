@@ -33,6 +33,9 @@ _AWAY = 0.1
 _EVIDENCE_TO_TURN = 8.0
 """Log evidence by which turned signs must be likelier than those that were given."""
 
+_FEWEST = 4
+"""Samples without which a gain and an offset leave nothing to compare. A scatter over stretches needs more."""
+
 _NOT_TOLD_APART = 3.0
 """Log evidence within which two conventions cannot be told apart."""
 
@@ -118,7 +121,7 @@ def convention(
     recorded = channels[force][ok]
     turned = {s: p[ok] for s, p in turned.items()}
     beside = _beside(channels, simulate, force)[ok]
-    if ok.sum() < INDEPENDENT_STRETCHES or float(np.var(recorded)) == 0.0:
+    if ok.sum() < _FEWEST or float(np.var(recorded)) == 0.0:
         return (), []
     share = {s: _explained(recorded, p) for s, p in turned.items()}
     best = max(sets, key=lambda s: round(share[s], 6))  # the fewest turns of those that are the same
@@ -128,7 +131,8 @@ def convention(
             return (), []
         base = best
     chosen = base
-    away = {s for s in sets if 1.0 - share[s] < (1.0 - _AWAY) * (1.0 - share[base])}
+    scattered = recorded.size >= INDEPENDENT_STRETCHES
+    away = {s for s in sets if scattered and 1.0 - share[s] < (1.0 - _AWAY) * (1.0 - share[base])}
     log_evidence = {
         s: _likelier(recorded, turned[base], turned[s], beside) for s in sets if s in away and share[s] > 0.5
     }
