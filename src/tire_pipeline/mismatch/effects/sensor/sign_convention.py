@@ -34,7 +34,7 @@ _EVIDENCE_TO_TURN = 8.0
 """Log evidence by which turned signs must be likelier than those that were given."""
 
 _FEWEST = 4
-"""Samples without which a gain and an offset leave nothing to compare. A scatter over stretches needs more."""
+"""Samples without which a gain and an offset leave nothing to compare; scatter over stretches needs more."""
 
 _NOT_TOLD_APART = 3.0
 """Log evidence within which two conventions cannot be told apart."""
