@@ -15,6 +15,7 @@ from click.testing import CliRunner
 
 from tire_pipeline.command.cli import COMMANDS, tire
 from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
 from tire_pipeline.tir import read_tir, write_tir
 
 pytestmark = pytest.mark.slow
@@ -257,8 +258,11 @@ def test_explain_several_together_and_one_held_out(folder):
 def test_a_held_out_recording_need_not_be_among_the_explained(folder):
     record("one.csv", friction=0.88, seconds=45.0)
     record("two.csv", seed=1, friction=0.88, seconds=45.0)
-    text = run("explain", "a.tir", "one.csv", "--hold-out", "two.csv", "--no-page").stdout
+    without = {name: value for name, value in COEFFICIENTS.items() if name != "UNLOADED_RADIUS"}
+    write_tir(TireModel.from_coefficients(without), "b.tir")
+    text = run("explain", "b.tir", "one.csv", "--hold-out", "two.csv", "--no-page").stdout
     assert "On two.csv, which was held out" in text
+    assert f"no UNLOADED_RADIUS, and {ASSUMED_RADIUS} m is taken for it" in " ".join(text.split())
 
 
 def test_what_was_found_is_told_though_no_corrected_file_may_be_written(folder):
