@@ -74,8 +74,12 @@ class OnDemand(click.Group):
 
 
 def _fail(text: str) -> None:
-    click.secho(f"error: {' | '.join(visible(text).split(chr(10)))}", fg="red", err=True)
+    click.secho(f"error: {_one_line(text)}", fg="red", err=True)
     sys.exit(WRONG_INPUT)
+
+
+def _one_line(text: str) -> str:
+    return " | ".join(visible(text).split("\n"))
 
 
 class _OneLine:
@@ -87,7 +91,7 @@ class _OneLine:
     def __call__(self, message: Warning | str, *_: Any, **__: Any) -> None:
         if str(message) not in self._shown:
             self._shown.add(str(message))
-            click.echo(f"warning: {visible(message)}", err=True)
+            click.echo(f"warning: {_one_line(str(message))}", err=True)
 
 
 @click.group(name="tire", cls=OnDemand, context_settings={"help_option_names": ["-h", "--help"]})
