@@ -13,8 +13,7 @@ import pandas as pd
 import pytest
 from click.testing import CliRunner
 
-from tire_pipeline.command import cli
-from tire_pipeline.command.cli import COMMANDS, tire
+from tire_pipeline.command.cli import COMMANDS, WarningsInOneLine, tire
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
 from tire_pipeline.tir import read_tir, write_tir
@@ -145,7 +144,7 @@ def test_show_says_version_ranges_and_what_is_missing(folder):
 
 
 def test_a_warning_is_a_line_and_said_once(capsys):
-    show = cli._OneLine()
+    show = WarningsInOneLine()
     for text in ("one\nthing", "one\nthing", "another"):
         show(UserWarning(text))
     lines = capsys.readouterr().err.splitlines()

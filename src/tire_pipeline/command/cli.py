@@ -63,7 +63,7 @@ class OnDemand(click.Group):
 
         try:
             with warnings.catch_warnings(), under_way("tire", lambda: ctx.invoked_subcommand or ""):
-                warnings.showwarning = _OneLine()
+                warnings.showwarning = WarningsInOneLine()
                 return super().invoke(ctx)
         except TirePipelineError as error:
             _fail(str(error))
@@ -82,13 +82,14 @@ def _one_line(text: str) -> str:
     return " | ".join(visible(text).split("\n"))
 
 
-class _OneLine:
+class WarningsInOneLine:
     """Shows each warning once, as a line on standard error."""
 
     def __init__(self) -> None:
         self._shown: set[str] = set()
 
     def __call__(self, message: Warning | str, *_: Any, **__: Any) -> None:
+        """Show a warning, in place of ``warnings.showwarning``."""
         if str(message) not in self._shown:
             self._shown.add(str(message))
             click.echo(f"warning: {_one_line(str(message))}", err=True)
