@@ -218,4 +218,4 @@ def test_the_time_left_shrinks_while_the_next_one_is_under_way():
     activity.done, activity.latest = 1, 130.0
     assert activity.line(130.0) == "training: 1/3 (30 s each, 60 s left)"
     assert activity.line(150.0) == "training: 1/3 (30 s each, 40 s left)"
-    assert activity.line(200.0) == "training: 1/3 (30 s each, 100 s so far)"
+    assert activity.line(200.0) == "training: 1/3 (100 s so far, this one takes longer)"

@@ -82,7 +82,10 @@ class Activity:
         if self.done and self.total:
             each = (self.latest - self.began) / self.done
             left = (self.total - self.done) * each - (now - self.latest)
-            known.append(f"{left:.0f} s left" if left > 1.0 else so_far)
+            if self.done < self.total and left <= 1.0:  # the pace until now does not hold
+                known = [so_far, "this one takes longer"]
+            else:
+                known.append(f"{left:.0f} s left" if left > 1.0 else so_far)
         return f"{self.label()}: {self.count()} ({', '.join(known)})"
 
 

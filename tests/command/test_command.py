@@ -13,8 +13,9 @@ import pandas as pd
 import pytest
 from click.testing import CliRunner
 
-from tire_pipeline.command.cli import COMMANDS, tire
+from tire_pipeline.command.cli import COMMANDS, WarningsInOneLine, tire
 from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
 from tire_pipeline.tir import read_tir, write_tir
 
 pytestmark = pytest.mark.slow
@@ -142,17 +143,27 @@ def test_show_says_version_ranges_and_what_is_missing(folder):
     assert "largest lateral friction" in html
 
 
-def test_a_warning_is_a_line_and_said_once(folder):
+def test_a_warning_is_a_line_and_said_once(capsys):
+    show = WarningsInOneLine()
+    for text in ("one\nthing", "one\nthing", "another"):
+        show(UserWarning(text))
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 2
+    assert all(line.startswith("warning: ") for line in lines)
+
+
+def test_a_missing_radius_is_said_once_in_the_result(folder):
     without = {name: value for name, value in COEFFICIENTS.items() if name != "UNLOADED_RADIUS"}
     write_tir(TireModel.from_coefficients({**without, "QDZ1": 0.1}), "b.tir")
     shown = run("show", "b.tir", "--no-page")
     assert "there is no UNLOADED_RADIUS" in shown.stdout
     assert "relaxation lengths: forces follow" not in shown.stdout
     assert shown.stderr == ""
-    lines = run("compare", "a.tir", "b.tir", "--no-page").stderr.splitlines()
-    assert any("UNLOADED_RADIUS" in line for line in lines)
-    assert all(line.startswith("warning: ") for line in lines)
-    assert len(set(lines)) == len(lines)
+    compared = run("compare", "a.tir", "b.tir", "--no-page")
+    said = "b.tir states no UNLOADED_RADIUS, so its moments and relaxation lengths cannot be computed"
+    assert " ".join(compared.stdout.split()).count(said) == 1
+    assert "a.tir states no" not in compared.stdout
+    assert compared.stderr == ""
 
 
 def test_a_radius_that_the_file_lacks_is_stated(folder):
@@ -257,8 +268,11 @@ def test_explain_several_together_and_one_held_out(folder):
 def test_a_held_out_recording_need_not_be_among_the_explained(folder):
     record("one.csv", friction=0.88, seconds=45.0)
     record("two.csv", seed=1, friction=0.88, seconds=45.0)
-    text = run("explain", "a.tir", "one.csv", "--hold-out", "two.csv", "--no-page").stdout
+    without = {name: value for name, value in COEFFICIENTS.items() if name != "UNLOADED_RADIUS"}
+    write_tir(TireModel.from_coefficients(without), "b.tir")
+    text = run("explain", "b.tir", "one.csv", "--hold-out", "two.csv", "--no-page").stdout
     assert "On two.csv, which was held out" in text
+    assert f"no UNLOADED_RADIUS, and {ASSUMED_RADIUS} m is taken for it" in " ".join(text.split())
 
 
 def test_what_was_found_is_told_though_no_corrected_file_may_be_written(folder):

@@ -12,6 +12,8 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import FitResult, fit_magic_formula
 from tire_pipeline.magic_formula.fitting.setup import typical
+from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
+from tire_pipeline.mismatch.effects.shared import relaxation_lengths
 
 pytestmark = pytest.mark.slow
 
@@ -96,6 +98,19 @@ def test_the_other_sign_gives_the_mirrored_model(tydex):
     assert fit.model.value("PKY1") > 0
     assert fit.relative_rms["fy"] < 0.015
     assert any("not in ISO axes" in note for note in fit.notes)
+
+
+def test_a_radius_that_nobody_states_is_the_one_that_an_explanation_takes_too(tydex):
+    bare = tydex.copy()
+    bare.attrs = {}
+    fit = fit_magic_formula(bare, "5.2", starts=1)
+    assert fit.model.value("UNLOADED_RADIUS") == ASSUMED_RADIUS
+    assert any(note.startswith(f"UNLOADED_RADIUS = {ASSUMED_RADIUS} m is assumed") for note in fit.notes)
+    coefficients = dict(fit.model.coefficients)
+    del coefficients["UNLOADED_RADIUS"]
+    lacking = TireModel.from_coefficients({**coefficients, "PTY1": 1.0, "PTY2": 2.0}, version="5.2")
+    known = lacking.replace(UNLOADED_RADIUS=ASSUMED_RADIUS)
+    assert relaxation_lengths(lacking) == relaxation_lengths(known)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])

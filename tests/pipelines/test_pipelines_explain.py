@@ -117,11 +117,16 @@ def test_effects_that_are_left_out_are_not_looked_for(tmp_path):
         (tmp_path / name).mkdir()
         shutil.copy(EXAMPLES / "tire.tir", tmp_path / name)
         _write_run(tmp_path / name / "rig_run.csv", 10)
+    tire = tmp_path / "other" / "tire.tir"
+    lines = tire.read_text().splitlines(keepends=True)
+    tire.write_text("".join(line for line in lines if not line.startswith("UNLOADED_RADIUS")))
     loaders = RecordingFolderDataset(path=str(tmp_path)).load()
     rule = {"match": "rig", "without": ["inflation_pressure"]}
     reports, *_ = _explain(loaders, ExplainParameters(axes="ISO", recordings=[rule]))
     found = {name: [effect["name"] for effect in report["effects"]] for name, report in reports.items()}
     assert found["other/rig_run.csv"] == ["inflation_pressure"]
     assert "inflation_pressure" not in found["rig/rig_run.csv"]
+    lacks = {name: "no UNLOADED_RADIUS" in " ".join(report["assumed"]) for name, report in reports.items()}
+    assert lacks == {"other/rig_run.csv": True, "rig/rig_run.csv": False}
     with pytest.raises(RecordingError, match="no effect 'inflation_presure' -> did you mean 'inflation_pre"):
         _explain(loaders, ExplainParameters(without="wear;inflation_presure"))

@@ -21,6 +21,7 @@ SCREENSHOTS = ROOT / "data" / "08_reporting" / "screenshots"
 LOADS, SLIPS = np.array([2000.0, 4000.0, 6000.0, 8000.0]), np.linspace(-0.2, 0.2, 41)
 HOSTILE = "E/<script>window.hacked=1<\u002fscript>\"'\u202egnp.tir"
 OWN = ("new/mine.tir", HOSTILE)
+WITHOUT_MOMENT, ZERO_MOMENT = "C/c_0001.tir", "C/c_0002.tir"
 TIRES = {"B": "205/55 rim 203.2", "C": "225/45 rim 215.9", "Z": "195/65 rim 190.5"}
 
 
@@ -72,6 +73,9 @@ def drawn(curves: dict[str, object], moved: pd.DataFrame) -> DrawnFiles:
 def made():
     report = _report()
     curves = _curves(report)
+    files = list(report["file"])
+    for file, value in ((WITHOUT_MOMENT, np.nan), (ZERO_MOMENT, 0.0)):
+        curves["mz_source"][files.index(file)] = value
     moved = pd.DataFrame(
         {
             "file": "new/mine.tir",
@@ -275,6 +279,20 @@ def test_a_file_that_was_not_translated_shows_its_own_curves(driver):
     assert len(detail.find_elements("css selector", "figure path.source")) == 3 * LOADS.size + 1
     assert not detail.find_elements("css selector", "path.band, path.middle")
     assert "90% band" not in detail.text
+    driver.find_element("css selector", "#files tr.open button.file").click()
+    reset(driver)
+
+
+@pytest.mark.parametrize(
+    ("file", "why"), [(WITHOUT_MOMENT, "does not state all"), (ZERO_MOMENT, "zero at every slip")]
+)
+def test_where_there_is_no_curve_the_page_says_why(driver, file, why):
+    choose(driver, "verdict", "refused")
+    detail = click_file(driver, file)
+    names = [f.get_attribute("data-panel") for f in detail.find_elements("css selector", "figure")]
+    assert names == ["fy", "fx", "stiffness"]
+    assert re.search(rf"Aligning moment: not drawn, because .*{why}", detail.text)
+    driver.find_element("css selector", "#files tr.open button.file").click()
     reset(driver)
 
 

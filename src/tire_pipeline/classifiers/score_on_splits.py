@@ -14,7 +14,9 @@ from tire_pipeline.classifiers.parameters import TrainClassifierParameters
 from tire_pipeline.tasks import Map, all_done, in_turn
 
 SPLITS = ("random", "by_tire")
+SPLIT_WORDS = {"random": "random split", "by_tire": "split by physical tire"}
 NAMES = ("ann", "random_forest", "naive_bayes")
+CLASSIFIER_WORDS = {"ann": "neural network", "random_forest": "random forest", "naive_bayes": "naive Bayes"}
 _NOT_FEATURES = ["file", "category", "tire_id"]
 
 
@@ -56,7 +58,7 @@ def score_classifiers(
     for name, split in product(NAMES, SPLITS):
         rows = split_rows(features, splits, split)
         options = {"seeds": seeds, **parameters.options(name)}
-        tasks[f"{name} on split {split}".replace("_", " ")] = partial(
+        tasks[f"{CLASSIFIER_WORDS[name]}, {SPLIT_WORDS[split]}"] = partial(
             evaluate_classifier, name, values, labels, *rows, **options
         )
     done = all_done(work, tasks, "training classifiers").values()

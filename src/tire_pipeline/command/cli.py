@@ -63,7 +63,7 @@ class OnDemand(click.Group):
 
         try:
             with warnings.catch_warnings(), under_way("tire", lambda: ctx.invoked_subcommand or ""):
-                warnings.showwarning = _OneLine()
+                warnings.showwarning = WarningsInOneLine()
                 return super().invoke(ctx)
         except TirePipelineError as error:
             _fail(str(error))
@@ -74,20 +74,25 @@ class OnDemand(click.Group):
 
 
 def _fail(text: str) -> None:
-    click.secho(f"error: {' | '.join(visible(text).split(chr(10)))}", fg="red", err=True)
+    click.secho(f"error: {_one_line(text)}", fg="red", err=True)
     sys.exit(WRONG_INPUT)
 
 
-class _OneLine:
+def _one_line(text: str) -> str:
+    return " | ".join(visible(text).split("\n"))
+
+
+class WarningsInOneLine:
     """Shows each warning once, as a line on standard error."""
 
     def __init__(self) -> None:
         self._shown: set[str] = set()
 
     def __call__(self, message: Warning | str, *_: Any, **__: Any) -> None:
+        """Show a warning, in place of ``warnings.showwarning``."""
         if str(message) not in self._shown:
             self._shown.add(str(message))
-            click.echo(f"warning: {visible(message)}", err=True)
+            click.echo(f"warning: {_one_line(str(message))}", err=True)
 
 
 @click.group(name="tire", cls=OnDemand, context_settings={"help_option_names": ["-h", "--help"]})

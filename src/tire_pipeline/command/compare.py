@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -54,8 +55,10 @@ def compared(
 ) -> CommandOutcome:
     """Compare two models by name, ``camber`` in degrees; ``notes`` for a section of their own on the page."""
     from tire_pipeline.magic_formula.compare import changed_values, compare_models
+    from tire_pipeline.magic_formula.forces import MissingRadiusWarning
     from tire_pipeline.magic_formula.key_figures import key_figures, usual_loads
 
+    warnings.simplefilter("ignore", MissingRadiusWarning)  # a line of the result says it
     (a, first), (b, second) = models.items()
     at = list(loads) or usual_loads([first, second])
     apart = compare_models(first, second, loads=at, camber=math.radians(camber))
@@ -103,6 +106,12 @@ def _lines(models: dict[str, TireModel], apart: list[Difference], changed: int) 
             "the files are in different axes, and the differences say nothing about the tires."
         )
     lines.append(f"{changed} coefficients differ.")
+    lines += [
+        f"{name} states no UNLOADED_RADIUS, so its moments and relaxation lengths cannot be computed. State "
+        "it (m) with --unloaded-radius."
+        for name, model in models.items()
+        if model.lacks_radius
+    ]
     return lines
 
 

@@ -113,8 +113,7 @@ def _outcome(
     said: Mapping[str, Any] = result.report.iloc[0].to_dict()
     bands = said.get("bias_band", "")
     lines = [
-        f"{file.name}, measured by {said['source']}, to be as {said['target']} would have measured it: "
-        f"{said['verdict']}.",
+        f"Translation of {file.name}, measured by {said['source']}, to {said['target']}: {said['verdict']}.",
         *([f"{str(said['reason'])[:1].upper()}{str(said['reason'])[1:]}."] if said["reason"] else []),
         *([f"{said['changes']}."] if said["changes"] else []),
         *([f"Bias of {said['source']} against {said['target']} (90% bands): {bands}."] if bands else []),

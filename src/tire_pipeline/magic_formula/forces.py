@@ -187,8 +187,8 @@ def _warn_of_radius(model: TireParameters, wanted: Sequence[str], turning: bool)
         return
     place = f" of {model.path}" if model.path else ""
     warnings.warn(
-        f"the model{place} has no UNLOADED_RADIUS: {', '.join(lost)} are NaN; state the radius (m) by "
-        "model.replace(UNLOADED_RADIUS=...) or read_tir(path, unloaded_radius=...)",
+        f"the model{place} has no UNLOADED_RADIUS: no value (NaN) for {', '.join(lost)}; state the radius "
+        "(m) by model.replace(UNLOADED_RADIUS=...) or read_tir(path, unloaded_radius=...)",
         MissingRadiusWarning,
         stacklevel=_STACK_LEVEL_OF_RADIUS,
     )

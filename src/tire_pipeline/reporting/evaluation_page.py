@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
+from tire_pipeline.classifiers.score_on_splits import CLASSIFIER_WORDS, SPLIT_WORDS
 from tire_pipeline.evaluation import curves_of
 from tire_pipeline.evaluation.all_translators import NO_CHANGE
 from tire_pipeline.evaluation.compare_with_target import FLOOR
@@ -39,7 +40,6 @@ _METRIC_WORDS = {
     "mz": "aligning moment",
 }
 _GRID = EvaluationGrid(loads=np.array([6000.0]))
-_CLASSIFIER_WORDS = {"ann": "neural network", "random_forest": "random forest", "naive_bayes": "naive Bayes"}
 
 
 def force_figure(translated_table: pd.DataFrame, references: pd.DataFrame, best: dict[str, Any]) -> MplFigure:
@@ -180,14 +180,13 @@ def _classifier(table: pd.DataFrame, scores: pd.DataFrame, per_class: pd.DataFra
         "sides, and the forest recognises the tire. "
         f"Always naming the largest category would be right for {guess:.1%}."
     )
-    words = {"random": "random", "by_tire": "by physical tire"}
     shown = scores.assign(
-        split=scores["split"].map(words), classifier=scores["classifier"].replace(_CLASSIFIER_WORDS)
+        split=scores["split"].map(SPLIT_WORDS), classifier=scores["classifier"].replace(CLASSIFIER_WORDS)
     ).rename(columns={"accuracy_std": "± accuracy", "f1": "F1", "f1_std": "± F1", "smote": "SMOTE"})
     for name in ("accuracy", "± accuracy", "F1", "± F1"):
         shown[name] = shown[name].round(3)
     caption = "Accuracy and weighted F1, mean and spread of several trainings."
-    detail = per_class.assign(split=per_class["split"].map(words)).rename(
+    detail = per_class.assign(split=per_class["split"].map(SPLIT_WORDS)).rename(
         columns={"f1": "F1", "rows": "files"}
     )
     return [

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.classifiers.score_on_splits import SPLITS
+from tire_pipeline.classifiers.score_on_splits import SPLIT_WORDS, SPLITS
 from tire_pipeline.pages.drawing import colour_of, name_ticks, new_figure
 
 if TYPE_CHECKING:
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 def confusion_figure(confusion: pd.DataFrame) -> Figure:
     """Confusion matrices side by side, as shares of each true category (thesis, Figure 5.3)."""
     figure, axes = new_figure(1, len(SPLITS), width=4.6 * len(SPLITS), height=4.2)
-    words = {"random": "random split", "by_tire": "split by physical tire"}
     for one, split in zip(np.asarray(axes), SPLITS, strict=True):
         part = confusion[confusion["split"] == split]
         shares = part.pivot(index="true", columns="predicted", values="share")
@@ -27,7 +26,7 @@ def confusion_figure(confusion: pd.DataFrame) -> Figure:
         name_ticks(one.yaxis, shares.index)
         one.set_xlabel("predicted category")
         one.set_ylabel("true category")
-        one.set_title(words[split])
+        one.set_title(SPLIT_WORDS[split])
         for row, values in enumerate(shares.to_numpy()):
             for column, value in enumerate(values):
                 ink = "white" if value > 0.5 else "black"

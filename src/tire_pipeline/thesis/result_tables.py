@@ -9,6 +9,7 @@ from typing import Any
 
 import pandas as pd
 
+from tire_pipeline.classifiers.score_on_splits import SPLIT_WORDS
 from tire_pipeline.thesis.published import published_agents
 
 CELL = ["algorithm", "reward", "representation", "n_bins"]
@@ -21,8 +22,7 @@ WORDS = {
     "power_series_stable": "power series, stable form",
     "reach_target_fast": "Reach Target Fast",
     "maximize_reward": "Maximize Reward",
-    "random": "random split",
-    "by_tire": "split by physical tire",
+    **SPLIT_WORDS,
     "ann": "ANN",
     "naive_bayes": "GNB",
     "random_forest": "RF",

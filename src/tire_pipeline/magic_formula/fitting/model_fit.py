@@ -60,7 +60,8 @@ def fit_magic_formula(
     nominal_load : float, optional
         ``FNOMIN`` (N); that of ``start``, or the median load to two digits.
     unloaded_radius : float, optional
-        ``UNLOADED_RADIUS`` (m); that of ``start``, or the recording's (TYDEX ``OVALLDIA``), or 0.3.
+        ``UNLOADED_RADIUS`` (m); that of ``start``, or the recording's (TYDEX ``OVALLDIA``), or
+        ``ASSUMED_RADIUS``, which ``notes`` then says.
     starts : int
         Number of starting points of each stage; the best result is kept.
     loss : str

@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
+
 try:
     from numba import njit
 except ImportError:  # pragma: no cover - numba is a dependency; this keeps the file importable without
@@ -14,9 +16,6 @@ except ImportError:  # pragma: no cover - numba is a dependency; this keeps the 
         """Leave the function as it is."""
         return lambda function: function
 
-
-ASSUMED_RADIUS = 0.32
-"""Unloaded radius, m, of a tire whose file states none."""
 
 GAINS = (-0.8, 2.0)
 """Least and largest gain that a force channel may be wrong by."""

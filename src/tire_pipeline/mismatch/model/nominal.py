@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from tire_pipeline.mismatch.effects.shared import ASSUMED_RADIUS
+from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
 from tire_pipeline.mismatch.model.channels import RecordedChannels
 from tire_pipeline.mismatch.model.forces import plain_forces
 

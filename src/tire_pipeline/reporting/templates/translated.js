@@ -19,8 +19,15 @@
 
   async function unpack(text) {
     const bytes = Uint8Array.from(atob(text), each => each.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-    return new Uint8Array(await new Response(stream).arrayBuffer());
+    const stream = new DecompressionStream("deflate"), writer = stream.writable.getWriter();
+    const written = Promise.all([writer.write(bytes), writer.close()]); // a Blob would go through another process
+    const reader = stream.readable.getReader(), pieces = [];
+    for (let each = await reader.read(); !each.done; each = await reader.read()) pieces.push(each.value);
+    await written;
+    const whole = new Uint8Array(pieces.reduce((size, each) => size + each.length, 0));
+    let place = 0;
+    for (const each of pieces) { whole.set(each, place); place += each.length; }
+    return whole;
   }
   async function unpackJson(text) {
     return JSON.parse(new TextDecoder().decode(await unpack(text)));
@@ -150,9 +157,13 @@
       paragraph.append(element("bdi", each));
       cell.append(paragraph);
     }
-    const panels = element("div", undefined, "panels");
+    const panels = element("div", undefined, "panels"), left = [];
     const forces = unquantised(bytes, all, within);
-    PANELS.forEach((panel, i) => { if (forces[i]) panels.append(forcePanel(panel, forces[i])); });
+    PANELS.forEach((panel, i) => {
+      if (!forces[i]) left.push(panel.title + ": not drawn, because the file does not state all that it depends on.");
+      else if (forces[i].zero) left.push(panel.title + ": not drawn, because it is zero at every slip and load.");
+      else panels.append(forcePanel(panel, forces[i]));
+    });
     const stiffness = own.stiffness && stiffnessPanel(own.stiffness);
     if (stiffness) panels.append(stiffness);
     if (!panels.children.length) {
@@ -162,6 +173,7 @@
     cell.append(legend(bands));
     if (bands) cell.append(element("p", "Where the band leaves the dashed line, the supplier's bias shows. Where the band contains the line, the two cannot be told apart."));
     cell.append(panels);
+    for (const each of left) cell.append(element("p", each));
     if (own.moved.length) {
       cell.append(element("p", own.moved.length + " coefficients moved (at the translator's nominal load):"));
       const list = element("ul", undefined, "moved");
@@ -195,7 +207,7 @@
         }
         curves.push(loads);
       }
-      return {source: scale[1] ? curves[0] : null, middle: scale[2] ? curves[1] : null, half: curves[2]};
+      return {zero: scale[0] === 0, source: scale[1] ? curves[0] : null, middle: scale[2] ? curves[1] : null, half: curves[2]};
     });
   }
 

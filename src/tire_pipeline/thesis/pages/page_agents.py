@@ -90,29 +90,36 @@ def _table(results: Results, table: str) -> list[Part]:
     return [
         Text(_table_words(ran), heading=heading),
         Table(
-            _side_by_side(rows, {"thesis": ("thesis", None), "ours": ("curves", "curves_std")}),
+            _one_below_the_other(
+                rows, "values", {"thesis": ("thesis", None), "ours": ("curves", "curves_std")}
+            ),
             "Ours: curves decoded as in the thesis, the same 16 translations; mean ± standard deviation over "
-            "the seeds.",
+            "the seeds. Models with one row were not run.",
         ),
         Table(
-            _side_by_side(rows, {".tir": ("tire", "tire_std"), "hidden": ("hidden", "hidden_std")}),
-            "The same agents decoded to a tire model: the 16 translations (.tir) and the set 'hidden'.",
+            _one_below_the_other(
+                rows, "files", {"translations": ("tire", "tire_std"), "hidden": ("hidden", "hidden_std")}
+            ),
+            "The same agents decoded to a .tir file: the 16 translations, and the set 'hidden'.",
         ),
     ]
 
 
-def _side_by_side(rows: pd.DataFrame, columns: dict[str, tuple[str, str | None]]) -> pd.DataFrame:
-    """One row a model; for each metric the columns asked for, by their words: value and spread."""
+def _one_below_the_other(
+    rows: pd.DataFrame, of: str, lines: dict[str, tuple[str, str | None]]
+) -> pd.DataFrame:
+    """For each model a row for each of ``lines`` that has values, by its words in the column ``of``."""
     out = []
     for (representation, algorithm), part in rows.groupby(["representation", "algorithm"], sort=False):
-        line: dict[str, object] = {"model": f"{in_words(representation)}, {algorithm}"}
         values = part.set_index("metric")
-        for metric in METRICS:
-            one = values.loc[metric]
-            for words, (value, spread) in columns.items():
-                name = f"{_SHORT_METRICS[metric]}: {words}"
-                line[name] = float(one[value]) if spread is None else plus_minus(one[value], one[spread])
-        out.append(line)
+        for words, (value, spread) in lines.items():
+            if values[value].isna().all():
+                continue
+            line: dict[str, object] = {"model": f"{in_words(representation)}, {algorithm}", of: words}
+            for metric in METRICS:
+                one = values.loc[metric]
+                line[_SHORT_METRICS[metric]] = plus_minus(one[value], 0.0 if spread is None else one[spread])
+            out.append(line)
     return pd.DataFrame(out)
 
 

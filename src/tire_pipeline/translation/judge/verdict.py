@@ -229,7 +229,7 @@ def _too_far(target: str, distance: float) -> str:
     beyond = max(distance, 1.01)  # what is beyond the edge never reads as 1.00
     said = f"this tire is outside of what {target} has measured: distance {beyond:.2f}"
     if distance > FARTHEST_DISTANCE:
-        return f"{said}, do not trust a translation"
+        return f"{said}, the edge is 1; a translation cannot be trusted"
     far = f"{FARTHEST_DISTANCE:g}"
     most = f"it by --params translate.farthest={far} (tire translate: --farthest {far})"
     return f"{said}, the edge is 1: add training files of such tires, or allow {most}"

@@ -15,6 +15,7 @@ from tire_pipeline.magic_formula.fitting.setup.stage_definitions import (
     Stage,
 )
 from tire_pipeline.magic_formula.model import TireModel
+from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
 from tire_pipeline.magic_formula.parameters.coefficients import family_of
 from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
 
@@ -75,8 +76,11 @@ def base(
     if unloaded_radius is None and "UNLOADED_RADIUS" not in known:
         unloaded_radius = _radius_of(recording)
         if unloaded_radius is None:
-            unloaded_radius = 0.3
-            notes.append("UNLOADED_RADIUS = 0.3 m is assumed; the moments' coefficients are relative to it")
+            unloaded_radius = ASSUMED_RADIUS
+            notes.append(
+                f"UNLOADED_RADIUS = {ASSUMED_RADIUS:g} m is assumed; "
+                "the moments' coefficients are relative to it"
+            )
     if unloaded_radius is not None:
         known["UNLOADED_RADIUS"] = float(unloaded_radius)
     known.setdefault("LONGVL", _median(points["speed"], 16.7))
