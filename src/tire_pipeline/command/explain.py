@@ -66,7 +66,6 @@ def command(
     **output: Any,
 ) -> None:
     """Explain a mismatch."""
-    from tire_pipeline.magic_formula.parameters.assumed_radius import assumed_radius
     from tire_pipeline.mismatch import Explainer, explain_recordings
     from tire_pipeline.recordings.conventions.canonical import notes_beside_assumed
     from tire_pipeline.reporting.explained_recordings import check_effects
@@ -83,7 +82,6 @@ def command(
     by_path = dict(zip(paths, read, strict=True))
     held_out = by_path[_among(hold_out, runs)] if hold_out else None
     report = explain_recordings(tire, read, held_out=held_out, explainer=Explainer(without=without))
-    report.assumed += assumed_radius(tire)
     if len(read) == 1:
         report.notes[:0] = notes_beside_assumed(next(iter(read.values())))
     written, refusal = [], None

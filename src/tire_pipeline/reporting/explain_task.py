@@ -18,7 +18,6 @@ from tire_pipeline.errors import RecordingError, cause_in_entry
 from tire_pipeline.files.objects import UnreachableError
 from tire_pipeline.files.packed import Passing, pack
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.magic_formula.parameters.assumed_radius import assumed_radius
 from tire_pipeline.mismatch import Explainer, MismatchReport, explain_recordings
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes, learnt
 from tire_pipeline.reporting.result_names import result_place
@@ -81,7 +80,6 @@ class ExplainTask:
             tire, runs = _read(loads)
             explainer = Explainer(without=self.without, learnt=self.learnt)
             report = explain_recordings(tire, runs, held_out=self.held_out, explainer=explainer)
-            report.assumed += assumed_radius(tire)
         except Exception as error:
             cause = cause_in_entry(error)
             if isinstance(cause, UnreachableError):

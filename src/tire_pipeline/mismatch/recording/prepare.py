@@ -11,6 +11,7 @@ import pandas as pd
 
 from tire_pipeline.channels import INPUT_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.magic_formula.parameters.assumed_radius import assumed_radius
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.effects.shared import relaxation_lengths
 from tire_pipeline.mismatch.model.data import Data
@@ -156,7 +157,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
         axes = open_axes(tire, arrays, time, findings, against)
         asked = [another_tire(tire, arrays, driven), axes]
     present = {n for n in INPUT_CHANNELS if n in recording.columns and n in arrays}
-    assumed = _assumed(recording, factors) + _zeros(arrays, rows.size)
+    assumed = [*_assumed(recording, factors), *_zeros(arrays, rows.size), *assumed_radius(tire)]
     start = _pieces(time, rows, notes)
     arrays, time, start, rows = _binned(arrays, time, start, rows)
     arrays, cleaned = (arrays, []) if time is None else _cleaned(tire, arrays, start)

@@ -11,6 +11,7 @@ import pandas as pd
 from tire_pipeline.channels import SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
 from tire_pipeline.mismatch.model.forces import plain_forces
 
 Array = np.ndarray
@@ -64,7 +65,7 @@ def _start(frame: pd.DataFrame, load: float) -> TireModel:
         sign = 1.0 if float((frame["slip_angle"] * frame["fy"]).sum()) >= 0.0 else -1.0
     typical = {
         "FNOMIN": load,
-        "UNLOADED_RADIUS": 0.3,
+        "UNLOADED_RADIUS": ASSUMED_RADIUS,
         "PCX1": 1.5,
         "PDX1": 1.0,
         "PKX1": 20.0,
