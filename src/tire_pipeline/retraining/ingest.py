@@ -151,13 +151,12 @@ def _outcome(
         digest = f"{UNREADABLE}{type(done.error).__name__}"
     if digest.startswith(UNREADABLE):  # whether it can be read now is not told by its look
         look = replace(look, size=-1)
-    known = before.row_sha256 if before else ""
-    entry = ManifestEntry(digest, known, **asdict(look), sequence=before.sequence if before else number)
-    if done.error is not None:
-        reason = printable(str(cause_in_entry(done.error)))
-        stays = "; an earlier reading stays" if entry.row_sha256 else ""
-        return replace(entry, reason=reason), _row(name, PENDING, f"{reason}{stays}")
-    return replace(entry, row_sha256=digest, sequence=number), _row(name, READ, "")
+    if done.error is None:
+        return ManifestEntry.of(look, digest, digest, number), _row(name, READ, "")
+    known, since = (before.row_sha256, before.sequence) if before else ("", number)
+    reason = printable(str(cause_in_entry(done.error)))
+    stays = "; an earlier reading stays" if known else ""
+    return ManifestEntry.of(look, digest, known, since, reason), _row(name, PENDING, f"{reason}{stays}")
 
 
 def _row(name: str, status: str, reason: str) -> dict[str, str]:
