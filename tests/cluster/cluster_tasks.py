@@ -20,6 +20,10 @@ def fails(name: str) -> int:
     raise TirError("no tire", path=name, line=3, todo="mend it")
 
 
+def gone() -> None:
+    """A file that changed while it was read."""
+
+
 def dies(log: Path) -> int:
     with log.open("a") as file:
         file.write("x")

@@ -4,25 +4,21 @@ from __future__ import annotations
 
 import math
 import os
-import pickle
 from functools import partial
 from pathlib import Path
 
 import cluster_tasks as tasks
+import pandas as pd
 import pytest
 
 from tire_pipeline.cluster.dask_map import check_address, dask_map
 from tire_pipeline.cluster.parameters import ClusterParameters
 from tire_pipeline.errors import DomainError, TirError
-from tire_pipeline.tasks import (
-    Block,
-    LostTaskError,
-    all_done,
-    end_processes,
-    in_blocks,
-    in_processes,
-    in_turn,
-)
+from tire_pipeline.retraining.read_together import ReadTogether
+from tire_pipeline.tasks import LostTaskError, all_done, end_processes, in_processes, in_turn
+from tire_pipeline.tir import read_tir
+
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "tire.tir"
 
 
 def test_every_result_comes_back_by_its_name(work):
@@ -72,20 +68,32 @@ def test_the_last_task_left_is_set_aside_if_it_kills_its_worker_and_does_not_end
     assert (tmp_path / "log").read_text().startswith("xxx")
 
 
+def _reading(*names: str) -> dict:
+    return {name: partial(read_tir, EXAMPLE) for name in names}
+
+
 def test_the_one_killer_of_a_block_is_found_and_the_others_are_done(any_work, tmp_path):
-    wanted = {str(n): partial(tasks.double, n) for n in range(7)}
-    wanted["3"] = partial(tasks.dies, tmp_path / "log")
-    done = {d.name: d for d in in_blocks(any_work, wanted, "counting", size=4)}
-    assert [done[n].result() for n in wanted if n != "3"] == [0, 2, 4, 8, 10, 12]
-    assert isinstance(done["3"].error, LostTaskError)
+    killing = _reading("a", "b") | {"killer": partial(tasks.dies, tmp_path / "log")} | _reading("c")
+    wanted = {"one": ReadTogether(killing), "other": ReadTogether(_reading("d", "e"))}
+    one, other = (done.result() for done in all_done(any_work, wanted, "reading").values())
+    assert [(each.name, each.value) for each in one.done if not each.error] == [(n, True) for n in "abc"]
+    (killer,) = [each for each in one.done if each.error]
+    assert killer.name == "killer"
+    assert isinstance(killer.error, LostTaskError)
+    pd.testing.assert_frame_equal(one.table, ReadTogether(_reading("a", "b", "c"))().table)
+    assert list(other.table["file"]) == ["d", "e"]
 
 
-def test_a_block_is_what_its_tasks_are():
-    block = Block({"a": partial(tasks.double, 1), "b": partial(tasks.fails, "b")})
-    parts = [part() for part in block.split().values()]
-    assert pickle.dumps([d.value for d in block.join(parts).values()]) == pickle.dumps(
-        [d.value for d in block().values()]
-    )
+def test_a_block_is_what_its_files_are():
+    more = {"fails": partial(tasks.fails, "b"), "changed": tasks.gone}
+    block = ReadTogether(_reading("b") | more | _reading("a"))
+    joined, whole = block.join([part() for part in block.split().values()]), block()
+    said = [[(each.name, each.value, str(each.error)) for each in read.done] for read in (joined, whole)]
+    assert said[0] == said[1]
+    assert [value for _, value, _ in said[0]] == [True, None, False, True]
+    assert whole.failures == {"fails": "b:3: no tire -> mend it"}
+    pd.testing.assert_frame_equal(joined.table, whole.table)
+    assert list(whole.table["file"]) == ["a", "b"]
 
 
 def test_processes_wait_for_more_tasks_until_they_are_ended():

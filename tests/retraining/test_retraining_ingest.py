@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -45,7 +47,7 @@ def test_only_new_files_are_read(tmp_path):
     store, _ = _update(Store(), tmp_path)
     put(tmp_path, "A/00.tir", tir_text(9))
     read = []
-    _update(store, tmp_path, lambda path: (read.append(path.name), read_tir(path))[1])
+    _update(store, tmp_path, lambda path: (read.append(Path(path).name), read_tir(path))[1])
     assert read == ["00.tir"]
 
 

@@ -99,4 +99,9 @@ def test_pieces_on_the_disk_and_in_the_scratch_file_come_back(tmp_path):
 
 def test_many_small_pieces_are_stored_as_few():
     parts = _parts(count=6, rows=10)
-    assert [len(frame) for frame in _table(parts).gathered(25)] == [30, 30]
+    table = _table(parts)
+    few = list(table.gathered(25))
+    assert [len(frame) for frame in few] == [30, 30]
+    pd.testing.assert_frame_equal(
+        pd.concat(few), pd.concat(table).reset_index(drop=True).set_axis([*range(30)] * 2)
+    )

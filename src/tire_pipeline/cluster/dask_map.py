@@ -9,7 +9,9 @@ from __future__ import annotations
 import ipaddress
 import itertools
 import logging
+import math
 import os
+import time
 import uuid
 from collections.abc import Iterator, Mapping
 from concurrent.futures import CancelledError
@@ -29,6 +31,8 @@ _T = TypeVar("_T")
 _LOG = logging.getLogger(__name__)
 _AHEAD = 3
 """So many tasks a thread are with the scheduler at once; a million of them would fill its memory."""
+_SECONDS_BETWEEN = 1.0
+"""Between two questions how many threads there are: an answer takes milliseconds, as much as a short task."""
 _COMPUTING = ("numpy", "pandas", "pyarrow", "scikit-learn", "scipy", "numba", "torch")
 _OPEN_CLIENTS: dict[ClusterParameters, Client] = {}
 
@@ -171,6 +175,8 @@ class _DaskMap:
     def __init__(self, client: Client, address: str) -> None:
         self._client = client
         self._address = address
+        self._threads = 1
+        self._ask_again = -math.inf
 
     def __call__(self, tasks: Mapping[str, Task[_T]], what: str) -> Iterator[Done[_T]]:
         yield from shown(self._done(tasks, what), what, tasks, at_once=0)
@@ -182,6 +188,7 @@ class _DaskMap:
         running: dict[str, str] = {}
         lost: list[str] = []
         futures = as_completed()
+        self._ask_again = -math.inf
         try:
             self._submit(futures, running, itertools.islice(waiting, self._room(running)), tasks, what)
             for future in futures:
@@ -201,11 +208,13 @@ class _DaskMap:
             yield done_alone(name, tasks[name], partial(self._on_a_worker, what=what), what)
 
     def _room(self, running: Mapping[str, str]) -> int:
-        try:
-            threads = sum(self._client.nthreads().values())
-        except (CancelledError, OSError, TimeoutError) as lost:
-            raise self._gone() from lost
-        return max(_AHEAD * max(threads, 1) - len(running), 0)
+        if time.monotonic() >= self._ask_again:
+            try:
+                self._threads = max(sum(self._client.nthreads().values()), 1)
+            except (CancelledError, OSError, TimeoutError) as lost:
+                raise self._gone() from lost
+            self._ask_again = time.monotonic() + _SECONDS_BETWEEN
+        return max(_AHEAD * self._threads - len(running), 0)
 
     def _submit(
         self,

@@ -6,7 +6,6 @@ import errno
 import io
 import os
 import stat
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -34,7 +33,7 @@ def open_regular(path: str | os.PathLike[str]) -> io.BufferedReader:
     OSError
         It cannot be opened.
     """
-    stream = _WithoutWaiting(Path(path), "rb", opener=_without_waiting)
+    stream = _WithoutWaiting(os.fspath(path), "rb", opener=_without_waiting)
     if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
         stream.close()
         raise NotRegularError(os.fspath(path))

@@ -10,14 +10,13 @@ import argparse
 import json
 import re
 from pathlib import Path
-from typing import Any
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import write_bytes
 from tire_pipeline.lineage.descriptions import described
 from tire_pipeline.lineage.first_screen import prepared
 from tire_pipeline.lineage.page_policy import with_policy
-from tire_pipeline.pages.visible_text import visible
+from tire_pipeline.pages.visible_text import visible_texts
 from tire_pipeline.reporting.embedded import data_element
 
 _FETCH = """
@@ -76,16 +75,8 @@ def one_page(build: Path, project: Path | None = None) -> str:
     if project is not None:
         html = described(html, project)
     html = with_policy(html, served=False)
-    return html.replace(fetch, data_element("api", _visible(api)) + fetch, 1)  # last: no script of it may run
-
-
-def _visible(value: Any) -> Any:
-    """The same, with all texts as they can be shown: previews hold names of the user's files."""
-    if isinstance(value, str):
-        return visible(value)
-    if isinstance(value, dict):
-        return {name: _visible(each) for name, each in value.items()}
-    return [_visible(each) for each in value] if isinstance(value, list) else value
+    data = data_element("api", visible_texts(api))
+    return html.replace(fetch, data + fetch, 1)  # last: no script of it may run
 
 
 def _inside(script: Path) -> str:

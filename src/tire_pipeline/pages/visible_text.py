@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import re
 import unicodedata
+from typing import Any
 
 _UNSEEN = ("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp")
 _PERHAPS_UNSEEN = re.compile(r"[^\n\x20-\x7e]")
@@ -22,6 +23,21 @@ def visible(text: object) -> str:
         lambda found: f"⟨U+{ord(found[0]):04X}⟩" if unicodedata.category(found[0]) in _UNSEEN else found[0],
         str(text),
     )
+
+
+def visible_texts(value: Any) -> Any:
+    r"""Return what JSON can hold with all its texts, names of members too, by :func:`visible`.
+
+    Examples
+    --------
+    >>> visible_texts({"a\u202e": ["\u2066b", 1.5]})
+    {'a⟨U+202E⟩': ['⟨U+2066⟩b', 1.5]}
+    """
+    if isinstance(value, str):
+        return visible(value)
+    if isinstance(value, dict):
+        return {visible_texts(name): visible_texts(each) for name, each in value.items()}
+    return [visible_texts(each) for each in value] if isinstance(value, list) else value
 
 
 class VisibleFormatter(logging.Formatter):

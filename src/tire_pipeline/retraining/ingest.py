@@ -15,10 +15,11 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.retraining.manifest import Manifest, ManifestEntry
 from tire_pipeline.retraining.partition import Partition
 from tire_pipeline.retraining.places import UNREADABLE, Look, Place, place_at
+from tire_pipeline.retraining.read_together import category_of, read_in_blocks
 from tire_pipeline.retraining.scan import FolderDifference
-from tire_pipeline.tasks import Map, in_blocks, in_turn
+from tire_pipeline.tasks import Done, Map, in_turn
 from tire_pipeline.tir import read_tir
-from tire_pipeline.tire_table import from_models
+from tire_pipeline.tire_table.from_models import from_models, join_tables
 from tire_pipeline.tire_table.in_pieces import PIECE_ROWS, Scratch
 
 INGEST_COLUMNS = ["file", "category", "status", "reason"]
@@ -98,7 +99,7 @@ def ingest(
     partition = store.partition.for_rows(len(store.partition.table) + len(wanted), scratch)
     before = partition
     for some in _together(wanted, partition):
-        new = from_models(_models(place, {name: wanted[name] for name in some}, files, rows, number, work))
+        new = _read(place, {name: wanted[name] for name in some}, files, rows, number, work)
         partition = partition.with_rows(new, (), scratch)
     partition = partition.with_rows(from_models([]), gone, scratch)
     reported = {row["file"] for row in rows}
@@ -116,45 +117,46 @@ def _together(names: Collection[str], partition: Partition) -> Iterator[list[str
         yield ordered[start : start + PIECE_ROWS]
 
 
-def _models(
+def _read(
     place: Place,
     wanted: Mapping[str, tuple[Look, str]],
     files: dict[str, ManifestEntry],
     rows: list[dict[str, str]],
     number: int,
     work: Map,
-) -> Iterator[tuple[str, str, TireModel]]:
+) -> pd.DataFrame:
+    """The tire table of what could be read; ``files`` and ``rows`` are told of all."""
     tasks = {name: place.reading(name, digest) for name, (_, digest) in wanted.items()}
-    for done in in_blocks(work, tasks, "reading new .tir files"):
-        name = done.name
-        if isinstance(done.error, UnreachableError):
-            raise done.error
-        look, digest = wanted[name]
-        if done.error is not None and may_pass(done.error) and not digest.startswith(UNREADABLE):
-            digest = f"{UNREADABLE}{type(done.error).__name__}"
-        if digest.startswith(UNREADABLE):  # whether it can be read now is not told by its look
-            look = replace(look, size=-1)
-        before = files.get(name)
-        known = before.row_sha256 if before else ""
-        entry = ManifestEntry(digest, known, **asdict(look), sequence=before.sequence if before else number)
-        if done.error is not None:
-            reason = printable(str(cause_in_entry(done.error)))
-            files[name] = replace(entry, reason=reason)
-            stays = "; an earlier reading stays" if entry.row_sha256 else ""
-            rows.append(_row(name, PENDING, f"{reason}{stays}"))
-            continue
-        tire = done.result()
-        if tire is None:
-            rows.append(_row(name, GROWING, "changed while it was read; left for the next run"))
-            continue
-        files[name] = replace(entry, row_sha256=digest, sequence=number)
-        rows.append(_row(name, READ, ""))
-        yield name, category_of(name), tire
+    tables = []
+    for block in work(read_in_blocks(tasks), "reading new .tir files"):
+        read = block.result()
+        tables.append(read.table)
+        for done in read.done:
+            if isinstance(done.error, UnreachableError):
+                raise done.error
+            if done.error is None and not done.value:
+                rows.append(_row(done.name, GROWING, "changed while it was read; left for the next run"))
+                continue
+            files[done.name], row = _outcome(done, *wanted[done.name], files.get(done.name), number)
+            rows.append(row)
+    return join_tables(tables)
 
 
-def category_of(name: str) -> str:
-    """The first folder of a file's path."""
-    return name.split("/", 1)[0] if "/" in name else ""
+def _outcome(
+    done: Done[bool], look: Look, digest: str, before: ManifestEntry | None, number: int
+) -> tuple[ManifestEntry, dict[str, str]]:
+    """What the manifest says of a file after it was read, and its row of the report."""
+    name = done.name
+    if done.error is not None and may_pass(done.error) and not digest.startswith(UNREADABLE):
+        digest = f"{UNREADABLE}{type(done.error).__name__}"
+    if digest.startswith(UNREADABLE):  # whether it can be read now is not told by its look
+        look = replace(look, size=-1)
+    if done.error is None:
+        return ManifestEntry.of(look, digest, digest, number), _row(name, READ, "")
+    known, since = (before.row_sha256, before.sequence) if before else ("", number)
+    reason = printable(str(cause_in_entry(done.error)))
+    stays = "; an earlier reading stays" if known else ""
+    return ManifestEntry.of(look, digest, known, since, reason), _row(name, PENDING, f"{reason}{stays}")
 
 
 def _row(name: str, status: str, reason: str) -> dict[str, str]:

@@ -6,6 +6,7 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import astuple, dataclass, field
+from typing import Self
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.retraining.places import Look
@@ -39,6 +40,12 @@ class ManifestEntry:
     sequence: int
     reason: str = ""
     stamp: str = ""
+
+    @classmethod
+    def of(cls, look: Look, sha256: str, row_sha256: str, sequence: int, reason: str = "") -> Self:
+        """A file that was looked at, by the fields."""
+        seen = (look.size, look.mtime_ns, look.ctime_ns)
+        return cls(sha256, row_sha256, *seen, sequence, reason, look.stamp)
 
     @property
     def look(self) -> Look:

@@ -232,7 +232,7 @@ def _digest(content: bytes | OSError, sidecar: bytes | OSError) -> str:
     return total.hexdigest()
 
 
-def _read_file(read: Callable[[str | Path], TireModel], path: Path, digest: str) -> TireModel | None:
+def _read_file(read: Callable[[str | Path], TireModel], path: str, digest: str) -> TireModel | None:
     tire = read(path)
     return tire if fingerprint(path) == digest else None
 

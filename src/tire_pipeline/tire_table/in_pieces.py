@@ -96,14 +96,15 @@ class TableInPieces:
 
     def gathered(self, rows: int = PIECE_ROWS) -> Iterator[pd.DataFrame]:
         """The same table in pieces of about so many rows: for storing many small ones."""
-        some: list[pd.DataFrame] = []
-        for frame in self:
-            some.append(frame)
+        numbers, some = self.numbers, list[pd.DataFrame]()
+        for piece in self.pieces:
+            if piece.rows:
+                some.append(piece.load())
             if sum(map(len, some)) >= rows:
-                yield pd.concat(some, ignore_index=True)
+                yield as_in_whole(pd.concat(some, ignore_index=True), numbers)
                 some = []
         if some:
-            yield pd.concat(some, ignore_index=True)
+            yield as_in_whole(pd.concat(some, ignore_index=True), numbers)
 
 
 class Scratch:

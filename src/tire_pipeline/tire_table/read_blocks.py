@@ -14,13 +14,14 @@ from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import cause_in_entry, may_pass
 from tire_pipeline.file_names import printable
 from tire_pipeline.files.objects import UnreachableError
-from tire_pipeline.files.packed import as_parquet, from_parquet, pack, unpack
+from tire_pipeline.files.packed import as_parquet, from_parquet, member, pack, shape_of_parquet
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tire_table.from_models import from_models, join_tables
 
 Load = Callable[[], TireModel]
 FILES = 250
 """So many files are read together, about a second's work."""
+_TABLE, _ROWS = "table.parquet", "rows.json"
 
 
 class TablePart(bytes):
@@ -29,7 +30,7 @@ class TablePart(bytes):
     @property
     def failures(self) -> dict[str, str]:
         """File -> why it was set aside."""
-        return {row["file"]: row["reason"] for row in unpacked(self)[1] if row["status"] == "set aside"}
+        return {row["file"]: row["reason"] for row in rows_of(self) if row["status"] == "set aside"}
 
 
 class PassingPart(TablePart):
@@ -79,10 +80,9 @@ class ReadBlock:
 
     def join(self, parts: list[bytes]) -> TablePart:
         """What the blocks of :meth:`split` gave, as if this one had been done."""
-        found = [unpacked(part) for part in parts]
         kept = PassingPart if any(isinstance(part, PassingPart) for part in parts) else TablePart
         return _packed(
-            join_tables(table for table, _ in found), [row for _, rows in found for row in rows], kept
+            join_tables(map(table_of, parts)), [row for part in parts for row in rows_of(part)], kept
         )
 
     def lost(self, reason: str) -> TablePart:
@@ -120,14 +120,24 @@ def divided(files: Mapping[str, Load], most: int = FILES) -> dict[int, dict[str,
     return {number: block for number, block in enumerate(members) if block}
 
 
-def unpacked(part: bytes) -> tuple[pd.DataFrame, list[dict[str, Any]]]:
-    """The table and the rows of the report."""
-    members = unpack(part)
-    return from_parquet(members["table.parquet"]), json.loads(members["rows.json"])
+def table_of(part: bytes) -> pd.DataFrame:
+    """The table of a part."""
+    return from_parquet(member(part, _TABLE))
+
+
+def shape_of(part: bytes) -> tuple[int, list[str]]:
+    """How many rows the table of a part has, and its columns, without reading them."""
+    return shape_of_parquet(member(part, _TABLE))
+
+
+def rows_of(part: bytes) -> list[dict[str, Any]]:
+    """The rows of the report, one a file."""
+    found: list[dict[str, Any]] = json.loads(member(part, _ROWS))
+    return found
 
 
 def _packed(table: pd.DataFrame, rows: list[dict[str, Any]], kept: type[TablePart]) -> TablePart:
-    content = {"table.parquet": as_parquet(table), "rows.json": json.dumps(rows).encode()}
+    content = {_TABLE: as_parquet(table), _ROWS: json.dumps(rows).encode()}
     return kept(pack(content))
 
 

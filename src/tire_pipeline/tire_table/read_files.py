@@ -15,7 +15,7 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.progress import track
 from tire_pipeline.tire_table.in_pieces import Piece, TableInPieces, numbers_of
-from tire_pipeline.tire_table.read_blocks import ReadBlock, blocks_of, unpacked
+from tire_pipeline.tire_table.read_blocks import ReadBlock, blocks_of, rows_of, shape_of, table_of
 
 _LOG = logging.getLogger(__name__)
 NAMED_IN_LOG = 20
@@ -73,9 +73,10 @@ def join_files(
     pieces: list[Piece] = []
     rows: list[dict[str, Any]] = []
     for read in track(blocks.values(), "joining what was read", total=len(blocks)):
-        part, of_part = unpacked(read())
-        rows += of_part
-        pieces.append(Piece(len(part), numbers_of(part.columns), partial(_table_of, read)))
+        part = read()
+        count, columns = shape_of(part)
+        rows += rows_of(part)
+        pieces.append(Piece(count, numbers_of(columns), partial(_table_of, read)))
     report = pd.DataFrame(rows)
     report = report.sort_values("file", ignore_index=True)
     summary = _summary(report)
@@ -93,7 +94,7 @@ def join_files(
 
 
 def _table_of(read: Callable[[], bytes]) -> pd.DataFrame:
-    return unpacked(read())[0]
+    return table_of(read())
 
 
 def _summary(report: pd.DataFrame) -> dict[str, Any]:

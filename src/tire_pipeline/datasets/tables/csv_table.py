@@ -6,7 +6,7 @@ import pandas as pd
 from kedro_datasets._typing import TablePreview
 from kedro_datasets.pandas import CSVDataset
 
-from tire_pipeline.datasets.tables.previewed import few_digits
+from tire_pipeline.datasets.tables.previewed import readable
 from tire_pipeline.pages.safe_csv import original_table, safe_table
 
 
@@ -25,10 +25,10 @@ class CsvTableDataset(CSVDataset):
         super().save(safe_table(data))
 
     def preview(self, nrows: int = 5) -> TablePreview:
-        """Return the first rows for kedro-viz, with few digits.
+        """Return the first rows, for a person.
 
         Parameters
         ----------
         nrows : int
         """
-        return few_digits(super().preview(nrows))
+        return readable(super().preview(nrows))

@@ -1,4 +1,4 @@
-"""Tables whose preview in kedro-viz has the digits that a person reads."""
+"""Tables whose preview in kedro-viz is for a person: few digits, and every character is seen."""
 
 from __future__ import annotations
 
@@ -6,20 +6,23 @@ import pandas as pd
 from kedro_datasets._typing import TablePreview
 from kedro_datasets.pandas import ParquetDataset
 
+from tire_pipeline.pages.visible_text import visible_texts
+
 _PREVIEWED_DIGITS = 4
 
 
-def few_digits(shown: TablePreview) -> TablePreview:
-    """Return a preview of Kedro's with four significant digits of each float.
+def readable(shown: TablePreview) -> TablePreview:
+    r"""Return a preview of Kedro's with four significant digits of each float, and every character shown.
 
     Examples
     --------
-    >>> few_digits({"index": [0], "columns": ["PKY1", "files"], "data": [[-17.340312345, 3648]]})["data"]
-    [[-17.34, 3648]]
+    >>> readable({"index": [0], "columns": ["file", "PKY1"], "data": [["\u202ea", -17.340312345]]})["data"]
+    [['⟨U+202E⟩a', -17.34]]
     """
     table = pd.DataFrame(shown["data"], shown["index"], shown["columns"])
     floats = table.select_dtypes("float")
-    return TablePreview(table.assign(**floats.map(_rounded)).to_dict(orient="split"))
+    rounded = table.assign(**floats.map(_rounded)).to_dict(orient="split")
+    return TablePreview(visible_texts(rounded))
 
 
 def _rounded(value: float) -> float:
@@ -27,7 +30,7 @@ def _rounded(value: float) -> float:
 
 
 class ParquetTableDataset(ParquetDataset):
-    """``pandas.ParquetDataset`` with a preview of few digits."""
+    """``pandas.ParquetDataset`` with a preview for a person."""
 
     def preview(self, nrows: int = 5) -> TablePreview:
         """Return the first rows.
@@ -36,4 +39,4 @@ class ParquetTableDataset(ParquetDataset):
         ----------
         nrows : int
         """
-        return few_digits(super().preview(nrows))
+        return readable(super().preview(nrows))
