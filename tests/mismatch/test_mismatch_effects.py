@@ -95,7 +95,7 @@ def test_friction_keeps_the_slope_and_moves_the_peak(tire, record):
 def test_a_delay_moves_the_force_by_its_time(tire, record):
     data = prepare(tire, record()).data
     late = simulate(data, [("time_delay", {"delay": 0.2})])["fy"]
-    np.testing.assert_allclose(late[20:200], data.base["fy"][10:190], atol=1e-6)
+    np.testing.assert_allclose(late[20:200], data.base["fy"][15:195], atol=1e-6)
 
 
 def test_compliance_is_solved_where_the_force_turns_the_wheel_as_much_as_it_was_set(tire, record):

@@ -143,7 +143,7 @@ def test_what_differs_to_both_sides_is_not_said_by_a_small_mean(pressed, when, m
 
 def test_points_without_time_are_steady(tire, record):
     r = record(11)
-    points = r.iloc[::60].drop(columns="time")
+    points = r.iloc[::30].drop(columns="time")
     report = explain_mismatch(tire, points)
     assert report.verdict == "agrees"
     why = {c["name"]: c["why"] for c in report.candidates}

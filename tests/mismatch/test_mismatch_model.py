@@ -57,7 +57,7 @@ def test_sums_over_sweeps_add_up(tire, record):
 def test_forms_without_a_name_need_a_time_line(tire, record):
     recording = record(3)
     assert len(list(forms(prepare(tire, recording).data, []))) > 10
-    assert list(forms(prepare(tire, recording.iloc[::60].drop(columns="time")).data, [])) == []
+    assert list(forms(prepare(tire, recording.iloc[::30].drop(columns="time")).data, [])) == []
 
 
 @pytest.mark.parametrize("width", [0.003, 0.008])
@@ -111,7 +111,7 @@ def test_what_the_wheel_does_once_a_turn_does_not_repeat_at_twice_its_length(tir
 
 
 def test_a_short_way_says_nothing_about_what_repeats(tire, record):
-    data = prepare(tire, record(5).iloc[:600]).data
+    data = prepare(tire, record(5).iloc[:300]).data
     assert strongest_length(data, _seam(data, 6.7)) is None
 
 

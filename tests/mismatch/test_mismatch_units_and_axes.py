@@ -116,7 +116,7 @@ def test_a_camber_of_another_size_is_no_sign(cambered):
 
 
 def test_a_doubt_about_axes_that_the_forces_do_not_settle_stays_open(tire, record, tmp_path):
-    r = record(0, friction=0.9).iloc[:2500]
+    r = record(0, friction=0.9).iloc[:1250]
     path = tmp_path / "rig.csv"
     r.assign(normal_load=-r["normal_load"]).to_csv(path, index=False)
     report = explain_mismatch(tire, read_recording(path))

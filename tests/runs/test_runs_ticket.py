@@ -51,10 +51,10 @@ def test_a_second_run_says_who_holds_the_folder_and_leaves_everything(draw, runs
 @pytest.mark.slow
 def test_a_second_run_waits_if_asked_to(draw):
     first = draw("first")
-    clock = Clock(lambda now: first.end() if now > 1010 else None)
+    clock = Clock(lambda now: first.end() if now > 1003 else None)
     second = draw("second")
     wait_for_turn(second, clock, wait_seconds=20.0)
-    assert 1010 < clock.now < 1012
+    assert 1003 < clock.now < 1005
     second.check()
 
 

@@ -53,7 +53,8 @@ class DegreesWarning(UserWarning):
 
     Notes
     -----
-    A slip angle or camber beyond 1.6 rad (92 degrees) is one that no tire has; ``limits`` does not change that.
+    A slip angle or camber beyond 1.6 rad (92 degrees) is one that no tire has. It is told whatever ``limits``
+    are.
 
     Examples
     --------
