@@ -60,21 +60,6 @@ def test_forms_without_a_name_need_a_time_line(tire, record):
     assert list(forms(prepare(tire, recording.iloc[::30].drop(columns="time")).data, [])) == []
 
 
-@pytest.mark.parametrize("width", [0.003, 0.008])
-def test_backlash_does_not_become_a_delay(tire, record, width):
-    recording = record(4)
-    data = prepare(tire, recording).data
-    alpha = recording["slip_angle"].to_numpy()
-    start = np.zeros(alpha.size, bool)
-    start[0] = True
-    load = recording["normal_load"].to_numpy()
-    behind = tire.forces(slip_angle=play(data.get("slip_angle"), width, start), normal_load=load).fy
-    straight = tire.forces(slip_angle=data.get("slip_angle"), normal_load=load).fy
-    report = explain_mismatch(tire, recording.assign(fy=recording["fy"] + behind - straight))
-    assert report.effects == []
-    assert report.verdict == "unexplained"
-
-
 def test_a_slip_that_is_noise_only_makes_no_huge_columns(tire, record):
     """The even grid has no range of such a slip; coefficients that need one are not fitted there."""
     braked = tire.replace(
@@ -113,16 +98,6 @@ def test_what_the_wheel_does_once_a_turn_does_not_repeat_at_twice_its_length(tir
 def test_a_short_way_says_nothing_about_what_repeats(tire, record):
     data = prepare(tire, record(5).iloc[:300]).data
     assert strongest_length(data, _seam(data, 6.7)) is None
-
-
-def test_a_seam_of_the_drum_gets_no_name(tire, record):
-    """Its pulses have a mean, which alone would be conicity."""
-    recording = record(6)
-    data = prepare(tire, recording).data
-    pulses = 250.0 * _seam(data, 6.7) * data.get("normal_load") / 4000.0
-    report = explain_mismatch(tire, recording.assign(fy=recording["fy"] + pulses))
-    assert report.effects == []
-    assert report.verdict == "unexplained"
 
 
 def test_combined_slip_does_not_start_where_it_does_nothing(tire, record):

@@ -79,7 +79,14 @@ def cambered(tire):
 @pytest.mark.parametrize("gain", [1.07, pytest.param(1.0, marks=pytest.mark.long)])
 @pytest.mark.parametrize(
     "turned",
-    [("slip_angle", "fy"), ("fy",), ("camber",), ("slip_angle",), ("camber", "fy"), ("slip_angle", "camber")],
+    [
+        ("slip_angle", "fy"),
+        ("fy",),
+        ("camber",),
+        pytest.param(("slip_angle",), marks=pytest.mark.long),
+        pytest.param(("camber", "fy"), marks=pytest.mark.long),
+        ("slip_angle", "camber"),
+    ],
 )
 def test_axes_that_nobody_stated_are_the_finding_and_no_physics(cambered, turned, gain, tmp_path):
     tire, recording = cambered

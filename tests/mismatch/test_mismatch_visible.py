@@ -116,6 +116,7 @@ def test_what_is_said_to_be_seen_is_named(tire, record):
     assert np.mean(list(named.values())) >= 0.9, [k for k, ok in named.items() if not ok]
 
 
+@pytest.mark.long
 def test_what_is_said_to_be_seen_in_real_points_is_named():
     """The TYDEX points without camber, and a fit to them; rates: ``benchmarks/visible_sizes.py``."""
     tire, table, _ = points()
