@@ -6,6 +6,7 @@ that. What is marked long is for `make long`. CI runs `make test-and-checks`, wh
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,8 @@ _SLOW_FOLDERS = frozenset(
     ("cluster", "concealed", "mismatch", "notebooks", "object_storage", "pipelines", "thesis", "viz")
 )
 """Whole runs, browsers, simulators and explanations. Elsewhere the slow files say so themselves."""
+
+_SLOW_FILE = re.compile(r"^pytestmark = .*pytest\.mark\.slow\b", re.MULTILINE)
 
 _SHARE_WHAT_THEY_TEST = frozenset(("cluster", "translation"))
 """Folders whose files need the same workers or the same fitted models: they are done in one process."""
@@ -64,9 +67,13 @@ Of a folder that is done in one process the first file stands for all."""
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Do not import the slow folders where no slow test is wanted."""
-    slow = collection_path.parent == _HERE and collection_path.name in _SLOW_FOLDERS
-    return True if slow and "not slow" in config.option.markexpr else None
+    """Do not import slow folders and files where no slow test is wanted: that takes as long as the others."""
+    if "not slow" not in config.option.markexpr:
+        return None
+    if collection_path.parent == _HERE and collection_path.name in _SLOW_FOLDERS:
+        return True
+    test = collection_path.match("test_*.py")
+    return True if test and _SLOW_FILE.search(collection_path.read_text(encoding="utf-8")) else None
 
 
 @pytest.hookimpl(optionalhook=True)
