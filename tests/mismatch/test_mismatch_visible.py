@@ -79,7 +79,7 @@ def test_what_is_named_has_a_row_with_its_interval(tire, record):
 def test_more_noise_hides_more(tire, record):
     keys = (("force_offset", "fy"), ("sensor_drift", "fy"), ("time_delay", "delay"))
     without = _but(*(name for name, _ in keys), "low_pass", "relaxation_length", "nonuniformity")
-    calm, noisy = (_sizes(tire, record(23, noise=noise), without)[1] for noise in (20.0, 80.0))
+    calm, noisy = (_sizes(tire, record(23, noise=noise, rate=50.0), without)[1] for noise in (20.0, 80.0))
     for key in keys:
         assert calm[key].seen < noisy[key].seen
 
