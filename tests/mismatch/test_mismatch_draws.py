@@ -83,8 +83,8 @@ def _unexplained(tire, recording):
 
 
 def a_drum_with_a_seam(tire, record, seed):
-    """Its pulses have a mean, which alone would be conicity; the catalogue has no seam."""
-    recording = record(seed)
+    """Its pulses of 0.4 m have a mean, which alone would be conicity; the catalogue has no seam."""
+    recording = record(seed, rate=50.0)
     data = prepare(tire, recording).data
     pulse = np.exp(-0.5 * (((data.distance / 6.7) % 1.0 - 0.5) / 0.06) ** 2)
     seam = 250.0 * pulse * data.get("normal_load") / 4000.0
