@@ -8,6 +8,8 @@ EXTRAS ?= dev
 COMMA := ,
 export OMP_NUM_THREADS ?= 2
 export PYTHONUNBUFFERED = 1
+# What is imported is compiled once, not by each process that a command or a test starts.
+unexport PYTHONDONTWRITEBYTECODE
 # Two processes, each file of tests in one of them, by tests/conftest.py.
 TWO := -n 2 --dist loadfile --no-loadscope-reorder
 

@@ -6,6 +6,7 @@ that. What is marked long is for `make long`. CI runs `make test-and-checks`, wh
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -21,40 +22,58 @@ _SLOW_FOLDERS = frozenset(
 )
 """Whole runs, browsers, simulators and explanations. Elsewhere the slow files say so themselves."""
 
+_SLOW_FILE = re.compile(r"^pytestmark = .*pytest\.mark\.slow\b", re.MULTILINE)
+
 _SHARE_WHAT_THEY_TEST = frozenset(("cluster", "translation"))
 """Folders whose files need the same workers or the same fitted models: they are done in one process."""
 
 _LONGEST_FIRST = (
-    "mismatch/test_mismatch_explain.py",
     "translation/test_translation_learns_from_batch.py",
-    "mismatch/test_mismatch_effects.py",
     "thesis/test_thesis_run.py",
+    "pipelines/test_pipelines_small_run.py",
+    "mismatch/test_mismatch_effects.py",
+    "mismatch/test_mismatch_explain.py",
     "mismatch/test_mismatch_checks.py",
     "mismatch/test_mismatch_real_recordings.py",
-    "mismatch/test_mismatch_few_channels.py",
-    "pipelines/test_pipelines_small_run.py",
-    "docs/test_docs_site.py",
-    "mismatch/test_mismatch_units_and_axes.py",
-    "mismatch/test_mismatch_spent.py",
-    "mismatch/test_mismatch_usable.py",
+    "retraining/test_retraining_runs.py",
     "mismatch/test_mismatch_visible.py",
+    "cluster/test_cluster_map.py",
+    "magic_formula/test_magic_formula_fit.py",
+    "mismatch/test_mismatch_posterior.py",
+    "mismatch/test_mismatch_model.py",
     "viz/test_viz_browser.py",
     "viz/test_viz_pages.py",
-    "cluster/test_cluster_map.py",
+    "docs/test_docs_site.py",
+    "mismatch/test_mismatch_units_and_axes.py",
+    "mismatch/test_mismatch_few_channels.py",
+    "mismatch/test_mismatch_brake_sweeps.py",
     "mismatch/test_mismatch_flat_belt.py",
-    "retraining/test_retraining_runs.py",
+    "mismatch/test_mismatch_usable.py",
     "pipelines/test_pipelines_explain.py",
     "pipelines/test_pipelines_bad_input.py",
     "pipelines/test_pipelines_public_files.py",
-    "mismatch/test_mismatch_model.py",
-    "notebooks/test_notebooks_run.py",
-    "mismatch/test_mismatch_brake_sweeps.py",
-    "mismatch/test_mismatch_lags.py",
-    "mismatch/test_mismatch_guard.py",
-    "mismatch/test_mismatch_rates.py",
-    "fleet/test_fleet_bias.py",
-    "docs/test_docs_snippets.py",
+    "pipelines/test_pipelines_reader_dies.py",
     "runs/test_runs_namespaces.py",
+    "mismatch/test_mismatch_several.py",
+    "mismatch/test_mismatch_guard.py",
+    "mismatch/test_mismatch_real_long.py",
+    "notebooks/test_notebooks_run.py",
+    "docs/test_docs_snippets.py",
+    "magic_formula/test_magic_formula_subsets.py",
+    "concealed/test_concealed_cases.py",
+    "concealed/test_concealed_baselines.py",
+    "command/test_command.py",
+    "command/test_command_translate.py",
+    "mismatch/test_mismatch_lags.py",
+    "mismatch/test_mismatch_another_tire.py",
+    "mismatch/test_mismatch_nested.py",
+    "mismatch/test_mismatch_unnamed.py",
+    "mismatch/test_mismatch_noise_and_places.py",
+    "mismatch/test_mismatch_alternatives.py",
+    "mismatch/test_mismatch_rates.py",
+    "recordings/test_recordings_axle_simulated.py",
+    "fleet/test_fleet_bias.py",
+    "magic_formula/test_magic_formula_compiled.py",
     "magic_formula/test_magic_formula_gradients.py",
     "concealed/test_concealed_second.py",
 )
@@ -64,9 +83,13 @@ Of a folder that is done in one process the first file stands for all."""
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Do not import the slow folders where no slow test is wanted."""
-    slow = collection_path.parent == _HERE and collection_path.name in _SLOW_FOLDERS
-    return True if slow and "not slow" in config.option.markexpr else None
+    """Do not import slow folders and files where no slow test is wanted: that takes as long as the others."""
+    if "not slow" not in config.option.markexpr:
+        return None
+    if collection_path.parent == _HERE and collection_path.name in _SLOW_FOLDERS:
+        return True
+    test = collection_path.match("test_*.py")
+    return True if test and _SLOW_FILE.search(collection_path.read_text(encoding="utf-8")) else None
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -54,6 +54,12 @@ def _modules() -> dict[str, ast.Module]:
     return {name: module for name, module in every.items() if "__pycache__" not in name}
 
 
+@cache
+def _nodes(module: ast.Module) -> tuple[ast.AST, ...]:
+    """All nodes of a module's tree, which several tests look at."""
+    return tuple(ast.walk(module))
+
+
 def _written() -> dict[str, ast.Module]:
     """All but the sealed simulators."""
     return {name: module for name, module in _modules().items() if not name.startswith(SEALED)}
@@ -125,20 +131,28 @@ def test_no_two_modules_a_letter_apart():
 def test_no_metaphors():
     found = set()
     for module in _written().values():
-        named = {each.name for each in ast.walk(module) if isinstance(each, ast.FunctionDef | ast.ClassDef)}
-        named |= {each.id for each in ast.walk(module) if isinstance(each, ast.Name)}
-        named |= {each.attr for each in ast.walk(module) if isinstance(each, ast.Attribute)}
-        named |= {each.arg or "" for each in ast.walk(module) if isinstance(each, ast.arg | ast.keyword)}
+        named = {each.name for each in _nodes(module) if isinstance(each, ast.FunctionDef | ast.ClassDef)}
+        named |= {each.id for each in _nodes(module) if isinstance(each, ast.Name)}
+        named |= {each.attr for each in _nodes(module) if isinstance(each, ast.Attribute)}
+        named |= {each.arg or "" for each in _nodes(module) if isinstance(each, ast.arg | ast.keyword)}
         found |= {name for name in named if set(name.lower().split("_")) & METAPHORS}
     assert found == set()
 
 
+@cache
+def _tests() -> dict[str, ast.Module]:
+    here = Path(__file__).parent
+    return {
+        path.relative_to(here).as_posix(): ast.parse(path.read_text(encoding="utf-8"))
+        for path in here.rglob("*.py")
+    }
+
+
 def test_tests_import_public_names_only():
-    tests = Path(__file__).parent
     found = {
-        f"{path.relative_to(tests)}: {alias.name}"
-        for path in tests.rglob("*.py")
-        for each in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        f"{path}: {alias.name}"
+        for path, module in _tests().items()
+        for each in _nodes(module)
         if isinstance(each, ast.ImportFrom) and (each.module or "").startswith("tire_pipeline")
         for alias in each.names
         if alias.name.startswith("_") and not alias.name.startswith("__")
@@ -157,27 +171,28 @@ def _private(name: str) -> bool:
 def _reached(module: ast.Module) -> set[str]:
     """Private members of other objects that a module reads, or puts something in place of."""
     found = set()
-    for each in ast.walk(module):
+    for each in _nodes(module):
         if isinstance(each, ast.Attribute) and not (
             isinstance(each.value, ast.Name) and each.value.id in ("self", "cls")
         ):
             found.add(each.attr)
-        if isinstance(each, ast.Call) and ast.unparse(each.func).endswith("setattr"):
+        called = each.func if isinstance(each, ast.Call) else None
+        if (isinstance(called, ast.Attribute) and called.attr == "setattr") or (
+            isinstance(called, ast.Name) and called.id == "setattr"
+        ):
             texts = [str(a.value) for a in each.args if isinstance(a, ast.Constant)]
             found |= {text.rpartition(".")[2] for text in texts}
     return {name for name in found if _private(name)}
 
 
 def test_tests_reach_for_no_private_member():
-    tests = Path(__file__).parent
-    modules = {path: ast.parse(path.read_text(encoding="utf-8")) for path in tests.rglob("*.py")}
-    found = {path.relative_to(tests).as_posix(): _reached(module) for path, module in modules.items()}
+    found = {path: _reached(module) for path, module in _tests().items()}
     assert {path: names for path, names in found.items() if names} == {}
 
 
 def _written_out(module: ast.Module, names: set[str]) -> bool:
     """Whether a list of these names stands in the module, whatever else is in it."""
-    lists = [each for each in ast.walk(module) if isinstance(each, ast.Tuple | ast.List | ast.Set)]
+    lists = [each for each in _nodes(module) if isinstance(each, ast.Tuple | ast.List | ast.Set)]
     return any(names <= {e.value for e in each.elts if isinstance(e, ast.Constant)} for each in lists)
 
 
@@ -224,8 +239,8 @@ SEALED_RIG = "concealed.brush_rig."
 
 def test_forces_and_their_slips_are_listed_once():
     modules = {name: each for name, each in _written().items() if not name.startswith(SEALED_RIG)}
-    lists = [name for name, each in modules.items() if any(map(_list_of_forces, ast.walk(each)))]
-    maps = [name for name, each in modules.items() if any(map(_map_of_force_and_slip, ast.walk(each)))]
+    lists = [name for name, each in modules.items() if any(map(_list_of_forces, _nodes(each)))]
+    maps = [name for name, each in modules.items() if any(map(_map_of_force_and_slip, _nodes(each)))]
     assert set(lists) == {"channels"}
     assert maps == ["channels"] * len(maps)
 

@@ -71,6 +71,24 @@ class TirError(TirePipelineError, ValueError):
         The line, counted from 1.
     key : str, optional
         The coefficient or key concerned.
+
+    See Also
+    --------
+    tire_pipeline.tir.read_tir : Raises it where a file cannot be read.
+    tire_pipeline.tir.write_tir : Raises it where a model cannot be written.
+
+    Notes
+    -----
+    It is a ``ValueError``, too. What it says ends with what to do.
+
+    Examples
+    --------
+    >>> from tire_pipeline.tir import TirError, read_tir
+    >>> try:
+    ...     read_tir("not_there.tir")
+    ... except TirError as error:
+    ...     print(error)
+    not_there.tir: cannot be read: No such file or directory -> check the path and its permissions
     """
 
     def __init__(

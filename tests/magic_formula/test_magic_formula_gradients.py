@@ -71,6 +71,7 @@ def read_only(package: Path) -> None:
     (package / PLACE / "__pycache__").write_text("")
 
 
+@pytest.mark.slow
 def test_the_code_lies_where_compiled_code_lies(package, tmp_path):
     file, found = answer(started(package, tmp_path / "cache", TIRE_PIPELINE_NO_NUMBA="1"))
     assert Path(file).parent == package / PLACE / "__pycache__"
@@ -96,6 +97,7 @@ def test_where_nothing_can_be_written_derivatives_are_there_all_the_same(package
     np.testing.assert_allclose(found, expected(), rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_processes_that_start_at_once_write_the_same_whole_file(package, tmp_path):
     several = [started(package, tmp_path / "cache", TIRE_PIPELINE_NO_NUMBA="1") for _ in range(3)]
     answers = [answer(process) for process in several]

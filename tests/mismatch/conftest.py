@@ -28,9 +28,11 @@ def braked(tire) -> TireModel:
 def record(tire):
     """Return a function that records the rig: ``record(friction=array or number, ...)``."""
 
-    def run(seed=0, friction=1.0, stiffness=1.0, pressure_effect=0.0, offset=0.0, delay=0.0, noise=25.0):
+    def run(
+        seed=0, friction=1.0, stiffness=1.0, pressure_effect=0.0, offset=0.0, delay=0.0, noise=25.0, rate=25.0
+    ):
         rng = np.random.default_rng(seed)
-        t, alpha, load, pressure = schedule()
+        t, alpha, load, pressure = schedule(rate=rate)
         d = (pressure - 2.2e5) / 2.2e5
         fy = rig_force(tire, alpha, load, friction * (1.0 + pressure_effect * d), stiffness)
         if delay:

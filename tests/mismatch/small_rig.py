@@ -17,6 +17,9 @@ COEFFICIENTS = {
     "PKY2": 2.1,
 }
 
+LOAD_LAG = 0.24
+"""Of the load behind what was asked for, s."""
+
 
 def rig_force(tire, alpha, load, friction=1.0, stiffness=1.0):
     """The tire's force with another friction and stiffness, and the misfit that fitted models have."""
@@ -25,15 +28,17 @@ def rig_force(tire, alpha, load, friction=1.0, stiffness=1.0):
     return plain + 0.006 * load * wave * np.abs(alpha) / (np.abs(alpha) + 0.03)
 
 
-def schedule(seconds=150.0, rate=50.0):
+def schedule(seconds=150.0, rate=25.0):
+    """Return time (s), slip angle (rad), normal load (N) and pressure (Pa) at ``rate`` samples per second."""
     t = np.arange(0.0, seconds, 1.0 / rate)
     period = 7.5
     triangle = 2.0 * np.abs(2.0 * ((t / period + 0.25) % 1.0) - 1.0) - 1.0
     alpha = -0.18 * triangle
     level = np.array([3000.0, 5500.0, 1800.0, 4200.0])[(t // (2 * period)).astype(int) % 4]
+    step = 1.0 - np.exp(-1.0 / (rate * LOAD_LAG))
     load = np.empty_like(level)
     load[0] = level[0]
     for i in range(1, load.size):
-        load[i] = load[i - 1] + 0.08 * (level[i] - load[i - 1])
+        load[i] = load[i - 1] + step * (level[i] - load[i - 1])
     pressure = np.where((t > 50.0) & (t < 85.0), 1.85e5, np.where(t >= 85.0, 2.6e5, 2.2e5))
     return t, alpha, load, pressure

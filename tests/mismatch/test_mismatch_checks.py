@@ -93,7 +93,7 @@ def test_not_a_frame(tire):
         (lambda r: r.assign(fy=-r["fy"]), "sign_convention"),
         (lambda r: r.assign(slip_angle=-r["slip_angle"]), "sign_convention"),
         (
-            lambda r: r.assign(fy=r["fy"].where(~r["time"].between(60, 90), r["fy"].iloc[3000])),
+            lambda r: r.assign(fy=r["fy"].where(~r["time"].between(60, 90), r["fy"].iloc[1500])),
             "stuck_channel",
         ),
     ],
@@ -124,7 +124,7 @@ def test_what_reaches_its_limit_once_is_clipped_and_not_stuck(tire, record):
     r = record()
     wrong = r[r["time"] < 22.0].assign(fy=lambda r: np.minimum(r["fy"], 4800.0))
     at_limit = (wrong["fy"] == 4800.0).to_numpy()
-    assert at_limit.sum() > 100
+    assert at_limit.sum() > 50
     assert np.count_nonzero(np.diff(at_limit.astype(int)) == 1) == 1
     assert [f.name for f in prepare(tire, wrong).findings] == ["clipping"]
 
@@ -173,8 +173,8 @@ def test_a_slip_that_is_next_to_nothing_is_written_as_nothing():
 
 def test_gaps_and_missing_blocks_are_no_physics(tire, record):
     r = record()
-    r = pd.concat([r.iloc[:2000], r.iloc[2600:]], ignore_index=True)
-    r.loc[3000:3400, "fy"] = np.nan
+    r = r[~r["time"].between(40.0, 52.0)].reset_index(drop=True)
+    r.loc[r["time"].between(72.0, 80.0), "fy"] = np.nan
     report = explain_mismatch(tire, r)
     assert report.effects == []
     assert any("gap" in n for n in report.notes)

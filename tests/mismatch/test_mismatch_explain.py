@@ -16,8 +16,8 @@ from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
 
 _LONG = pytest.mark.long
-ABOVE = (3, 6, 8)
-"""Examples of what is found in the small rig's recordings, too: pressure, friction and a delay."""
+IN_CI = (1, 2)
+"""A relaxation, and a temperature without its channel; tests of its own have what else is in the examples."""
 
 
 def names(report):
@@ -30,9 +30,8 @@ def pressed(tire, record):
     return explain_mismatch(tire, record(3, pressure_effect=-0.35))
 
 
-@pytest.mark.parametrize("seed", [0, 1])
-def test_nothing_missing_agrees(tire, record, seed):
-    report = explain_mismatch(tire, record(seed))
+def test_nothing_missing_agrees(tire, record):
+    report = explain_mismatch(tire, record(0))
     assert report.verdict == "agrees"
     assert report.effects == []
     assert report.corrected.changes == ()
@@ -143,7 +142,7 @@ def test_what_differs_to_both_sides_is_not_said_by_a_small_mean(pressed, when, m
 
 def test_points_without_time_are_steady(tire, record):
     r = record(11)
-    points = r.iloc[::60].drop(columns="time")
+    points = r.iloc[::30].drop(columns="time")
     report = explain_mismatch(tire, points)
     assert report.verdict == "agrees"
     why = {c["name"]: c["why"] for c in report.candidates}
@@ -169,7 +168,7 @@ def test_tydex_camber_is_found_and_halves_the_error():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("number", [pytest.param(n, marks=_LONG if n in ABOVE else ()) for n in range(10)])
+@pytest.mark.parametrize("number", [pytest.param(n, marks=() if n in IN_CI else _LONG) for n in range(10)])
 def test_the_ten_examples_are_read_right(examples, number):
     folder, labels = examples
     name = f"example{number:02d}"

@@ -121,8 +121,8 @@ def test_an_effect_is_not_put_into_a_recording_that_lacks_its_channel(tire, reco
     ("source", "most"),
     [
         ("tydex", 2),
-        ("calspan", 1),
         ("dart", 1),
+        pytest.param("calspan", 1, marks=pytest.mark.long),
         pytest.param("dart", 2, marks=pytest.mark.long),
         pytest.param("simulated", 1, marks=pytest.mark.long),
     ],

@@ -12,12 +12,18 @@ from tire_pipeline.mismatch.inference.sets.answer import LEVEL
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.recording.prepare import prepare
+from tire_pipeline.mismatch.report.assemble import assembled
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 
 
 @pytest.fixture(scope="module")
 def softer(tire, record):
     return Explainer().weigh(tire, record(3, friction=0.9))
+
+
+@pytest.fixture(scope="module")
+def report(softer):
+    return assembled(softer)
 
 
 def test_what_makes_unseen_sweeps_better_is_put_in(softer):
@@ -78,15 +84,14 @@ def test_the_next_experiment_separates_what_is_open(tire, record):
     assert next_experiment(it.analysis, one, plain) == ""
 
 
-def test_probabilities_in_the_report_hold_95_percent(softer, tire, record):
-    report = explain_mismatch(tire, record(3, friction=0.9))
+def test_probabilities_in_the_report_hold_95_percent(report):
     total = sum(p for _, p in report.probabilities)
     assert 0.95 < total <= 1.0 + 1e-9
     assert report.probabilities[0][0] == ("friction_scale",)
     assert np.all(np.diff([p for _, p in report.probabilities]) <= 0.0)
 
 
-def test_a_correction_from_one_side_says_that_nothing_proves_it_on_the_other(tire, record):
+def test_a_correction_from_one_side_says_that_nothing_proves_it_on_the_other(tire, record, report):
     both = record(3, friction=0.9)
-    said = [explain_mismatch(tire, r).notes for r in (both[both["slip_angle"] > -0.01], both)]
-    assert ["to one side" in " ".join(notes) for notes in said] == [True, False]
+    one_side = explain_mismatch(tire, both[both["slip_angle"] > -0.01])
+    assert ["to one side" in " ".join(each.notes) for each in (one_side, report)] == [True, False]

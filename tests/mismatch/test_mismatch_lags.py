@@ -6,18 +6,18 @@ import numpy as np
 import pandas as pd
 import pytest
 from mismatch_shared import shared
+from weighed import named_sets
 
 from tire_pipeline.magic_formula import fit_magic_formula
-from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.recordings import DART_CAR, axle_recording, read_dart, read_recording
 
 AXLE = ["slip_angle", "normal_load", "fy"]
+_LONG = pytest.mark.long
 IN_TIME = {"time_delay", "low_pass"}
 
 
-def relaxation_alone(report):
+def relaxation_alone(sets):
     """Sets in which a relaxation is named without the lags in time that look like it."""
-    sets = [set(names) for names, _ in report.sets]
     return [names for names in sets if "relaxation_length" in names and not IN_TIME & names]
 
 
@@ -29,7 +29,7 @@ def belt():
     return fit_magic_formula(flat.iloc[::5][channels], unloaded_radius=0.2).model, flat
 
 
-@pytest.mark.parametrize("delay", [0.02, 0.04, 0.08])
+@pytest.mark.parametrize("delay", [pytest.param(0.02, marks=_LONG), 0.04, pytest.param(0.08, marks=_LONG)])
 def test_a_delay_at_one_speed_is_no_relaxation_by_itself(belt, delay):
     tire, flat = belt
     time, force = flat["time"].to_numpy(), flat["fy"].to_numpy()
@@ -38,8 +38,8 @@ def test_a_delay_at_one_speed_is_no_relaxation_by_itself(belt, delay):
     for number in np.unique(piece):
         here = piece == number
         late[here] = np.interp(time[here] - delay, time[here], force[here])
-    report = explain_mismatch(tire, flat.assign(fy=late).iloc[::5].reset_index(drop=True))
-    assert relaxation_alone(report) == []
+    sets = named_sets(tire, flat.assign(fy=late).iloc[::5].reset_index(drop=True))
+    assert relaxation_alone(sets) == []
 
 
 def steered(command):
@@ -59,7 +59,9 @@ def front_axle(path, rate):
     return axle_recording(drive, DART_CAR, "front", rate=rate)[["time", "speed", *AXLE]]
 
 
-@pytest.mark.parametrize(("rate", "fitted"), [(None, "ramps"), (None, "drive"), (20.0, "drive")])
+@pytest.mark.parametrize(
+    ("rate", "fitted"), [(None, "ramps"), (None, "drive"), pytest.param(20.0, "drive", marks=_LONG)]
+)
 def test_a_steering_actuator_that_lags_is_no_relaxation_of_the_tire(rate, fitted):
     """Its 0.13 s were a relaxation of 0.37 to 1.87 m on a wheel of 0.023 m, without an alternative."""
     folder = shared("recordings/dart")
@@ -67,5 +69,5 @@ def test_a_steering_actuator_that_lags_is_no_relaxation_of_the_tire(rate, fitted
     ramps = sorted((folder / "rubber_floor_ramps").glob("*.csv"))[::2]
     drive = front_axle(file, rate)
     rows = drive if fitted == "drive" else pd.concat([front_axle(p, rate) for p in ramps], ignore_index=True)
-    report = explain_mismatch(fit_magic_formula(rows[AXLE], unloaded_radius=0.023).model, drive)
-    assert relaxation_alone(report) == []
+    sets = named_sets(fit_magic_formula(rows[AXLE], unloaded_radius=0.023).model, drive)
+    assert relaxation_alone(sets) == []

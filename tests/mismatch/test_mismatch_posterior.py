@@ -214,10 +214,10 @@ def test_hypotheses_without_mass_change_no_score(cases, tuning):
 def test_a_prior_of_the_user_takes_the_place_of_the_stated_one(tire, record):
     recording = record(2, friction=0.88)
     narrow = Explainer(priors={"friction_scale": {"friction": 1e-4}, "force_gain": {"fy": 1e-4}})
-    names = {n for group, _ in narrow.explain(tire, recording).sets for n in group}
+    names = {n for group, _ in narrow.weigh(tire, recording).answer.sets for n in group}
     assert not names & {"friction_scale", "force_gain"}
     with pytest.raises(RecordingError, match="the catalogue has no warp"):
-        Explainer(priors={"warp": {}}).explain(tire, recording)
+        Explainer(priors={"warp": {}}).weigh(tire, recording)
 
 
 def test_what_is_learnt_is_named_and_finite():

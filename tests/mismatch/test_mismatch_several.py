@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.several import predict_held_out
 
 @pytest.fixture(scope="module")
 def together(tire, record):
-    runs = {name: record(seed, friction=0.88).iloc[:5000] for name, seed in (("a", 5), ("b", 6), ("c", 7))}
+    runs = {name: record(seed, friction=0.88).iloc[:2500] for name, seed in (("a", 5), ("b", 6), ("c", 7))}
     return explain_recordings(tire, runs, held_out="b"), runs
 
 
@@ -36,7 +36,7 @@ def test_what_two_recordings_share_is_found_and_predicts_the_third(together):
 
 def test_the_held_out_recording_takes_no_part(tire, together, record):
     report, runs = together
-    other = {**runs, "b": record(8, friction=1.3).iloc[:5000]}
+    other = {**runs, "b": record(8, friction=1.3).iloc[:2500]}
     again = explain_recordings(tire, other, held_out="b")
     assert again.corrected.changes == report.corrected.changes
     assert again.held_out.errors["fy"].ratio_low > 1.0
@@ -68,7 +68,7 @@ def test_moments_and_samples_without_numbers(together, record):
 
 
 def test_a_name_that_is_not_there_and_nothing_left_are_errors(tire, record):
-    one = record(1).iloc[:3000]
+    one = record(1).iloc[:1500]
     with pytest.raises(RecordingError, match="no recording 'x' to hold out"):
         explain_recordings(tire, {"a": one, "b": one}, held_out="x")
     with pytest.raises(RecordingError, match="only recording is held out"):

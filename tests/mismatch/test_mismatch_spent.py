@@ -16,7 +16,6 @@ from tire_pipeline.concealed import make_case
 from tire_pipeline.concealed.scoring.score import share_row
 
 CASES = pd.read_csv(Path(__file__).with_name("spent_cases.csv"))
-SLICE = CASES.iloc[::12]
 
 
 def _rates(cases: pd.DataFrame) -> dict[str, float]:
@@ -35,13 +34,6 @@ def _rates(cases: pd.DataFrame) -> dict[str, float]:
         print(f"{name}: {row['value']:.3f} ({row['low']:.3f} to {row['high']:.3f}) of {row['n']}")
     print(*misses, sep="\n")
     return {"right": sum(right) / len(right), "clean": sum(clean) / len(clean)}
-
-
-@pytest.mark.slow
-def test_a_twelfth_of_the_spent_cases_is_mostly_right():
-    rates = _rates(SLICE)
-    assert rates["right"] >= 0.75
-    assert rates["clean"] >= 0.75
 
 
 @pytest.mark.long

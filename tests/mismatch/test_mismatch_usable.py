@@ -28,6 +28,7 @@ def ruined(slip, time, how, size=1.0):
     return slip + 1.5 * spread * noise / noise.std()
 
 
+_LONG = pytest.mark.long
 RUINS = [("shuffled", 1.0), ("smoothed", 20.0), ("still", 1.0), ("noise", 1.0), ("slow noise", 2.0)]
 
 
@@ -57,7 +58,10 @@ def test_a_drive_whose_slip_is_worth_nothing_is_unusable(free_drive, how, size, 
     check_unusable(explain_mismatch(tire, drive.assign(slip_angle=slip)), tmp_path)
 
 
-@pytest.mark.parametrize(("how", "size"), RUINS)
+@pytest.mark.parametrize(
+    ("how", "size"),
+    [ruin if ruin[0] in ("noise", "slow noise") else pytest.param(*ruin, marks=_LONG) for ruin in RUINS],
+)
 def test_nor_does_a_model_help_that_was_fitted_to_it(free_drive, how, size, tmp_path):
     """Of the log in the issue eight fits were tried."""
     _, drive = free_drive
@@ -66,7 +70,10 @@ def test_nor_does_a_model_help_that_was_fitted_to_it(free_drive, how, size, tmp_
     check_unusable(explain_mismatch(fit_magic_formula(wrong[AXLE]).model, wrong), tmp_path)
 
 
-@pytest.mark.parametrize(("how", "size"), RUINS)
+@pytest.mark.parametrize(
+    ("how", "size"),
+    [ruin if ruin[0] in ("shuffled", "slow noise") else pytest.param(*ruin, marks=_LONG) for ruin in RUINS],
+)
 def test_a_rig_sweep_whose_slip_is_worth_nothing_is_unusable(tire, record, how, size, tmp_path):
     r = record(0)
     slip = ruined(r["slip_angle"].to_numpy(), r["time"].to_numpy(), how, size)

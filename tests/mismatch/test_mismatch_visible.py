@@ -79,7 +79,7 @@ def test_what_is_named_has_a_row_with_its_interval(tire, record):
 def test_more_noise_hides_more(tire, record):
     keys = (("force_offset", "fy"), ("sensor_drift", "fy"), ("time_delay", "delay"))
     without = _but(*(name for name, _ in keys), "low_pass", "relaxation_length", "nonuniformity")
-    calm, noisy = (_sizes(tire, record(23, noise=noise), without)[1] for noise in (20.0, 80.0))
+    calm, noisy = (_sizes(tire, record(23, noise=noise, rate=50.0), without)[1] for noise in (20.0, 80.0))
     for key in keys:
         assert calm[key].seen < noisy[key].seen
 
@@ -116,6 +116,7 @@ def test_what_is_said_to_be_seen_is_named(tire, record):
     assert np.mean(list(named.values())) >= 0.9, [k for k, ok in named.items() if not ok]
 
 
+@pytest.mark.long
 def test_what_is_said_to_be_seen_in_real_points_is_named():
     """The TYDEX points without camber, and a fit to them; rates: ``benchmarks/visible_sizes.py``."""
     tire, table, _ = points()

@@ -66,7 +66,7 @@ def drive_of(vehicle, speed, steer, stiffness, friction, noise, yaw_noise, seed,
         ]
 
     t = np.arange(0, seconds, 0.01)
-    s = solve_ivp(rhs, (0, seconds), np.zeros(5), t_eval=t, rtol=1e-7, atol=1e-8, max_step=0.1).y
+    s = solve_ivp(rhs, (0, seconds), np.zeros(5), t_eval=t, method="LSODA", rtol=1e-8, atol=1e-9).y
     front, rear, fyf, fyr = forces(t, s[3], s[4])
     ahead = vehicle.marker_offset - b
     heading = s[2]

@@ -117,7 +117,7 @@ def test_fit_leaves_a_tire_without_finite_curves_alone(table):
 def test_key_attributes_are_those_of_the_curve(seed):
     table = synthetic_table(seed=seed)
     features = make_representation("key_attributes").encode(table)
-    slip = np.linspace(0, 0.25, 20001)
+    slip = np.linspace(0, 0.25, 5001)
     curve = -lateral_force(lateral_factors(table, CURVE_LOADS), slip)
     np.testing.assert_allclose(features[:, 3:6], curve.max(axis=-1), rtol=1e-6)
     np.testing.assert_allclose(features[:, 6:], slip[curve.argmax(axis=-1)], atol=5e-5)

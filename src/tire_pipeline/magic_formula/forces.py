@@ -38,7 +38,29 @@ _NUMBERS = frozenset((float, int, np.float64))
 
 
 class MissingRadiusWarning(UserWarning):
-    """Moments are NaN because the model has no ``UNLOADED_RADIUS``."""
+    """Moments are NaN because the model has no ``UNLOADED_RADIUS``.
+
+    See Also
+    --------
+    tire_pipeline.magic_formula.TireModel.forces : Its ``outputs`` say what is wanted; forces need no radius.
+    tire_pipeline.tir.read_tir : Takes the radius (m) where a file lacks it.
+
+    Notes
+    -----
+    Moments, the pneumatic trail and the relaxation lengths are in proportion to the radius. In MF 6.1 and 6.2
+    the relaxation lengths follow from the stiffness of the carcass where the file has it.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from tire_pipeline.magic_formula import TireModel
+    >>> given = {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1, "PKY1": -20, "PKY2": 2}
+    >>> tire = TireModel.from_coefficients(given)
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     forces = tire.forces(slip_angle=0.05, normal_load=4000.0, outputs=("fy", "mz"))
+    >>> print(told[0].message)
+    the model has no UNLOADED_RADIUS: mz are NaN; state the radius (m) by model.replace(...
+    """
 
 
 @dataclass(frozen=True)

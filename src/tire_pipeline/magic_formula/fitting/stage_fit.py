@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -87,6 +87,16 @@ class Outcome:
 
 
 @dataclass(frozen=True)
+class _StageSearch:
+    """Where a search over some coefficients ended, and the RMS of the residuals that is left there."""
+
+    problem: Problem
+    bounds: Bounds
+    values: np.ndarray
+    left: float
+
+
+@dataclass(frozen=True)
 class _StageProblem:
     """A stage's problem over some of its coefficients, and where its searches start."""
 
@@ -121,6 +131,35 @@ class _StageProblem:
         drawn = starting_points(begin, bounds, problem.pull.spread, number, self.rng)
         more = [[seed.coefficients.get(n, self.typical[n]) for n in problem.names] for seed in self.seeds]
         return [*drawn, *(np.clip(values, *bounds) for values in more)]
+
+    def search(self, free: Sequence[str], number: int, begin: Sequence[np.ndarray] = ()) -> _StageSearch:
+        """Search over these from so many starts that are drawn, the seeds, and others."""
+        problem, bounds = self.problem(free)
+        values = least(problem, bounds, [*begin, *self.starts(problem, bounds, number)])
+        return _StageSearch(problem, bounds, values, problem.misfit(values))
+
+    def wider_search(self, found: _StageSearch, free: Sequence[str], number: int) -> _StageSearch:
+        """Search over more coefficients, from where another search ended, too."""
+        ended = dict(zip(found.problem.names, found.values, strict=True))
+        return self.search(free, number, [np.array([ended.get(n, self.typical[n]) for n in free])])
+
+
+def _typical_and_first(
+    stage: Stage,
+    names: Sequence[str],
+    model: TireModel,
+    here: Mapping[str, np.ndarray],
+    measured: np.ndarray,
+    from_start: bool,
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Values that a tire has if the points say nothing, and those that they suggest."""
+    typical = typical_values(list(names), model, from_start)
+    first = dict(typical) if from_start else first_values(stage, typical, here, measured)
+    typical.update({n: first[n] for n in ("PKY1", "PKX1", "QDZ1") if n in first})
+    for name in ("PDY1", "PDX1"):
+        if name in typical:
+            typical[name] = max(typical[name], first[name])
+    return typical, first
 
 
 def fit_stage(
@@ -162,35 +201,26 @@ def fit_stage(
     Outcome
     """
     closed = open_coefficients(tuple(names), ranges, model.value("FNOMIN"))
-    typical = typical_values(list(names), model, options.from_start)
-    first = dict(typical) if options.from_start else first_values(stage, typical, here, measured)
-    typical.update({n: first[n] for n in ("PKY1", "PKX1", "QDZ1") if n in first})
-    for name in ("PDY1", "PDX1"):
-        if name in typical:
-            typical[name] = max(typical[name], first[name])
+    typical, first = _typical_and_first(stage, names, model, here, measured, options.from_start)
     silent = noise_alone(tuple(names), ranges, model.value("FNOMIN"))
     known = {n for group in closed.values() for n in group}
     rows = [np.ascontiguousarray(here[name]) for name in POINT_CHANNELS]
     setup = _StageProblem(stage, names, model, rows, measured, typical, first, known, seeds, options.rng)
-    free = [name for name in names if name not in known]
-    problem, bounds = setup.problem(free)
-    best = least(problem, bounds, setup.starts(problem, bounds, options.starts))
-    reached = lowest = problem.misfit(best)
+    found = setup.search([name for name in names if name not in known], options.starts)
+    lowest = found.left
     exact = _EXACT_SHARE * float(np.abs(measured).max())
     released: dict[str, list[str]] = {}
-    if known - silent and reached > exact and not are_few(problem):
+    if known - silent and found.left > exact and not are_few(found.problem):
         every = [name for name in names if name not in silent]
-        wider, wide = setup.problem(every)
-        found = dict(zip(free, best, strict=True))
-        begin = [np.array([found.get(n, typical[n]) for n in every])]
-        widest = least(wider, wide, [*begin, *setup.starts(wider, wide, -(-options.starts // 4))])
-        lowest = min(reached, wider.misfit(widest))
-        if reached > (1.0 + 0.5 * SLACK) * lowest or reached > bar:
+        wider = setup.wider_search(found, every, -(-options.starts // 4))
+        lowest = min(found.left, wider.left)
+        if found.left > (1.0 + 0.5 * SLACK) * lowest or found.left > bar:
             released = {reason: [n for n in group if n in every] for reason, group in closed.items()}
-            problem, bounds, best, free, reached = wider, wide, widest, every, lowest
-    most = max(min((1.0 + SLACK) * lowest, bar), reached, exact)
+            found = replace(wider, left=lowest)
+    problem, bounds, free = found.problem, found.bounds, list(found.problem.names)
+    most = max(min((1.0 + SLACK) * lowest, bar), found.left, exact)
     held = np.isin(free, sorted(known))
-    values = most_typical(problem, bounds, best, options.loss, most, held)
+    values = most_typical(problem, bounds, found.values, options.loss, most, held)
     kept = {
         reason: {n: typical[n] for n in group if n not in free}
         for reason, group in closed.items()

@@ -19,11 +19,54 @@ _STACK_LEVEL_OF_INPUTS = 5
 
 
 class TireRangeWarning(UserWarning):
-    """Operating points lie outside the range that the tire model is valid for."""
+    """Operating points lie outside the range that the tire model is valid for.
+
+    See Also
+    --------
+    tire_pipeline.magic_formula.TireModel.forces : With ``limits`` it clips, raises or is silent instead.
+    DegreesWarning : Warns of angles that no range would explain.
+
+    Notes
+    -----
+    The ranges are those of the file: FZMIN and FZMAX, ALPMIN and ALPMAX, and so on. A range that the file
+    does not state warns of nothing.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from tire_pipeline.magic_formula import TireModel
+    >>> given = {"FNOMIN": 4000, "FZMAX": 6000, "PCY1": 1.3, "PDY1": 1, "PKY1": -20, "PKY2": 2}
+    >>> tire = TireModel.from_coefficients(given)
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     forces = tire.forces(slip_angle=0.05, normal_load=7000.0, outputs=("fy",))
+    >>> print(told[0].message)
+    operating points lie outside ... (normal_load: 1 of 1 outside FZMIN = -inf to FZMAX = 6000)
+    """
 
 
 class DegreesWarning(UserWarning):
-    """Angles are so large that they look like degrees."""
+    """Angles are so large that they look like degrees.
+
+    See Also
+    --------
+    TireRangeWarning : Warns of values beyond the ranges that the file states.
+
+    Notes
+    -----
+    A slip angle or camber beyond 1.6 rad (92 degrees) is one that no tire has. It is told whatever ``limits``
+    are.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from tire_pipeline.magic_formula import TireModel
+    >>> given = {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1, "PKY1": -20, "PKY2": 2}
+    >>> tire = TireModel.from_coefficients(given)
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     forces = tire.forces(slip_angle=5.0, normal_load=4000.0, limits="ignore", outputs=("fy",))
+    >>> print(told[0].message)
+    slip_angle: 1 of 1 values are beyond 1.6 rad: this looks like degrees; the model takes radians
+    """
 
 
 def as_float_arrays(inputs: Mapping[str, Any]) -> tuple[dict[str, np.ndarray], tuple[int, ...]]:

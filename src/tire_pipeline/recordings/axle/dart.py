@@ -100,23 +100,8 @@ def read_dart(path: str | Path) -> pd.DataFrame:
     >>> len(drive), drive.attrs["lost_frames"], bool(np.isnan(drive["x"][100]))
     (300, 1, True)
     """
-    try:
-        raw = pd.read_csv(path)
-    except (OSError, ValueError, UnicodeDecodeError) as error:
-        raise RecordingError(f"cannot be read ({error})", where=str(path)) from error
-    lacking = [c for c in ("vicon time", "elapsed time sensors", *_POSE, *_DART_CHANNELS) if c not in raw]
-    if lacking:
-        raise RecordingError(
-            f"no DART drive: {', '.join(lacking)} missing", where=str(path), todo="see its README"
-        )
-    try:
-        raw = raw.astype(float)
-    except (ValueError, TypeError) as error:
-        raise RecordingError(f"not all numbers ({error})", where=str(path)) from error
-    raw = raw[np.isfinite(raw["vicon time"])].reset_index(drop=True)
+    raw = _checked_drive(path)
     stamp = raw["vicon time"].to_numpy()
-    if stamp.size < 100 or (np.diff(stamp) < 0).any() or stamp[-1] - stamp[0] > 86400:
-        raise RecordingError("time stamps are too few or unordered", where=str(path))
     frames, delayed = _frames(stamp)
     _, first = np.unique(frames, return_index=True)
     count = int(frames[-1]) + 1
@@ -147,6 +132,28 @@ def read_dart(path: str | Path) -> pd.DataFrame:
     # An error that is uniform over one step.
     out.attrs["wheel_surface_speed_std"] = float(_ENCODER_STEP / np.sqrt(12))
     return out
+
+
+def _checked_drive(path: str | Path) -> pd.DataFrame:
+    """The file's columns as numbers, its rows those with a stamp of the motion capture."""
+    try:
+        raw = pd.read_csv(path)
+    except (OSError, ValueError, UnicodeDecodeError) as error:
+        raise RecordingError(f"cannot be read ({error})", where=str(path)) from error
+    lacking = [c for c in ("vicon time", "elapsed time sensors", *_POSE, *_DART_CHANNELS) if c not in raw]
+    if lacking:
+        raise RecordingError(
+            f"no DART drive: {', '.join(lacking)} missing", where=str(path), todo="see its README"
+        )
+    try:
+        raw = raw.astype(float)
+    except (ValueError, TypeError) as error:
+        raise RecordingError(f"not all numbers ({error})", where=str(path)) from error
+    raw = raw[np.isfinite(raw["vicon time"])].reset_index(drop=True)
+    stamp = raw["vicon time"].to_numpy()
+    if stamp.size < 100 or (np.diff(stamp) < 0).any() or stamp[-1] - stamp[0] > 86400:
+        raise RecordingError("time stamps are too few or unordered", where=str(path))
+    return raw
 
 
 def _frames(stamp: Array) -> tuple[NDArray[np.int64], int]:

@@ -70,22 +70,11 @@ def canonical_frame(
         See :func:`tire_pipeline.recordings.read_recording`.
     """
     _check_units(raw, units or {}, source)
-    notes, conversions, assumed = list(raw.notes), [], []
+    notes, assumed = list(raw.notes), []
+    conversions: list[str] = []
     chosen = _assign(raw, dict(names or {}), notes, source)
-    columns: dict[str, NDArray[np.float64]] = {}
-    unit_names: dict[str, str] = {}
-    origin: dict[str, str] = {}
-    unsaid: list[str] = []
-    for item, channel, column in chosen:
-        unit = (units or {}).get(item.name, item.unit)
-        values = item.values
-        if channel is not None:
-            values, said = _to_si(item.name, values, unit, channel, source, column, notes, unsaid)
-            conversions += said
-            unit_names[column] = channel.unit
-        elif unit:
-            unit_names[column] = unit
-        columns[column], origin[column] = values, item.name
+    origin = {column: item.name for item, _, column in chosen}
+    columns, unit_names, unsaid = _in_si(chosen, units or {}, source, notes, conversions)
     if unsaid:
         notes.append(f"{_SI_ASSUMED}: {', '.join(unsaid)}")
         assumed.append(f"SI units of {', '.join(unsaid)}, for which the file gives none")
@@ -116,6 +105,30 @@ def canonical_frame(
         "axes_unclear": against,
     }
     return frame
+
+
+def _in_si(
+    chosen: list[tuple[RawChannel, Channel | None, str]],
+    units: Mapping[str, str],
+    source: str,
+    notes: list[str],
+    conversions: list[str],
+) -> tuple[dict[str, NDArray[np.float64]], dict[str, str], list[str]]:
+    """Values and units by column, and the columns for which the file gives no unit; what is done is noted."""
+    columns: dict[str, NDArray[np.float64]] = {}
+    unit_names: dict[str, str] = {}
+    unsaid: list[str] = []
+    for item, channel, column in chosen:
+        unit = units.get(item.name, item.unit)
+        values = item.values
+        if channel is not None:
+            values, said = _to_si(item.name, values, unit, channel, source, column, notes, unsaid)
+            conversions += said
+            unit_names[column] = channel.unit
+        elif unit:
+            unit_names[column] = unit
+        columns[column] = values
+    return columns, unit_names, unsaid
 
 
 def _check_units(raw: RawRecording, units: Mapping[str, str], source: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import scipy
@@ -37,29 +38,7 @@ def read_mat(path: Path) -> RawRecording:
     RecordingError
         Version 7.3 (HDF5), tables and other objects, or no vectors.
     """
-    with path.open("rb") as file:
-        head = file.read(1024)
-    if b"MATLAB 7.3 MAT-file" in head[:128] or _HDF5 in (head[:8], head[512:520]):
-        raise RecordingError(
-            "a MATLAB 7.3 file (HDF5)",
-            where=str(path),
-            todo="save it with save('name.mat', ..., '-v7')",
-        )
-    try:
-        if scipy.io.matlab.matfile_version(str(path))[0] == _LEVEL_5:
-            check_elements(path)
-        listed = scipy.io.whosmat(str(path))
-        values = sum(float(np.prod([float(n) for n in shape])) for _, shape, _ in listed)
-        check_expansion(path, 8 * values)
-        # simplify_cells makes plain dicts; objects stay opaque and are refused below.
-        content = scipy.io.loadmat(str(path), simplify_cells=True)
-    except RecordingError:
-        raise
-    except Exception as error:  # scipy raises whatever its parser trips over
-        raise RecordingError(
-            f"cannot be read as a .mat file ({type(error).__name__}: {error})", where=str(path)
-        ) from error
-    content = {k: v for k, v in content.items() if not k.startswith("__")}
+    content, listed = _loaded(path)
     units = _ttc_units(content.get("channel"))
     name, group = _richest(content)
     units = {**units, **_units_of(content.get("units")), **_units_of(group.get("units"))}
@@ -86,6 +65,33 @@ def read_mat(path: Path) -> RawRecording:
         else:
             notes.append(f"{key}: no vector of {length} numbers, left out")
     return RawRecording("MAT", channels, constants, notes)
+
+
+def _loaded(path: Path) -> tuple[dict[str, Any], list[tuple[str, tuple[int, ...], str]]]:
+    """What the file holds by name, and the name, shape and kind of each part as the file states them."""
+    with path.open("rb") as file:
+        head = file.read(1024)
+    if b"MATLAB 7.3 MAT-file" in head[:128] or _HDF5 in (head[:8], head[512:520]):
+        raise RecordingError(
+            "a MATLAB 7.3 file (HDF5)",
+            where=str(path),
+            todo="save it with save('name.mat', ..., '-v7')",
+        )
+    try:
+        if scipy.io.matlab.matfile_version(str(path))[0] == _LEVEL_5:
+            check_elements(path)
+        listed = scipy.io.whosmat(str(path))
+        values = sum(float(np.prod([float(n) for n in shape])) for _, shape, _ in listed)
+        check_expansion(path, 8 * values)
+        # simplify_cells makes plain dicts; objects stay opaque and are refused below.
+        content = scipy.io.loadmat(str(path), simplify_cells=True)
+    except RecordingError:
+        raise
+    except Exception as error:  # scipy raises whatever its parser trips over
+        raise RecordingError(
+            f"cannot be read as a .mat file ({type(error).__name__}: {error})", where=str(path)
+        ) from error
+    return {k: v for k, v in content.items() if not k.startswith("__")}, listed
 
 
 def _vector(value: object) -> np.ndarray | None:

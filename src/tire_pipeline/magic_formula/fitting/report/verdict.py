@@ -26,7 +26,32 @@ _FEWEST_IN_GROUP = 10
 
 
 class PoorFitWarning(UserWarning):
-    """A fit leaves more than a tenth of the largest force, or its force falls with slip."""
+    """A fit leaves more than a tenth of the largest force, or its force falls with slip.
+
+    See Also
+    --------
+    tire_pipeline.magic_formula.fit_magic_formula : Gives this warning.
+    tire_pipeline.magic_formula.FitResult : ``poor`` holds the same sentences by output.
+
+    Notes
+    -----
+    What is left is the RMS of the residuals over the largest magnitude of the output. The warning names the
+    likely reason: units, axes, or what a steady Magic Formula does not know.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> import numpy as np
+    >>> import pandas as pd
+    >>> from tire_pipeline.magic_formula import fit_magic_formula
+    >>> slip_angle = np.linspace(-0.15, 0.15, 60)
+    >>> points = pd.DataFrame({"slip_angle": slip_angle, "normal_load": 4000.0})
+    >>> points["fy"] = 900.0 * np.sin(200.0 * slip_angle)
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     fit = fit_magic_formula(points)
+    >>> print(told[0].message)
+    fy: the fit leaves ...% of the largest magnitude. Likely reason: something that a steady Magic Formula ...
+    """
 
 
 def poor_outputs(
