@@ -15,10 +15,12 @@ from weighed import without_visible
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.corrected.as_recorded import never_worse
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, from_sidecar
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.library import memory_factors
-from tire_pipeline.mismatch.unnamed_physics.problem import Unexplained
+from tire_pipeline.mismatch.unnamed_physics.problem import Unexplained, by_condition
+from tire_pipeline.mismatch.unnamed_physics.products import Columns
 from tire_pipeline.mismatch.unnamed_physics.search import find
 from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues, table_from
 from tire_pipeline.tir import read_tir
@@ -301,3 +303,44 @@ def test_without_speed_no_equation_remembers_the_way_rolled():
     assert without
     assert not any("lagway(" in text for text in without)
     assert any("lagway(" in text for text in known)
+
+
+def levels(count):
+    """A recording at so many loads, each in several sweeps."""
+    both = problem(lambda t: 0.0 * t.columns["fy"])
+    sweeps = int(both.block.max()) + 1
+    load = np.linspace(0.5, 1.5, count)[np.arange(sweeps) % count][both.block]
+    columns = {**both.table.columns, "L": load, "v": np.ones(load.size), "g": np.zeros(load.size)}
+    moves = frozenset({"slip_angle", "normal_load", "time"})
+    return replace(both, table=replace(both.table, columns=columns), moves=moves), load
+
+
+def test_whole_operating_conditions_are_held_out_where_there_are_enough():
+    recording, load = levels(6)
+    together = by_condition(recording, 5).together
+    assert len(set(zip(together, load, strict=True))) == len(set(load)) == len(set(together)) == 6
+    assert by_condition(levels(4)[0], 5).together is None
+
+
+def test_a_condition_is_in_one_fold_only():
+    recording, load = levels(7)
+    folds = Columns(by_condition(recording, 5)).folds
+    assert all(len(set(folds[load == one])) == 1 for one in set(load))
+    assert any(len(set(Columns(recording).folds[load == one])) > 1 for one in set(load))
+
+
+def test_what_was_proved_is_no_agreement(swinging):
+    """Nothing in the catalogue swings with the drum, and odds alone would have called it agreement."""
+    _, report = swinging
+    assert not report.effects
+    assert report.verdict == "unexplained"
+
+
+def test_an_equation_alone_leaves_the_inputs_as_they_were_recorded(swinging):
+    """With a cleaned input the forces that it does not act on would change as well."""
+    recording, report = swinging
+    assert not report.corrected.changes
+    noisy = replace(report.corrected, unnamed=None, cleaned={"slip_angle": 1e-4})
+    _, with_it = never_worse(report.unnamed, noisy, recording)
+    assert with_it.unnamed is not None
+    assert with_it.cleaned == {}

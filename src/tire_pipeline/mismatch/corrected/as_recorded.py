@@ -133,10 +133,15 @@ def _times(fit: dict[str, OutputFit], ratios: dict[str, float]) -> dict[str, Out
 def never_worse(
     found: UnnamedReport, corrected: CorrectedModel, recording: pd.DataFrame
 ) -> tuple[UnnamedReport, CorrectedModel]:
-    """Put an unnamed equation into the model, unless it makes the prediction of the recorded rows worse."""
+    """Put an unnamed equation into the model, unless it makes the prediction of the recorded rows worse.
+
+    Beside effects the inputs are as clean as these need them. An equation alone changes the forces that it
+    acts on and nothing else: the inputs stay as they were recorded.
+    """
     if found.physics is None:
         return found, corrected
-    put_in = replace(corrected, unnamed=found.physics)
+    cleaned = corrected.cleaned if corrected.changes else {}
+    put_in = replace(corrected, unnamed=found.physics, cleaned=cleaned)
     with_it, without = put_in.predict(recording), corrected.predict(recording)
     for o in found.physics.equations:
         if rms(recording[o] - with_it[o]) >= rms(recording[o] - without[o]):

@@ -95,6 +95,8 @@ def assembled(it: Explained) -> MismatchReport:
     inside = replace(analysis, fit=put_in)
     fit = as_recorded({**prove(inside, unseen, noise), **prove_moments(inside)}, inside, model, it.recording)
     unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit)
+    if unnamed is not None and unnamed.physics is not None and not effects:
+        verdict = "unexplained"  # what was proved is no agreement, though it has no name
     silent = prepared.stopped or verdict == "agrees"
     before = residual(data, [])
     located = [] if silent else locate(data, before, analysis.noise, analysis.block)
@@ -221,10 +223,13 @@ def _rolled(it: Explained) -> WheelWay:
 def _unnamed(
     it: Explained, verdict: str, named: bool, model: CorrectedModel, fit: dict[str, OutputFit]
 ) -> tuple[UnnamedReport | None, CorrectedModel, dict[str, OutputFit]]:
-    """Look for an equation of the residual, and put it in where it proves right."""
+    """Look for an equation of the residual, and put it in where it proves right.
+
+    The odds of an unnamed part do not decide whether it is looked for: they say that a misfit could take it
+    up, not that it is one. Sweeps that an equation has not seen tell the two apart.
+    """
     plainly = verdict not in _SOMETHING_LEFT
-    beside_names = named and not it.prepared.stopped and more_than_usual(it.analysis)
-    if plainly and not beside_names:
+    if it.prepared.stopped or (named and plainly and not more_than_usual(it.analysis)):
         return None, model, fit
     with under_way("looking for an equation of the residual"):
         found, model = never_worse(unnamed_physics(it.analysis, plainly=plainly), model, it.recording)

@@ -12,7 +12,7 @@ from tire_pipeline.mismatch.discrepancy.nuisance.sizes import nuisance_scale
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.unnamed_physics.grammar import SymbolTable
-from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues, table_of
+from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, NominalValues, table_of
 
 Array = np.ndarray
 Outputs = Mapping[str, Array]
@@ -24,6 +24,10 @@ that the engine has learnt: a part that has no name must not have to pass for mi
 USUAL_MISFIT = 0.01
 """What a formula fitted to a clean tire leaves at most, RMS over largest force: the tuning tires 0.4 to 0.9%,
 calspan 2%, DART 3%."""
+_LEVELS = "gLvp"
+"""Symbols of the channels that a schedule holds while it sweeps a slip."""
+_SAME_LEVEL = 0.3
+"""Difference, in standard deviations of a channel, below which two sweeps are at the same level of it."""
 _A_SWEEP = 8.0
 """Independent values of the formula's misfit along one sweep, about: it bends as the slip does."""
 
@@ -57,6 +61,8 @@ class Unexplained:
         Whitened samples that make one independent one.
     settled : bool
         Whether that number stands; else it is learnt beside the best terms.
+    together : ndarray of int, shape (n,), optional
+        Samples of one number are held out together; sweeps if left out.
     """
 
     table: SymbolTable
@@ -71,6 +77,7 @@ class Unexplained:
     sizes: Sequence[Outputs]
     inflation: float
     settled: bool = False
+    together: Array | None = None
 
     @property
     def outputs(self) -> tuple[str, ...]:
@@ -126,6 +133,33 @@ def coarsely(problem: Unexplained, analysis: Analysis) -> Unexplained:
         inflation=max(problem.table.size / (_A_SWEEP * (int(problem.block.max()) + 1)), 1.0),
         settled=True,
     )
+
+
+def by_condition(problem: Unexplained, least: int) -> Unexplained:
+    """Return the same with whole operating conditions held out: all sweeps at one load, speed, camber ...
+
+    What fits the sweeps of one condition also predicts its other sweeps, whatever it depends on. Only at a
+    condition that was not seen does a false driver show.
+
+    Parameters
+    ----------
+    problem : Unexplained
+    least : int
+        With fewer conditions, sweeps are held out as before.
+    """
+    count = int(problem.block.max()) + 1
+    level = np.zeros((count, len(_LEVELS)))
+    for j, symbol in enumerate(_LEVELS):
+        if CHANNEL[symbol] in problem.moves:
+            x = problem.table.columns[symbol] / np.std(problem.table.columns[symbol])
+            level[:, j] = [np.median(x[problem.block == b]) for b in range(count)]
+    first: list[int] = []
+    condition = np.zeros(count, int)
+    for b in range(count):
+        near = [k for k, a in enumerate(first) if np.max(np.abs(level[b] - level[a])) < _SAME_LEVEL]
+        condition[b] = near[0] if near else len(first)
+        first += [] if near else [b]
+    return replace(problem, together=condition[problem.block]) if len(first) >= least else problem
 
 
 def _beside_effects(analysis: Analysis) -> tuple[System, dict[str, Array]]:

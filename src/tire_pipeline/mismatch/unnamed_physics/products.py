@@ -86,7 +86,8 @@ class Columns:
     def __init__(self, problem: Unexplained) -> None:
         self.problem = problem
         self._parts: dict[str, Array | None] = {}
-        self.folds = np.unique(problem.block, return_inverse=True)[1] % FOLDS
+        together = problem.block if problem.together is None else problem.together
+        self.folds = np.unique(together, return_inverse=True)[1] % FOLDS
         self._fold = self.folds[problem.order]
         self._singles: dict[Term, tuple[Array, ...] | None] = {}
         self._factors: dict[tuple[int, int, bytes, str], tuple[Array, float]] = {}

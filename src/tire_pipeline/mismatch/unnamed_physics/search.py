@@ -6,7 +6,7 @@ import numpy as np
 
 from tire_pipeline.channels import SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.discrepancy.noise import white_noise
-from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
 from tire_pipeline.mismatch.model.channels import one_sided
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
@@ -21,8 +21,14 @@ from tire_pipeline.mismatch.unnamed_physics.found import Alternative, UnnamedPhy
 from tire_pipeline.mismatch.unnamed_physics.grammar import number, parse
 from tire_pipeline.mismatch.unnamed_physics.ideas import matching
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
-from tire_pipeline.mismatch.unnamed_physics.problem import USUAL_MISFIT, Unexplained, coarsely, problem_of
-from tire_pipeline.mismatch.unnamed_physics.products import Columns
+from tire_pipeline.mismatch.unnamed_physics.problem import (
+    USUAL_MISFIT,
+    Unexplained,
+    by_condition,
+    coarsely,
+    problem_of,
+)
+from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import (
     Proven,
     best_of,
@@ -47,12 +53,18 @@ def unnamed_physics(analysis: Analysis, *, plainly: bool = False) -> UnnamedRepo
     Parameters
     ----------
     analysis : Analysis
-        After the analysis.
+        After the analysis. Where nothing is named, its noise and misfit are learnt here: nobody else asks.
     plainly : bool
-        Ask for more, because the residual might be the formula's usual misfit.
+        Ask for more, because the residual might be the formula's usual misfit: the terms have to beat its
+        flexible form in every size that the recording allows, so there is no coarse view, and they have to
+        predict operating conditions that were not seen.
     """
+    if not analysis.fit.names:
+        analysis = with_fit(analysis, analysis.fit)
     problem = problem_of(analysis)
-    return find(problem, coarsely(problem, analysis), plainly=plainly)
+    if plainly:
+        return find(by_condition(problem, FOLDS), plainly=True)
+    return find(problem, coarsely(problem, analysis))
 
 
 def more_than_usual(analysis: Analysis) -> bool:
