@@ -59,7 +59,7 @@ class MissingRadiusWarning(UserWarning):
     >>> with warnings.catch_warnings(record=True) as told:
     ...     forces = tire.forces(slip_angle=0.05, normal_load=4000.0, outputs=("fy", "mz"))
     >>> print(told[0].message)
-    the model has no UNLOADED_RADIUS: mz are NaN; state the radius (m) by model.replace(...
+    the model has no UNLOADED_RADIUS: no value (NaN) for mz; state the radius (m) by model.replace(...
     """
 
 

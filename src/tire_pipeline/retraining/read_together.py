@@ -13,7 +13,7 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tasks import Done, LostTaskError, Task
 from tire_pipeline.tire_table.from_models import from_models, join_tables
 
-TOGETHER = 100
+FILES_A_TASK = 100
 """So many files are read together."""
 
 
@@ -83,7 +83,7 @@ class ReadTogether:
 def read_in_blocks(tasks: Mapping[str, Task[TireModel | None]]) -> dict[str, ReadTogether]:
     """Divide the tasks; each block by the name of its first file."""
     names = list(tasks)
-    some = (names[start : start + TOGETHER] for start in range(0, len(names), TOGETHER))
+    some = (names[start : start + FILES_A_TASK] for start in range(0, len(names), FILES_A_TASK))
     return {block[0]: ReadTogether({name: tasks[name] for name in block}) for block in some}
 
 

@@ -21,7 +21,7 @@ from tire_pipeline.tire_table.from_models import from_models, join_tables
 Load = Callable[[], TireModel]
 FILES = 250
 """So many files are read together, about a second's work."""
-_TABLE, _ROWS = "table.parquet", "rows.json"
+_TABLE_PART, _REPORT_PART = "table.parquet", "rows.json"
 
 
 class TablePart(bytes):
@@ -122,22 +122,22 @@ def divided(files: Mapping[str, Load], most: int = FILES) -> dict[int, dict[str,
 
 def table_of(part: bytes) -> pd.DataFrame:
     """The table of a part."""
-    return from_parquet(member(part, _TABLE))
+    return from_parquet(member(part, _TABLE_PART))
 
 
 def shape_of(part: bytes) -> tuple[int, list[str]]:
     """How many rows the table of a part has, and its columns, without reading them."""
-    return shape_of_parquet(member(part, _TABLE))
+    return shape_of_parquet(member(part, _TABLE_PART))
 
 
 def rows_of(part: bytes) -> list[dict[str, Any]]:
     """The rows of the report, one a file."""
-    found: list[dict[str, Any]] = json.loads(member(part, _ROWS))
+    found: list[dict[str, Any]] = json.loads(member(part, _REPORT_PART))
     return found
 
 
 def _packed(table: pd.DataFrame, rows: list[dict[str, Any]], kept: type[TablePart]) -> TablePart:
-    content = {_TABLE: as_parquet(table), _ROWS: json.dumps(rows).encode()}
+    content = {_TABLE_PART: as_parquet(table), _REPORT_PART: json.dumps(rows).encode()}
     return kept(pack(content))
 
 

@@ -77,8 +77,7 @@ def join_files(
         count, columns = shape_of(part)
         rows += rows_of(part)
         pieces.append(Piece(count, numbers_of(columns), partial(_table_of, read)))
-    report = pd.DataFrame(rows)
-    report = report.sort_values("file", ignore_index=True)
+    report = pd.DataFrame(rows).sort_values("file", ignore_index=True)
     summary = _summary(report)
     aside = report[report["status"] == "set aside"]
     for file, reason in aside[["file", "reason"]].head(NAMED_IN_LOG).itertuples(index=False):

@@ -33,7 +33,7 @@ _AWAY = 0.1
 _EVIDENCE_TO_TURN = 8.0
 """Log evidence by which turned signs must be likelier than those that were given."""
 
-_FEWEST = 4
+_LEAST_TO_COMPARE = 4
 """Samples without which a gain and an offset leave nothing to compare; scatter over stretches needs more."""
 
 _NOT_TOLD_APART = 3.0
@@ -121,7 +121,7 @@ def convention(
     recorded = channels[force][ok]
     turned = {s: p[ok] for s, p in turned.items()}
     beside = _beside(channels, simulate, force)[ok]
-    if ok.sum() < _FEWEST or float(np.var(recorded)) == 0.0:
+    if ok.sum() < _LEAST_TO_COMPARE or float(np.var(recorded)) == 0.0:
         return (), []
     share = {s: _explained(recorded, p) for s, p in turned.items()}
     best = max(sets, key=lambda s: round(share[s], 6))  # the fewest turns of those that are the same
