@@ -175,19 +175,26 @@ def _rolling(columns: Columns, kept: Array) -> list[Term]:
             continue
         signal = p.rest[output] * part * seen
         radius = _strongest_radius(signal - seen * float(np.mean(signal[seen])), way)
+        if radius is None:
+            continue
         live = [n for n in names if n != "force" or len(p.outputs) > 1]
         out += [Term(name, (factor,)) for name in live for factor in path_factors(radius)]
     return out
 
 
-def _strongest_radius(signal: Array, way: Array) -> float:
-    """Radius (m) at whose turns a signal has most power: on an even grid of the way, then nearby."""
+def _strongest_radius(signal: Array, way: Array) -> float | None:
+    """Radius (m) at whose turns a signal has most power: on an even grid of the way, then nearby.
+
+    None if the way is too long for an even grid that resolves the turns.
+    """
     span = float(way[-1] - way[0])
     count = int(np.clip(_PER_TURN * span / (2.0 * np.pi * _RADII[0]), 256, _MOST_EVEN_POINTS))
     even = np.interp(np.linspace(way[0], way[-1], count), way, signal)
     power = np.abs(np.fft.rfft(even, 2 * count))
     rates = np.arange(power.size) * np.pi * (count - 1) / (span * count)
     inside = (rates > 1.0 / _RADII[1]) & (rates < 1.0 / _RADII[0])
+    if not inside.any():
+        return None
     best, width = float(rates[inside][int(np.argmax(power[inside]))]), float(rates[1])
     for _ in range(3):
         near = np.linspace(best - width, best + width, 9)

@@ -24,7 +24,7 @@ that the engine has learnt: a part that has no name must not have to pass for mi
 USUAL_MISFIT = 0.01
 """What a formula fitted to a clean tire leaves at most, RMS over largest force: the tuning tires 0.4 to 0.9%,
 calspan 2%, DART 3%."""
-_HELD = "gLvp"
+_HELD_CHANNELS = "gLvp"
 """Symbols of the channels that a schedule holds while it sweeps a slip."""
 _SAME_LEVEL = 0.3
 """Difference, in standard deviations of a channel, below which two sweeps are at the same level of it."""
@@ -148,8 +148,8 @@ def by_condition(problem: Unexplained, least: int) -> Unexplained:
         With fewer conditions, sweeps are held out as before.
     """
     count = int(problem.block.max()) + 1
-    level = np.zeros((count, len(_HELD)))
-    for j, symbol in enumerate(_HELD):
+    level = np.zeros((count, len(_HELD_CHANNELS)))
+    for j, symbol in enumerate(_HELD_CHANNELS):
         if CHANNEL[symbol] in problem.moves:
             x = problem.table.columns[symbol] / np.std(problem.table.columns[symbol])
             level[:, j] = [np.median(x[problem.block == b]) for b in range(count)]
