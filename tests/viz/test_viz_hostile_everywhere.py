@@ -125,7 +125,7 @@ def test_the_previews_of_the_lineage_show_every_character(folder):
     shown = json.dumps(data, ensure_ascii=False)
     assert "window.hacked" in shown
     assert not UNSEEN.search(shown)
-    assert not re.search(r"\\u(202[a-e]|206[6-9]|200[b-f])", shown)  # a preview of JSON is read once more
+    assert not re.search(r"\\u(202[a-e]|206[6-9]|200[b-f])", shown)  # a JSON preview is decoded again
 
 
 def _open_a_file(driver) -> None:

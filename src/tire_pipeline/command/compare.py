@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -46,6 +47,17 @@ def command(
     finish(outcome, f"{first.stem}_against_{second.stem}", **output)
 
 
+@contextmanager
+def _missing_radius_is_said() -> Iterator[None]:
+    """Keep the warning of a missing radius back: a line of the result says it."""
+    from tire_pipeline.magic_formula.forces import MissingRadiusWarning
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MissingRadiusWarning)
+        yield
+
+
+@_missing_radius_is_said()
 def compared(
     models: dict[str, TireModel],
     loads: tuple[float, ...] = (),
@@ -55,10 +67,8 @@ def compared(
 ) -> CommandOutcome:
     """Compare two models by name, ``camber`` in degrees; ``notes`` for a section of their own on the page."""
     from tire_pipeline.magic_formula.compare import changed_values, compare_models
-    from tire_pipeline.magic_formula.forces import MissingRadiusWarning
     from tire_pipeline.magic_formula.key_figures import key_figures, usual_loads
 
-    warnings.simplefilter("ignore", MissingRadiusWarning)  # a line of the result says it
     (a, first), (b, second) = models.items()
     at = list(loads) or usual_loads([first, second])
     apart = compare_models(first, second, loads=at, camber=math.radians(camber))
@@ -85,6 +95,7 @@ def compared(
         "coefficients": {name: [x, y] for name, x, y in changed},
     }
 
+    @_missing_radius_is_said()
     def page() -> str:
         return _page(models, [figures, forces], changed, title, lines, notes, at, camber)
 

@@ -62,17 +62,18 @@ def repair(
     pick = np.flatnonzero(~bad)
     pick = pick[:: max(1, pick.size // 4000)]
     run = partial(_run, tire)
-    nominal = {"_nominal_pressure": np.array([float(tire.coefficients.get("NOMPRES", 0.0) or 2.3e5)])}
+    besides = {"_nominal_pressure": np.array([float(tire.coefficients.get("NOMPRES", 0.0) or 2.3e5)])}
     if tire.coefficients.get("FNOMIN", 0.0) > 0.0:
-        nominal["_nominal_load"] = np.array([float(tire.coefficients["FNOMIN"])])
+        besides["_nominal_load"] = np.array([float(tire.coefficients["FNOMIN"])])
     still = _still(arrays, time)
-    known = nominal if time is None else {**nominal, "time": time[pick]}
+    if time is not None:
+        besides["time"] = time[pick]
     signs: list[Finding] = []
     factors: dict[str, float] = {}
     for _ in range(3):
         again = False
         for effect in _found_in("factors"):
-            some = {k: still.get(k, a)[pick] for k, a in arrays.items()} | known
+            some = {k: still.get(k, a)[pick] for k, a in arrays.items()} | besides
             for finding in effect.detect(some, run):
                 for channel, repaired in finding.repaired.items():
                     factor = _ratio(repaired, some[channel])

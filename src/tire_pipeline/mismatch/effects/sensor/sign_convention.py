@@ -12,6 +12,7 @@ from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.repairs import Simulate
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
+from tire_pipeline.recordings.check import LEAST_POINTS
 
 _CONVENTIONS = {"fy": ("slip_angle", "camber", "fy"), "fx": ("slip_ratio", "fx")}
 """Channels whose signs an axis system may turn, by the force that shows it."""
@@ -32,9 +33,6 @@ _AWAY = 0.1
 
 _EVIDENCE_TO_TURN = 8.0
 """Log evidence by which turned signs must be likelier than those that were given."""
-
-_LEAST_TO_COMPARE = 4
-"""Samples without which a gain and an offset leave nothing to compare; scatter over stretches needs more."""
 
 _NOT_TOLD_APART = 3.0
 """Log evidence within which two conventions cannot be told apart."""
@@ -118,10 +116,9 @@ def convention(
     sets = [s for k in range(len(names) + 1) for s in combinations(names, k)]
     turned = {s: _turned(channels, simulate, force, s) for s in sets}
     ok = np.isfinite(channels[force]) & np.all([np.isfinite(p) for p in turned.values()], axis=0)
-    recorded = channels[force][ok]
+    recorded, beside = channels[force][ok], _beside(channels, simulate, force, turned[()])[ok]
     turned = {s: p[ok] for s, p in turned.items()}
-    beside = _beside(channels, simulate, force)[ok]
-    if ok.sum() < _LEAST_TO_COMPARE or float(np.var(recorded)) == 0.0:
+    if ok.sum() < LEAST_POINTS or float(np.var(recorded)) == 0.0:
         return (), []
     share = {s: _explained(recorded, p) for s, p in turned.items()}
     best = max(sets, key=lambda s: round(share[s], 6))  # the fewest turns of those that are the same
@@ -164,17 +161,16 @@ def excludes_sae(channels: Mapping[str, Array], simulate: Simulate) -> bool:
     ok = np.isfinite(channels["fy"]) & np.isfinite(given) & np.isfinite(sae)
     if ok.sum() < INDEPENDENT_STRETCHES:
         return False
-    beside = _beside(channels, simulate, "fy")[ok]
+    beside = _beside(channels, simulate, "fy", given)[ok]
     return _likelier(channels["fy"][ok], given[ok], sae[ok], beside, sized=False) <= -_NOT_TOLD_APART
 
 
-def _beside(channels: Mapping[str, Array], simulate: Simulate, force: str) -> Array:
-    """What a force changes by where a sensor is off as far as sensors are, shape (n, 2).
+def _beside(channels: Mapping[str, Array], simulate: Simulate, force: str, model: Array) -> Array:
+    """What the model's force changes by where a sensor is off as far as sensors are, shape (n, 2).
 
     By an offset of the slip, and by a drift of the force. A drift puts an offset on some sweeps and not on
     others, which a camber thrust or a ply steer to the other side does, too.
     """
-    model = simulate(channels)[force]
     slip, time = SLIP_OF_FORCE[force], channels.get("time")
     there = simulate({**channels, slip: channels[slip] + _SLIP_OFF})[force] if slip in channels else model
     span = 0.0 if time is None else float(np.ptp(time))
