@@ -241,6 +241,18 @@ def test_fit_gives_no_residual_of_a_force_that_it_could_not_fit(folder):
     assert "There is no longitudinal force" in run("show", "out.tir", "--no-page").stdout
 
 
+def test_a_poor_fit_does_not_look_like_a_success(folder):
+    record("run.csv", seconds=30.0)
+    degrees = pd.read_csv("run.csv").assign(slip_angle=lambda r: np.degrees(r["slip_angle"]))
+    degrees.to_csv("run.csv", index=False)
+    result = run("fit", "run.csv", "-o", "out.tir")
+    lines = result.stdout.split("\n")
+    assert lines[1].startswith("POOR FIT of Fy, not to be used:")
+    assert "slip_angle looks like degrees" in result.stdout.replace("\n", " ")
+    assert "POOR FIT of Fy, not to be used" in page(folder / "out_fit.html")
+    assert "POOR FIT of Fy, not to be used" in (folder / "out.tir").read_text()
+
+
 def test_fit_takes_several_recordings_together(folder):
     record("run1.csv", seconds=30.0)
     record("run2.csv", seed=1, seconds=30.0)

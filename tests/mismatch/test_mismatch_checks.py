@@ -104,6 +104,17 @@ def test_exact_artefacts_get_their_name_and_nothing_else(tire, record, change, n
     assert physics(report) == []
 
 
+def test_a_pressure_that_may_be_in_two_units_is_left_out(tire, record):
+    """75 could be kPa, of a racing tire, or psi, of a van's; no name says which."""
+    prepared = prepare(tire, record().assign(pressure=75.0))
+    assert "pressure" not in prepared.data.present
+    assert prepared.findings == []
+    assert any("pressure is left out: 75 to 75 Pa is no tire's" in note for note in prepared.notes)
+    stated = prepare(tire.replace(NOMPRES=80e3), record().assign(pressure=75.0))
+    assert [f.channel for f in stated.findings] == ["pressure"]
+    assert stated.factors["pressure"] == pytest.approx(1000.0)
+
+
 RIG_NOISE = 25.0
 """Of the force in the small rig's recordings, N."""
 

@@ -73,6 +73,7 @@ def command(
         target,
         comments=[
             f"fitted by tire_pipeline to {', '.join(recordings)}",
+            *_poor(result),
             f"RMS of residuals over the largest magnitude: {said}",
             *result.undetermined,
         ],
@@ -88,10 +89,16 @@ def _fitted(result: FitResult) -> dict[str, float]:
     return {name: value for name, value in result.relative_rms.items() if name not in result.not_fitted}
 
 
+def _poor(result: FitResult) -> list[str]:
+    """What may not pass for a tire's, one sentence an output."""
+    return [f"POOR FIT of {name.capitalize()}, not to be used: {text}" for name, text in result.poor.items()]
+
+
 def _outcome(result: FitResult, runs: list[str], target: Path, notes: list[str]) -> CommandOutcome:
     model = result.model
     sizes = ", ".join(f"{n.capitalize()} {100 * v:.2g}%" for n, v in _fitted(result).items())
     lines = [
+        *_poor(result),
         f"Magic Formula {model.version} fitted to {', '.join(runs)}: "
         f"{len(result.standard_errors)} coefficients, FNOMIN = {model.value('FNOMIN'):g} N.",
         f"RMS of the residuals, as a share of the largest magnitude: {sizes}.",
@@ -116,6 +123,7 @@ def _outcome(result: FitResult, runs: list[str], target: Path, notes: list[str])
         "standard_errors": dict(result.standard_errors),
         "relative_rms": _fitted(result),
         "not_fitted": list(result.not_fitted),
+        "poor": dict(result.poor),
         "undetermined": result.undetermined,
         "notes": notes,
     }

@@ -62,9 +62,11 @@ def repair(
     pick = np.flatnonzero(~bad)
     pick = pick[:: max(1, pick.size // 4000)]
     run = partial(_run, tire)
-    besides = {"_nominal_pressure": np.array([float(tire.coefficients.get("NOMPRES", 0.0) or 2.3e5)])}
-    if tire.coefficients.get("FNOMIN", 0.0) > 0.0:
-        besides["_nominal_load"] = np.array([float(tire.coefficients["FNOMIN"])])
+    besides = {
+        symbol: np.array([float(tire.coefficients[name])])
+        for symbol, name in (("_nominal_pressure", "NOMPRES"), ("_nominal_load", "FNOMIN"))
+        if tire.coefficients.get(name, 0.0) > 0.0
+    }
     still = _still(arrays, time)
     if time is not None:
         besides["time"] = time[pick]

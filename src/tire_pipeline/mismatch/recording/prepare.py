@@ -21,7 +21,7 @@ from tire_pipeline.mismatch.recording.given import check_tire, numeric
 from tire_pipeline.mismatch.recording.identity import another_tire
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
-from tire_pipeline.mismatch.recording.usable import judge, leave_out_still_slip
+from tire_pipeline.mismatch.recording.usable import judge, leave_out_no_pressure, leave_out_still_slip
 from tire_pipeline.recordings.check import BRIDGED, LEAST_POINTS, LEAST_SAMPLES, LEAST_WHOLE
 
 Array = np.ndarray
@@ -144,6 +144,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     findings, bad, factors = (
         repair(tire, arrays, time) if beside is None else ([], np.zeros(rows.size, bool), {})
     )
+    leave_out_no_pressure(arrays, notes)
     if bad.any():
         rows, arrays = rows[~bad], {n: a[~bad] for n, a in arrays.items()}
         time = None if time is None else time[~bad]

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD
+from tire_pipeline.mismatch.effects.sensor.unit_error import inflates_no_tire
 from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, moves
 from tire_pipeline.mismatch.model.forces import plain_forces
@@ -192,6 +193,18 @@ def leave_out_still_slip(tire: Any, arrays: dict[str, Array], time: Array | None
             f"slip_ratio is {at:.3g} throughout and left out: without it the model explains "
             f"{100.0 * best.plain:.0f}% of the variance of {best.output.capitalize()}"
         )
+
+
+def leave_out_no_pressure(arrays: dict[str, Array], notes: list[str]) -> None:
+    """Take out a pressure that no tire has and that no unit explains, or more than one."""
+    if "pressure" not in arrays or not inflates_no_tire(arrays["pressure"]):
+        return
+    low, high = np.nanmin(arrays["pressure"]), np.nanmax(arrays["pressure"])
+    del arrays["pressure"]
+    notes.append(
+        f"pressure is left out: {low:.4g} to {high:.4g} Pa is no tire's, and its unit cannot be told; "
+        "state it (units={'pressure': 'kPa'}, on the command line --unit)"
+    )
 
 
 def _stands(arrays: Mapping[str, Array], name: str) -> bool:

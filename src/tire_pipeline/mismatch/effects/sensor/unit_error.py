@@ -27,6 +27,12 @@ _PRESSURE_FACTORS = {
     1e-5: "bar for Pa",
     PSI / 1e3: "kPa for psi",
 }
+_INFLATION = (6e4, 1.2e6)
+"""Pressures that tires have, Pa."""
+_USUAL_PRESSURE = 2.3e5
+"""Of a tire whose file states none, Pa."""
+_PRESSURE_RANGE = 4.0
+"""Tires are run at the nominal pressure times or over so much."""
 
 
 class UnitError(Effect):
@@ -93,18 +99,30 @@ def _nearer(channels: Mapping[str, Array], factor: float) -> bool:
     return abs(np.log(max(ratio * factor, 1e-9))) < abs(np.log(max(ratio, 1e-9)))
 
 
+def inflates_no_tire(pressure: Array) -> bool:
+    """Whether a recorded pressure, Pa, is none that a tire has."""
+    median = float(np.nanmedian(pressure))
+    low, high = _INFLATION
+    return not low < median < high
+
+
 def _pressure(channels: Mapping[str, Array]) -> list[Finding]:
-    """Pressure outside of 0.5 to 15 bar that one ratio brings to where tires are."""
-    if "pressure" not in channels:
+    """A pressure that no tire has, and that one ratio alone brings near the nominal one.
+
+    Where several do (75 may be kPa or psi), nobody can tell which.
+    """
+    if "pressure" not in channels or not inflates_no_tire(channels["pressure"]):
         return []
     median = float(np.nanmedian(channels["pressure"]))
-    if not np.isfinite(median) or median <= 0.0 or 6e4 < median < 1.2e6:
+    nominal = float(channels["_nominal_pressure"][0]) if "_nominal_pressure" in channels else _USUAL_PRESSURE
+    able = [
+        (factor, text)
+        for factor, text in _PRESSURE_FACTORS.items()
+        if median > 0.0 and abs(np.log(median / factor / nominal)) < np.log(_PRESSURE_RANGE)
+    ]
+    if len(able) != 1:
         return []
-    nominal = float(channels.get("_nominal_pressure", np.array([2.3e5]))[0])
-    options = [(abs(np.log(median / f / nominal)), f, t) for f, t in _PRESSURE_FACTORS.items()]
-    distance, factor, text = min(options)
-    if distance > np.log(4.0):
-        return []
+    factor, text = able[0]
     repaired = {"pressure": channels["pressure"] / factor}
     parameters = {"ratio": (float(factor), 0.0, "times")}
     return [
