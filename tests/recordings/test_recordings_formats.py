@@ -58,6 +58,18 @@ def test_csv_with_a_row_of_units(tmp_path, delimiter, decimal, encoding):
     assert (recording["tread_temperature"] == 40.5).all()
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "latin-1"])
+def test_units_of_a_long_csv_survive_its_encoding(tmp_path, encoding):
+    """A part of the file is read first: it may end within a character, and a degree sign is no noise."""
+    file = tmp_path / "a.csv"
+    rows = ["t [s];slip angle [°];Fz [kN];Fy [N];Prüfer"]
+    rows += [f"{0.01 * k:.2f};{5.0 * np.sin(0.01 * k):.6f};4;{k};Äöü" for k in range(6000)]
+    file.write_text("\n".join(rows) + "\n", encoding=encoding)
+    recording = read_recording(file)
+    assert recording["slip_angle"].abs().max() == pytest.approx(np.radians(5.0), rel=1e-3)
+    assert any("Prüfer: text, left out" in note for note in recording.attrs["notes"])
+
+
 def test_csv_comments_blanks_and_text(tmp_path):
     file = tmp_path / "a.txt"
     lines = ["# made by hand", "time  SA_deg FZ FY note"]

@@ -143,7 +143,8 @@ def _format(file: Path, format: str | None) -> str:
             where=str(file),
             todo="a tire model is no recording: give a recording"
             if file.suffix.lower() == ".tir"
-            else f"state the format (format=..., --format): one of {', '.join(READERS)}",
+            else f"save it as CSV or Parquet; if it is one of {', '.join(READERS)} under another suffix, "
+            "state that format (format=..., --format)",
         )
     return kind
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -113,7 +114,7 @@ def _layout_of(head: bytes, whole: bool, path: Path) -> _TableLayout | None:
     elif b"\x00" in head:
         raise RecordingError("this is no text file", where=str(path), todo="check its format")
     try:
-        text = head.decode(encoding, errors="strict" if whole else "ignore")
+        text = codecs.getincrementaldecoder(encoding)().decode(head, final=whole)
     except UnicodeDecodeError:
         encoding = "latin-1" if encoding != "utf-16" else encoding
         text = head.decode(encoding, errors="replace")
