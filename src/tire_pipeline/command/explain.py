@@ -156,7 +156,7 @@ def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Command
             return report.to_html(Path(folder) / "page.html").read_text(encoding="utf-8")
 
     data = {"file": file, **report.to_dict()}
-    title = f"{file} and {', '.join(report.recordings)}: {report.verdict}"
+    title = f"{file} and {', '.join(report.recordings)}: {report.stated_verdict}"
     lines = [report.summary, *report.head.remarks]
     if report.assumed:
         lines.append(f"Assumed: {'; '.join(report.assumed)}.")

@@ -85,7 +85,7 @@ class ExplainTask:
             if isinstance(cause, UnreachableError):
                 raise
             return self.lost(_reason(cause, self.name))
-        row["verdict"] = report.verdict
+        row["verdict"] = report.stated_verdict
         row["summary"] = report.summary
         row["effects"] = ", ".join(effect.name for effect in report.effects)
         row["alternatives"] = ", ".join(a for effect in report.effects for a in effect.alternatives)

@@ -43,7 +43,7 @@ def render(report: ReportContents, *, pages: Sequence[tuple[str, str]] = ()) -> 
     name = ", ".join(PurePath(each).name for each in report.recordings) or "Simulation and recording"
     return environment.get_template("report.html").render(
         report=report,
-        title=f"{name}: {report.verdict}",
+        title=f"{name}: {report.stated_verdict}",
         name=name,
         pages=pages,
         footer="",

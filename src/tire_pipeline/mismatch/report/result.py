@@ -90,9 +90,15 @@ class MismatchReport(ReportContents):
         """What was found: names of which one is the cause, likeliest first, and the confidence of the set."""
         return [((e.name, *e.alternatives), e.confidence) for e in self.effects]
 
+    @property
+    def stated_verdict(self) -> str:
+        """The verdict, and that the axes are open where what was found rests on them."""
+        question = self.corrected.question
+        return self.verdict if question is None or question.verdict else f"{self.verdict}, axes open"
+
     def __repr__(self) -> str:
         names = ", ".join(effect.name for effect in self.effects) or "no effect"
-        return f"MismatchReport({self.verdict!r}: {names}. {self.summary})"
+        return f"MismatchReport({self.stated_verdict!r}: {names}. {self.summary})"
 
     def _repr_html_(self) -> str:
         from tire_pipeline.pages.notebook import card
@@ -107,7 +113,7 @@ class MismatchReport(ReportContents):
             for name, fit in self.fit.items()
         ]
         header = ("output", "RMS before", "RMS after, held-out sweeps", "noise")
-        return card(f"Simulation and recording: {self.verdict}", self.summary, header, rows)
+        return card(f"Simulation and recording: {self.stated_verdict}", self.summary, header, rows)
 
     def plot(self) -> Figure:
         """Draw what differs over slip and load and over time, before and after, with captions.
