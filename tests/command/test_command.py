@@ -294,6 +294,7 @@ def test_what_was_found_is_told_though_no_corrected_file_may_be_written(folder):
     result = run("explain", "a.tir", "wrong.csv", "--corrected", "corrected.tir", code=2)
     found = "the recording agrees with the model only in other axes"
     assert "a.tir and wrong.csv: explained, axes open" in result.stdout
+    assert re.search(r"sign_convention of (fy|slip_angle)", result.stdout)
     assert found in " ".join(result.stdout.split())
     assert "corrected.tir: nothing corrected is written" in result.stderr
     assert found in page(folder / "a_explain.html")

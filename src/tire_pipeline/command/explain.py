@@ -105,11 +105,13 @@ def _among(hold_out: Path, runs: tuple[Path, ...]) -> Path:
 
 
 def _rows(effect: EffectReport) -> list[tuple[str, ...]]:
-    """One row for each parameter of an effect, or one without."""
+    """One row for each parameter of an effect, or one without; a fault that needs no fit names its channel."""
     from tire_pipeline.mismatch.effects.amounts import amount_with_error
 
-    sizes = [(name.replace("_", " "), *amount_with_error(*size)) for name, size in effect.parameters.items()]
-    return [(effect.name, effect.kind, *row) for row in sizes or [("", "", "")]]
+    name = f"{effect.name} of {effect.output}" if "found" in effect.evidence else effect.name
+
+    sizes = [(key.replace("_", " "), *amount_with_error(*size)) for key, size in effect.parameters.items()]
+    return [(name, effect.kind, *row) for row in sizes or [("", "", "")]]
 
 
 def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> CommandOutcome:
