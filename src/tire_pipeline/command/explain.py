@@ -105,7 +105,7 @@ def _among(hold_out: Path, runs: tuple[Path, ...]) -> Path:
 
 
 def _rows(effect: EffectReport) -> list[tuple[str, ...]]:
-    """One row for each parameter of an effect, or one without; a fault that needs no fit names its channel."""
+    """One row a parameter of an effect, or one without; a fault found without a fit names its channel."""
     from tire_pipeline.mismatch.effects.amounts import amount_with_error
 
     name = f"{effect.name} of {effect.output}" if "found" in effect.evidence else effect.name
