@@ -7,6 +7,8 @@ import numpy as np
 from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import plain_forces
+from tire_pipeline.mismatch.model.nominal import OF_CAMBER
+from tire_pipeline.mismatch.model.simulated import DIFFERENCE
 
 Array = np.ndarray
 At = dict[str, Array]
@@ -20,8 +22,7 @@ _COEFFICIENTS_OF_FORCE = {
         "REX1 REX2 RHX1"
     ).split(),
 }
-_OF_CAMBER = frozenset("PDX3 PDY3 PEY4 PEY5 PKY3 PKY6 PKY7 PHY3 PVY3 PVY4 RBX3 RBY4 RVY3".split())
-_LEAST_OF_ALL = 1e-4
+_LEAST_OF_ALL = 1e-6
 """Columns smaller than so much of the largest one do nothing here, and are not made larger: the coefficients
 of camber in a recording without camber would become a constant force."""
 _SHIFT_OF_FX = 2.5
@@ -49,20 +50,20 @@ def jacobian(data: Data, name: str, at: At) -> Array:
     columns = []
     for key in _COEFFICIENTS_OF_FORCE[name]:
         value = float(c.get(key, 0.0))
-        if value == 0.0 or key in missing or (key in _OF_CAMBER and not data.varies("camber")):
+        if value == 0.0 or key in missing or (key in OF_CAMBER[name] and not data.varies("camber")):
             continue  # where camber stands still its coefficients would be a constant force of any size
-        h = 1e-4 * max(abs(value), 0.05)
-        up, down = (plain_forces(data.tire.replace(**{key: value + s * h}), **at)[name] for s in (1.0, -1.0))
-        columns.append((up - down) / (2.0 * h) * max(abs(value), 0.05))
+        ends = (data.tire.replace(**{key: value + s * DIFFERENCE}) for s in (1.0, -1.0))
+        up, down = (plain_forces(tire, **at)[name] for tire in ends)
+        columns.append((up - down) / (2.0 * DIFFERENCE))
     return np.column_stack(columns) if columns else np.zeros((at["normal_load"].size, 0))
 
 
 def shifts(data: Data, name: str, at: At) -> Array:
     """Constant, load and slope: a fit would have found a shift of the curve even if the file has none."""
-    slip, h = SLIP_OF_FORCE[name], 2e-3
+    slip, h = SLIP_OF_FORCE[name], DIFFERENCE
     up, down = (plain_forces(data.tire, **{**at, slip: at[slip] + s * h})[name] for s in (1.0, -1.0))
     load = at["normal_load"]
-    return np.column_stack([np.full(load.size, data.load_nominal), load, up - down])
+    return np.column_stack([np.full(load.size, data.load_nominal), load, (up - down) / (2.0 * h)])
 
 
 def _halves(data: Data, name: str, here: At, slopes: Array) -> Array:
@@ -70,7 +71,7 @@ def _halves(data: Data, name: str, here: At, slopes: Array) -> Array:
     mirrored = {n: -a if n in ("slip_angle", "camber") else a for n, a in here.items()}
     image = jacobian(data, name, mirrored) * (-1.0 if name == "fy" else 1.0)
     kept, broken = 0.5 * (slopes + image), 0.5 * (slopes - image)
-    least = 1e-2 * np.sqrt(np.mean(slopes**2, axis=0))
+    least = 1e-6 * np.sqrt(np.mean(slopes**2, axis=0))
     broken = broken[:, np.sqrt(np.mean(broken**2, axis=0)) > least]
     kept = kept[:, np.sqrt(np.mean(kept**2, axis=0)) > least]
     size = 1.0 if data.varies("normal_load") else ONE_LOAD
