@@ -19,6 +19,8 @@ _LEAST_FORCE = 0.1
 """A share of the force is given where the force is above this part of the largest one."""
 _EVEN = 0.7
 """One share of the force that is this part of the squared difference is off throughout, in no stretch."""
+_FLIPS = round(1.0 / OPEN**2) - 1
+"""Random flips of the sweeps' signs: as many as show a chance of the square of that which decides."""
 
 
 @dataclass(frozen=True)
@@ -37,8 +39,7 @@ class Located:
     share : float
         The same over the mean size of the simulated force; NaN where that is below a tenth of the largest.
     p_value : float
-        Of the sums over sweeps, by a t test, adjusted for all axes, stretches and scales (Benjamini and
-        Hochberg 1995).
+        Largest statistic over all axes, stretches and scales under flips of whole sweeps.
     own : float
         Part of the mean that is not there wherever the first axis of this output is the same: next to nothing
         for a channel that merely came along.
@@ -67,7 +68,7 @@ def locate(
         Recorded minus simulated, N.
     noise : dict of ForceNoise
     block : ndarray of int
-        Sweep of each sample; sweeps are independent of each other.
+        Sweep of each sample; signs are flipped by whole sweeps.
 
     Returns
     -------
@@ -135,7 +136,7 @@ def _stretches(values: Array) -> list[tuple[float, float, Array]]:
 
 
 def _chances(scaled: Array, stretches: list[Array], block: Array) -> Array:
-    """Return for each stretch how likely noise has as much there, by the spread of sums over sweeps.
+    """Return for each stretch how likely flips of whole sweeps have as much in any stretch.
 
     Parameters
     ----------
@@ -143,13 +144,12 @@ def _chances(scaled: Array, stretches: list[Array], block: Array) -> Array:
     stretches : list of ndarray of bool, shape (n,)
     block : ndarray of int, shape (n,)
     """
-    chance = []
-    for rows in stretches:
-        size = np.bincount(block[rows])
-        sums = np.bincount(block[rows], scaled[rows])[size > 0]
-        one = sums.size < 2 or np.ptp(sums) == 0.0
-        chance.append(1.0 if one else float(scipy.stats.ttest_1samp(sums, 0.0).pvalue))
-    return np.asarray(scipy.stats.false_discovery_control(chance) if chance else chance)
+    sums = np.array([np.bincount(block, scaled * rows) for rows in stretches])
+    flips = np.random.default_rng(0).choice([-1.0, 1.0], size=(_FLIPS, sums.shape[1]))
+    size = np.sqrt((sums**2).sum(axis=1)) + 1e-12
+    most = np.abs(flips @ (sums / size[:, None]).T).max(axis=1)
+    here = np.abs(sums.sum(axis=1)) / size
+    return np.asarray((1 + (most[:, None] >= here).sum(axis=0)) / (1 + _FLIPS))
 
 
 def _along(rest: Array, force: Array, rows: Array) -> bool:

@@ -151,5 +151,5 @@ def _grid(data: Data) -> dict[str, Array]:
 
 def _range(data: Data, name: str) -> Array:
     """Even values of a slip from its largest to one side to that to the other, zero among them."""
-    top = largest(data.get(name)) if data.varies(name) else 0.0
+    top = largest(data.get(name))
     return top * np.linspace(-1.0, 1.0, 2 * _LEVELS + 1) if top else np.zeros(1)
