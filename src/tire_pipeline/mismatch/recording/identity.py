@@ -182,9 +182,10 @@ class _Similar:
     def __call__(self, p: Array) -> Array:
         """Return the force with figures off by ``p``."""
         of_friction, of_stiffness = p[len(FIGURES) :].reshape(2, -1)
-        m = p[0] + p[1] * self.excess + of_friction @ self.states
-        k = p[2] + p[3] * self.excess + of_stiffness @ self.states
-        slip = self.points[self.slip] * np.exp(k - m + p[4] * self.bend)
+        friction, by_load, stiffness, stiffness_by_load, curvature = p[: len(FIGURES)]
+        m = friction + by_load * self.excess + of_friction @ self.states
+        k = stiffness + stiffness_by_load * self.excess + of_stiffness @ self.states
+        slip = self.points[self.slip] * np.exp(k - m + curvature * self.bend)
         return np.exp(m) * plain_forces(self.tire, **{**self.points, self.slip: slip})[self.output]
 
 

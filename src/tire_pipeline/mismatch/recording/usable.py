@@ -142,7 +142,7 @@ def _product(r: Array, m: Array, time: Array | None) -> float:
     if time is None:
         return float(r @ m)
     step = max(float(np.median(np.diff(time))), 1e-9)
-    most = min(int(LONGEST_DELAY / step), r.size // 4)
+    most = min(int(LONGEST_DELAY / step), r.size - 1)
     products = correlate(r, m, mode="full", method="auto")
     middle = m.size - 1
     return float(products[middle - most : middle + most + 1].max())
