@@ -15,7 +15,6 @@ from tire_pipeline.mismatch.model.residual import rms
 Array = np.ndarray
 At = dict[str, Array]
 _LENGTHS_OF_INPUTS = {"slip": 0.25, "normal_load": 0.8, "camber": 0.9}
-_MOST_CENTRES = 130
 
 
 def flexible_form(
@@ -107,7 +106,7 @@ class _Mirrored:
         turned = np.flatnonzero(mirror < 0.0)
         if turned.size:  # one half of the space stands for both
             points = np.where((points[:, turned[0]] < 0.0)[:, None], points * mirror, points)
-        self.centres = _spread(points, _MOST_CENTRES)
+        self.centres = _spread(points)
         kernel = self._kernel(self.centres) + 1e-6 * np.eye(len(self.centres))
         values, vectors = np.linalg.eigh(kernel)
         good = values > 1e-6 * values.max()
@@ -136,11 +135,11 @@ def _kernel(a: Array, b: Array) -> Array:
     return np.exp(-0.5 * np.maximum(d, 0.0))
 
 
-def _spread(x: Array, most: int) -> Array:
-    """Farthest-point sampling until the points are one length apart or there are ``most``."""
+def _spread(x: Array) -> Array:
+    """Farthest-point sampling until every point is within one length of a chosen one."""
     chosen = [int(np.argmin(((x - np.median(x, axis=0)) ** 2).sum(1)))]
     distance = ((x - x[chosen[0]]) ** 2).sum(1)
-    while len(chosen) < most and distance.max() > 1.0:
+    while distance.max() > 1.0:
         k = int(np.argmax(distance))
         chosen.append(k)
         distance = np.minimum(distance, ((x - x[k]) ** 2).sum(1))
