@@ -22,9 +22,10 @@ _COEFFICIENTS_OF_FORCE = {
         "REX1 REX2 RHX1"
     ).split(),
 }
-_LEAST_OF_ALL = 1e-6
-"""Columns smaller than so much of the largest one do nothing here, and are not made larger: the coefficients
-of camber in a recording without camber would become a constant force."""
+RESOLVED = float(np.sqrt(np.finfo(np.float32).eps))
+"""Columns smaller than this part of the largest one, half of the digits of single precision, do nothing here,
+and are not made larger: the coefficients of camber in a recording without camber would become a constant
+force."""
 _SHIFT_OF_FX = 2.5
 """Braking and driving are no mirror images: a fit makes up for their difference by a shift at zero slip."""
 ONE_LOAD = 6.0
@@ -71,7 +72,7 @@ def _halves(data: Data, name: str, here: At, slopes: Array) -> Array:
     mirrored = {n: -a if n in ("slip_angle", "camber") else a for n, a in here.items()}
     image = jacobian(data, name, mirrored) * (-1.0 if name == "fy" else 1.0)
     kept, broken = 0.5 * (slopes + image), 0.5 * (slopes - image)
-    least = 1e-6 * np.sqrt(np.mean(slopes**2, axis=0))
+    least = RESOLVED * np.sqrt(np.mean(slopes**2, axis=0))
     broken = broken[:, np.sqrt(np.mean(broken**2, axis=0)) > least]
     kept = kept[:, np.sqrt(np.mean(kept**2, axis=0)) > least]
     size = 1.0 if data.varies("normal_load") else ONE_LOAD
@@ -82,7 +83,7 @@ def _orthonormal(columns: Array) -> Array:
     """Return columns of RMS 1 that span what is well determined of the given ones."""
     n = columns.shape[0]
     size = np.sqrt(np.mean(columns**2, axis=0)) if columns.size else np.zeros(0)
-    keep = size > _LEAST_OF_ALL * max(float(size.max(initial=0.0)), 1e-30)
+    keep = size > RESOLVED * max(float(size.max(initial=0.0)), 1e-30)
     if not keep.any():
         return np.zeros((n, 0))
     gram = (columns[:, keep] / size[keep]).T @ (columns[:, keep] / size[keep]) / n

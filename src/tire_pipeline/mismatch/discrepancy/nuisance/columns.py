@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tire_pipeline.channels import SLIP_AND_LOAD
-from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import directions, jacobian, shifts
+from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import RESOLVED, directions, jacobian, shifts
 from tire_pipeline.mismatch.discrepancy.nuisance.flexible import flexible_form
 from tire_pipeline.mismatch.discrepancy.nuisance.transients import fast_load, memory
 from tire_pipeline.mismatch.model.channels import SMALL, largest, span
@@ -26,9 +26,6 @@ _LEVELS = 8
 """Loads of the grid, and slips to each side."""
 _PARTS = (-1.0, -0.5, 0.5, 1.0)
 """Of the largest camber or slip angle that slip is combined with."""
-_LEAST_ON_GRID = 1e-6
-"""Columns smaller on the grid than so much of what they are on the recording are not known there: a slip that
-does not vary but for noise has no range to spread a grid over."""
 
 
 class Sizes(NamedTuple):
@@ -112,8 +109,7 @@ def _misfit(data: Data, name: str, here: dict[str, Array], grid: dict[str, Array
     b, b_grid, ways = flexible_form(data, name, here, grid)
     c = np.hstack([jacobian(data, name, here), shifts(data, name, here)])
     c_grid = np.hstack([jacobian(data, name, grid), shifts(data, name, grid)])
-    known = _size(c_grid) > _LEAST_ON_GRID * _size(c)
-    return b - c[:, known] @ _solve(c_grid[:, known], b_grid), ways
+    return b - c @ _solve(c_grid, b_grid), ways
 
 
 def largest_force(data: Data, name: str) -> float:
@@ -122,16 +118,11 @@ def largest_force(data: Data, name: str) -> float:
     return max(sizes[name], SMALL * max(sizes.values()), 1e-9)
 
 
-def _size(columns: Array) -> Array:
-    """Root mean square of each column."""
-    return np.sqrt(np.mean(columns**2, axis=0)) if columns.size else np.zeros(columns.shape[1])
-
-
 def _solve(a: Array, b: Array) -> Array:
     """Least squares, columns of ``a`` scaled, small directions left out."""
     size = np.sqrt((a**2).sum(axis=0))
     size[size <= 0.0] = 1.0
-    return np.linalg.lstsq(a / size, b, rcond=1e-6)[0] / size[:, None]
+    return np.linalg.lstsq(a / size, b, rcond=RESOLVED)[0] / size[:, None]
 
 
 def _grid(data: Data) -> dict[str, Array]:
@@ -141,15 +132,13 @@ def _grid(data: Data) -> dict[str, Array]:
     a, k, g = (_range(data, name) for name in ("slip_angle", "slip_ratio", "camber"))
     rows = [(x, 0.0, 0.0, f) for f in loads for x in a]
     rows += [(0.0, x, 0.0, f) for f in loads for x in k]
-    if data.varies("camber") and data.knows_camber:
-        rows += [(x, 0.0, c * g.max(), f) for f in loads for c in _PARTS for x in a[::2]]
-    if data.has_combined:
-        rows += [(c * a.max(), x, 0.0, f) for f in loads for c in _PARTS for x in k[::2]]
+    rows += [(x, 0.0, c * g.max(), f) for f in loads for c in _PARTS for x in a[::2]]
+    rows += [(c * a.max(), x, 0.0, f) for f in loads for c in _PARTS for x in k[::2]]
     points = np.array(rows)
     return dict(zip(SLIP_AND_LOAD, points.T, strict=True))
 
 
 def _range(data: Data, name: str) -> Array:
-    """Even values of a slip from its largest to one side to that to the other, zero among them."""
+    """Even values of a slip from its largest to one side to that to the other, whether it moves or not."""
     top = largest(data.get(name))
     return top * np.linspace(-1.0, 1.0, 2 * _LEVELS + 1) if top else np.zeros(1)
