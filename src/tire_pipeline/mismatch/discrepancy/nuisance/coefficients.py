@@ -26,11 +26,6 @@ RESOLVED = float(np.sqrt(np.finfo(np.float32).eps))
 """Columns smaller than this part of the largest one, half of the digits of single precision, do nothing here,
 and are not made larger: the coefficients of camber in a recording without camber would become a constant
 force."""
-_SHIFT_OF_FX = 2.5
-"""Braking and driving are no mirror images: a fit makes up for their difference by a shift at zero slip."""
-ONE_LOAD = 6.0
-"""Factor on what coefficients may be off by in a recording at one load, for what keeps the mirror symmetry: a
-fit to many loads may be off at any one of them."""
 ASYMMETRY_SHARE = 0.12
 """What part of the misfit may break the tire's mirror symmetry (slip angle and camber turned over): a clean
 tire breaks it by 0.1 to 0.2 of the misfit in the clean tuning cases."""
@@ -41,7 +36,7 @@ def directions(data: Data, name: str, at: At) -> Array:
     basis = _halves(data, name, at, jacobian(data, name, at))
     if name != "fx":
         return basis
-    return np.hstack([basis, _SHIFT_OF_FX * _orthonormal(shifts(data, name, at))])
+    return np.hstack([basis, _orthonormal(shifts(data, name, at))])
 
 
 def jacobian(data: Data, name: str, at: At) -> Array:
@@ -75,8 +70,7 @@ def _halves(data: Data, name: str, here: At, slopes: Array) -> Array:
     least = RESOLVED * np.sqrt(np.mean(slopes**2, axis=0))
     broken = broken[:, np.sqrt(np.mean(broken**2, axis=0)) > least]
     kept = kept[:, np.sqrt(np.mean(kept**2, axis=0)) > least]
-    size = 1.0 if data.varies("normal_load") else ONE_LOAD
-    return np.hstack([size * _orthonormal(kept), ASYMMETRY_SHARE * _orthonormal(broken)])
+    return np.hstack([_orthonormal(kept), ASYMMETRY_SHARE * _orthonormal(broken)])
 
 
 def _orthonormal(columns: Array) -> Array:
