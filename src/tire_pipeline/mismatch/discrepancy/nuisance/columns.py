@@ -46,7 +46,8 @@ class Nuisance:
     ----------
     coefficients : dict of ndarray, shape (n, k)
         Directions of the Jacobian, orthonormal in the root-mean-square sense, times the largest
-        force: a column times 0.001 has an RMS of 0.1% of the largest force (less if it breaks the mirror symmetry).
+        force: a column times 0.001 has an RMS of 0.1% of the largest force (less if it breaks the mirror
+        symmetry).
     flexible : dict of ndarray, shape (n, m)
         The flexible form, times the largest force: with coefficient standard deviation 0.005 its size is
         about 0.5% of the largest force before what the Jacobian spans is taken off.
