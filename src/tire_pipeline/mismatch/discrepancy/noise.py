@@ -135,8 +135,9 @@ def refined(data: Data, noise: ForceNoise, calm: Array) -> ForceNoise:
         return float(np.mean((x[lag:] * x[:-lag])[same])) / variance if same.any() else 0.0
 
     seen = np.array([correlation(int(k)) for k in lags])
+    most = 0.5 ** (2.0 / lags[-1])  # halved within half of the longest lag
     found = scipy.optimize.least_squares(
-        lambda p: p[0] * p[1] ** lags + p[2] - seen, (0.5, 0.5, 0.0), bounds=(0.0, 1.0)
+        lambda p: p[0] * p[1] ** lags + p[2] - seen, (0.5, 0.5, 0.0), bounds=(0.0, (1.0, most, 1.0))
     )
     share, rho, slow = found.x
     noisy = max(1.0 - slow, 1e-6)
