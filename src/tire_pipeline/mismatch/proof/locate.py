@@ -11,14 +11,10 @@ from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.discrepancy.noise import ForceNoise
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.inference.sets.answer import OPEN
-from tire_pipeline.mismatch.model.channels import largest
+from tire_pipeline.mismatch.model.channels import SMALL, largest
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-_LEAST_FORCE = 0.1
-"""A share of the force is given where the force is above this part of the largest one."""
-_EVEN = 0.7
-"""One share of the force that is this part of the squared difference is off throughout, in no stretch."""
 _FLIPS = round(1.0 / OPEN**2) - 1
 """Random flips of the sweeps' signs: as many as show a chance of the square of that which decides."""
 
@@ -37,7 +33,7 @@ class Located:
         Mean of recorded minus simulated force in the direction of the simulated one, N (of the
         plain difference if ``signed`` is False).
     share : float
-        The same over the mean size of the simulated force; NaN where that is below a tenth of the largest.
+        The same over the mean size of the simulated force; NaN where that is small beside the largest.
     p_value : float
         Largest statistic over all axes, stretches and scales under flips of whole sweeps.
     own : float
@@ -178,7 +174,7 @@ def _force(data: Data, output: str, rows: Array) -> float:
     """Mean size of the simulated force, N; NaN where it is too small for a share of it to mean something."""
     size = np.abs(data.base[output])
     here = float(size[rows].mean())
-    return here if here > _LEAST_FORCE * largest(size) else float("nan")
+    return here if here > SMALL * largest(size) else float("nan")
 
 
 def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -> dict[str, float]:
@@ -202,7 +198,7 @@ def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -
         if not np.any(force) or not any(f.output == o and f.along_force for f in located):
             continue
         whole = float(r @ force) / float(force @ force)
-        if np.sum((r - whole * force) ** 2) < (1.0 - _EVEN) * np.sum(r**2):
+        if np.sum((r - whole * force) ** 2) < 0.5 * np.sum(r**2):
             out[o] = whole
     return out
 

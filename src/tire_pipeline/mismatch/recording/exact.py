@@ -62,9 +62,9 @@ def repair(
     pick = np.flatnonzero(~bad)
     pick = pick[:: max(1, pick.size // ENOUGH_ROWS)]
     run = partial(_run, tire)
-    besides = {"_nominal_pressure": np.array([float(tire.coefficients.get("NOMPRES", 0.0) or 2.3e5)])}
-    if tire.coefficients.get("FNOMIN", 0.0) > 0.0:
-        besides["_nominal_load"] = np.array([float(tire.coefficients["FNOMIN"])])
+    stated = {"_nominal_pressure": "NOMPRES", "_nominal_load": "FNOMIN"}
+    c = tire.coefficients
+    besides = {n: np.array([float(c[key])]) for n, key in stated.items() if c.get(key, 0.0) > 0.0}
     still = _still(arrays, time)
     if time is not None:
         besides["time"] = time[pick]
