@@ -22,8 +22,8 @@ SLOW = 0.5
 """Mean over so many seconds, in which sensor noise goes under."""
 
 SMALL = 0.15
-"""A force that moves by less than this part of the other one is a side effect of what that one does, and where
-it is less than this part of its largest a share of it means nothing."""
+"""A force that moves by less than this part of the other one is a side effect of what that one does. A force
+that is smaller than this part of its largest gets no share."""
 
 ENOUGH_ROWS = 4000
 """Of a long recording, as many rows spread over it say the same of a few numbers as all of them."""
