@@ -50,7 +50,7 @@ def test_captions_speak_of_what_is_drawn():
 
 def test_no_residual_of_nothing_is_told():
     """A noise as large as what is left ended in "Fy 0 N RMS above noise"."""
-    left = Remainder(size={"fy": 0.0, "fx": 30.0}, located=[], form="", significant=True)
+    left = Remainder(size={"fy": 0.0, "fx": 30.0}, located=[], significant=True)
     told = head("unexplained", [], {}, [], left, "").text
     assert "difference (Fx 30 N RMS above noise)." in told
     none = head("unexplained", [], {}, [], replace(left, size={"fy": 0.0}), "").text

@@ -23,8 +23,8 @@ NOMINAL = NominalValues(4000.0, 0.3, 16.0, 2e5, 60.0)
 EQUATION = UnnamedPhysics({"fy": "0.1*Fz*v"}, ("speed",), "force", {"v": (0.8, 1.2)}, NOMINAL)
 FOUND = UnnamedReport(EQUATION, unseen={"fy": (300.0, 120.0, 100.0)})
 FIT = {"fy": OutputFit(20.0, 300.0, 120.0, 110.0, 130.0)}
-LEFT = Remainder(size={"fy": 280.0}, located=[], form="", significant=True)
-NONE = Remainder(size={}, located=[], form="", significant=False)
+LEFT = Remainder(size={"fy": 280.0}, located=[], significant=True)
+NONE = Remainder(size={}, located=[], significant=False)
 PLACE = Located("fy", "slip_angle", 0.1, 0.15, -250.0, -0.1, 0.01, True)
 EFFECT = EffectReport(
     "friction_scale", "physics", "friction of the track", (), 0.99, "fy", {}, [], 0.8, "", "", {}

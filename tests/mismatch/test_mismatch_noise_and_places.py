@@ -68,7 +68,7 @@ def told(tire, recording):
     data = prepare(tire, recording).data
     rest = {o: data.recorded[o] - data.base[o] for o in data.outputs}
     found = locate(data, rest, estimate_noise(data, rest), sweeps(data))
-    nothing = Remainder(size={}, located=[], form="", significant=False)
+    nothing = Remainder(size={}, located=[], significant=False)
     return found, head("unexplained", [], {}, found, nothing, "").text.partition(". ")[2]
 
 

@@ -19,7 +19,7 @@ def located(tire, recording):
     rest = {o: data.recorded[o] - data.base[o] for o in data.outputs}
     found = locate(data, rest, estimate_noise(data, rest), sweeps(data))
     even = everywhere(data, rest, found)
-    nothing = Remainder(size={}, located=[], form="", significant=False)
+    nothing = Remainder(size={}, located=[], significant=False)
     said = head("unexplained", [], {}, found, nothing, "", {}, even).text
     return found, even, said.partition(". ")[2]
 

@@ -1,4 +1,4 @@
-"""The unexplained residual gets a form: sparse, and as a Gaussian process."""
+"""The unexplained residual gets a form: a Gaussian process."""
 
 import numpy as np
 import pytest

@@ -10,6 +10,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from tire_pipeline.channels import INPUT_CHANNELS
+from tire_pipeline.mismatch.model.channels import span
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.residual import share_above_noise
 
@@ -18,11 +19,10 @@ if TYPE_CHECKING:
 
 Array = np.ndarray
 _CHANNELS_WITH_RATE = ("slip_angle", "slip_ratio", "normal_load")
-_TRAINING_POINTS = 250
-_HELD_POINTS = 2000
+_POINTS = 250
+"""Samples of each part: the fit takes time in proportion to their cube."""
 _LONGEST_LENGTH = 3.0
 _LEAST_LOG_EVIDENCE = 3.0
-_NOT_THERE = 30.0
 
 
 @dataclass(frozen=True)
@@ -84,10 +84,10 @@ def gaussian_form(data: Data, rest: Array, output: str, block: Array, floor: flo
     if not names or held.all() or not held.any():
         return None
     rng = np.random.default_rng(0)
-    train = _some(np.flatnonzero(~held), _TRAINING_POINTS, rng)
-    test = _some(np.flatnonzero(held), _HELD_POINTS, rng)
+    train = _some(np.flatnonzero(~held), _POINTS, rng)
+    test = _some(np.flatnonzero(held), _POINTS, rng)
     size = float(np.std(rest[train])) or 1.0
-    live, process = _chosen(x[train], rest[train] / size, min(floor / size, 1.0))
+    live, process = _chosen(x[train], rest[train] / size)
     lengths = np.atleast_1d(process.kernel_.k1.k2.length_scale)
     left = rest[test] - size * process.predict(x[test][:, live])
     total = float(np.mean(rest[test] ** 2))
@@ -104,20 +104,20 @@ def gaussian_form(data: Data, rest: Array, output: str, block: Array, floor: flo
     )
 
 
-def _chosen(x: Array, y: Array, noise: float) -> tuple[list[int], GaussianProcessRegressor]:
+def _chosen(x: Array, y: Array) -> tuple[list[int], GaussianProcessRegressor]:
     """Return the channels that matter and the process over them."""
     live = list(range(x.shape[1]))
-    process = _fit(x, y, noise)
+    process = _fit(x, y)
     lengths = np.atleast_1d(process.kernel_.k1.k2.length_scale)
     near = [k for k in live if lengths[k] < _LONGEST_LENGTH] or [int(np.argmin(lengths))]
     if len(near) < len(live):
-        live, process = near, _fit(x[:, near], y, noise)
+        live, process = near, _fit(x[:, near], y)
     lengths = np.atleast_1d(process.kernel_.k1.k2.length_scale)
     for k in [live[i] for i in np.argsort(-lengths)]:
         fewer = [j for j in live if j != k]
         if not fewer:
             break
-        trial = _fit(x[:, fewer], y, noise)
+        trial = _fit(x[:, fewer], y)
         fall = process.log_marginal_likelihood_value_ - trial.log_marginal_likelihood_value_
         if fall < _LEAST_LOG_EVIDENCE:
             live, process = fewer, trial
@@ -128,16 +128,13 @@ def _some(rows: Array, most: int, rng: np.random.Generator) -> Array:
     return rows if rows.size <= most else np.sort(rng.choice(rows, most, replace=False))
 
 
-def _fit(x: Array, y: Array, noise: float) -> GaussianProcessRegressor:
+def _fit(x: Array, y: Array) -> GaussianProcessRegressor:
     # Slow to import, and most reports need none.
     from sklearn.exceptions import ConvergenceWarning
     from sklearn.gaussian_process import GaussianProcessRegressor
     from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
 
-    lengths = np.full(x.shape[1], 0.3)
-    kernel = ConstantKernel(1.0, (1e-3, 1e2)) * RBF(lengths, (0.02, _NOT_THERE)) + WhiteKernel(
-        max(noise**2, 1e-3), (1e-5, 2.0)
-    )
+    kernel = ConstantKernel() * RBF(np.ones(x.shape[1])) + WhiteKernel()
     with warnings.catch_warnings(), threadpool_limits(1):
         warnings.simplefilter("ignore", ConvergenceWarning)
         return GaussianProcessRegressor(kernel, normalize_y=False, random_state=0).fit(x, y)
@@ -145,13 +142,13 @@ def _fit(x: Array, y: Array, noise: float) -> GaussianProcessRegressor:
 
 def _columns(data: Data) -> dict[str, Array]:
     out = {n: data.smooth(n) for n in INPUT_CHANNELS if data.varies(n)}
-    if data.time is not None and data.size > 10:
+    if data.time is not None:
         step = np.maximum(data.step, 1e-9)
         for n in _CHANNELS_WITH_RATE:
             if n in out:
                 rate = np.diff(out[n], prepend=out[n][0]) / step
                 rate[data.start] = 0.0
-                low, high = np.quantile(rate, [0.01, 0.99])
+                low, high = span(rate)
                 if high > low:
                     out[f"rate of {n}"] = np.clip(rate, low, high)
     return out
@@ -169,4 +166,4 @@ def _inputs(data: Data) -> tuple[list[str], Array]:
 
 def _ranges(data: Data, names: list[str], columns: dict[str, Array] | None = None) -> list[float]:
     columns = _columns(data) if columns is None else columns
-    return [max(float(np.ptp(np.quantile(columns[n], [0.005, 0.995]))), 1e-12) for n in names]
+    return [max(float(np.ptp(span(columns[n]))), 1e-12) for n in names]

@@ -6,17 +6,18 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.model.states import OF_A_TURN
 
 Array = np.ndarray
 _CIRCUMFERENCES = (3.0, 14.0)
 """What drums and belts measure round, m."""
-_OF_A_TURN = (0.88, 1.06)
-"""Of the tire's circumference: what repeats so often is the wheel's."""
-_HARMONICS = 4
-_PADDED = 4
+_HARMONICS = 2
+_PADDED = 2
+"""Times as long as the recording is the transform: wave numbers are then half a period of it apart."""
 
 
 def repeating_forms(data: Data, changes: list[Change]) -> Iterator[dict[str, Array]]:
@@ -52,9 +53,11 @@ def strongest_length(data: Data, rest: Array) -> float | None:
         None if too little was rolled, or sampling is too coarse to tell.
     """
     rolled = data.distance
-    span = float(rolled[-1] - rolled[0])
-    step = float(np.quantile(np.diff(rolled), 0.75))
-    if span < 20.0 * _CIRCUMFERENCES[1] or not 0.0 < step < _CIRCUMFERENCES[0] / 6.0:
+    way = float(rolled[-1] - rolled[0])
+    step = float(np.median(np.diff(rolled)))
+    if way < INDEPENDENT_STRETCHES * _CIRCUMFERENCES[1] or not 0.0 < step < _CIRCUMFERENCES[0] / (
+        2 * _HARMONICS
+    ):
         return None
     even = np.arange(rolled[0], rolled[-1], step)
     fast = rest - data.running_mean(rest, 1.0)
@@ -62,7 +65,7 @@ def strongest_length(data: Data, rest: Array) -> float | None:
     per_metre = np.arange(power.size) / (_PADDED * even.size * step)
     first = np.flatnonzero((per_metre >= 1.0 / _CIRCUMFERENCES[1]) & (per_metre <= 1.0 / _CIRCUMFERENCES[0]))
     turns = 1.0 / per_metre[first] / (2.0 * np.pi * data.radius)
-    first = first[(turns < _OF_A_TURN[0]) | (turns > _OF_A_TURN[1])]
+    first = first[(turns < OF_A_TURN[0]) | (turns > OF_A_TURN[1])]
     first = first[2 * first < power.size]
     if first.size == 0:
         return None

@@ -15,10 +15,11 @@ from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 
 Array = np.ndarray
-_FREQUENCIES = (3.0, 4.2, 6.0, 8.5, 12.0, 17.0)
-"""Of the first bending of rigs and their load cells, Hz; half an octave apart, as wide as the damping."""
+_SLOWEST = 3.0
+"""Of the first bending of rigs and their load cells, Hz; the next are half an octave apart, as wide as the
+damping."""
 _DAMPING = 0.1
-_SAMPLES_A_CYCLE = 5.0
+_SAMPLES_A_CYCLE = 3.0
 """A cycle has at least so many, or sampling does not show it."""
 
 
@@ -27,12 +28,12 @@ def ringing_forms(data: Data, changes: list[Change]) -> Iterator[dict[str, Array
     step = float(np.median(data.step))
     firsts = np.flatnonzero(data.start)[1:]
     pieces = {o: np.split(force, firsts) for o, force in simulate(data, changes).items() if o in data.outputs}
-    for frequency in _FREQUENCIES:
-        if _SAMPLES_A_CYCLE * frequency * step > 1.0:
-            return
+    frequency = _SLOWEST
+    while _SAMPLES_A_CYCLE * frequency * step <= 1.0:
         added = {o: np.concatenate([rung(piece, frequency, step) for piece in pieces[o]]) for o in pieces}
         if any(np.any(a) for a in added.values()):
             yield {o: a[:, None] for o, a in added.items()}
+        frequency *= np.sqrt(2.0)
 
 
 def rung(force: Array, frequency: float, step: float) -> Array:

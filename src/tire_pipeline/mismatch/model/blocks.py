@@ -6,6 +6,8 @@ import numpy as np
 import scipy
 
 from tire_pipeline.channels import SLIP_AND_LOAD
+from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
+from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
@@ -17,7 +19,8 @@ def sweeps(data: Data) -> Array:
     """Return the number of the sweep that each sample belongs to.
 
     A sweep ends where the slip angle (or the slip ratio) passes through zero, at gaps, and where
-    one would last more than a twenty-fourth of the recording. Without time, cells of the operating space.
+    one would last more than an independent stretch of the recording. Without time, cells of the operating
+    space.
 
     Parameters
     ----------
@@ -32,11 +35,11 @@ def sweeps(data: Data) -> Array:
         return _cells(data)
     total = float(data.step.sum())
     least = max(_LEAST_SECONDS, total / _MOST_BLOCKS)
-    most = max(total / 24.0, 1.5 * least)
+    most = max(total / INDEPENDENT_STRETCHES, least)
     cuts = data.start.copy()
-    for name, level in (("slip_angle", 0.004), ("slip_ratio", 0.008)):
-        x = data.smooth(name)
-        if np.quantile(np.abs(x), 0.95) > level:
+    for name in ("slip_angle", "slip_ratio"):
+        x, level = data.smooth(name), ABSOLUTE_SPREAD[name]
+        if data.varies(name):
             side = np.sign(np.where(np.abs(x) < level, 0.0, x))
             cuts |= _changes(side)
     elapsed = np.cumsum(data.step)
@@ -74,12 +77,12 @@ def _split_long(block: Array, elapsed: Array, most: float) -> Array:
 
 
 def _cells(data: Data) -> Array:
-    """Cells of the operating space, about six points or more each."""
+    """Cells of the operating space, as many as each has points, but no more than stretches of a recording."""
     names = [n for n in SLIP_AND_LOAD if np.ptp(data.get(n)) > 0.0]
+    count = min(int(np.sqrt(data.size)), INDEPENDENT_STRETCHES)
     if not names:
-        return np.arange(data.size) * 8 // data.size
+        return np.arange(data.size) * count // data.size
     x = np.column_stack([data.get(n) / np.std(data.get(n)) for n in names])
-    count = int(np.clip(data.size // 6, 4, 24))
     _, label = scipy.cluster.vq.kmeans2(x, count, minit="++", seed=0)
     _, label = np.unique(label, return_inverse=True)
     return label

@@ -6,6 +6,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+import scipy
 
 Array = np.ndarray
 _RELATIVE_SPREAD = {"pressure": 0.03, "speed": 0.12, "normal_load": 0.1}
@@ -17,16 +18,41 @@ ABSOLUTE_SPREAD = {
     "turn_slip": 0.003,
 }
 
-_SLOW_LOGGER = 0.025
-"""s: channels come from devices whose own clocks are about this fine, whatever the file's rate."""
-
 SLOW = 0.5
 """Mean over so many seconds, in which sensor noise goes under."""
+
+SMALL = 0.15
+"""A force that moves by less than this part of the other one is a side effect of what that one does. A force
+that is smaller than this part of its largest gets no share."""
+
+ENOUGH_ROWS = 4000
+"""Of a long recording, as many rows spread over it say the same of a few numbers as all of them."""
+
+_OUTLIERS = 0.005
+"""Part of the samples at either end of a channel that may be outliers."""
+
+
+def span(x: Array) -> tuple[float, float]:
+    """Return the range of a channel but for outliers: the central 99%."""
+    low, high = np.quantile(x, [_OUTLIERS, 1.0 - _OUTLIERS])
+    return float(low), float(high)
+
+
+def largest(x: Array) -> float:
+    """Return the largest size of a channel but for outliers: 99% are no larger."""
+    return float(np.quantile(np.abs(x), 1.0 - 2.0 * _OUTLIERS))
+
+
+def white_noise(x: Array) -> float:
+    """Return the size of white noise, from the median of second differences; NaN for fewer than three."""
+    d = np.diff(x, 2)
+    size = np.linalg.norm((1.0, -2.0, 1.0))
+    return float(scipy.stats.median_abs_deviation(d, scale="normal") / size) if d.size else float("nan")
 
 
 def moves(slow: Array, least: float) -> bool:
     """Whether a channel without its sensor noise spreads over more than ``least`` (99% of it)."""
-    low, high = np.quantile(slow, [0.005, 0.995])
+    low, high = span(slow)
     return bool(high - low > least)
 
 
@@ -84,7 +110,7 @@ class RecordedChannels:
 
     def running_mean(self, x: Array, seconds: float) -> Array:
         """Return the mean over so many seconds around each sample, within its piece."""
-        if self.time is None or x.size < 8:
+        if self.time is None:
             return x
         half = int(max(seconds / max(float(np.median(self.step)), 1e-9), 1.0)) // 2
         if half < 1:
@@ -111,17 +137,17 @@ class RecordedChannels:
 
     @cached_property
     def sampling(self) -> float:
-        """Time from one sample to the next, s; at least that of a slow logger, 0.025 s."""
-        return max(float(np.median(self.step)), _SLOW_LOGGER)
+        """Time from one sample to the next, s."""
+        return float(np.median(self.step))
 
 
 _OTHER_SIDE = 0.5
-"""Least slip angle to one side over that to the other (2% quantiles). A drive of DART that turns to one side
+"""Least slip angle to one side over that to the other. A drive of DART that turns to one side
 gave an equation that took the error on its own unseen sweeps from 0.50 to 0.09 N, and on another drive from
 0.27 to 0.46 N."""
 
 
 def one_sided(slip: Array) -> bool:
     """Whether a slip goes to one side only, or nearly."""
-    low, high = np.quantile(slip, [0.02, 0.98])
+    low, high = span(slip)
     return bool(min(-low, high) < _OTHER_SIDE * max(-low, high))

@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from tire_pipeline.channels import FORCE_OF_SLIP
+from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, SMALL, largest
 from tire_pipeline.mismatch.model.states import States
 
 Array = np.ndarray
@@ -45,8 +47,8 @@ class Data(States):
 
     def driven(self, output: str) -> bool:
         """Whether this force is there and the slips make it move, so that its size can be judged."""
-        sizes = {n: float(np.quantile(np.abs(b), 0.98)) for n, b in self.base.items()}
-        return sizes.get(output, 0.0) > 0.15 * max(sizes.values())
+        sizes = {n: largest(b) for n, b in self.base.items()}
+        return sizes.get(output, 0.0) > SMALL * max(sizes.values())
 
     @property
     def tire_coefficients(self) -> Any:
@@ -61,10 +63,9 @@ class Data(States):
 
     @cached_property
     def has_combined(self) -> bool:
-        """Whether both slips are large together in at least 0.5% of the samples (50 at least; 5 points)."""
-        both = (np.abs(self.get("slip_angle")) > 0.015) & (np.abs(self.get("slip_ratio")) > 0.02)
-        least = 5 if self.time is None else max(50, 0.005 * self.size)
-        return bool(both.sum() >= least)
+        """Whether both slips are large together in at least 1% of the samples: beyond three least spreads."""
+        slips = [np.abs(self.get(n)) / ABSOLUTE_SPREAD[n] for n in FORCE_OF_SLIP]
+        return largest(np.min(slips, axis=0)) > 3.0
 
     def part(self, rows: Array) -> Data:
         """Return the rows of ``rows`` (bool), states taken over from the whole recording."""

@@ -12,6 +12,10 @@ from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects import State, catalogue
 
 Array = np.ndarray
+_FRICTION_AND_STIFFNESS = {
+    "fx": ("friction_x", "slip_stiffness"),
+    "fy": ("friction_y", "cornering_stiffness"),
+}
 Change = tuple[str, Mapping[str, float]]
 
 
@@ -50,6 +54,23 @@ def plain_forces(
             **more,
         )
     return {"fx": np.asarray(out.fx, float), "fy": np.asarray(out.fy, float)}
+
+
+def slip_at_peak(tire: Any, output: str, load: Array) -> Array:
+    """Return the slip at which the linear force would be as large as the largest one: where the curve bends.
+
+    Parameters
+    ----------
+    tire : TireModel
+    output : str
+        ``"fx"`` or ``"fy"``.
+    load : ndarray, shape (n,)
+        N.
+    """
+    friction, stiffness = _FRICTION_AND_STIFFNESS[output]
+    found = tire.forces(normal_load=load, limits="ignore", outputs=(friction, stiffness))
+    most, slope = (np.abs(np.asarray(getattr(found, name), float)) for name in (friction, stiffness))
+    return np.maximum(most * load, 1e-9) / np.maximum(slope, 1e-9)
 
 
 def simulate(data: Any, changes: Sequence[Change] = ()) -> dict[str, Array]:

@@ -7,10 +7,14 @@ from functools import cached_property
 import numpy as np
 
 from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
-from tire_pipeline.mismatch.model.channels import RecordedChannels
-from tire_pipeline.mismatch.model.forces import plain_forces
+from tire_pipeline.mismatch.model.channels import RecordedChannels, least_spread
 
 Array = np.ndarray
+OF_CAMBER = {
+    "fx": frozenset(["PDX3", "RBX3"]),
+    "fy": frozenset("PDY3 PEY4 PEY5 PKY3 PKY6 PKY7 PHY3 PVY3 PVY4 RBY4 RVY3".split()),
+}
+"""Coefficients through which each force of a model answers to camber."""
 
 
 class NominalConditions(RecordedChannels):
@@ -39,7 +43,8 @@ class NominalConditions(RecordedChannels):
             return excess
         low, high = known["low"], known["high"]
         inside = np.clip(load, low, high)
-        faded = 1.0 - np.abs(load - inside) / max(high - low, 0.1 * self.load_nominal)
+        width = max(high - low, least_spread("normal_load", load))
+        faded = 1.0 - np.abs(load - inside) / width
         return (inside - self.load_nominal) / self.load_nominal * np.maximum(faded, 0.0)
 
     @cached_property
@@ -49,35 +54,33 @@ class NominalConditions(RecordedChannels):
         c, missing = self.tire.coefficients, getattr(self.tire, "defaulted", {})
         if any(c.get(k) == nominal and k not in missing for k in ("NOMPRES", "INFLPRES")):
             return [nominal]
-        first = float(np.median(self.smooth("pressure")[: max(self.size // 20, 1)]))
-        return [nominal] + ([first] if abs(first / nominal - 1.0) > 0.03 else [])
+        pressure = self.smooth("pressure")
+        first = float(pressure[0])
+        return [nominal] + ([first] if abs(first - nominal) > least_spread("pressure", pressure) else [])
 
     @cached_property
     def pressure_nominal(self) -> float:
-        """Pressure at which the model is right, Pa."""
+        """Pressure at which the model is right, Pa: the file's if it was recorded, else the most common."""
         if "pressure_nominal" in self.fixed:
             return float(self.fixed["pressure_nominal"])
-        c = self.tire.coefficients
-        p = self.channels["pressure"]
-        for key in ("NOMPRES", "INFLPRES"):
-            value = float(c.get(key, 0.0) or 0.0)
-            if key not in getattr(self.tire, "defaulted", {}) and p.min() * 0.7 < value < p.max() * 1.4:
-                return value
-        return most_common(p)
+        return self._stated("pressure", "NOMPRES", "INFLPRES")
 
     @cached_property
     def speed_nominal(self) -> float:
-        """Speed at which the model is right, m/s."""
+        """Speed at which the model is right, m/s: the file's if it was recorded, else the most common one."""
         if "speed_nominal" in self.fixed:
             return float(self.fixed["speed_nominal"])
-        value = float(self.tire.coefficients.get("LONGVL", 0.0) or 0.0)
-        v = self.channels["speed"]
-        defaulted = "LONGVL" in getattr(self.tire, "defaulted", {})
-        return (
-            value
-            if value > 0.0 and not defaulted and v.min() * 0.8 < value < v.max() * 1.2
-            else most_common(v)
-        )
+        return self._stated("speed", "LONGVL")
+
+    def _stated(self, channel: str, *keys: str) -> float:
+        """Return the first of some values of the file that the channel had, or its most common value."""
+        c, missing = self.tire.coefficients, getattr(self.tire, "defaulted", {})
+        x = self.channels[channel]
+        for key in keys:
+            value = float(c.get(key, 0.0) or 0.0)
+            if key not in missing and x.min() <= value <= x.max():
+                return value
+        return most_common(x)
 
     @cached_property
     def speed_excess(self) -> Array:
@@ -102,20 +105,16 @@ class NominalConditions(RecordedChannels):
         """Whether the model's lateral force answers to camber."""
         if "knows_camber" in self.fixed:
             return bool(self.fixed["knows_camber"])
-        n = 41
-        a = np.linspace(-0.1, 0.1, n)
-        args = {"slip_angle": a, "slip_ratio": np.zeros(n), "normal_load": np.full(n, self.load_nominal)}
-        f0 = plain_forces(self.tire, camber=np.zeros(n), **args)["fy"]
-        f1 = plain_forces(self.tire, camber=np.full(n, 0.05), **args)["fy"]
-        return bool(np.max(np.abs(f1 - f0)) > 0.002 * np.max(np.abs(f0)))
+        c = self.tire.coefficients
+        return any(c.get(key, 0.0) for key in OF_CAMBER["fy"])
 
 
 def most_common(x: Array) -> float:
-    """Return the median of the fullest of 40 bins between the extremes."""
+    """Return the median of the fullest of equal bins, as many as the root of the number of values."""
     finite = x[np.isfinite(x)]
     if finite.size == 0:
         return 0.0
-    counts, edges = np.histogram(finite, bins=40)
+    counts, edges = np.histogram(finite, bins="sqrt")
     k = int(np.argmax(counts))
     inside = finite[(finite >= edges[k]) & (finite <= edges[k + 1])]
     return float(np.median(inside))

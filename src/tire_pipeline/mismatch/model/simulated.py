@@ -11,6 +11,9 @@ from tire_pipeline.mismatch.model.forces import plain_forces, simulate
 from tire_pipeline.mismatch.model.nominal import NominalConditions
 
 Array = np.ndarray
+DIFFERENCE = float(np.cbrt(np.finfo(float).eps))
+"""Step of a central difference, as a part of what a channel usually is: the rounding is then as small as the
+error of the difference (Nocedal and Wright, Numerical Optimization, 2nd ed., 8.1)."""
 
 
 class Simulated(NominalConditions):
@@ -60,23 +63,24 @@ class Simulated(NominalConditions):
 
         before, here = slip_angle, wanted(slip_angle)
         miss_before = before - here
-        for _ in range(4):
+        for _ in range(3):
             miss = here - wanted(here)
             slope = (miss - miss_before) / np.where(here == before, 1.0, here - before)
-            slope = np.where(here == before, 1.0, np.clip(slope, 0.3, 3.0))
+            slope = np.where(here == before, 1.0, np.clip(slope, 1.0 / 3.0, 3.0))
             before, miss_before, here = here, miss, here - miss / slope
         return here
 
-    def slope(self, name: str, step: float) -> dict[str, Array]:
+    def slope(self, name: str) -> dict[str, Array]:
         """Return d force / d channel of the model by central differences."""
         key = f"slope {name}"
         if key not in self.fixed:
             at = {n: self.get(n) for n in SLIP_AND_LOAD}
-            self.fixed[key] = self._slope_at(at, name, step)
+            self.fixed[key] = self._slope_at(at, name)
         return self.fixed[key]
 
-    def _slope_at(self, at: dict[str, Array], name: str, step: float) -> dict[str, Array]:
+    def _slope_at(self, at: dict[str, Array], name: str) -> dict[str, Array]:
         """Return d force / d channel at some inputs, one a sample."""
+        step = DIFFERENCE * (self.load_nominal if name == "normal_load" else 1.0)
         out: dict[str, Array] = {}
         for sign in (1.0, -1.0):
             c = {**at, name: at[name] + sign * step}
@@ -90,12 +94,12 @@ class Simulated(NominalConditions):
         """Slip angle (rad) for a side force as large as the load, by the slope while rolling straight."""
         zero, load = np.zeros(self.size), self.get("normal_load")
         straight = {"slip_angle": zero, "slip_ratio": zero, "camber": zero, "normal_load": load}
-        slope = self._slope_at(straight, "slip_angle", 1e-3)["fy"]
+        slope = self._slope_at(straight, "slip_angle")["fy"]
         return np.divide(load, slope, out=np.zeros(self.size), where=np.abs(slope) > 1.0)
 
     def _stiffness(self, axis: str) -> float:
         """Slip stiffness at nominal load, N per unit of slip, positive."""
-        h = 1e-3
+        h = DIFFERENCE
         a = np.array([h, -h]) if axis == "fy" else np.zeros(2)
         k = np.array([h, -h]) if axis == "fx" else np.zeros(2)
         f = plain_forces(
@@ -109,12 +113,12 @@ class Simulated(NominalConditions):
 
     @cached_property
     def slope_share(self) -> Array:
-        """|dFy/d slip angle| over the cornering stiffness at nominal load, 0.03 to 2."""
-        share = np.abs(self.slope("slip_angle", 2e-3)["fy"]) / self._stiffness("fy")
-        return np.clip(share, 0.03, 2.0)
+        """|dFy/d slip angle| over the cornering stiffness at nominal load, at most 2."""
+        share = np.abs(self.slope("slip_angle")["fy"]) / self._stiffness("fy")
+        return np.minimum(share, 2.0)
 
     @cached_property
     def slope_share_x(self) -> Array:
-        """|dFx/d slip ratio| over the slip stiffness at nominal load, 0.03 to 2."""
-        share = np.abs(self.slope("slip_ratio", 2e-3)["fx"]) / self._stiffness("fx")
-        return np.clip(share, 0.03, 2.0)
+        """|dFx/d slip ratio| over the slip stiffness at nominal load, at most 2."""
+        share = np.abs(self.slope("slip_ratio")["fx"]) / self._stiffness("fx")
+        return np.minimum(share, 2.0)

@@ -9,10 +9,12 @@ import numpy as np
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import State
 from tire_pipeline.mismatch.effects.shared import first_order, harmonic_power
+from tire_pipeline.mismatch.model.channels import SLOW, largest
 from tire_pipeline.mismatch.model.simulated import Simulated
 
 Array = np.ndarray
-_MOST_WAVES = 4000
+OF_A_TURN = (0.88, 1.06)
+"""Of the circumference of a tire without load, what a wheel rolls in one turn."""
 
 
 class States(Simulated):
@@ -51,7 +53,7 @@ class States(Simulated):
             out["time_span"] = max(float(self.time[-1] - self.time[0]), 1e-12)
             if self.power is not None:
                 out["work"] = max(float(np.sum(self.power * self.step)), 1e-12)
-                out["power"] = max(float(np.quantile(self.power, 0.9)), 1e-12)
+                out["power"] = max(largest(self.power), 1e-12)
         return out
 
     @cached_property
@@ -70,34 +72,32 @@ class States(Simulated):
         return np.cumsum(np.abs(self.get("speed")) * self.step)
 
     def heat(self, lag: float) -> Array:
-        """Return friction power followed with a lag of first order, over the power's 90% quantile.
+        """Return friction power followed with a lag of first order, over the largest power.
 
         Times ``(1 + (lag / duration)^2)^0.5``: with a lag much longer than the recording it is friction work,
         of order one.
         """
         if "heat" in self.fixed:
             return self.fixed["heat"](lag)
-        key = round(float(lag), 2)
-        cache = self.fixed.setdefault("heats", {})
-        if key not in cache:
-            first = np.zeros(self.size, bool)
-            first[0] = True
-            assert self.power is not None  # asked only of effects that need a time line
-            power = self.power.copy()
-            power[0] = 0.0
-            h = first_order(power, 1.0 - np.exp(-self.step / max(lag, 1e-3)), first)
-            if len(cache) > 40:
-                cache.clear()
-            cache[key] = h * np.hypot(1.0, lag / self.scales["time_span"]) / self.scales["power"]
-        return cache[key]
+        first = np.zeros(self.size, bool)
+        first[0] = True
+        assert self.power is not None  # asked only of effects that need a time line
+        power = self.power.copy()
+        power[0] = 0.0
+        heat = first_order(power, 1.0 - np.exp(-self.step / max(lag, 1e-9)), first)
+        return heat * np.hypot(1.0, lag / self.scales["time_span"]) / self.scales["power"]
 
     @cached_property
     def turns_resolved(self) -> bool:
         """Whether there are at least three samples a wheel turn, in at least half of the recording."""
         if self.time is None or "speed" not in self.present:
             return False
-        turns = np.abs(self.get("speed")) * self.step / (2.0 * np.pi * self.radius)
-        return bool(np.mean((turns < 0.34) & (turns > 1e-4)) > 0.4)
+        turns = self._turns_a_sample
+        return bool(np.mean((turns < 1.0 / 3.0) & (turns > 0.0)) >= 0.5)
+
+    @property
+    def _turns_a_sample(self) -> Array:
+        return np.abs(self.get("speed")) * self.step / (2.0 * np.pi * self.radius)
 
     @cached_property
     def wheel_way(self) -> Array:
@@ -133,33 +133,33 @@ class States(Simulated):
         """Return the fast part of the residual, times what each wobbling channel would do to the force."""
         output = self.outputs[-1]
         residual = self.recorded[output] - self.base[output]
-        residual = residual - self.running_mean(residual, 0.4)
-        turns = np.abs(self.get("speed")) * self.step / (2.0 * np.pi * self.radius)
-        residual = np.where(turns < 0.4, residual, 0.0)
+        residual = residual - self.running_mean(residual, SLOW)
+        residual = np.where(self._turns_a_sample < 0.5, residual, 0.0)
         if not wobbling:
             return [residual]
-        steps = {"slip_angle": 2e-3, "normal_load": 0.01 * self.load_nominal}
-        slopes = [self.slope(name, steps[name])[output] for name in wobbling]
+        slopes = [self.slope(name)[output] for name in wobbling]
         return [residual * slope / max(float(np.sqrt(np.mean(slope**2))), 1e-12) for slope in slopes]
 
     def _radius_of(self, signals: list[Array]) -> float:
-        """Return the radius at which some signals together have most power once a turn."""
+        """Return the radius at which some signals together have most power once a turn.
+
+        Wave numbers are one radian apart over the way that is looked at: power changes little between them.
+        """
         way, firsts = self.wheel_way, np.flatnonzero(self.start)
         ends = np.append(firsts[1:], self.size)
-        span = max(float(way[-1] - way[0]), 1e-9)
+        whole = max(float(way[-1] - way[0]), 1e-9)
         longest = max(float(np.max(way[ends - 1] - way[firsts])), 1e-9)
-        low, high = 1.0 / (1.04 * self.radius), 1.0 / (0.9 * self.radius)
-        count = int(np.clip((high - low) * longest / 0.8, 2, _MOST_WAVES))
+        low, high = (1.0 / (part * self.radius) for part in (max(OF_A_TURN), min(OF_A_TURN)))
+        count = max(int((high - low) * longest), 1) + 1
         step = (high - low) / (count - 1)
         power = np.zeros(count)
         for first, end in zip(firsts, ends, strict=True):
             power += _power([signal[first:end] for signal in signals], way[first:end], low, step, count)
-        best = low + int(np.argmax(power)) * step
-        half = int(np.clip(np.ceil(step * span / 0.8), 1, _MOST_WAVES // 2))
-        for width, points in ((step, half), (step / half, 20)):
-            power = _power(signals, way, best - width, width / points, 2 * points + 1)
-            best += (int(np.argmax(power)) - points) * width / points
-        return 1.0 / best
+        middle = low + int(np.argmax(power)) * step
+        half = min(int(step * whole) + 1, self.size)
+        step /= half
+        power = _power(signals, way, middle - half * step, step, 2 * half + 1)
+        return 1.0 / (middle + (_top(power) - half) * step)
 
     def relax(self, state: State, names: set[str]) -> None:
         """Lag the slips by the relaxation that the file itself states (PTY1, PTX1), if it does."""
@@ -168,12 +168,20 @@ class States(Simulated):
             return
         if any(catalogue()[name].instead_of_file for name in names):
             return
-        speed = np.maximum(np.abs(self.get("speed")), 0.1)
+        rolled = np.abs(self.get("speed")) * self.step
         for slip, length in own.items():
-            gain = 1.0 - np.exp(-self.step * speed / max(length, 1e-3))
+            gain = 1.0 - np.exp(-rolled / max(length, 1e-9))
             setattr(state, slip, first_order(getattr(state, slip), gain, self.start))
 
 
 def _power(signals: list[Array], way: Array, first: float, step: float, count: int) -> Array:
     """Return the power of some signals together at the wave numbers ``first, first + step, ...``."""
     return np.sum([harmonic_power(signal, way, first, step, count) ** 2 for signal in signals], axis=0)
+
+
+def _top(power: Array) -> float:
+    """Return where the parabola through the largest value and its neighbours has its top, in steps."""
+    k = int(np.clip(np.argmax(power), 1, power.size - 2))
+    before, here, after = power[k - 1 : k + 2]
+    bend = before - 2.0 * here + after
+    return k + (0.5 * float((before - after) / bend) if bend < 0.0 else 0.0)

@@ -99,8 +99,6 @@ class Remainder:
     size : dict
         Output -> RMS above noise, N.
     located : list of Located
-    form : str
-        A sparse equation for it (PySINDy), or nothing.
     significant : bool
         Whether it counts.
     probability : float
@@ -116,7 +114,6 @@ class Remainder:
 
     size: dict[str, float]
     located: list[Located]
-    form: str
     significant: bool
     probability: float = 0.0
     gaussian: list[GaussianForm] = field(default_factory=list)

@@ -14,7 +14,7 @@ from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.sign_convention import excludes_sae, turned
-from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, SLOW, moves
+from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, ENOUGH_ROWS, SLOW, moves
 from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
 
@@ -60,13 +60,11 @@ def repair(
             bad |= hit
             findings.append(replace(finding, bad=hit, span=span))
     pick = np.flatnonzero(~bad)
-    pick = pick[:: max(1, pick.size // 4000)]
+    pick = pick[:: max(1, pick.size // ENOUGH_ROWS)]
     run = partial(_run, tire)
-    besides = {
-        symbol: np.array([float(tire.coefficients[name])])
-        for symbol, name in (("_nominal_pressure", "NOMPRES"), ("_nominal_load", "FNOMIN"))
-        if tire.coefficients.get(name, 0.0) > 0.0
-    }
+    stated = {"_nominal_pressure": "NOMPRES", "_nominal_load": "FNOMIN"}
+    c = tire.coefficients
+    besides = {n: np.array([float(c[key])]) for n, key in stated.items() if c.get(key, 0.0) > 0.0}
     still = _still(arrays, time)
     if time is not None:
         besides["time"] = time[pick]
@@ -112,7 +110,7 @@ def open_axes(
         said = "; ".join(f.text for f in signs)
         return Question(f"the recording agrees with the model only in other axes: {said}", _READ_AGAIN)
     known = arrays if time is None else {**arrays, "time": time}
-    some = {n: a[:: max(1, a.size // 4000)] for n, a in known.items()}
+    some = {n: a[:: max(1, a.size // ENOUGH_ROWS)] for n, a in known.items()}
     if against and not excludes_sae(some, partial(_run, tire)):
         both = "the forces do not tell whether slip_angle and fy have the other sign too"
         return Question(f"{against}, and {both}", _READ_AGAIN)

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import scipy
 
 from tire_pipeline.channels import SLIP_AND_LOAD, SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
-from tire_pipeline.mismatch.model.channels import least_spread, moves
-from tire_pipeline.mismatch.model.forces import plain_forces
+from tire_pipeline.mismatch.model.channels import ENOUGH_ROWS, least_spread, moves
+from tire_pipeline.mismatch.model.forces import plain_forces, slip_at_peak
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.usable import Drive
 
@@ -43,8 +44,6 @@ this is the file of this tire, unless a set of effects answers that."""
 RECORDED_STATES = ("pressure", "tread_temperature")
 """Channels by which friction and stiffness of the same tire change. What they explain is no other tire's."""
 
-_MOST_ROWS_FITTED = 4000
-_GAUSS_NEWTON_STEPS = 12
 _LARGEST_FIGURE = 2.0
 
 
@@ -142,7 +141,7 @@ def figures(
     states : tuple of str
         Channels that friction and stiffness may follow.
     """
-    step = max(1, arrays["normal_load"].size // _MOST_ROWS_FITTED)
+    step = max(1, arrays["normal_load"].size // ENOUGH_ROWS)
     a = {n: arrays[n][::step] for n in (*SLIP_AND_LOAD, *states, output) if n in arrays}
     model = _Similar(tire, a, output)
     free = np.array([True, model.loaded, True, model.loaded, True, *[True] * model.of_states])
@@ -171,67 +170,37 @@ class _Similar:
         load = self.points["normal_load"]
         middle = float(np.median(load))
         self.excess = (load - middle) / middle
-        self.loaded = moves(load, 0.1 * middle)
+        self.loaded = moves(load, least_spread("normal_load", load))
         varying = {
             n: x - x.mean() for n, x in a.items() if n in RECORDED_STATES and moves(x, least_spread(n, x))
         }
         self.states = np.array([x / x.std() for x in varying.values()]).reshape(-1, load.size)
         self.of_states = 2 * len(varying)
-        used = np.abs(self.points[self.slip]) * self._at(load, "stiffness") / self._at(load, "peak")
+        used = np.abs(self.points[self.slip]) / slip_at_peak(tire, output, load)
         self.bend = used / (1.0 + used)
-
-    def _at(self, load: Array, what: str) -> Array:
-        """Slip stiffness or largest force of the file at some loads, by interpolation over them."""
-        levels = np.linspace(float(load.min()), float(load.max()), 12)
-        slip = np.array([2e-3]) if what == "stiffness" else np.linspace(0.01, 0.35, 60)
-        grid_load, grid_slip = (g.ravel() for g in np.meshgrid(levels, slip, indexing="ij"))
-        size = np.zeros(grid_load.size)
-        for sign in (1.0, -1.0):
-            points = {n: np.zeros(grid_load.size) for n in self.points} | {"normal_load": grid_load}
-            points[self.slip] = sign * grid_slip
-            size = size + 0.5 * sign * plain_forces(self.tire, **points)[self.output]
-        size = np.abs(size).reshape(levels.size, slip.size).max(axis=1)
-        return np.maximum(np.interp(load, levels, size / (slip[0] if what == "stiffness" else 1.0)), 1e-9)
 
     def __call__(self, p: Array) -> Array:
         """Return the force with figures off by ``p``."""
         of_friction, of_stiffness = p[len(FIGURES) :].reshape(2, -1)
-        m = p[0] + p[1] * self.excess + of_friction @ self.states
-        k = p[2] + p[3] * self.excess + of_stiffness @ self.states
-        slip = self.points[self.slip] * np.exp(np.clip(k - m + p[4] * self.bend, -5.0, 5.0))
+        friction, by_load, stiffness, stiffness_by_load, curvature = p[: len(FIGURES)]
+        m = friction + by_load * self.excess + of_friction @ self.states
+        k = stiffness + stiffness_by_load * self.excess + of_stiffness @ self.states
+        slip = self.points[self.slip] * np.exp(k - m + curvature * self.bend)
         return np.exp(m) * plain_forces(self.tire, **{**self.points, self.slip: slip})[self.output]
 
 
 def _fit(model: _Similar, recorded: Array, free: Array) -> tuple[Array, Array, Array]:
-    """Gauss-Newton with halved steps; return parameters, the residual, and the columns of the last step."""
+    """Least squares; return parameters, the residual, and its derivatives by these and by an offset."""
+
+    def left(some: Array) -> Array:
+        p = np.zeros(len(FIGURES) + model.of_states)
+        p[free] = some
+        rest = recorded - model(p)
+        return np.asarray(rest - rest.mean())
+
+    found = scipy.optimize.least_squares(
+        left, np.zeros(free.size), bounds=(-_LARGEST_FIGURE, _LARGEST_FIGURE), x_scale="jac"
+    )
     p = np.zeros(len(FIGURES) + model.of_states)
-    force = model(p)
-    left = _centred(recorded - force)
-    for _ in range(_GAUSS_NEWTON_STEPS):
-        columns = np.empty((recorded.size, free.size + 1))
-        columns[:, -1] = 1.0
-        for j, i in enumerate(free):
-            moved = p.copy()
-            moved[i] += 1e-3
-            columns[:, j] = (model(moved) - force) / 1e-3
-        delta = np.linalg.lstsq(columns, left, rcond=1e-6)[0][: free.size]
-        share = 1.0
-        while share > 1e-3:
-            trial = p.copy()
-            trial[free] = np.clip(trial[free] + share * delta, -_LARGEST_FIGURE, _LARGEST_FIGURE)
-            trial_force = model(trial)
-            rest = _centred(recorded - trial_force)
-            if rest @ rest < left @ left:
-                break
-            share /= 2.0
-        else:
-            break
-        gain = 1.0 - float(rest @ rest) / float(left @ left)
-        p, force, left = trial, trial_force, rest
-        if gain < 1e-5:
-            break
-    return p, left, columns
-
-
-def _centred(x: Array) -> Array:
-    return np.asarray(x - x.mean())
+    p[free] = found.x
+    return p, found.fun, np.column_stack([-found.jac, np.ones(recorded.size)])

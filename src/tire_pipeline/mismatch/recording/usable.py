@@ -11,7 +11,7 @@ import numpy as np
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects.sensor.unit_error import inflates_no_tire
 from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
-from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, moves
+from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, SMALL, moves
 from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
 
@@ -21,9 +21,6 @@ LEAST = 0.5
 """Less than half: most of the force comes from something else than the slip that was recorded. In the real
 recordings at hand it is 0.79 at least (a drive of a few seconds whose friction changed), in simulated ones
 0.94."""
-
-SMALL = 0.15
-"""A force that moves by less than this part of the other one is a side effect of what that one does."""
 
 
 @dataclass(frozen=True)
@@ -146,7 +143,7 @@ def _product(r: Array, m: Array, time: Array | None) -> float:
     if time is None:
         return float(r @ m)
     step = max(float(np.median(np.diff(time))), 1e-9)
-    most = min(int(LONGEST_DELAY / step), r.size // 4)
+    most = min(int(LONGEST_DELAY / step), r.size - 1)
     products = correlate(r, m, mode="full", method="auto")
     middle = m.size - 1
     return float(products[middle - most : middle + most + 1].max())
