@@ -204,6 +204,12 @@ class ReportContents:
         return {**vars(self), "find_visible": partial(list, self.visible)}
 
     @property
+    def stated_verdict(self) -> str:
+        """The verdict, and that the axes are open where what was found rests on them."""
+        question = self.corrected.question
+        return self.verdict if question is None or question.verdict else f"{self.verdict}, axes open"
+
+    @property
     def summary(self) -> str:
         """Verdict and names, where and how much, and what to do next, in three sentences."""
         return self.head.text

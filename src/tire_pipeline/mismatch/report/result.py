@@ -90,12 +90,6 @@ class MismatchReport(ReportContents):
         """What was found: names of which one is the cause, likeliest first, and the confidence of the set."""
         return [((e.name, *e.alternatives), e.confidence) for e in self.effects]
 
-    @property
-    def stated_verdict(self) -> str:
-        """The verdict, and that the axes are open where what was found rests on them."""
-        question = self.corrected.question
-        return self.verdict if question is None or question.verdict else f"{self.verdict}, axes open"
-
     def __repr__(self) -> str:
         names = ", ".join(effect.name for effect in self.effects) or "no effect"
         return f"MismatchReport({self.stated_verdict!r}: {names}. {self.summary})"

@@ -7,8 +7,6 @@ import numpy as np
 from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import plain_forces
-from tire_pipeline.mismatch.model.nominal import OF_CAMBER
-from tire_pipeline.mismatch.model.simulated import DIFFERENCE
 
 Array = np.ndarray
 At = dict[str, Array]
@@ -22,10 +20,15 @@ _COEFFICIENTS_OF_FORCE = {
         "REX1 REX2 RHX1"
     ).split(),
 }
-RESOLVED = float(np.sqrt(np.finfo(np.float32).eps))
-"""Columns smaller than this part of the largest one, half of the digits of single precision, do nothing here,
-and are not made larger: the coefficients of camber in a recording without camber would become a constant
-force."""
+_OF_CAMBER = frozenset("PDX3 PDY3 PEY4 PEY5 PKY3 PKY6 PKY7 PHY3 PVY3 PVY4 RBX3 RBY4 RVY3".split())
+_LEAST_OF_ALL = 1e-4
+"""Columns smaller than so much of the largest one do nothing here, and are not made larger: the coefficients
+of camber in a recording without camber would become a constant force."""
+_SHIFT_OF_FX = 2.5
+"""Braking and driving are no mirror images: a fit makes up for their difference by a shift at zero slip."""
+ONE_LOAD = 6.0
+"""Factor on what coefficients may be off by in a recording at one load, for what keeps the mirror symmetry: a
+fit to many loads may be off at any one of them."""
 ASYMMETRY_SHARE = 0.12
 """What part of the misfit may break the tire's mirror symmetry (slip angle and camber turned over): a clean
 tire breaks it by 0.1 to 0.2 of the misfit in the clean tuning cases."""
@@ -36,7 +39,7 @@ def directions(data: Data, name: str, at: At) -> Array:
     basis = _halves(data, name, at, jacobian(data, name, at))
     if name != "fx":
         return basis
-    return np.hstack([basis, _orthonormal(shifts(data, name, at))])
+    return np.hstack([basis, _SHIFT_OF_FX * _orthonormal(shifts(data, name, at))])
 
 
 def jacobian(data: Data, name: str, at: At) -> Array:
@@ -46,20 +49,20 @@ def jacobian(data: Data, name: str, at: At) -> Array:
     columns = []
     for key in _COEFFICIENTS_OF_FORCE[name]:
         value = float(c.get(key, 0.0))
-        if value == 0.0 or key in missing or (key in OF_CAMBER[name] and not data.varies("camber")):
+        if value == 0.0 or key in missing or (key in _OF_CAMBER and not data.varies("camber")):
             continue  # where camber stands still its coefficients would be a constant force of any size
-        ends = (data.tire.replace(**{key: value + s * DIFFERENCE}) for s in (1.0, -1.0))
-        up, down = (plain_forces(tire, **at)[name] for tire in ends)
-        columns.append((up - down) / (2.0 * DIFFERENCE))
+        h = 1e-4 * max(abs(value), 0.05)
+        up, down = (plain_forces(data.tire.replace(**{key: value + s * h}), **at)[name] for s in (1.0, -1.0))
+        columns.append((up - down) / (2.0 * h) * max(abs(value), 0.05))
     return np.column_stack(columns) if columns else np.zeros((at["normal_load"].size, 0))
 
 
 def shifts(data: Data, name: str, at: At) -> Array:
     """Constant, load and slope: a fit would have found a shift of the curve even if the file has none."""
-    slip, h = SLIP_OF_FORCE[name], DIFFERENCE
+    slip, h = SLIP_OF_FORCE[name], 2e-3
     up, down = (plain_forces(data.tire, **{**at, slip: at[slip] + s * h})[name] for s in (1.0, -1.0))
     load = at["normal_load"]
-    return np.column_stack([np.full(load.size, data.load_nominal), load, (up - down) / (2.0 * h)])
+    return np.column_stack([np.full(load.size, data.load_nominal), load, up - down])
 
 
 def _halves(data: Data, name: str, here: At, slopes: Array) -> Array:
@@ -67,17 +70,18 @@ def _halves(data: Data, name: str, here: At, slopes: Array) -> Array:
     mirrored = {n: -a if n in ("slip_angle", "camber") else a for n, a in here.items()}
     image = jacobian(data, name, mirrored) * (-1.0 if name == "fy" else 1.0)
     kept, broken = 0.5 * (slopes + image), 0.5 * (slopes - image)
-    least = RESOLVED * np.sqrt(np.mean(slopes**2, axis=0))
+    least = 1e-2 * np.sqrt(np.mean(slopes**2, axis=0))
     broken = broken[:, np.sqrt(np.mean(broken**2, axis=0)) > least]
     kept = kept[:, np.sqrt(np.mean(kept**2, axis=0)) > least]
-    return np.hstack([_orthonormal(kept), ASYMMETRY_SHARE * _orthonormal(broken)])
+    size = 1.0 if data.varies("normal_load") else ONE_LOAD
+    return np.hstack([size * _orthonormal(kept), ASYMMETRY_SHARE * _orthonormal(broken)])
 
 
 def _orthonormal(columns: Array) -> Array:
     """Return columns of RMS 1 that span what is well determined of the given ones."""
     n = columns.shape[0]
     size = np.sqrt(np.mean(columns**2, axis=0)) if columns.size else np.zeros(0)
-    keep = size > RESOLVED * max(float(size.max(initial=0.0)), 1e-30)
+    keep = size > _LEAST_OF_ALL * max(float(size.max(initial=0.0)), 1e-30)
     if not keep.any():
         return np.zeros((n, 0))
     gram = (columns[:, keep] / size[keep]).T @ (columns[:, keep] / size[keep]) / n

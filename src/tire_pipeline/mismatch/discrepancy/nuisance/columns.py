@@ -15,17 +15,15 @@ from typing import NamedTuple
 import numpy as np
 
 from tire_pipeline.channels import SLIP_AND_LOAD
-from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import RESOLVED, directions, jacobian, shifts
+from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import directions, jacobian, shifts
 from tire_pipeline.mismatch.discrepancy.nuisance.flexible import flexible_form
 from tire_pipeline.mismatch.discrepancy.nuisance.transients import fast_load, memory
-from tire_pipeline.mismatch.model.channels import SMALL, largest, span
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-_LEVELS = 8
-"""Loads of the grid, and slips to each side."""
-_PARTS = (-1.0, -0.5, 0.5, 1.0)
-"""Of the largest camber or slip angle that slip is combined with."""
+_LEAST_ON_GRID = 1e-3
+"""Columns smaller on the grid than so much of what they are on the recording are not known there: a slip that
+does not vary but for noise has no range to spread a grid over."""
 
 
 class Sizes(NamedTuple):
@@ -47,7 +45,7 @@ class Nuisance:
     coefficients : dict of ndarray, shape (n, k)
         Directions of the Jacobian, orthonormal in the root-mean-square sense, times the largest
         force: a column times 0.001 has an RMS of 0.1% of the largest force (less if it breaks the mirror
-        symmetry).
+        symmetry, more at one load and for the shift of fx).
     flexible : dict of ndarray, shape (n, m)
         The flexible form, times the largest force: with coefficient standard deviation 0.005 its size is
         about 0.5% of the largest force before what the Jacobian spans is taken off.
@@ -109,36 +107,51 @@ def _misfit(data: Data, name: str, here: dict[str, Array], grid: dict[str, Array
     b, b_grid, ways = flexible_form(data, name, here, grid)
     c = np.hstack([jacobian(data, name, here), shifts(data, name, here)])
     c_grid = np.hstack([jacobian(data, name, grid), shifts(data, name, grid)])
-    return b - c @ _solve(c_grid, b_grid), ways
+    known = _size(c_grid) > _LEAST_ON_GRID * _size(c)
+    return b - c[:, known] @ _solve(c_grid[:, known], b_grid), ways
 
 
 def largest_force(data: Data, name: str) -> float:
-    """Return the largest simulated force, N; of a force that is a side effect, that part of the other one."""
-    sizes = {n: largest(data.base[n]) for n in data.outputs}
-    return max(sizes[name], SMALL * max(sizes.values()), 1e-9)
+    """Return the largest simulated force (99.5% quantile), N.
+
+    If this force is near zero, a fraction of the other one.
+    """
+    sizes = {n: float(np.quantile(np.abs(data.base[n]), 0.995)) for n in data.outputs}
+    top = max(*sizes.values(), 1e-09)
+    return sizes[name] if sizes[name] > 0.3 * top else 0.3 * top
+
+
+def _size(columns: Array) -> Array:
+    """Root mean square of each column."""
+    return np.sqrt(np.mean(columns**2, axis=0)) if columns.size else np.zeros(columns.shape[1])
 
 
 def _solve(a: Array, b: Array) -> Array:
     """Least squares, columns of ``a`` scaled, small directions left out."""
     size = np.sqrt((a**2).sum(axis=0))
     size[size <= 0.0] = 1.0
-    return np.linalg.lstsq(a / size, b, rcond=RESOLVED)[0] / size[:, None]
+    return np.linalg.lstsq(a / size, b, rcond=1e-3)[0] / size[:, None]
 
 
 def _grid(data: Data) -> dict[str, Array]:
-    """Even points over the recorded ranges: pure slip, slip with camber, combined slip, at several loads."""
-    low, high = span(data.get("normal_load"))
-    loads = np.linspace(low, high, _LEVELS) if data.varies("normal_load") else np.array([0.5 * (low + high)])
-    a, k, g = (_range(data, name) for name in ("slip_angle", "slip_ratio", "camber"))
+    """Even points over the recorded ranges: pure slip, slip with camber, combined slip, at five loads."""
+    low, high = np.quantile(data.get("normal_load"), [0.005, 0.995])
+    loads = np.linspace(low, high, 5) if data.varies("normal_load") else np.array([0.5 * (low + high)])
+    a = _range(data, "slip_angle", 31)
+    k = _range(data, "slip_ratio", 21)
     rows = [(x, 0.0, 0.0, f) for f in loads for x in a]
     rows += [(0.0, x, 0.0, f) for f in loads for x in k]
-    rows += [(x, 0.0, c * g.max(), f) for f in loads for c in _PARTS for x in a[::2]]
-    rows += [(c * a.max(), x, 0.0, f) for f in loads for c in _PARTS for x in k[::2]]
+    if data.varies("camber") and data.knows_camber:
+        g = float(np.quantile(np.abs(data.get("camber")), 0.99))
+        rows += [(x, 0.0, c * g, f) for f in loads for c in (-1.0, -0.5, 0.5, 1.0) for x in a[::2]]
+    if data.has_combined:
+        rows += [(s, x, 0.0, f) for f in loads for s in (-0.08, -0.04, 0.04, 0.08) for x in k[::2]]
     points = np.array(rows)
     return dict(zip(SLIP_AND_LOAD, points.T, strict=True))
 
 
-def _range(data: Data, name: str) -> Array:
-    """Even values of a slip from its largest to one side to that to the other, whether it moves or not."""
-    top = largest(data.get(name))
-    return top * np.linspace(-1.0, 1.0, 2 * _LEVELS + 1) if top else np.zeros(1)
+def _range(data: Data, name: str, count: int) -> Array:
+    if not data.varies(name):
+        return np.zeros(1)
+    top = float(np.quantile(np.abs(data.get(name)), 0.999))
+    return np.linspace(-top, top, count)

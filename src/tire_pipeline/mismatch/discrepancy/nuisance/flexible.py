@@ -7,14 +7,14 @@ import numpy as np
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_OF_FORCE
 from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import ASYMMETRY_SHARE
 from tire_pipeline.mismatch.discrepancy.nuisance.transients import rate
-from tire_pipeline.mismatch.model.channels import ENOUGH_ROWS, largest, span
 from tire_pipeline.mismatch.model.data import Data
-from tire_pipeline.mismatch.model.forces import plain_forces, slip_at_peak
-from tire_pipeline.mismatch.model.residual import rms
+from tire_pipeline.mismatch.model.forces import plain_forces
 
 Array = np.ndarray
 At = dict[str, Array]
 _LENGTHS_OF_INPUTS = {"slip": 0.25, "normal_load": 0.8, "camber": 0.9}
+_MOST_CENTRES = 130
+_SYMMETRIC_LENGTH, _ASYMMETRIC_LENGTH = 0.85, 1.3
 
 
 def flexible_form(
@@ -22,7 +22,7 @@ def flexible_form(
 ) -> tuple[Array, Array, Array]:
     """Nystrom features of a squared-exponential kernel at inducing points spread over data and grid.
 
-    The misfit is in proportion to the force: small at zero slip (and zero camber), at small load.
+    The misfit is small where the force itself is zero: at zero slip (and zero camber), at small load.
     A tire is its own mirror image but for ply steer and conicity, which the fit of a file takes up:
     the misfit of Fy changes its sign in the mirror, that of Fx does not, and what breaks this is
     ``ASYMMETRY_SHARE`` of it.
@@ -32,16 +32,22 @@ def flexible_form(
     times the direction of the sweep. Its mirror image has the opposite direction.
     """
     (x, mirror), (y, _) = _coordinates(data, here), _coordinates(data, grid)
-    pick = np.random.default_rng(0).permutation(data.size)[:ENOUGH_ROWS]
+    pick = np.random.default_rng(0).permutation(data.size)[:3000]
     points = np.vstack([x[pick], y])
     sign = -1.0 if name == "fy" else 1.0
-    kernels = [_Mirrored(points, mirror, sign, 1.0)]
+    kernels = [_Mirrored(points, mirror, sign, _SYMMETRIC_LENGTH, 1.0)]
     if mirror.min() < 0.0:
-        kernels.append(_Mirrored(points, mirror, -sign, ASYMMETRY_SHARE))
-    slip, most = SLIP_OF_FORCE[name], largest(data.all_base[name])
+        kernels.append(_Mirrored(points, mirror, -sign, _ASYMMETRIC_LENGTH, ASYMMETRY_SHARE))
+    top = np.quantile(data.get("normal_load"), 0.99)
+    slip, half = SLIP_OF_FORCE[name], _slip_at_half(data, name)
+    lean = max(float(np.quantile(np.abs(data.get("camber")), 0.99)), 0.01)
 
     def amplitude(point: dict[str, Array]) -> Array:
-        return np.abs(plain_forces(data.tire, **point)[name]) / max(most, 1e-9)
+        size = 0.25 + 0.75 * np.clip(point["normal_load"] / top, 0.0, 1.2)
+        used = np.abs(point[slip]) / (np.abs(point[slip]) + 0.5 * half)
+        if name == "fy":
+            used = np.minimum(used + 0.3 * np.abs(point["camber"]) / lean * data.varies("camber"), 1.0)
+        return size * np.maximum(used, 0.1)
 
     def features(at: Array, point: dict[str, Array]) -> Array:
         waves = np.hstack([k.features(at) for k in kernels])
@@ -50,7 +56,7 @@ def flexible_form(
     ways = np.zeros((data.size, 0))
     towards = _direction(data, slip)
     if towards is not None:
-        turned = _Mirrored(points, mirror, -sign if name == "fy" else sign, 1.0)
+        turned = _Mirrored(points, mirror, -sign if name == "fy" else sign, _SYMMETRIC_LENGTH, 1.0)
         ways = turned.features(x) * (amplitude(here) * towards)[:, None]
     return features(x, here), features(y, grid), ways
 
@@ -60,7 +66,8 @@ def _direction(data: Data, slip: str) -> Array | None:
     if not data.varies(slip):
         return None
     changes = rate(data, data.smooth(slip)) / (1.0 if data.time is None else np.maximum(data.step, 1e-12))
-    return np.tanh(2.0 * changes / max(rms(changes), 1e-12))
+    typical = max(float(np.quantile(np.abs(changes), 0.75)), 1e-12)
+    return np.tanh(2.0 * changes / typical)
 
 
 def _coordinates(data: Data, at: dict[str, Array]) -> tuple[Array, Array]:
@@ -71,20 +78,34 @@ def _coordinates(data: Data, at: dict[str, Array]) -> tuple[Array, Array]:
     parts, mirror = [], []
     for slip, force in FORCE_OF_SLIP.items():
         if data.varies(slip):
-            half = slip_at_peak(data.tire, force, np.array([data.load_nominal]))
+            half = _slip_at_half(data, force)
             parts.append(2.0 / np.pi * np.arctan(at[slip] / half) / _LENGTHS_OF_INPUTS["slip"])
             mirror.append(-1.0 if slip == "slip_angle" else 1.0)
     if data.varies("normal_load"):
-        low, high = span(data.get("normal_load"))
+        low, high = np.quantile(data.get("normal_load"), [0.005, 0.995])
         load = (at["normal_load"] - 0.5 * (low + high)) / (0.5 * (high - low))
         parts.append(load / _LENGTHS_OF_INPUTS["normal_load"])
         mirror.append(1.0)
     if data.varies("camber") and data.knows_camber:
-        parts.append(at["camber"] / largest(data.get("camber")) / _LENGTHS_OF_INPUTS["camber"])
+        parts.append(
+            at["camber"] / np.quantile(np.abs(data.get("camber")), 0.99) / _LENGTHS_OF_INPUTS["camber"]
+        )
         mirror.append(-1.0)
     if not parts:
         return np.zeros((at["normal_load"].size, 1)), np.ones(1)
     return np.column_stack(parts), np.array(mirror)
+
+
+def _slip_at_half(data: Data, force: str) -> float:
+    """Slip at which the linear force would be the largest force: where the curve bends."""
+    slip = np.linspace(1e-3, 0.35, 200)
+    zero = np.zeros(200)
+    args = {**dict.fromkeys(FORCE_OF_SLIP, zero), SLIP_OF_FORCE[force]: slip}
+    f = np.abs(
+        plain_forces(data.tire, camber=zero, normal_load=np.full(200, data.load_nominal), **args)[force]
+    )
+    k = max(f[0] / slip[0], 1e-9)
+    return float(np.clip(f.max() / k, 0.005, 0.3))
 
 
 class _Mirrored:
@@ -97,19 +118,21 @@ class _Mirrored:
     mirror : ndarray, shape (d,)
         Signs of the coordinates in the mirror.
     sign : float
+    apart : float
+        Distance of the inducing points.
     size : float
         Standard deviation.
     """
 
-    def __init__(self, points: Array, mirror: Array, sign: float, size: float) -> None:
+    def __init__(self, points: Array, mirror: Array, sign: float, apart: float, size: float) -> None:
         self.mirror, self.sign, self.plain = mirror, sign, bool(mirror.min() > 0.0)
         turned = np.flatnonzero(mirror < 0.0)
         if turned.size:  # one half of the space stands for both
             points = np.where((points[:, turned[0]] < 0.0)[:, None], points * mirror, points)
-        self.centres = _spread(points)
+        self.centres = _spread(points, apart, _MOST_CENTRES)
         kernel = self._kernel(self.centres) + 1e-6 * np.eye(len(self.centres))
         values, vectors = np.linalg.eigh(kernel)
-        good = values > 1e-6 * values.max()
+        good = values > 1e-3 * values.max()
         self.to_features = size * vectors[:, good] / np.sqrt(values[good])
 
     def _kernel(self, x: Array) -> Array:
@@ -135,11 +158,11 @@ def _kernel(a: Array, b: Array) -> Array:
     return np.exp(-0.5 * np.maximum(d, 0.0))
 
 
-def _spread(x: Array) -> Array:
-    """Farthest-point sampling until every point is within one length of a chosen one."""
+def _spread(x: Array, least: float, most: int) -> Array:
+    """Farthest-point sampling until the points are ``least`` apart or there are ``most``."""
     chosen = [int(np.argmin(((x - np.median(x, axis=0)) ** 2).sum(1)))]
     distance = ((x - x[chosen[0]]) ** 2).sum(1)
-    while distance.max() > 1.0:
+    while len(chosen) < most and distance.max() > least**2:
         k = int(np.argmax(distance))
         chosen.append(k)
         distance = np.minimum(distance, ((x - x[k]) ** 2).sum(1))

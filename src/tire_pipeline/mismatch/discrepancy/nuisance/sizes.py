@@ -11,10 +11,15 @@ Array = np.ndarray
 COEFFICIENT_SHARE = 0.0005
 """How far the model may be off along each direction of its coefficients, RMS over largest force."""
 
-SHARES = (0.002, 0.006, 0.02)
+COEFFICIENT_PART = 0.05
+COEFFICIENT_MOST = 0.0009
+"""The same as a part of the flexible form's size, and at most: a worse fit is also worse along its
+coefficients, but a fit is what leaves little along them."""
+
+SHARES = (0.001, 0.002, 0.004, 0.006, 0.009, 0.013, 0.018, 0.025, 0.035, 0.05)
 """Sizes of the flexible form that are tried, over the largest force; the likeliest is taken."""
 
-PATH_SHARES = (0.0005, 0.008)
+PATH_SHARES = (0.0002, 0.002, 0.005, 0.01, 0.02, 0.04)
 """Sizes of what a rising slip leaves otherwise than a falling one, over the largest force; the likeliest is
 taken. Simulated tires leave next to nothing of it, the real ones of a flat-belt rig about 2%."""
 
@@ -42,5 +47,7 @@ def nuisance_scale(
     memory : float, optional
         How far friction may follow the power of the last seconds; as far as ``path`` if left out.
     """
-    scales = [factor * COEFFICIENT_SHARE, share, path, path if memory is None else memory, FAST_SHARE]
+    part = min(COEFFICIENT_PART * share, COEFFICIENT_MOST)
+    move = factor * max(COEFFICIENT_SHARE, part)
+    scales = [move, share, path, path if memory is None else memory, FAST_SHARE]
     return {o: np.repeat(scales, size) for o, size in sizes.items()}

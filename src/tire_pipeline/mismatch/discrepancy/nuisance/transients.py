@@ -6,11 +6,12 @@ import numpy as np
 
 from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects.shared import first_order
-from tire_pipeline.mismatch.model.channels import largest, least_spread
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.residual import rms
 
 Array = np.ndarray
+_BANDS = (0.0, 0.1, 0.2)
+"""Seconds over which the load is averaged before its rate is taken: the answer differs from band to band."""
 _MEMORY_SECONDS = (1.0, 4.0)
 """Seconds over which a tread remembers."""
 
@@ -25,7 +26,7 @@ def memory(data: Data, name: str) -> Array:
         return np.zeros((data.size, 0))
     speed = np.abs(data.get("speed")) if data.has("speed") else np.ones(data.size)
     power = np.abs(data.base[name] * data.get(slip)) * speed
-    power = power / max(largest(power), 1e-12)
+    power = power / max(float(np.quantile(power, 0.9)), 1e-12)
     lags = [first_order(power, 1.0 - np.exp(-data.step / lag), data.start) - power for lag in _MEMORY_SECONDS]
     ways = (data.base[name], data.slope(slip)[name] * data.get(slip))
     return np.column_stack([way * lag for way in ways for lag in lags])
@@ -40,11 +41,11 @@ def fast_load(data: Data, name: str) -> Array:
     if data.time is None:
         return np.zeros((data.size, 0))
     load = data.get("normal_load")
-    change = (load - data.smooth("normal_load")) / np.maximum(load, least_spread("normal_load", load))
+    change = (load - data.smooth("normal_load")) / np.maximum(load, 0.02 * data.load_nominal)
     if not np.any(change):
         return np.zeros((data.size, 0))
-    late = rate(data, change)
-    drivers = [change, late * (rms(change) / max(rms(late), 1e-12))]
+    rates = [rate(data, data.running_mean(change, seconds)) for seconds in _BANDS]
+    drivers = [change, *(each * (rms(change) / max(rms(each), 1e-12)) for each in rates)]
     slip = SLIP_OF_FORCE[name]
     steeper = data.slope(slip)[name] * data.get(slip)
     return np.column_stack([way * driver for way in (data.base[name], steeper) for driver in drivers])
