@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.inference.thinning import MOST_SAMPLES, portions, re
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.assemble import assembled
 
-FILE = Path(__file__).resolve().parents[2] / "benchmarks" / "bench_mismatch.py"
+FILE = Path(__file__).resolve().parents[3] / "benchmarks" / "bench_mismatch.py"
 
 
 @pytest.fixture(scope="module")
