@@ -17,7 +17,7 @@ from tire_pipeline.mismatch.proof.nested import REPEATS, ByFold, RepeatedChoice
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def rms(x):

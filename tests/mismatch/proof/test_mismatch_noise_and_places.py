@@ -20,7 +20,7 @@ from tire_pipeline.mismatch.report.sentences import head
 from tire_pipeline.recordings import DART_CAR, axle_recording, read_dart, read_recording
 from tire_pipeline.tir import read_tir
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+EXAMPLES = Path(__file__).parents[3] / "examples"
 AXLE = ["slip_angle", "normal_load", "fy"]
 
 
