@@ -67,7 +67,7 @@ _LONGEST_FIRST = (
     "mismatch/effects/test_mismatch_lags.py",
     "mismatch/recording/test_mismatch_another_tire.py",
     "mismatch/proof/test_mismatch_nested.py",
-    "mismatch/test_mismatch_unnamed.py",
+    "mismatch/unnamed_physics/test_mismatch_unnamed.py",
     "mismatch/proof/test_mismatch_noise_and_places.py",
     "mismatch/inference/test_mismatch_alternatives.py",
     "mismatch/test_mismatch_rates.py",

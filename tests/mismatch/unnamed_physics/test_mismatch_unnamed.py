@@ -26,7 +26,7 @@ from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues, table_
 from tire_pipeline.tir import read_tir
 
 NOMINAL = NominalValues(F0=4000.0, R0=0.31, V0=16.0, P0=2.2e5, T0=45.0)
-READER = Path(__file__).parents[2] / "examples" / "read_unnamed.py"
+READER = Path(__file__).parents[3] / "examples" / "read_unnamed.py"
 EQUATIONS = (
     "0.012*fy*v^2/L",
     "(-3.1)*fy*(g^2)*(L) + 0.2*F0*L*(L^2)",
