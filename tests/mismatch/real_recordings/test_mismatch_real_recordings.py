@@ -15,7 +15,7 @@ from mismatch_shared import shared
 
 from tire_pipeline.mismatch import explain_mismatch
 
-FILE = Path(__file__).resolve().parents[2] / "benchmarks" / "real_recordings.py"
+FILE = Path(__file__).resolve().parents[3] / "benchmarks" / "real_recordings.py"
 
 
 @pytest.fixture(scope="module")

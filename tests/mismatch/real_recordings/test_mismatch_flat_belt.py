@@ -11,7 +11,7 @@ from mismatch_shared import shared
 
 from tire_pipeline.mismatch import explain_mismatch
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
+sys.path.insert(0, str(Path(__file__).parents[3] / "benchmarks"))
 
 
 @pytest.fixture(scope="module")
