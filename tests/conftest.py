@@ -100,8 +100,8 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     class FilesAndFolders(LoadFileScheduling):
         def _split_scope(self, nodeid: str) -> str:
             file = nodeid.partition("::")[0]
-            folder = Path(file).parent
-            return folder.as_posix() if folder.name in _SHARE_WHAT_THEY_TEST else file
+            folder = Path(file).relative_to("tests").parts[0]
+            return folder if folder in _SHARE_WHAT_THEY_TEST else file
 
     return FilesAndFolders(config, log)
 
