@@ -28,7 +28,7 @@ _SHARE_WHAT_THEY_TEST = frozenset(("cluster", "translation"))
 """Folders whose files need the same workers or the same fitted models: they are done in one process."""
 
 _LONGEST_FIRST = (
-    "translation/test_translation_learns_from_batch.py",
+    "translation/predict/test_translation_learns_from_batch.py",
     "thesis/test_thesis_run.py",
     "pipelines/test_pipelines_small_run.py",
     "mismatch/effects/test_mismatch_effects.py",
