@@ -13,7 +13,7 @@ from tire_pipeline.reporting.retraining_page import build_retraining_report
 from tire_pipeline.retraining import ModelRegistry, Release, drift_of_features
 from tire_pipeline.retraining.drift import DRIFT, NEW, SAME, TOO_FEW, stability_index
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "viz"))
+sys.path.insert(0, str(Path(__file__).parents[2] / "viz"))
 
 from viz_browser import browser, needs_browser, read_page
 
