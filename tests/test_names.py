@@ -260,12 +260,19 @@ TOPICS = {"docs", "notebooks", "object_storage", "supply_chain", "viz"}
 """Folders of tests that belong to no single folder of the package."""
 
 
+WHOLE_EXPLANATIONS = {"mismatch/rates", "mismatch/real_recordings"}
+"""Folders of tests that take every part of an explanation together."""
+
+
 def test_a_file_of_tests_bears_the_name_of_its_folder_and_the_folder_that_of_what_it_tests():
     tests = Path(__file__).parent
-    files = [path.relative_to(tests) for path in tests.glob("*/test_*.py")]
+    files = [path.relative_to(tests) for path in tests.glob("*/**/test_*.py")]
     assert [str(file) for file in files if not file.stem.startswith(f"test_{file.parts[0]}")] == []
     parts = {path.stem for path in ROOT.iterdir()}
     assert {file.parts[0] for file in files} - parts == TOPICS
+    inner = {file.parent.as_posix() for file in files if len(file.parts) > 2}
+    parts = {path.relative_to(ROOT).with_suffix("").as_posix() for path in ROOT.glob("*/*")}
+    assert inner - parts == WHOLE_EXPLANATIONS
 
 
 def test_what_only_ci_runs_is_there():
