@@ -13,7 +13,7 @@ import pandas as pd
 
 from tire_pipeline.files.state_files import pack_state, unpack_state
 from tire_pipeline.representations import make_representation, representation_from_state
-from tire_pipeline.thesis.agents import judged_agent, thinned_learning_curve
+from tire_pipeline.thesis.experiments.agents import judged_agent, thinned_learning_curve
 from tire_pipeline.translation.thesis.grid import Cell, train_cell
 
 Read = Callable[[], bytes]

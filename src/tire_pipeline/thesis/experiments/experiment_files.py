@@ -18,9 +18,9 @@ from tire_pipeline.classifiers.tuning import (
 )
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.tasks import Labelled
-from tire_pipeline.thesis import classifier_experiments as experiments
-from tire_pipeline.thesis import files
-from tire_pipeline.thesis.classifier_experiments import FURTHER_CLASSIFIERS, THESIS_CLASSIFIERS
+from tire_pipeline.thesis.experiments import classifier_experiments as experiments
+from tire_pipeline.thesis.experiments import files
+from tire_pipeline.thesis.experiments.classifier_experiments import FURTHER_CLASSIFIERS, THESIS_CLASSIFIERS
 from tire_pipeline.thesis.parameters import AnnSearchParameters, ReproduceThesisParameters
 
 Folder = Mapping[str, Callable[[], bytes]]

@@ -17,8 +17,8 @@ from tire_pipeline.evaluation.target_measurements import measured
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.tasks import Labelled
-from tire_pipeline.thesis import agents as thesis_agents
-from tire_pipeline.thesis import files
+from tire_pipeline.thesis.experiments import agents as thesis_agents
+from tire_pipeline.thesis.experiments import files
 from tire_pipeline.thesis.parameters import ReproduceThesisParameters
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
