@@ -68,7 +68,7 @@ def command(
     """Explain a mismatch."""
     from tire_pipeline.mismatch import Explainer, explain_recordings
     from tire_pipeline.recordings.conventions.canonical import notes_beside_assumed
-    from tire_pipeline.reporting.explained_recordings import check_effects
+    from tire_pipeline.reporting.mismatch.explained_recordings import check_effects
     from tire_pipeline.tir import read_tir
 
     if corrected is not None:

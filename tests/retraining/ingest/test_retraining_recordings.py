@@ -12,7 +12,7 @@ from tire_pipeline.datasets import RecordingFolderDataset
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.files.packed import unpack
 from tire_pipeline.recordings.readers import limits
-from tire_pipeline.reporting.explained_recordings import ExplainParameters, explain_each
+from tire_pipeline.reporting.mismatch.explained_recordings import ExplainParameters, explain_each
 
 
 def test_odd_entries_beside_recordings_are_told(tmp_path):

@@ -20,8 +20,8 @@ from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.parameters import Parameters, Several
 from tire_pipeline.progress import track
 from tire_pipeline.recordings.groups import by_folder, matching
-from tire_pipeline.reporting.explain_task import COLUMNS, PAGE, ExplainTask, Load, corrected_files
-from tire_pipeline.reporting.result_names import result_place
+from tire_pipeline.reporting.mismatch.explain_task import COLUMNS, PAGE, ExplainTask, Load, corrected_files
+from tire_pipeline.reporting.mismatch.result_names import result_place
 
 Pairs = Mapping[str, Load]
 Read = Callable[[], bytes]

@@ -20,7 +20,7 @@ from tire_pipeline.files.packed import Passing, pack
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch import Explainer, MismatchReport, explain_recordings
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes, learnt
-from tire_pipeline.reporting.result_names import result_place
+from tire_pipeline.reporting.mismatch.result_names import result_place
 from tire_pipeline.tir.sidecar import sidecar_path
 
 COLUMNS = ("recording", "verdict", "summary", "effects", "alternatives", "held_out", "problem")

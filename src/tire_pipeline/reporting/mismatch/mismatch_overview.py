@@ -10,8 +10,8 @@ import pandas as pd
 
 from tire_pipeline.mismatch.report.words import in_words
 from tire_pipeline.reporting import HOME, Links, Table, Text, render_page
+from tire_pipeline.reporting.mismatch.result_names import result_place
 from tire_pipeline.reporting.page_parts import without_empty_columns
-from tire_pipeline.reporting.result_names import result_place
 
 _HEADS = {
     "recording": "Recording",
