@@ -5,8 +5,8 @@ from kedro.pipeline import Node, Pipeline
 from tire_pipeline.evaluation.all_translators import choose_sources, translate_files
 from tire_pipeline.evaluation.best_translator import choose_best, write_best
 from tire_pipeline.evaluation.compare_with_target import judge
-from tire_pipeline.reporting.evaluation_outcome import say_outcome
-from tire_pipeline.reporting.evaluation_page import build_report, force_figure
+from tire_pipeline.reporting.evaluation.evaluation_outcome import say_outcome
+from tire_pipeline.reporting.evaluation.evaluation_page import build_report, force_figure
 
 STATES = ["agent", "our_agent", "translator"]
 

@@ -14,7 +14,7 @@ from tire_pipeline.evaluation.compare_with_target import FLOOR
 from tire_pipeline.evaluation.curves import EvaluationGrid
 from tire_pipeline.pages.drawing import colour_of, in_figure, new_figure
 from tire_pipeline.reporting import HOME, Figure, Links, Table, Text, render_page
-from tire_pipeline.reporting.training_figures import confusion_figure, learning_figure
+from tire_pipeline.reporting.evaluation.training_figures import confusion_figure, learning_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as MplFigure
