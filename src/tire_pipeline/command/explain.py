@@ -20,6 +20,7 @@ from tire_pipeline.errors import RecordingError, TirePipelineError
 
 if TYPE_CHECKING:
     from tire_pipeline.mismatch import EffectReport, MismatchReport
+    from tire_pipeline.mismatch.report.contents import HeldOutFit
 
 NO_TIRE = "-"
 
@@ -113,7 +114,27 @@ def _rows(effect: EffectReport) -> list[tuple[str, ...]]:
 
 
 def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> CommandOutcome:
-    errors = Grid(
+    grids = [_errors(report)]
+    if report.effects:
+        grids.append(_found(report.effects))
+    if report.held_out is not None:
+        grids.append(_held_out(report.held_out))
+    lines = [report.summary, *report.head.remarks]
+    if report.assumed:
+        lines.append(f"Assumed: {'; '.join(report.assumed)}.")
+    return CommandOutcome(
+        f"{file} and {', '.join(report.recordings)}: {report.verdict}",
+        lines,
+        {"file": file, **report.to_dict()},
+        lambda: _page(report),
+        grids,
+        report.notes,
+        written,
+    )
+
+
+def _errors(report: MismatchReport) -> Grid:
+    return Grid(
         ("output", "noise", "RMS before", "RMS after", "95% interval", "unit"),
         [
             (
@@ -128,36 +149,29 @@ def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Command
         ],
         "On held-out sweeps",
     )
-    grids = [errors]
-    if report.effects:
-        grids.append(
-            Grid(
-                ("effect", "kind", "parameter", "value", "standard error"),
-                [row for effect in report.effects for row in _rows(effect)],
-                "Found: parameters of the effects' equations, which the page shows",
-            )
-        )
-    if report.held_out is not None:
-        grids.append(
-            Grid(
-                ("output", "RMS before", "RMS after", "after, of before (95%)"),
-                [
-                    (n.capitalize(), e.rms_before, e.rms_after, f"{e.ratio_low:.2f} to {e.ratio_high:.2f}")
-                    for n, e in report.held_out.errors.items()
-                ],
-                f"On {report.held_out.recording}, which was held out",
-            )
-        )
 
-    def page() -> str:
-        import tempfile
 
-        with tempfile.TemporaryDirectory() as folder:
-            return report.to_html(Path(folder) / "page.html").read_text(encoding="utf-8")
+def _found(effects: list[EffectReport]) -> Grid:
+    return Grid(
+        ("effect", "kind", "parameter", "value", "standard error"),
+        [row for effect in effects for row in _rows(effect)],
+        "Found: parameters of the effects' equations, which the page shows",
+    )
 
-    data = {"file": file, **report.to_dict()}
-    title = f"{file} and {', '.join(report.recordings)}: {report.verdict}"
-    lines = [report.summary, *report.head.remarks]
-    if report.assumed:
-        lines.append(f"Assumed: {'; '.join(report.assumed)}.")
-    return CommandOutcome(title, lines, data, page, grids, report.notes, written)
+
+def _held_out(fit: HeldOutFit) -> Grid:
+    return Grid(
+        ("output", "RMS before", "RMS after", "after, of before (95%)"),
+        [
+            (n.capitalize(), e.rms_before, e.rms_after, f"{e.ratio_low:.2f} to {e.ratio_high:.2f}")
+            for n, e in fit.errors.items()
+        ],
+        f"On {fit.recording}, which was held out",
+    )
+
+
+def _page(report: MismatchReport) -> str:
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        return report.to_html(Path(folder) / "page.html").read_text(encoding="utf-8")
