@@ -13,7 +13,7 @@ STATES = ["agent", "our_agent", "translator"]
 
 def create_pipeline(**_: object) -> Pipeline:
     """Translate, choose, write, judge, report; only ``judge`` reads the truth of the judged tires."""
-    return Pipeline([*_translating(), *_judging()])
+    return Pipeline([*_translating(), *_choosing(), *_judging()])
 
 
 def _translating() -> list[Node]:
@@ -36,6 +36,11 @@ def _translating() -> list[Node]:
             outputs="translated_table",
             name="translate_files",
         ),
+    ]
+
+
+def _choosing() -> list[Node]:
+    return [
         Node(
             choose_best,
             inputs=[
