@@ -13,7 +13,7 @@ from tire_pipeline.evaluation.all_translators import NO_CHANGE
 from tire_pipeline.evaluation.compare_with_target import FLOOR
 from tire_pipeline.evaluation.curves import EvaluationGrid
 from tire_pipeline.pages.drawing import colour_of, in_figure, new_figure
-from tire_pipeline.reporting import HOME, Figure, Links, Table, Text, render_page
+from tire_pipeline.reporting import HOME, Figure, Links, Part, Table, Text, render_page
 from tire_pipeline.reporting.evaluation.training_figures import confusion_figure, learning_figure
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ def build_report(
     str
         HTML without outside references.
     """
-    parts: list[Text | Table | Figure | Links] = [
+    parts: list[Part] = [
         Text(outcome, emphasis=True),
         _forces(translated_table, references, best, target_category),
         *_translation(evaluation_summary, target_category, best),
@@ -147,9 +147,9 @@ def _forces(table: pd.DataFrame, references: pd.DataFrame, best: dict[str, Any],
     )
 
 
-def _files(ingest: dict[str, Any], dropped: pd.DataFrame, table: pd.DataFrame) -> list[Text | Table]:
+def _files(ingest: dict[str, Any], dropped: pd.DataFrame, table: pd.DataFrame) -> list[Part]:
     counts = table.groupby("category").agg(files=("file", "size"), tires=("tire_id", "nunique")).reset_index()
-    parts: list[Text | Table] = [
+    parts: list[Part] = [
         Text(
             [
                 f"{ingest['read']:,} of {ingest['files']:,} files were read; "
@@ -168,7 +168,7 @@ def _files(ingest: dict[str, Any], dropped: pd.DataFrame, table: pd.DataFrame) -
     return parts
 
 
-def _classifier(table: pd.DataFrame, scores: pd.DataFrame, per_class: pd.DataFrame) -> list[Text | Table]:
+def _classifier(table: pd.DataFrame, scores: pd.DataFrame, per_class: pd.DataFrame) -> list[Part]:
     forest = scores[(scores["classifier"] == "random_forest") & (scores["features"] == "as they are")]
     by_split = forest.set_index("split")["accuracy"]
     guess = table["category"].value_counts(normalize=True).iloc[0]
@@ -196,7 +196,7 @@ def _classifier(table: pd.DataFrame, scores: pd.DataFrame, per_class: pd.DataFra
     ]
 
 
-def _translation(summary: pd.DataFrame, target: str, best: dict[str, Any]) -> list[Text | Table]:
+def _translation(summary: pd.DataFrame, target: str, best: dict[str, Any]) -> list[Part]:
     if summary.empty:
         return []
     caption = (

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 import pandas as pd
 
 from tire_pipeline.mismatch.report.words import in_words
-from tire_pipeline.reporting import HOME, Links, Table, Text, render_page
+from tire_pipeline.reporting import HOME, Links, Part, Table, Text, render_page
 from tire_pipeline.reporting.mismatch.result_names import result_place
 from tire_pipeline.reporting.page_parts import without_empty_columns
 
@@ -83,7 +83,7 @@ def draw_overview(
     outcome = [_counted(overview)]
     if len(last) <= _FEW_RECORDINGS:
         outcome += [f"{row['recording']}: {_said(row)}" for row in last]
-    parts: list[Text | Table | Links] = [
+    parts: list[Part] = [
         Text(outcome[:1], emphasis=True),
         Text([_EARLIER_REPORTS]),
         Links([_link(row) for row in last], heading="Recordings of the last run"),

@@ -9,11 +9,10 @@ import pandas as pd
 
 from tire_pipeline.concealed.scoring.words import in_words, outcome
 from tire_pipeline.pages.drawing import MARKERS, colour_of, new_figure
-from tire_pipeline.reporting import HOME, Figure, Table, Text, render_page
+from tire_pipeline.reporting import HOME, Figure, Part, Table, Text, render_page
 from tire_pipeline.reporting.proof.proof_tables import METHODS, groups, misses_table
 
 OWN = "explain_mismatch"
-Part = Text | Table | Figure
 
 
 def proof_page(
