@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from weighed import named_sets
+from draw_rates import check_most
+from small_rig import EXACT_FAULTS, out_of_round, with_pauses
+from weighed import named, named_sets
 
-from tire_pipeline.concealed.scoring.score import share_row
 from tire_pipeline.mismatch import Explainer, explain_mismatch
 from tire_pipeline.mismatch.discrepancy.unnamed import play
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.model.forces import simulate
+from tire_pipeline.mismatch.proof.trial import put_in
 from tire_pipeline.mismatch.recording.prepare import prepare
-
-DRAWS = range(8)
-EXPECTED = 0.9
-"""Share of right draws that the interval (95%, Wilson) must not lie below."""
 
 
 def _with(tire, recording, name, **parameters):
-    """The recording with an effect of the catalogue put in, and the force that this adds (N)."""
+    """The recording with an effect of the catalogue put in."""
     data = prepare(tire, recording).data
     added = simulate(data, [(name, {**catalogue()[name].zeros(data), **parameters})])["fy"] - data.base["fy"]
     return recording.assign(fy=recording["fy"] + added)
@@ -101,6 +99,175 @@ def backlash(tire, record, seed):
     return _unexplained(tire, recording.assign(fy=recording["fy"] + force))
 
 
+def a_surface_that_changed(tire, record, seed):
+    """Wear and temperature together look like it: two effects are not named in its place."""
+    late = record(seed)["time"].to_numpy() > 70.0
+    return named(tire, record(seed, friction=np.where(late, 0.93, 1.0))) == ["surface_change"]
+
+
+def a_wheel_that_is_not_round(tire, record, seed):
+    return named(tire, out_of_round(tire, record(seed))) == ["nonuniformity"]
+
+
+def a_wheel_that_turns_on_in_the_pauses(tire, record, seed):
+    """Without its phase over the pauses, pieces that begin at another angle of the wheel cancel out."""
+    return named(tire, with_pauses(out_of_round(tire, record(seed), force=150.0))) == ["nonuniformity"]
+
+
+def a_load_that_varies_once_a_turn(tire, record, seed):
+    """It changes a force of either sign the other way, so the force has hardly any power once a turn."""
+    radius = 0.97 * prepare(tire, record(seed)).data.radius
+    wobbling = put_in(tire, record(seed), "nonuniformity", {"load_sine": 0.06, "radius": radius})
+    found = Explainer().weigh(tire, wobbling)
+    if found.answer.names != ("nonuniformity",):
+        return False
+    fit = found.analysis.fit
+    error = fit.errors[[name for _, name in fit.labels].index("load_sine")]
+    return abs(fit.changes[0][1]["load_sine"] - 0.06) < 3.0 * error
+
+
+def a_small_wheel_that_turns_under_its_force(tire, record, seed):
+    """Compliance of a car at 1:10, whose wheels carry 4 N."""
+    small = tire.replace(FNOMIN=4.0, UNLOADED_RADIUS=0.023)
+    recording = record(seed)
+    recording = recording.assign(**{n: recording[n] / 1000.0 for n in ("normal_load", "fy")})
+    answer = Explainer().weigh(small, _with(small, recording, "compliance", steer=0.01)).answer
+    found = dict(answer.named.changes).get("compliance", {"steer": 0.0})["steer"]
+    return answer.names == ("compliance",) and abs(found / 0.01 - 1.0) < 0.2
+
+
+def _braked(tire, recording, seed, **weighting):
+    """A model of both forces, and a recording of it at both slips."""
+    model = tire.replace(PCX1=1.6, PDX1=1.1, PEX1=0.1, PKX1=22.0, **weighting)
+    slip = 0.05 * np.sin(recording["time"].to_numpy())
+    at = {n: recording[n].to_numpy() for n in ("slip_angle", "normal_load")}
+    forces = model.forces(slip_ratio=slip, **at)
+    noise = np.random.default_rng(seed).normal(0.0, 25.0, (2, slip.size))
+    return model, recording.assign(slip_ratio=slip, fx=forces.fx + noise[0], fy=forces.fy + noise[1])
+
+
+WEIGHTING = {"RBX1": 12.0, "RCX1": 1.0, "RBY1": 12.0, "RCY1": 1.0}
+
+
+def a_leak_of_the_load_into_both_forces(tire, record, seed):
+    model, recording = _braked(tire, record(seed), seed, **WEIGHTING)
+    load = recording["normal_load"]
+    leaking = recording.assign(fx=recording["fx"] - 0.02 * load, fy=recording["fy"] + 0.015 * load)
+    answer = Explainer().weigh(model, leaking).answer
+    if answer.names != ("crosstalk",):
+        return False
+    found = dict(answer.named.changes)["crosstalk"]
+    return (
+        abs(found["load_into_fy"] - 0.015) < 0.002
+        and abs(found["load_into_fx"] + 0.02) < 0.003
+        and max(abs(found["into_fy"]), abs(found["into_fx"])) < 0.002
+    )
+
+
+def a_leak_between_the_forces(tire, record, seed):
+    """It has no leak of the load beside it."""
+    model, recording = _braked(tire, record(seed), seed, **WEIGHTING)
+    leaking = recording.assign(fx=recording["fx"] + 0.05 * recording["fy"])
+    answer = Explainer().weigh(model, leaking).answer
+    return (
+        answer.names == ("crosstalk",)
+        and set(answer.named.free[0]) == {"into_fx", "into_fy"}
+        and abs(dict(answer.named.changes)["crosstalk"]["into_fx"] - 0.05) < 0.005
+    )
+
+
+def a_leak_of_the_load_into_one_of_both_forces(tire, record, seed):
+    """Crosstalk paid for the leaks between the forces that are not there: conicity alone was named."""
+    model, recording = _braked(tire, record(seed), seed, **WEIGHTING)
+    sets = named_sets(model, recording.assign(fy=recording["fy"] + 0.02 * recording["normal_load"]))
+    return bool(sets) and sets[0] >= {"crosstalk", "plysteer_conicity"}
+
+
+def combined_slip_on_top_of_a_file_that_knows_little_of_it(tire, record, seed):
+    """A weighting with a small C takes little of the force, whatever its B."""
+    braked = tire.replace(PCX1=1.6, PDX1=1.1, PEX1=0.1, PKX1=22.0)
+    little = braked.replace(RBX1=10.0, RBX2=10.0, RCX1=0.3, RBY1=12.0, RBY2=60.0, RCY1=0.6)
+    much = braked.replace(RBX1=14.0, RBX2=8.0, RCX1=1.0, RBY1=16.0, RBY2=8.0, RCY1=1.0)
+    recording = record(seed)
+    slip = 0.1 * np.sin(recording["time"].to_numpy())
+    at = {n: recording[n].to_numpy() for n in ("slip_angle", "normal_load")}
+    forces = much.forces(slip_ratio=slip, **at)
+    noise = np.random.default_rng(seed).normal(0.0, 25.0, (2, slip.size))
+    recording = recording.assign(slip_ratio=slip, fx=forces.fx + noise[0], fy=forces.fy + noise[1])
+    answer = Explainer().weigh(little, recording).answer
+    return answer.names == ("combined_slip",) and set(answer.named.free[0]) <= {"more_x", "more_y"}
+
+
+def a_file_fitted_at_one_load(tire, record, seed):
+    """The cornering stiffness saturates with load; in the file it is in proportion to it."""
+    peak = float(np.sin(2.0 * np.arctan(1.0 / tire.coefficients["PKY2"])))
+    stiffness = tire.coefficients["PKY1"] * peak / np.sin(2.0 * np.arctan(0.01))
+    straight = tire.replace(PKY2=100.0, PKY1=stiffness, PDY2=0.0)
+    answer = Explainer().weigh(straight, record(seed)).answer
+    if answer.names != ("load_sensitivity",):
+        return False
+    found = dict(answer.named.changes)["load_sensitivity"]
+    return abs(found["rate"] + 0.1) < 0.03 and found["stiffness"] < -0.2
+
+
+def a_delay(tire, record, seed):
+    names = named(tire, record(seed, delay=0.08))
+    return bool(names) and names[0] in {"time_delay", "low_pass"}
+
+
+def an_exact_fault(tire, record, seed):
+    fault, name = EXACT_FAULTS[seed % len(EXACT_FAULTS)]
+    return named(tire, fault(record(seed))) == [name]
+
+
+def a_force_that_stays_at_its_limit(tire, record, seed):
+    """Slow sweeps stay there for long: each plateau is over a twentieth of the recording."""
+    recording = record(seed)
+    slow = recording[recording["time"] < 80.0]
+    slow = slow.assign(slip_angle=0.15 * np.sin(2.0 * np.pi * slow["time"] / 40.0))
+    at = {n: slow[n].to_numpy() for n in ("slip_angle", "normal_load")}
+    fy = tire.forces(**at).fy + np.random.default_rng(seed).normal(0.0, 25.0, len(slow))
+    return named(tire, slow.assign(fy=np.clip(fy, -1200.0, 1200.0))) == ["clipping"]
+
+
+def gaps_and_missing_blocks(tire, record, seed):
+    recording = record(seed)
+    recording = recording[~recording["time"].between(40.0, 52.0)].reset_index(drop=True)
+    recording.loc[recording["time"].between(72.0, 80.0), "fy"] = np.nan
+    return named(tire, recording) == []
+
+
+def single_missing_samples(tire, record, seed):
+    """A third of the loads are missing: what was left had an uneven time base and looked like relaxation."""
+    recording = record(seed)
+    recording.loc[::3, "normal_load"] = np.nan
+    return named(tire, recording) == []
+
+
+def a_slip_ratio_that_is_noise(tire, record, seed):
+    """It has no unit: less of it would always fit better, a hundredth best of all."""
+    braked = tire.replace(PCX1=1.6, PDX1=1.1, PEX1=0.1, PKX1=22.0, PKX3=0.2)
+    recording = record(seed)
+    noise = np.random.default_rng(seed).normal(0.0, [[4e-3], [5.0]], (2, len(recording)))
+    return named(braked, recording.assign(slip_ratio=noise[0], fx=noise[1])) == []
+
+
+def time_in_milliseconds(tire, record, seed):
+    """No physics; the report asks for the unit of time."""
+    recording = record(seed)
+    names = named(tire, recording.assign(time=1000.0 * recording["time"]))
+    return [name for name in names if catalogue()[name].kind == "physics"] == []
+
+
+def a_relaxation_of_the_file_without_speed(tire, record, seed):
+    four = record(seed)[["time", "slip_angle", "normal_load", "fy"]]
+    return named(tire.replace(PTY1=2.0, PTY2=2.0), four) == []
+
+
+def steady_points(tire, record, seed):
+    return named(tire, record(seed).iloc[::30].drop(columns="time")) == []
+
+
 RIGHT = (
     nothing,
     less_friction,
@@ -112,14 +279,29 @@ RIGHT = (
     a_soft_rig,
     a_drum_with_a_seam,
     backlash,
+    a_surface_that_changed,
+    a_wheel_that_is_not_round,
+    a_wheel_that_turns_on_in_the_pauses,
+    a_load_that_varies_once_a_turn,
+    a_small_wheel_that_turns_under_its_force,
+    a_leak_of_the_load_into_both_forces,
+    a_leak_between_the_forces,
+    a_leak_of_the_load_into_one_of_both_forces,
+    combined_slip_on_top_of_a_file_that_knows_little_of_it,
+    a_file_fitted_at_one_load,
+    a_delay,
+    an_exact_fault,
+    a_force_that_stays_at_its_limit,
+    gaps_and_missing_blocks,
+    single_missing_samples,
+    a_slip_ratio_that_is_noise,
+    time_in_milliseconds,
+    a_relaxation_of_the_file_without_speed,
+    steady_points,
 )
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("right", RIGHT, ids=lambda right: right.__name__)
 def test_most_draws_are_told_rightly(tire, record, right):
-    told = [right(tire, record, seed) for seed in DRAWS]
-    row = share_row(right.__name__, told)
-    wrong = [seed for seed, ok in zip(DRAWS, told, strict=True) if not ok]
-    print(f"{row['value']:.2f} ({row['low']:.2f} to {row['high']:.2f}) of {row['n']}; wrong: {wrong}")
-    assert row["high"] >= EXPECTED
+    check_most(lambda seed: right(tire, record, seed), right.__name__)
