@@ -72,8 +72,6 @@ def another_simulator_lacks_the_pressure(tire, record, seed):
     beside = recording.assign(simulated_fy=tire.forces(**at).fy)
     report = explain_mismatch(None, beside)
     left = recording["fy"] - report.corrected.predict(beside)["fy"]
-        recording["fy"] - report.corrected.predict(recording.assign(simulated_fy=tire.forces(**at).fy))["fy"]
-    )
     return names(report) == ["inflation_pressure"] and rms(left) < 0.6 * report.fit["fy"].rms_before
 
 
