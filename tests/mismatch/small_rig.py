@@ -69,5 +69,15 @@ EXACT_FAULTS = (
     (lambda r: r.assign(fy=-r["fy"]), "sign_convention"),
     (lambda r: r.assign(slip_angle=-r["slip_angle"]), "sign_convention"),
     (lambda r: r.assign(fy=r["fy"].where(~r["time"].between(60, 90), r["fy"].iloc[1500])), "stuck_channel"),
+    (lambda r: r.assign(fy=np.clip(r["fy"], -3500.0, 3400.0)), "clipping"),
 )
 """Faults of a recording that have exact factors or show in a channel alone, and their names."""
+
+
+def at_its_limit(tire, recording, seed):
+    """Return slow sweeps, recorded by a load cell that ends at 1200 N."""
+    slow = recording[recording["time"] < 80.0]
+    slow = slow.assign(slip_angle=0.15 * np.sin(2.0 * np.pi * slow["time"] / 40.0))
+    at = {n: slow[n].to_numpy() for n in ("slip_angle", "normal_load")}
+    fy = tire.forces(**at).fy + np.random.default_rng(seed).normal(0.0, 25.0, len(slow))
+    return slow.assign(fy=np.clip(fy, -1200.0, 1200.0))

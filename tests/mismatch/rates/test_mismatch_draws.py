@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from draw_rates import check_most
-from small_rig import EXACT_FAULTS, out_of_round, with_pauses
+from small_rig import EXACT_FAULTS, at_its_limit, out_of_round, with_pauses
 from weighed import named, named_sets
 
 from tire_pipeline.mismatch import Explainer, explain_mismatch
@@ -216,18 +216,13 @@ def a_delay(tire, record, seed):
 
 
 def an_exact_fault(tire, record, seed):
+    """Another one in each draw."""
     fault, name = EXACT_FAULTS[seed % len(EXACT_FAULTS)]
     return named(tire, fault(record(seed))) == [name]
 
 
 def a_force_that_stays_at_its_limit(tire, record, seed):
-    """Slow sweeps stay there for long: each plateau is over a twentieth of the recording."""
-    recording = record(seed)
-    slow = recording[recording["time"] < 80.0]
-    slow = slow.assign(slip_angle=0.15 * np.sin(2.0 * np.pi * slow["time"] / 40.0))
-    at = {n: slow[n].to_numpy() for n in ("slip_angle", "normal_load")}
-    fy = tire.forces(**at).fy + np.random.default_rng(seed).normal(0.0, 25.0, len(slow))
-    return named(tire, slow.assign(fy=np.clip(fy, -1200.0, 1200.0))) == ["clipping"]
+    return named(tire, at_its_limit(tire, record(seed), seed)) == ["clipping"]
 
 
 def gaps_and_missing_blocks(tire, record, seed):

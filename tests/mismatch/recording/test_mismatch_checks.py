@@ -3,17 +3,12 @@ import re
 import numpy as np
 import pandas as pd
 import pytest
-from small_rig import schedule
+from small_rig import EXACT_FAULTS, schedule
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import Explainer, explain_mismatch, explain_recordings
-from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.words import interval, place
-
-
-def physics(report):
-    return [e.name for e in report.effects if catalogue()[e.name].kind == "physics"]
 
 
 def bad(recording, what):
@@ -62,13 +57,6 @@ def test_neither_model_nor_simulation(record):
         explain_mismatch(None, record())
 
 
-def test_noise_of_a_slip_has_no_unit(braked, record):
-    """Less of it would always fit better, a hundredth best of all."""
-    recording = record(2)
-    noise = np.random.default_rng(2).normal(0.0, [[4e-3], [5.0]], (2, len(recording)))
-    assert explain_mismatch(braked, recording.assign(slip_ratio=noise[0], fx=noise[1])).effects == []
-
-
 def test_equations_that_cannot_be_solved_are_said_with_the_step(tire, record, monkeypatch):
     def broken(*_):
         raise np.linalg.LinAlgError("Singular matrix")
@@ -81,27 +69,6 @@ def test_equations_that_cannot_be_solved_are_said_with_the_step(tire, record, mo
 def test_not_a_frame(tire):
     with pytest.raises(RecordingError, match="DataFrame"):
         explain_mismatch(tire, [1, 2, 3])
-
-
-@pytest.mark.parametrize(
-    ("change", "name"),
-    [
-        (lambda r: r.assign(slip_angle=np.degrees(r["slip_angle"])), "unit_error"),
-        (lambda r: r.assign(normal_load=r["normal_load"] / 4.4482216), "unit_error"),
-        (lambda r: r.assign(fy=r["fy"] / 1000.0), "unit_error"),
-        (lambda r: r.assign(pressure=r["pressure"] / 6894.757), "unit_error"),
-        (lambda r: r.assign(fy=-r["fy"]), "sign_convention"),
-        (lambda r: r.assign(slip_angle=-r["slip_angle"]), "sign_convention"),
-        (
-            lambda r: r.assign(fy=r["fy"].where(~r["time"].between(60, 90), r["fy"].iloc[1500])),
-            "stuck_channel",
-        ),
-    ],
-)
-def test_exact_artefacts_get_their_name_and_nothing_else(tire, record, change, name):
-    report = explain_mismatch(tire, change(record()))
-    assert [e.name for e in report.effects] == [name]
-    assert physics(report) == []
 
 
 RIG_NOISE = 25.0
@@ -129,14 +96,6 @@ def test_what_reaches_its_limit_once_is_clipped_and_not_stuck(tire, record):
     assert [f.name for f in prepare(tire, wrong).findings] == ["clipping"]
 
 
-def test_a_clipped_force_is_named_and_predicted_clipped(tire, record):
-    wrong = record().assign(fy=lambda r: np.clip(r["fy"], -3500.0, 3400.0))
-    report = explain_mismatch(tire, wrong)
-    assert [e.name for e in report.effects] == ["clipping"]
-    predicted = report.corrected.predict(wrong.drop(columns="fy"))["fy"]
-    assert (predicted.min(), predicted.max()) == (-3500.0, 3400.0)
-
-
 @pytest.fixture(scope="module")
 def cambered(tire):
     """A tire that leans to both sides, and its recording."""
@@ -151,17 +110,6 @@ def cambered(tire):
     return leaning, pd.DataFrame({"time": t} | {n: x + e for (n, x), e in zip(columns, noise, strict=True)})
 
 
-@pytest.mark.parametrize(
-    ("turned", "channel"),
-    [(["fy"], "fy"), (["slip_angle", "camber"], "fy"), (["camber", "fy"], "slip_angle")],
-)
-def test_signs_that_were_turned_one_after_the_other_are_said_once(cambered, turned, channel):
-    """The fewest channels are named; that slip angle and camber would look the same as Fy is said beside."""
-    leaning, recording = cambered
-    found = explain_mismatch(leaning, recording.assign(**{n: -recording[n] for n in turned})).effects
-    assert [(e.name, e.output) for e in found] == [("sign_convention", channel)]
-
-
 def test_a_slip_that_is_next_to_nothing_is_written_as_nothing():
     assert interval("slip_ratio", -3.76e-6, 0.153) == "slip ratio 0 to 0.153"
     assert interval("camber", -7.6e-7, -7.6e-7) == "camber 0 deg"
@@ -169,16 +117,6 @@ def test_a_slip_that_is_next_to_nothing_is_written_as_nothing():
     assert place("normal_load", 4001.0, 4003.0, {}) == "at load 4 kN"
     assert place("normal_load", 4000.0, 5000.0, {}) == "at load between 4 and 5 kN"
     assert interval("normal_load", 1200.0, 4300.0) == "load 1.2 to 4.3 kN"
-
-
-def test_gaps_and_missing_blocks_are_no_physics(tire, record):
-    r = record()
-    r = r[~r["time"].between(40.0, 52.0)].reset_index(drop=True)
-    r.loc[r["time"].between(72.0, 80.0), "fy"] = np.nan
-    report = explain_mismatch(tire, r)
-    assert report.effects == []
-    assert any("gap" in n for n in report.notes)
-    assert any("no number" in n for n in report.notes)
 
 
 def test_numbers_that_came_as_text_and_dates_are_read(tire, record):
@@ -214,3 +152,30 @@ def test_something_else_than_a_tire_is_refused(record):
 def test_an_error_names_the_recording(tire, record):
     with pytest.raises(RecordingError, match=r"run\.csv, time: time goes backwards"):
         explain_recordings(tire, {"run.csv": record(0).iloc[::-1]})
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(("fault", "name"), EXACT_FAULTS)
+def test_exact_faults_get_their_name_and_no_other(tire, record, fault, name, seed):
+    """Before any fit, which then finds nothing beside them: ``rates``."""
+    assert [finding.name for finding in prepare(tire, fault(record(seed))).findings] == [name]
+
+
+@pytest.mark.parametrize(
+    ("turned", "channel"),
+    [(["fy"], "fy"), (["slip_angle", "camber"], "fy"), (["camber", "fy"], "slip_angle")],
+)
+def test_signs_that_were_turned_one_after_the_other_are_said_once(cambered, turned, channel):
+    """The fewest channels are named; that slip angle and camber would look the same as Fy is said beside."""
+    leaning, recording = cambered
+    found = prepare(leaning, recording.assign(**{n: -recording[n] for n in turned})).findings
+    assert [(each.name, each.channel) for each in found] == [("sign_convention", channel)]
+
+
+def test_gaps_and_missing_blocks_are_said(tire, record):
+    recording = record()
+    recording = recording[~recording["time"].between(40.0, 52.0)].reset_index(drop=True)
+    recording.loc[recording["time"].between(72.0, 80.0), "fy"] = np.nan
+    notes = prepare(tire, recording).notes
+    assert any("gap" in note for note in notes)
+    assert any("no number" in note for note in notes)

@@ -120,3 +120,47 @@ def test_an_equation_that_did_not_hold_is_gone_from_head_and_errors():
         left = without_equation(told, FOUND, verdict, effects, again)
         assert left.text == head(verdict, effects, again, [PLACE], LEFT, "").text
         assert "equation" not in " ".join([left.text, *left.remarks])
+
+
+@pytest.mark.parametrize(
+    ("when", "said"),
+    [
+        ([(10.0, 20.0)], " (seen between 10 and 20 s),"),
+        ([(10.0, 20.0), (30.0, 41.5)], " (seen between 10 and 20 s, 30 and 41.5 s),"),
+        ([(0.0, 80.0)], ","),
+        ([], ","),
+    ],
+)
+def test_the_summary_says_when_an_effect_is_seen(when, said):
+    text = head("explained", [replace(EFFECT, when=when)], FIT, [], NONE, "", {"time": (0.0, 100.0)}).text
+    assert text.startswith(
+        f"Explained: the difference comes from {EFFECT.title}{said} which the model leaves out. "
+    )
+    assert text.endswith("Next, test the corrected model on another recording before you use it.")
+
+
+@pytest.mark.parametrize(
+    ("when", "mean"), [([(10.0, 20.0)], 0.1), ([(10.0, 20.0)], 0.3), ([(0.0, 80.0)], 0.1)]
+)
+def test_what_differs_to_both_sides_is_not_said_by_a_small_mean(when, mean):
+    effect = replace(EFFECT, when=when, share=0.9)
+    at = replace(PLACE, low=0.05, high=0.1, mean=mean * FIT["fy"].rms_before, share=0.01)
+    text = head("explained", [effect], FIT, [at], NONE, "", {"time": (0.0, 100.0)}).text
+    said = "Fy differs most between 10 and 20 s, to both sides" in text
+    assert said == (when == [(10.0, 20.0)] and mean < 0.2)
+    assert ("is on average" in text) != said
+
+
+@pytest.mark.parametrize(
+    ("after", "ratio", "said", "todo"),
+    [
+        (130.0, (0.4, 0.5), "falls from 310 N to 130 N", "use the corrected model within the ranges"),
+        (400.0, (1.1, 1.4), "rises from 310 N to 400 N: what was found does not hold there", "find out what"),
+        (305.0, (0.9, 1.1), "is about the same as before", "keep the model as it is"),
+    ],
+)
+def test_what_to_do_after_a_held_out_recording_goes_by_its_error(after, ratio, said, todo):
+    fit = HeldOutFit("b", 900, {"fy": PredictionError(310.0, after, *ratio)})
+    told = with_held_out(head("explained", [EFFECT], FIT, [PLACE], NONE, ""), fit, [EFFECT])
+    assert f"the RMS error of Fy {said}" in told.text
+    assert todo in told.text
