@@ -40,7 +40,6 @@ _LONGEST_FIRST = (
     "cluster/test_cluster_map.py",
     "magic_formula/test_magic_formula_fit.py",
     "mismatch/inference/test_mismatch_posterior.py",
-    "mismatch/discrepancy/test_mismatch_model.py",
     "viz/test_viz_browser.py",
     "viz/test_viz_pages.py",
     "docs/test_docs_site.py",

@@ -6,6 +6,7 @@ import pytest
 from tire_pipeline.mismatch import CorrectedModel
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.amounts import amount_with_error
+from tire_pipeline.mismatch.effects.shared import harmonic_power
 from tire_pipeline.mismatch.model.candidates import derivatives
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.recording.prepare import own_relaxation, prepare
@@ -249,3 +250,29 @@ def test_a_parameter_has_two_digits_of_its_standard_error():
     assert amount_with_error(-0.844, 0.191, "1") == ("-84%", "19%")
     assert amount_with_error(0.0123, 0.0004, "s") == ("12.30 ms", "0.40 ms")
     assert amount_with_error(1234.5, np.inf, "N") == ("1,230 N", "inf N")
+
+
+def test_harmonic_power_is_the_plain_sum():
+    rng = np.random.default_rng(0)
+    signal, way = rng.normal(size=300), np.cumsum(rng.uniform(0.1, 0.3, 300))
+    plain = [abs(np.sum(signal * np.exp(-1j * way * k))) for k in 2.0 + 0.05 * np.arange(40)]
+    np.testing.assert_allclose(harmonic_power(signal, way, 2.0, 0.05, 40), plain, rtol=1e-9)
+
+
+def test_combined_slip_does_not_start_where_it_does_nothing(tire, record):
+    """At a coefficient near zero the weighting does not answer to it, and a fit would stay there."""
+    hardly = tire.replace(RBX1=20.0, RBX2=11.0, RBY1=10.0, RBY2=3e-4, RCY1=1.0)
+    data = prepare(hardly, record(9)).data
+    own, on_top = catalogue()["combined_slip"].starts(data)
+    assert own == {"RBX1": 20.0, "RBX2": 11.0, "RBY1": 10.0, "RBY2": 10.0, "more_x": 0.0, "more_y": 0.0}
+    assert min(on_top["more_x"], on_top["more_y"]) > 0.0
+
+
+def test_a_quarter_turn_is_the_derivative_by_the_wheels_angle():
+    effect = catalogue()["nonuniformity"]
+    wave = {p.name: 0.0 for p in effect.parameters} | {"cosine_y": 3.0, "sine_y": 4.0, "radius": 0.3}
+    later = effect.quarter_turn(wave)
+    phi = np.linspace(0.0, 6.0, 50)
+    there = 3.0 * np.cos(phi + np.pi / 2.0) + 4.0 * np.sin(phi + np.pi / 2.0)
+    np.testing.assert_allclose(later["cosine_y"] * np.cos(phi) + later["sine_y"] * np.sin(phi), there)
+    assert later["radius"] == 0.3
