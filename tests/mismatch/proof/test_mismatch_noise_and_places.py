@@ -7,16 +7,11 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from located_mismatch import located
 from mismatch_shared import shared
 
 from tire_pipeline.magic_formula import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch
-from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
-from tire_pipeline.mismatch.model.blocks import sweeps
-from tire_pipeline.mismatch.proof.locate import locate
-from tire_pipeline.mismatch.proof.measured import Remainder
-from tire_pipeline.mismatch.recording.prepare import prepare
-from tire_pipeline.mismatch.report.sentences import head
 from tire_pipeline.recordings import DART_CAR, axle_recording, read_dart, read_recording
 from tire_pipeline.tir import read_tir
 
@@ -64,18 +59,10 @@ def sweeps_of_slip():
     return tire, pd.DataFrame(rig).assign(fy=forces.fy + noise)
 
 
-def told(tire, recording):
-    data = prepare(tire, recording).data
-    rest = {o: data.recorded[o] - data.base[o] for o in data.outputs}
-    found = locate(data, rest, estimate_noise(data, rest), sweeps(data))
-    nothing = Remainder(size={}, located=[], form="", significant=False)
-    return found, head("unexplained", [], {}, found, nothing, "").text.partition(". ")[2]
-
-
 def test_a_force_to_one_side_where_it_goes_through_zero_is_neither_lower_nor_higher(sweeps_of_slip):
     tire, rig = sweeps_of_slip
     small = rig["slip_angle"].abs() < 0.02
-    found, said = told(tire, rig.assign(fy=rig["fy"] + 250.0 * small))
+    found, _, said = located(tire, rig.assign(fy=rig["fy"] + 250.0 * small))
     first = found[0]
     assert (first.axis, first.along_force) == ("slip_angle", False)
     assert first.mean == pytest.approx(250.0, rel=0.3)  # the stretch is wider on one side
@@ -87,7 +74,7 @@ def test_a_force_to_one_side_where_it_goes_through_zero_is_neither_lower_nor_hig
 def test_a_smaller_force_to_both_sides_is_lower_and_its_place_the_largest(sweeps_of_slip):
     tire, rig = sweeps_of_slip
     small = rig["slip_angle"].abs() < 0.02
-    found, said = told(tire, rig.assign(fy=rig["fy"] * np.where(small, 0.8, 1.0)))
+    found, _, said = located(tire, rig.assign(fy=rig["fy"] * np.where(small, 0.8, 1.0)))
     assert found[0].along_force
     assert -0.2 < found[0].share < -0.1
     assert "% of the force there) lower than the model" in said
