@@ -45,7 +45,6 @@ _LONGEST_FIRST = (
     "docs/test_docs_site.py",
     "mismatch/recording/test_mismatch_units_and_axes.py",
     "mismatch/recording/test_mismatch_few_channels.py",
-    "mismatch/effects/test_mismatch_brake_sweeps.py",
     "mismatch/real_recordings/test_mismatch_flat_belt.py",
     "mismatch/recording/test_mismatch_usable.py",
     "pipelines/test_pipelines_explain.py",

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from belt_lift import BeltLift, lifted_sweeps
 from draw_rates import check_most
 from small_rig import EXACT_FAULTS, at_its_limit, out_of_round, with_pauses
 from weighed import named, named_sets
 
 from tire_pipeline.mismatch import Explainer, explain_mismatch
 from tire_pipeline.mismatch.discrepancy.unnamed import play
-from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects import catalogue, register
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.proof.trial import put_in
 from tire_pipeline.mismatch.recording.prepare import prepare
@@ -263,6 +264,28 @@ def steady_points(tire, record, seed):
     return named(tire, record(seed).iloc[::30].drop(columns="time")) == []
 
 
+def an_effect_from_outside(tire, record, seed):
+    register(BeltLift())
+    try:
+        found = Explainer().weigh(tire, lifted_sweeps(tire, seed))
+    finally:
+        catalogue().pop("belt_lift")
+    fit = found.analysis.fit
+    if found.answer.names != ("belt_lift",):
+        return False
+    return abs(fit.changes[0][1]["lift"] - 0.12) < 3.0 * fit.errors[0]
+
+
+def two_effects_that_look_like_another_tire(tire, record, seed):
+    """A rig that gives way and friction that falls faster with load put several figures off at once."""
+    recording = record(seed)
+    fy, load = recording["fy"], recording["normal_load"]
+    factor = 1.0 - 0.3 * (load / tire.coefficients["FNOMIN"] - 1.0)
+    slip = np.arctan(np.tan(recording["slip_angle"]) * factor) + 0.02 * fy / fy.abs().max()
+    found = Explainer().weigh(tire, recording.assign(slip_angle=slip, fy=fy * factor))
+    return found.prepared.question is None and set(found.answer.names) == {"load_sensitivity", "compliance"}
+
+
 RIGHT = (
     nothing,
     less_friction,
@@ -293,6 +316,8 @@ RIGHT = (
     time_in_milliseconds,
     a_relaxation_of_the_file_without_speed,
     steady_points,
+    an_effect_from_outside,
+    two_effects_that_look_like_another_tire,
 )
 
 

@@ -6,7 +6,7 @@ from mismatch_shared import shared
 
 from tire_pipeline.concealed import make_case
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.mismatch import Explainer, explain_mismatch
+from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
@@ -32,19 +32,6 @@ def test_a_recording_of_another_size_asks_for_the_file(tmp_path):
 def test_another_tire_on_the_rig_asks_for_the_file(tire, record, tmp_path):
     other = tire.replace(PDY1=0.9, PDY2=-0.25, PKY1=30.0, PKY2=1.4, PEY1=-0.3)
     check_another(explain_mismatch(other, record(0)), tmp_path)
-
-
-def test_two_effects_that_explain_the_recording_are_no_other_tire(tire, record):
-    """A rig that gives way and friction that falls faster with load put several figures off at once."""
-    recording = record(0)
-    fy, load = recording["fy"], recording["normal_load"]
-    factor = 1.0 - 0.3 * (load / tire.coefficients["FNOMIN"] - 1.0)
-    slip = np.arctan(np.tan(recording["slip_angle"]) * factor) + 0.02 * fy / fy.abs().max()
-    changed = recording.assign(slip_angle=slip, fy=fy * factor)
-    assert prepare(tire, changed).stopped == "another tire"
-    explained = Explainer().weigh(tire, changed)
-    assert explained.prepared.question is None
-    assert set(explained.answer.names) == {"load_sensitivity", "compliance"}
 
 
 @pytest.mark.slow
