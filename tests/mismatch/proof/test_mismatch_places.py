@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from located_mismatch import located
-from mismatch_rates import flat_belt, free_drive, second_session
+from real_at_rates import flat_belt, free_drive, second_session
 
 
 @pytest.mark.parametrize("gain", [0.85, 1.1, 1.3])

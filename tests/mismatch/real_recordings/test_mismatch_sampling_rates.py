@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-from mismatch_rates import (
+from real_at_rates import (
     RATES,
     at_rate,
     car_tire,
