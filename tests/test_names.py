@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections import defaultdict
 from collections.abc import Iterable
 from functools import cache
@@ -283,6 +284,15 @@ def test_what_only_ci_runs_is_there():
             file, _, case = line.partition("::")
             test = f"def {case.partition('[')[0]}(" if case else ""
             assert test in (tests.parent / file).read_text(encoding="utf-8"), line
+
+
+def test_files_that_are_begun_first_are_there():
+    tests = Path(__file__).parent
+    listed = re.findall(
+        r'^    "(\S+/test_\w+\.py)",$', (tests / "conftest.py").read_text("utf-8"), re.MULTILINE
+    )
+    assert listed
+    assert [file for file in listed if not (tests / file).is_file()] == []
 
 
 KEDROS = {"__init__", "__main__", "cli", "settings"}
