@@ -33,8 +33,9 @@ def test_what_the_format_has_no_place_for_stands_in_the_sidecar(tire, record, tm
     again = read_tir(model.to_tir(tmp_path / "corrected.tir"))
     written = again.metadata["sidecar"]["inflation_pressure"]
     assert written["parameters"]["friction"] == pytest.approx(-0.35)
-    assert written["reference"]["pressure_nominal"] == pytest.approx(2.2e5, rel=0.1)
-    assert again.coefficients == pytest.approx(tire.coefficients)
+    assert written["reference"]["pressure_nominal"] == model.reference["pressure_nominal"]
+    as_it_was = {name: again.coefficients[name] for name in tire.coefficients}
+    assert as_it_was == pytest.approx(dict(tire.coefficients))
 
 
 def test_an_effect_is_not_put_into_a_recording_that_lacks_its_channel(tire, record):

@@ -84,8 +84,11 @@ def check_derivatives(data, name):
     effect = catalogue()[name]
     start = effect.starts(data)[0]
     free = [p for p in effect.parameters if p.name in effect.free(data, start) and p.name not in LAGS]
+    assert free
     for p in free:
         middle, width = effect.usual(data, p.name)
+        if np.isnan(middle):  # every value is as likely: it stays where the fit starts
+            continue
         start[p.name] = float(np.clip(middle + 0.5 * min(width, 0.1 * (p.high - p.low)), p.low, p.high))
     for named, columns in derivatives(data, [(name, start)], 0, [p.name for p in free]):
         h = 1e-3 * effect.parameter(named).step
