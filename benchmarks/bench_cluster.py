@@ -37,7 +37,7 @@ from tire_pipeline.cluster.dask_map import close, dask_map
 from tire_pipeline.cluster.parameters import ClusterParameters
 from tire_pipeline.datasets import RecordingFolderDataset, TirFolderDataset
 from tire_pipeline.files.atomic import write_bytes
-from tire_pipeline.reporting.explained_recordings import ExplainParameters, explain_each
+from tire_pipeline.reporting.mismatch.explained_recordings import ExplainParameters, explain_each
 from tire_pipeline.tasks import Map, in_processes
 from tire_pipeline.tire_table.read_blocks import blocks_of
 

@@ -17,7 +17,7 @@ from doc_tables import markdown, write_between
 
 from tire_pipeline.concealed.real.published import published, published_text
 from tire_pipeline.concealed.scoring.words import in_words, outcome
-from tire_pipeline.reporting.proof_tables import METHODS
+from tire_pipeline.reporting.proof.proof_tables import METHODS
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benchmarks" / "results"

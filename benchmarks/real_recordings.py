@@ -3,7 +3,7 @@
 Run: python benchmarks/real_recordings.py [tydex] [dart] [artefacts]
 
 The recordings are those of ../shared/recordings (data/01_raw/recordings/README.md says where they are
-published). docs/history/mismatch.md holds what this prints; tests/mismatch/test_mismatch_real_*.py use
+published). docs/history/mismatch.md holds what this prints; tests/mismatch/real_recordings use
 its parts.
 """
 

@@ -28,35 +28,32 @@ _SHARE_WHAT_THEY_TEST = frozenset(("cluster", "translation"))
 """Folders whose files need the same workers or the same fitted models: they are done in one process."""
 
 _LONGEST_FIRST = (
-    "translation/test_translation_learns_from_batch.py",
+    "translation/predict/test_translation_learns_from_batch.py",
     "thesis/test_thesis_run.py",
     "pipelines/test_pipelines_small_run.py",
-    "mismatch/test_mismatch_effects.py",
     "mismatch/test_mismatch_explain.py",
-    "mismatch/test_mismatch_checks.py",
-    "mismatch/test_mismatch_real_recordings.py",
+    "mismatch/real_recordings/test_mismatch_real_recordings.py",
     "retraining/test_retraining_runs.py",
-    "mismatch/test_mismatch_visible.py",
+    "mismatch/proof/test_mismatch_visible.py",
     "cluster/test_cluster_map.py",
     "magic_formula/test_magic_formula_fit.py",
-    "mismatch/test_mismatch_posterior.py",
-    "mismatch/test_mismatch_model.py",
+    "mismatch/inference/test_mismatch_posterior.py",
     "viz/test_viz_browser.py",
     "viz/test_viz_pages.py",
     "docs/test_docs_site.py",
-    "mismatch/test_mismatch_units_and_axes.py",
-    "mismatch/test_mismatch_few_channels.py",
-    "mismatch/test_mismatch_brake_sweeps.py",
-    "mismatch/test_mismatch_flat_belt.py",
-    "mismatch/test_mismatch_usable.py",
+    "mismatch/recording/test_mismatch_units_and_axes.py",
+    "mismatch/recording/test_mismatch_few_channels.py",
+    "mismatch/real_recordings/test_mismatch_flat_belt.py",
+    "mismatch/recording/test_mismatch_usable.py",
+    "mismatch/recording/test_mismatch_checks.py",
     "pipelines/test_pipelines_explain.py",
     "pipelines/test_pipelines_bad_input.py",
     "pipelines/test_pipelines_public_files.py",
     "pipelines/test_pipelines_reader_dies.py",
     "runs/test_runs_namespaces.py",
     "mismatch/test_mismatch_several.py",
-    "mismatch/test_mismatch_guard.py",
-    "mismatch/test_mismatch_real_long.py",
+    "mismatch/proof/test_mismatch_never_worse.py",
+    "mismatch/inference/test_mismatch_thinning.py",
     "notebooks/test_notebooks_run.py",
     "docs/test_docs_snippets.py",
     "magic_formula/test_magic_formula_subsets.py",
@@ -64,13 +61,13 @@ _LONGEST_FIRST = (
     "concealed/test_concealed_baselines.py",
     "command/test_command.py",
     "command/test_command_translate.py",
-    "mismatch/test_mismatch_lags.py",
-    "mismatch/test_mismatch_another_tire.py",
-    "mismatch/test_mismatch_nested.py",
-    "mismatch/test_mismatch_unnamed.py",
-    "mismatch/test_mismatch_noise_and_places.py",
-    "mismatch/test_mismatch_alternatives.py",
-    "mismatch/test_mismatch_rates.py",
+    "mismatch/effects/test_mismatch_lags.py",
+    "mismatch/recording/test_mismatch_another_tire.py",
+    "mismatch/proof/test_mismatch_nested.py",
+    "mismatch/unnamed_physics/test_mismatch_unnamed.py",
+    "mismatch/proof/test_mismatch_noise_and_places.py",
+    "mismatch/inference/test_mismatch_alternatives_at_one_load.py",
+    "mismatch/real_recordings/test_mismatch_sampling_rates.py",
     "recordings/test_recordings_axle_simulated.py",
     "fleet/test_fleet_bias.py",
     "magic_formula/test_magic_formula_compiled.py",
@@ -100,8 +97,8 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     class FilesAndFolders(LoadFileScheduling):
         def _split_scope(self, nodeid: str) -> str:
             file = nodeid.partition("::")[0]
-            folder = Path(file).parent
-            return folder.as_posix() if folder.name in _SHARE_WHAT_THEY_TEST else file
+            folder = Path(file).relative_to("tests").parts[0]
+            return folder if folder in _SHARE_WHAT_THEY_TEST else file
 
     return FilesAndFolders(config, log)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections import defaultdict
 from collections.abc import Iterable
 from functools import cache
@@ -260,12 +261,19 @@ TOPICS = {"docs", "notebooks", "object_storage", "supply_chain", "viz"}
 """Folders of tests that belong to no single folder of the package."""
 
 
+WHOLE_EXPLANATIONS = {"mismatch/rates", "mismatch/real_recordings"}
+"""Folders of tests that take every part of an explanation together."""
+
+
 def test_a_file_of_tests_bears_the_name_of_its_folder_and_the_folder_that_of_what_it_tests():
     tests = Path(__file__).parent
-    files = [path.relative_to(tests) for path in tests.glob("*/test_*.py")]
+    files = [path.relative_to(tests) for path in tests.glob("*/**/test_*.py")]
     assert [str(file) for file in files if not file.stem.startswith(f"test_{file.parts[0]}")] == []
     parts = {path.stem for path in ROOT.iterdir()}
     assert {file.parts[0] for file in files} - parts == TOPICS
+    inner = {file.parent.as_posix() for file in files if len(file.parts) > 2}
+    parts = {path.relative_to(ROOT).with_suffix("").as_posix() for path in ROOT.glob("*/*")}
+    assert inner - parts == WHOLE_EXPLANATIONS
 
 
 def test_what_only_ci_runs_is_there():
@@ -276,6 +284,15 @@ def test_what_only_ci_runs_is_there():
             file, _, case = line.partition("::")
             test = f"def {case.partition('[')[0]}(" if case else ""
             assert test in (tests.parent / file).read_text(encoding="utf-8"), line
+
+
+def test_files_that_are_begun_first_are_there():
+    tests = Path(__file__).parent
+    listed = re.findall(
+        r'^    "(\S+/test_\w+\.py)",$', (tests / "conftest.py").read_text("utf-8"), re.MULTILINE
+    )
+    assert listed
+    assert [file for file in listed if not (tests / file).is_file()] == []
 
 
 KEDROS = {"__init__", "__main__", "cli", "settings"}

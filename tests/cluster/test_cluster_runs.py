@@ -18,7 +18,7 @@ import pytest
 from tire_pipeline.cluster import ClusterHooks, work_map
 from tire_pipeline.command.stored import translator_state
 from tire_pipeline.datasets import ComputedFolderDataset, RecordingFolderDataset, TirFolderDataset
-from tire_pipeline.reporting.explained_recordings import (
+from tire_pipeline.reporting.mismatch.explained_recordings import (
     ExplainParameters,
     collect_explained,
     explain_each,

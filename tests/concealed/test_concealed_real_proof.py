@@ -12,7 +12,7 @@ from tire_pipeline.concealed.real import RealAnswer
 from tire_pipeline.concealed.real.parameters import RealParameters
 from tire_pipeline.concealed.real.published import published_text
 from tire_pipeline.concealed.real.score_sets import name_sets, score_real
-from tire_pipeline.reporting.proof_page import proof_page
+from tire_pipeline.reporting.proof.proof_page import proof_page
 
 
 def answer(case_id: str, kind: str, *names: str, over_misfit: float = 3.0, source="calspan", **more):

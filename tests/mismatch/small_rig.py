@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.mismatch.recording.prepare import prepare
+
 COEFFICIENTS = {
     "FNOMIN": 4000.0,
     "UNLOADED_RADIUS": 0.32,
@@ -42,3 +44,40 @@ def schedule(seconds=150.0, rate=25.0):
         load[i] = load[i - 1] + step * (level[i] - load[i - 1])
     pressure = np.where((t > 50.0) & (t < 85.0), 1.85e5, np.where(t >= 85.0, 2.6e5, 2.2e5))
     return t, alpha, load, pressure
+
+
+def out_of_round(tire, recording, force=200.0):
+    """Return a recording whose side force swings by ``force`` (N) once a turn, at 0.97 of the radius."""
+    data = prepare(tire, recording).data
+    return recording.assign(fy=recording["fy"] + force * np.cos(data.distance / (0.97 * data.radius)))
+
+
+def with_pauses(recording):
+    """Return a recording that was stopped three times while the wheel turned on."""
+    time = recording["time"].to_numpy()
+    shown = np.zeros(time.size, bool)
+    for first, last in ((0.0, 31.3), (40.0, 71.7), (84.1, 115.0), (121.9, 150.0)):
+        shown |= (time >= first) & (time < last)
+    return recording[shown]
+
+
+EXACT_FAULTS = (
+    (lambda r: r.assign(slip_angle=np.degrees(r["slip_angle"])), "unit_error"),
+    (lambda r: r.assign(normal_load=r["normal_load"] / 4.4482216), "unit_error"),
+    (lambda r: r.assign(fy=r["fy"] / 1000.0), "unit_error"),
+    (lambda r: r.assign(pressure=r["pressure"] / 6894.757), "unit_error"),
+    (lambda r: r.assign(fy=-r["fy"]), "sign_convention"),
+    (lambda r: r.assign(slip_angle=-r["slip_angle"]), "sign_convention"),
+    (lambda r: r.assign(fy=r["fy"].where(~r["time"].between(60, 90), r["fy"].iloc[1500])), "stuck_channel"),
+    (lambda r: r.assign(fy=np.clip(r["fy"], -3500.0, 3400.0)), "clipping"),
+)
+"""Faults of a recording that have exact factors or show in a channel alone, and their names."""
+
+
+def at_its_limit(tire, recording, seed):
+    """Return slow sweeps, recorded by a load cell that ends at 1200 N."""
+    slow = recording[recording["time"] < 80.0]
+    slow = slow.assign(slip_angle=0.15 * np.sin(2.0 * np.pi * slow["time"] / 40.0))
+    at = {n: slow[n].to_numpy() for n in ("slip_angle", "normal_load")}
+    fy = tire.forces(**at).fy + np.random.default_rng(seed).normal(0.0, 25.0, len(slow))
+    return slow.assign(fy=np.clip(fy, -1200.0, 1200.0))

@@ -14,6 +14,12 @@ def named_sets(tire, recording) -> list[set[str]]:
     return [*found, *(set(names) for names, _ in explained.answer.sets)]
 
 
+def named(tire, recording) -> list[str]:
+    """Return the names as ``report.effects`` has them: faults that need no fit, then the posterior's."""
+    explained = Explainer().weigh(tire, recording)
+    return [*(finding.name for finding in explained.prepared.findings), *explained.answer.names]
+
+
 def without_visible(report: MismatchReport) -> MismatchReport:
     """Return the report without what could have been seen, which ``test_mismatch_visible.py`` tests."""
     return replace(report, find_visible=list)

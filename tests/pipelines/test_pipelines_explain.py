@@ -12,7 +12,11 @@ from conftest_kedro import ROOT, kedro_here
 
 from tire_pipeline.datasets.users_files.recording_folder import RecordingFolderDataset
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.reporting.explained_recordings import ExplainParameters, collect_explained, explain_each
+from tire_pipeline.reporting.mismatch.explained_recordings import (
+    ExplainParameters,
+    collect_explained,
+    explain_each,
+)
 
 pytestmark = pytest.mark.slow
 EXAMPLES = ROOT / "examples"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas as pd
 
 from tire_pipeline.evaluation.all_translators import NO_CHANGE, UNJUDGED
-from tire_pipeline.reporting.evaluation_outcome import say_outcome
+from tire_pipeline.reporting.evaluation.evaluation_outcome import say_outcome
 
 BEST = {"name": "mixed model", "tires": 0}
 NOT_JUDGED = pd.DataFrame(columns=["set", "metric", "translator", "rms"])

@@ -8,10 +8,14 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.datasets import TextFolderDataset
-from tire_pipeline.reporting.explain_task import corrected_files
-from tire_pipeline.reporting.explained_recordings import ExplainParameters, collect_explained, explain_each
-from tire_pipeline.reporting.mismatch_overview import draw_overview, rows_to_keep
-from tire_pipeline.reporting.result_names import result_place
+from tire_pipeline.reporting.mismatch.explain_task import corrected_files
+from tire_pipeline.reporting.mismatch.explained_recordings import (
+    ExplainParameters,
+    collect_explained,
+    explain_each,
+)
+from tire_pipeline.reporting.mismatch.mismatch_overview import draw_overview, rows_to_keep
+from tire_pipeline.reporting.mismatch.result_names import result_place
 from tire_pipeline.tir.sidecar import sidecar_path
 
 
@@ -97,7 +101,9 @@ def _report() -> SimpleNamespace:
 
 
 def test_every_recording_has_results_of_its_own_however_it_is_called(tmp_path, monkeypatch):
-    monkeypatch.setattr("tire_pipeline.reporting.explain_task.explain_recordings", lambda *_, **__: _report())
+    monkeypatch.setattr(
+        "tire_pipeline.reporting.mismatch.explain_task.explain_recordings", lambda *_, **__: _report()
+    )
     names = ["a/run.csv", "a/run.txt", f"a/{'x' * 251}.csv", "a/" + r"\xfc" * 251 + ".csv"]
     recordings = dict.fromkeys(names, lambda **_: (SimpleNamespace(path="a/model.tir"), pd.DataFrame()))
     reports, _, pages, corrected = collect_explained(explain_each(recordings, ExplainParameters()))

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from tire_pipeline.thesis.agents import curves_of_forces, judged_agent, thinned_learning_curve
-from tire_pipeline.thesis.files import key_of, pack_frames, unpack_frames
+from tire_pipeline.thesis.experiments.agents import curves_of_forces, judged_agent, thinned_learning_curve
+from tire_pipeline.thesis.experiments.files import key_of, pack_frames, unpack_frames
 from tire_pipeline.thesis.pages.class_scores import per_class_table
 from tire_pipeline.thesis.pages.words import least_within, plus_minus, points, rank_agreement
 from tire_pipeline.thesis.result_tables import over_seeds

@@ -12,7 +12,7 @@ from hostile import IMAGE, SAID, SCRIPT, UNSEEN, assert_nothing_runs
 from viz_browser import ROOT, browser, needs_browser
 
 from tire_pipeline.command.cli import COMMANDS, tire
-from tire_pipeline.reporting.proof_page import proof_page
+from tire_pipeline.reporting.proof.proof_page import proof_page
 from tire_pipeline.reporting.translation.translation_page import translation_page
 
 pytestmark = pytest.mark.slow

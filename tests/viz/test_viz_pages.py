@@ -19,8 +19,8 @@ from tire_pipeline.concealed.scoring.words import outcome
 from tire_pipeline.mismatch import explain_recordings
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.reporting import front_page
-from tire_pipeline.reporting.mismatch_overview import draw_overview
-from tire_pipeline.reporting.proof_page import proof_page
+from tire_pipeline.reporting.mismatch.mismatch_overview import draw_overview
+from tire_pipeline.reporting.proof.proof_page import proof_page
 from tire_pipeline.reporting.translation.translation_page import translation_page
 from tire_pipeline.tir import read_tir
 

@@ -6,6 +6,8 @@ given. SMOTE, if asked for, is applied to the training part of each fold.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from itertools import product
 from typing import Any
@@ -239,23 +241,23 @@ def _fold(
     return (rows - mean) / scale, wanted, (features[test] - mean) / scale, numbers[test]
 
 
+Block = list[tuple[tuple[float, float], tuple[np.ndarray, ...]]]
+"""Learning rate and weight decay of each network, and its fold as :func:`_fold` gives it."""
+
+
 def _train_block(
     batch_size: int,
     optimizer: str,
     loss: str,
     epochs: list[int],
-    block: list[tuple[tuple[float, float], tuple[np.ndarray, ...]]],
+    block: Block,
     n_classes: int,
     seed: int,
 ) -> list[dict[str, Any]]:
     """Train networks of one batch size, optimiser and loss; score them after each number of epochs."""
-    import torch
-
     from tire_pipeline.classifiers.methods.network_batch import TrainingSet, train_networks
 
-    threads = torch.get_num_threads()
-    torch.set_num_threads(1)
-    try:
+    with _one_thread():
         trained = train_networks(
             [TrainingSet(rows, wanted) for _, (rows, wanted, _, _) in block],
             n_classes=n_classes,
@@ -267,22 +269,30 @@ def _train_block(
             batch_size=batch_size,
             epochs=epochs,
         )
+    shared = {"batch_size": batch_size, "optimizer": optimizer, "trained_loss": loss}
+    return [
+        {**shared, **row, "epochs": number}
+        for number, networks in trained.items()
+        for row in _block_scores(block, networks)
+    ]
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """Let torch compute in one thread: the networks of several blocks are trained side by side."""
+    import torch
+
+    threads = torch.get_num_threads()
+    torch.set_num_threads(1)
+    try:
+        yield
     finally:
         torch.set_num_threads(threads)
-    out = []
-    for number, networks in trained.items():
-        for ((rate, decay), (_, _, test, wanted)), layers in zip(block, networks, strict=True):
-            with np.errstate(all="ignore"):  # a rate of 0.1 lets some networks run away
-                predicted = network_probabilities(test, layers).argmax(axis=1)
-            out.append(
-                {
-                    "batch_size": batch_size,
-                    "optimizer": optimizer,
-                    "trained_loss": loss,
-                    "learning_rate": rate,
-                    "weight_decay": decay,
-                    "epochs": number,
-                    **_scores(wanted, predicted),
-                }
-            )
-    return out
+
+
+def _block_scores(block: Block, networks: list[Any]) -> Iterator[dict[str, float]]:
+    """Score each network of a block on the test rows of its fold."""
+    for ((rate, decay), (_, _, test, wanted)), layers in zip(block, networks, strict=True):
+        with np.errstate(all="ignore"):  # a rate of 0.1 lets some networks run away
+            predicted = network_probabilities(test, layers).argmax(axis=1)
+        yield {"learning_rate": rate, "weight_decay": decay, **_scores(wanted, predicted)}

@@ -20,6 +20,7 @@ from tire_pipeline.errors import RecordingError, TirePipelineError
 
 if TYPE_CHECKING:
     from tire_pipeline.mismatch import EffectReport, MismatchReport
+    from tire_pipeline.mismatch.report.contents import HeldOutFit
 
 NO_TIRE = "-"
 
@@ -68,7 +69,7 @@ def command(
     """Explain a mismatch."""
     from tire_pipeline.mismatch import Explainer, explain_recordings
     from tire_pipeline.recordings.conventions.canonical import notes_beside_assumed
-    from tire_pipeline.reporting.explained_recordings import check_effects
+    from tire_pipeline.reporting.mismatch.explained_recordings import check_effects
     from tire_pipeline.tir import read_tir
 
     if corrected is not None:
@@ -109,13 +110,32 @@ def _rows(effect: EffectReport) -> list[tuple[str, ...]]:
     from tire_pipeline.mismatch.effects.amounts import amount_with_error
 
     name = f"{effect.name} of {effect.output}" if "found" in effect.evidence else effect.name
-
     sizes = [(key.replace("_", " "), *amount_with_error(*size)) for key, size in effect.parameters.items()]
     return [(name, effect.kind, *row) for row in sizes or [("", "", "")]]
 
 
 def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> CommandOutcome:
-    errors = Grid(
+    grids = [_errors(report)]
+    if report.effects:
+        grids.append(_found(report.effects))
+    if report.held_out is not None:
+        grids.append(_held_out(report.held_out))
+    lines = [report.summary, *report.head.remarks]
+    if report.assumed:
+        lines.append(f"Assumed: {'; '.join(report.assumed)}.")
+    return CommandOutcome(
+        f"{file} and {', '.join(report.recordings)}: {report.stated_verdict}",
+        lines,
+        {"file": file, **report.to_dict()},
+        lambda: _page(report),
+        grids,
+        report.notes,
+        written,
+    )
+
+
+def _errors(report: MismatchReport) -> Grid:
+    return Grid(
         ("output", "noise", "RMS before", "RMS after", "95% interval", "unit"),
         [
             (
@@ -130,36 +150,29 @@ def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Command
         ],
         "On held-out sweeps",
     )
-    grids = [errors]
-    if report.effects:
-        grids.append(
-            Grid(
-                ("effect", "kind", "parameter", "value", "standard error"),
-                [row for effect in report.effects for row in _rows(effect)],
-                "Found: parameters of the effects' equations, which the page shows",
-            )
-        )
-    if report.held_out is not None:
-        grids.append(
-            Grid(
-                ("output", "RMS before", "RMS after", "after, of before (95%)"),
-                [
-                    (n.capitalize(), e.rms_before, e.rms_after, f"{e.ratio_low:.2f} to {e.ratio_high:.2f}")
-                    for n, e in report.held_out.errors.items()
-                ],
-                f"On {report.held_out.recording}, which was held out",
-            )
-        )
 
-    def page() -> str:
-        import tempfile
 
-        with tempfile.TemporaryDirectory() as folder:
-            return report.to_html(Path(folder) / "page.html").read_text(encoding="utf-8")
+def _found(effects: list[EffectReport]) -> Grid:
+    return Grid(
+        ("effect", "kind", "parameter", "value", "standard error"),
+        [row for effect in effects for row in _rows(effect)],
+        "Found: parameters of the effects' equations, which the page shows",
+    )
 
-    data = {"file": file, **report.to_dict()}
-    title = f"{file} and {', '.join(report.recordings)}: {report.stated_verdict}"
-    lines = [report.summary, *report.head.remarks]
-    if report.assumed:
-        lines.append(f"Assumed: {'; '.join(report.assumed)}.")
-    return CommandOutcome(title, lines, data, page, grids, report.notes, written)
+
+def _held_out(fit: HeldOutFit) -> Grid:
+    return Grid(
+        ("output", "RMS before", "RMS after", "after, of before (95%)"),
+        [
+            (n.capitalize(), e.rms_before, e.rms_after, f"{e.ratio_low:.2f} to {e.ratio_high:.2f}")
+            for n, e in fit.errors.items()
+        ],
+        f"On {fit.recording}, which was held out",
+    )
+
+
+def _page(report: MismatchReport) -> str:
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        return report.to_html(Path(folder) / "page.html").read_text(encoding="utf-8")

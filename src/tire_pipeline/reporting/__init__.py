@@ -2,7 +2,7 @@
 
 from tire_pipeline.pages.drawing import COLOURS, MARKERS, colour_of, inline_svg, new_figure
 from tire_pipeline.reporting.front import front_page
-from tire_pipeline.reporting.page_parts import HOME, Figure, Links, Table, Text, render_page
+from tire_pipeline.reporting.page_parts import HOME, Figure, Links, Part, Table, Text, render_page
 
 __all__ = [
     "COLOURS",
@@ -10,6 +10,7 @@ __all__ = [
     "MARKERS",
     "Figure",
     "Links",
+    "Part",
     "Table",
     "Text",
     "colour_of",

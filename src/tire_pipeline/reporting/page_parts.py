@@ -186,9 +186,13 @@ class Picture:
         return quote(self.path)
 
 
+Part = Text | Table | Figure | Links | Picture
+"""What a page is made of."""
+
+
 def render_page(
     title: str,
-    parts: Sequence[Text | Table | Figure | Links | Picture],
+    parts: Sequence[Part],
     *,
     pages: Sequence[tuple[str, str]] = (),
     footer: str = "",

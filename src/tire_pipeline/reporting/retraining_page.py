@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from tire_pipeline.reporting import HOME, Table, Text, render_page
+from tire_pipeline.reporting import HOME, Part, Table, Text, render_page
 from tire_pipeline.retraining import ModelRegistry
 from tire_pipeline.retraining.drift import DRIFT
 from tire_pipeline.retraining.release import history_rows
@@ -70,7 +70,7 @@ def _decision(files: pd.DataFrame, outcome: dict[str, Any], registry: ModelRegis
     )
 
 
-def _drift(drift: pd.DataFrame) -> list[Text | Table]:
+def _drift(drift: pd.DataFrame) -> list[Part]:
     moved = drift[drift["verdict"] == DRIFT]
     heading = "Drift of incoming files, per category"
     if drift.empty:

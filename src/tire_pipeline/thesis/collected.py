@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from tire_pipeline.thesis.experiment_files import together
+from tire_pipeline.thesis.experiments.experiment_files import together
 from tire_pipeline.thesis.pages.whole_page import thesis_page
 from tire_pipeline.thesis.parameters import ReproduceThesisParameters
 from tire_pipeline.thesis.result_files import result_files

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.concealed.brush_rig import artefacts
-from tire_pipeline.concealed.brush_rig.constants import draw_constants, without_cooling
+from tire_pipeline.concealed.brush_rig.constants import TireConstants, draw_constants, without_cooling
 from tire_pipeline.concealed.brush_rig.recorded_run import (
     RIG_FORCES,
     BrushRig,
@@ -223,9 +223,33 @@ def _set_up(rng: np.random.Generator, choice: Choice, settings: CaseSettings) ->
     if "camber_offset" in choice.effects and constants.camber_gain < 0.3:
         raise _Unfit
     end = float(schedule["time"].iloc[-1])
-    constants = replace(constants, surface_time=end * float(rng.uniform(0.3, 0.7)))
-    rig = BrushRig(
-        constants=constants,
+    rig = _draw_rig(rng, constants, plan, choice, end, settings)
+    if choice.ambiguous == HEAT_OR_WEAR:
+        rig = _keeping_heat(rng, rig, schedule)
+    clean = rig.run(schedule, {})
+    rig = _scaled_to(rig, clean)
+    largest = max(rig.largest.values())
+    tire, poor = fit_clean(rig, plan, noise=0.002 * largest, rng=rng)
+    if poor > 2.0 * settings.misfit[1] * largest:
+        raise _Unfit
+    left = residual(tire, clean)
+    misfit = rms(left)
+    if not settings.misfit[0] <= misfit / largest <= settings.misfit[1]:
+        raise _Unfit
+    return _Bench(rig, plan, tire, schedule, clean, left, misfit)
+
+
+def _draw_rig(
+    rng: np.random.Generator,
+    constants: TireConstants,
+    plan: CasePlan,
+    choice: Choice,
+    end: float,
+    settings: CaseSettings,
+) -> BrushRig:
+    """Draw the rig of a tire for a schedule of so many seconds; its largest forces are not known yet."""
+    return BrushRig(
+        constants=replace(constants, surface_time=end * float(rng.uniform(0.3, 0.7))),
         character=rng.random(4),
         slip_sign=float(rng.choice([-1.0, 1.0], p=[0.35, 0.65])),
         details={
@@ -238,25 +262,16 @@ def _set_up(rng: np.random.Generator, choice: Choice, settings: CaseSettings) ->
         largest={"fx": 0.0, "fy": 0.0},
         n_bristles=settings.n_bristles,
     )
-    if choice.ambiguous == HEAT_OR_WEAR:
-        rig = _keeping_heat(rng, rig, schedule)
-    constants = rig.constants
-    clean = rig.run(schedule, {})
+
+
+def _scaled_to(rig: BrushRig, clean: pd.DataFrame) -> BrushRig:
+    """Return the rig with the wear and the largest forces of its clean run."""
     wear = float(clean["wear"].iloc[-1])
-    rig = replace(
+    return replace(
         rig,
-        constants=replace(constants, wear_energy=constants.wear_energy * wear),
+        constants=replace(rig.constants, wear_energy=rig.constants.wear_energy * wear),
         largest={f: float(clean[f].abs().max()) for f in RIG_FORCES},
     )
-    largest = max(rig.largest.values())
-    tire, poor = fit_clean(rig, plan, noise=0.002 * largest, rng=rng)
-    if poor > 2.0 * settings.misfit[1] * largest:
-        raise _Unfit
-    left = residual(tire, clean)
-    misfit = rms(left)
-    if not settings.misfit[0] <= misfit / largest <= settings.misfit[1]:
-        raise _Unfit
-    return _Bench(rig, plan, tire, schedule, clean, left, misfit)
 
 
 def _keeping_heat(rng: np.random.Generator, rig: BrushRig, schedule: pd.DataFrame) -> BrushRig:

@@ -5,15 +5,15 @@ from kedro.pipeline import Node, Pipeline
 from tire_pipeline.evaluation.all_translators import choose_sources, translate_files
 from tire_pipeline.evaluation.best_translator import choose_best, write_best
 from tire_pipeline.evaluation.compare_with_target import judge
-from tire_pipeline.reporting.evaluation_outcome import say_outcome
-from tire_pipeline.reporting.evaluation_page import build_report, force_figure
+from tire_pipeline.reporting.evaluation.evaluation_outcome import say_outcome
+from tire_pipeline.reporting.evaluation.evaluation_page import build_report, force_figure
 
 STATES = ["agent", "our_agent", "translator"]
 
 
 def create_pipeline(**_: object) -> Pipeline:
     """Translate, choose, write, judge, report; only ``judge`` reads the truth of the judged tires."""
-    return Pipeline([*_translating(), *_judging()])
+    return Pipeline([*_translating(), *_choosing(), *_judging()])
 
 
 def _translating() -> list[Node]:
@@ -36,6 +36,11 @@ def _translating() -> list[Node]:
             outputs="translated_table",
             name="translate_files",
         ),
+    ]
+
+
+def _choosing() -> list[Node]:
+    return [
         Node(
             choose_best,
             inputs=[

@@ -2,8 +2,8 @@
 
 from kedro.pipeline import Node, Pipeline
 
-from tire_pipeline.reporting.explained_recordings import collect_explained, explain_each
-from tire_pipeline.reporting.mismatch_overview import draw_overview, rows_to_keep
+from tire_pipeline.reporting.mismatch.explained_recordings import collect_explained, explain_each
+from tire_pipeline.reporting.mismatch.mismatch_overview import draw_overview, rows_to_keep
 
 
 def create_pipeline(**_: object) -> Pipeline:

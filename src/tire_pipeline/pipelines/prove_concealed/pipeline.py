@@ -19,7 +19,7 @@ from tire_pipeline.concealed.proof.simulated import (
     part_cases,
     score_proof,
 )
-from tire_pipeline.reporting.proof_page import proof_page
+from tire_pipeline.reporting.proof.proof_page import proof_page
 
 
 def create_pipeline(**_: object) -> Pipeline:

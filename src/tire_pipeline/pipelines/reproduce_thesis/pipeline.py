@@ -5,15 +5,15 @@ import warnings
 from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline.pipelines.reproduce_thesis.chosen_grid import chosen_grid
-from tire_pipeline.thesis import experiment_files as run
-from tire_pipeline.thesis.agent_files import (
+from tire_pipeline.thesis.collected import EXPERIMENTS, build_page, collect, write_tables
+from tire_pipeline.thesis.experiments import experiment_files as run
+from tire_pipeline.thesis.experiments.agent_files import (
     fitter,
     judge_floor,
     judge_of,
     read_sources,
     trainer,
 )
-from tire_pipeline.thesis.collected import EXPERIMENTS, build_page, collect, write_tables
 from tire_pipeline.translation.thesis.grid import Cell
 
 PARAMETERS = "params:reproduce_thesis"

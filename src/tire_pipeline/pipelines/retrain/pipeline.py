@@ -46,10 +46,10 @@ def create_pipeline(**_: object) -> Pipeline:
         },
         prefix_datasets_with_namespace=False,
     )
-    return Pipeline([*reading, cleaning, *_judging()])
+    return Pipeline([*reading, cleaning, *_training(), *_judging(), *_releasing()])
 
 
-def _judging() -> list[Node]:
+def _training() -> list[Node]:
     return [
         Node(
             hold_out,
@@ -63,6 +63,11 @@ def _judging() -> list[Node]:
             outputs="candidate_model",
             name="train_candidate",
         ),
+    ]
+
+
+def _judging() -> list[Node]:
+    return [
         Node(
             compare,
             inputs=["candidate_model", "released_model", "held_out_tires", "params:retrain"],
@@ -75,6 +80,11 @@ def _judging() -> list[Node]:
             outputs="retraining_drift",
             name="measure_drift",
         ),
+    ]
+
+
+def _releasing() -> list[Node]:
+    return [
         Node(
             decide,
             inputs=[

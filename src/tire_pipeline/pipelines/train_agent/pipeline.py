@@ -4,7 +4,7 @@ from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline.cluster import given_map
 from tire_pipeline.pipelines.translate.pipeline import fit_node
-from tire_pipeline.reporting.training_figures import learning_figure
+from tire_pipeline.reporting.evaluation.training_figures import learning_figure
 from tire_pipeline.translation.trained_agents import train_agents
 
 

@@ -4,7 +4,7 @@ from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline.classifiers.score_on_splits import join_scores, score_classifiers, train_forest
 from tire_pipeline.cluster import given_map
-from tire_pipeline.reporting.training_figures import confusion_figure
+from tire_pipeline.reporting.evaluation.training_figures import confusion_figure
 
 
 def create_pipeline(**_: object) -> Pipeline:

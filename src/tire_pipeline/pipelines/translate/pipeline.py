@@ -11,56 +11,13 @@ from tire_pipeline.translation.translated_folder import join_translated, transla
 
 def create_pipeline(**_: object) -> Pipeline:
     """Translate the user's files to the target category: read, fit, translate, join, draw."""
-    return Pipeline(
-        [
-            Node(
-                choose_files,
-                inputs=["files_to_translate", "params:translate"],
-                outputs="chosen_files",
-                name="choose_files",
-            ),
-            fit_node(),
-            Node(
-                given_map(translate_each),
-                inputs=[
-                    "translator",
-                    "chosen_files",
-                    "normalized_table",
-                    "params:translate",
-                    "params:normalize",
-                    "params:seed",
-                ],
-                outputs="translated_blocks",
-                name="translate_each",
-            ),
-            Node(
-                join_translated,
-                inputs=["translated_blocks", "translator", "params:translate"],
-                outputs=[
-                    "translation_files",
-                    "translation_report",
-                    "source_table",
-                    "translation_coefficients",
-                    "translation_bands",
-                    "translation_protocols",
-                ],
-                name="join_translated",
-            ),
-            Node(
-                translate_page,
-                inputs=[
-                    "translation_report",
-                    "translated_blocks",
-                    "translation_protocols",
-                    "demonstration_files",
-                    "params:translate",
-                    "params:target_category",
-                ],
-                outputs=["translation_list", "translation_outcome"],
-                name="draw_translated_files",
-            ),
-        ]
+    choosing = Node(
+        choose_files,
+        inputs=["files_to_translate", "params:translate"],
+        outputs="chosen_files",
+        name="choose_files",
     )
+    return Pipeline([choosing, fit_node(), *_translating(), _drawing()])
 
 
 def fit_node() -> Node:
@@ -76,4 +33,51 @@ def fit_node() -> Node:
         ],
         outputs="translator",
         name="fit_translator",
+    )
+
+
+def _translating() -> list[Node]:
+    return [
+        Node(
+            given_map(translate_each),
+            inputs=[
+                "translator",
+                "chosen_files",
+                "normalized_table",
+                "params:translate",
+                "params:normalize",
+                "params:seed",
+            ],
+            outputs="translated_blocks",
+            name="translate_each",
+        ),
+        Node(
+            join_translated,
+            inputs=["translated_blocks", "translator", "params:translate"],
+            outputs=[
+                "translation_files",
+                "translation_report",
+                "source_table",
+                "translation_coefficients",
+                "translation_bands",
+                "translation_protocols",
+            ],
+            name="join_translated",
+        ),
+    ]
+
+
+def _drawing() -> Node:
+    return Node(
+        translate_page,
+        inputs=[
+            "translation_report",
+            "translated_blocks",
+            "translation_protocols",
+            "demonstration_files",
+            "params:translate",
+            "params:target_category",
+        ],
+        outputs=["translation_list", "translation_outcome"],
+        name="draw_translated_files",
     )

@@ -174,29 +174,21 @@ def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMo
         Half-power frequency of the smoothing, Hz.
     """
     even = even_drive(drive, ("x", "y", "yaw"), bandwidth)
-    table, smoother, missing, good = even.table, even.smoother, even.missing, even.good
-    x, y, yaw = _bridged(table, missing)
+    smoother, good = even.smoother, even.good
+    x, y, yaw = _bridged(even.table, even.missing)
     yaw = yaw + vehicle.yaw_offset
-    world_x, world_y, turning = smoother.first(x), smoother.first(y), smoother.first(yaw)
-    cos, sin = np.cos(yaw), np.sin(yaw)
-    # A marker to the left of the middle line moves ahead by -lateral * yaw rate.
-    ahead = world_x * cos + world_y * sin + vehicle.marker_lateral * turning
-    left = world_y * cos - world_x * sin
+    ahead, left, turning = _seen_from_the_vehicle(x, y, yaw, smoother, vehicle)
     vx, vy, rate = (smoother.smooth(s) for s in (ahead, left, turning))
     vx_dot, vy_dot, rate_dot = (smoother.smooth(s, 1) for s in (ahead, left, turning))
-    speed = np.hypot(vx, vy)
-    moving = ~missing & good & (speed > 0.1 * speed.max())
-    stds = [white_noise_std(np.where(moving, s, np.nan)) for s in (x, y, yaw)]
-    position_std, yaw_std = float(np.sqrt((stds[0] ** 2 + stds[1] ** 2) / 2)), stds[2]
-    more_vx, more_vy = (smoother.inflation(s, position_std, moving) for s in (ahead, left))
-    more_yaw = smoother.inflation(turning, yaw_std, moving)
+    noise = PoseNoise.of(even, (x, y, yaw), (ahead, left, turning), np.hypot(vx, vy))
+    position_std, yaw_std = noise.position_std, noise.yaw_std
     g0, g1, h0 = (smoother.gain(a, b) for a, b in ((1, 0), (1, 1), (0, 0)))
-    vx_std, vx_dot_std = more_vx * position_std * g0, more_vx * position_std * g1
-    vy_std = np.hypot(more_vy * position_std * g0, vx * yaw_std * h0)
-    turned = more_yaw * yaw_std * smoother.rotation_gain()
-    rate_std, rate_dot_std = more_yaw * yaw_std * g0, more_yaw * yaw_std * g1
+    vx_std, vx_dot_std = noise.more_ahead * position_std * g0, noise.more_ahead * position_std * g1
+    vy_std = np.hypot(noise.more_left * position_std * g0, vx * yaw_std * h0)
+    turned = noise.more_yaw * yaw_std * smoother.rotation_gain()
+    ay_noise = noise.more_left * position_std * g1
     return BodyMotion(
-        time=table["time"].to_numpy(dtype=float),
+        time=even.table["time"].to_numpy(dtype=float),
         ahead=vehicle.marker_offset,
         vx=vx,
         vy=vy,
@@ -206,21 +198,69 @@ def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMo
         ay=vy_dot + rate * vx,
         vx_std=vx_std,
         vy_std=vy_std,
-        yaw_rate_std=rate_std,
-        yaw_acceleration_std=rate_dot_std,
+        yaw_rate_std=noise.more_yaw * yaw_std * g0,
+        yaw_acceleration_std=noise.more_yaw * yaw_std * g1,
         ax_std=np.sqrt(vx_dot_std**2 + (vy * turned) ** 2 + (rate * vy_std) ** 2),
-        ay_std=np.sqrt((more_vy * position_std * g1) ** 2 + (vx * turned) ** 2 + (rate * vx_std) ** 2),
+        ay_std=np.sqrt(ay_noise**2 + (vx * turned) ** 2 + (rate * vx_std) ** 2),
         good=good,
         smoother=smoother,
-        noise={
-            "position_std_m": position_std,
-            "yaw_std_rad": yaw_std,
-            "inflation_lateral": float(np.median(more_vy[good])) if good.any() else 1.0,
-            "inflation_yaw": float(np.median(more_yaw[good])) if good.any() else 1.0,
-            "missing_share": float(missing.mean()),
-        },
+        noise=noise.summary(good, even.missing),
         notes=even.notes,
     )
+
+
+@dataclass(frozen=True)
+class PoseNoise:
+    """Noise of a recorded pose, and how much more of it a smoothed speed has than white noise would leave.
+
+    Attributes
+    ----------
+    position_std, yaw_std : float
+        m, rad.
+    more_ahead, more_left, more_yaw : ndarray
+        Factors, one a sample.
+    """
+
+    position_std: float
+    yaw_std: float
+    more_ahead: Array
+    more_left: Array
+    more_yaw: Array
+
+    @classmethod
+    def of(
+        cls, even: EvenDrive, pose: tuple[Array, ...], speeds: tuple[Array, ...], smoothed_speed: Array
+    ) -> PoseNoise:
+        """Measure it where the vehicle moves, in `x, y, yaw` and in speeds ahead, to the left and of yaw."""
+        moving = ~even.missing & even.good & (smoothed_speed > 0.1 * smoothed_speed.max())
+        stds = [white_noise_std(np.where(moving, s, np.nan)) for s in pose]
+        position_std, yaw_std = float(np.sqrt((stds[0] ** 2 + stds[1] ** 2) / 2)), stds[2]
+        ahead, left, turning = speeds
+        more_ahead, more_left = (even.smoother.inflation(s, position_std, moving) for s in (ahead, left))
+        more_yaw = even.smoother.inflation(turning, yaw_std, moving)
+        return cls(position_std, yaw_std, more_ahead, more_left, more_yaw)
+
+    def summary(self, good: NDArray[np.bool_], missing: NDArray[np.bool_]) -> dict[str, float]:
+        """What a recording's attributes say of it."""
+        return {
+            "position_std_m": self.position_std,
+            "yaw_std_rad": self.yaw_std,
+            "inflation_lateral": float(np.median(self.more_left[good])) if good.any() else 1.0,
+            "inflation_yaw": float(np.median(self.more_yaw[good])) if good.any() else 1.0,
+            "missing_share": float(missing.mean()),
+        }
+
+
+def _seen_from_the_vehicle(
+    x: Array, y: Array, yaw: Array, smoother: Smoother, vehicle: Vehicle
+) -> tuple[Array, Array, Array]:
+    """Speed ahead, speed to the left and yaw rate of a marker's way."""
+    world_x, world_y, turning = smoother.first(x), smoother.first(y), smoother.first(yaw)
+    cos, sin = np.cos(yaw), np.sin(yaw)
+    # A marker to the left of the middle line moves ahead by -lateral * yaw rate.
+    ahead = world_x * cos + world_y * sin + vehicle.marker_lateral * turning
+    left = world_y * cos - world_x * sin
+    return ahead, left, turning
 
 
 def _bridged(table: pd.DataFrame, missing: NDArray[np.bool_]) -> tuple[Array, Array, Array]:

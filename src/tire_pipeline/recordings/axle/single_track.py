@@ -249,6 +249,38 @@ def _finish(
     source: dict[object, object],
 ) -> pd.DataFrame:
     """Cut what is missing or too slow, thin, number the pieces, and write the attributes."""
+    keep, limit = _usable(table, motion, vehicle, min_speed)
+    table["segment"] = np.cumsum(np.diff(keep.astype(int), prepend=0) == 1)
+    dt = motion.smoother.dt
+    step = _thinning_step(motion, rate)
+    every = np.zeros(keep.size, dtype=bool)
+    every[::step] = True
+    seconds = keep.sum() * dt
+    out = table.loc[keep & every].reset_index(drop=True)
+    notes.append(f"{1 - motion.good.mean():.1%} of the samples rest on drop-outs or ends: cut")
+    if vehicle.cg_height is None:
+        notes.append("cg_height unknown: no longitudinal load transfer")
+    first = ["time", "slip_angle", "slip_ratio", "normal_load", "speed", "fx", "fy"]
+    out = out[[c for c in first if c in out] + [c for c in out if c not in first]]
+    out.attrs = {
+        "source": source.get("source", "drive"),
+        "format": "axle",
+        "axle": axle,
+        "bandwidth_hz": motion.smoother.bandwidth,
+        "sample_rate_hz": 1 / (step * dt),
+        "independent_samples": max(1, int(seconds * 2 * motion.smoother.bandwidth)),
+        "noise": motion.noise,
+        "vehicle": asdict(vehicle),
+        "min_speed": limit,
+        "notes": [*source.get("notes", []), *notes],  # type: ignore[misc]
+    }
+    return out
+
+
+def _usable(
+    table: pd.DataFrame, motion: BodyMotion, vehicle: Vehicle, min_speed: float | None
+) -> tuple[NDArray[np.bool_], float]:
+    """Which samples rest on no gap and are fast enough, and the least speed (m/s)."""
     fast = table["speed"].to_numpy()
     limit = float(np.quantile(fast[motion.good], 0.99)) / 6 if motion.good.any() else 0.0
     if vehicle.wheel_radius:
@@ -260,31 +292,13 @@ def _finish(
         raise RecordingError(
             "no sample is left after drop-outs and slow parts are cut", todo="lower min_speed"
         )
-    table["segment"] = np.cumsum(np.diff(keep.astype(int), prepend=0) == 1)
+    return keep, limit
+
+
+def _thinning_step(motion: BodyMotion, rate: float | None) -> int:
+    """One of how many samples is kept; without a rate what the smoothing leaves independent."""
     dt = motion.smoother.dt
     rate = min(2 * motion.smoother.bandwidth, 1 / dt) if rate is None else rate
     if rate != np.inf and not 0 < rate <= 1 / dt * 1.001:
         raise RecordingError(f"rate={rate:g} Hz", todo=f"choose up to {1 / dt:g} Hz")
-    every = np.zeros(keep.size, dtype=bool)
-    every[:: max(1, round(1 / (rate * dt)))] = True
-    seconds = keep.sum() * dt
-    keep &= every
-    out = table.loc[keep].reset_index(drop=True)
-    notes.append(f"{1 - motion.good.mean():.1%} of the samples rest on drop-outs or ends: cut")
-    if vehicle.cg_height is None:
-        notes.append("cg_height unknown: no longitudinal load transfer")
-    first = ["time", "slip_angle", "slip_ratio", "normal_load", "speed", "fx", "fy"]
-    out = out[[c for c in first if c in out] + [c for c in out if c not in first]]
-    out.attrs = {
-        "source": source.get("source", "drive"),
-        "format": "axle",
-        "axle": axle,
-        "bandwidth_hz": motion.smoother.bandwidth,
-        "sample_rate_hz": 1 / (max(1, round(1 / (rate * dt))) * dt),
-        "independent_samples": max(1, int(seconds * 2 * motion.smoother.bandwidth)),
-        "noise": motion.noise,
-        "vehicle": asdict(vehicle),
-        "min_speed": limit,
-        "notes": [*source.get("notes", []), *notes],  # type: ignore[misc]
-    }
-    return out
+    return max(1, round(1 / (rate * dt)))

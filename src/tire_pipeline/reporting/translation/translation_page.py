@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.pages.drawing import MARKERS, colour_of, new_figure
-from tire_pipeline.reporting.page_parts import HOME, Figure, Table, Text, render_page
+from tire_pipeline.reporting.page_parts import HOME, Figure, Part, Table, Text, render_page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as MplFigure
@@ -100,7 +100,12 @@ def translation_page(
         HTML.
     """
     hidden = grid[grid["set"] == "hidden"].reset_index(drop=True)
-    parts: list[Text | Table | Figure] = [
+    parts = [*_compared(hidden), *_goals_and_refusals(hidden), *_learned(bias, beside_truth)]
+    return render_page("How well the translators do", parts, pages=HOME, footer=note)
+
+
+def _compared(hidden: pd.DataFrame) -> list[Part]:
+    return [
         Text(_summary(hidden), emphasis=True),
         Figure(
             _by_size(hidden),
@@ -119,6 +124,11 @@ def translation_page(
             heading="Every translator at the calibrated bias",
             decimals=3,
         ),
+    ]
+
+
+def _goals_and_refusals(hidden: pd.DataFrame) -> list[Part]:
+    return [
         Table(
             check_goals(hidden).assign(translator=lambda t: t["translator"].map(_words)),
             "The goals were fixed beforehand. They are ratios of squared errors, the squares of the ratios "
@@ -134,6 +144,11 @@ def translation_page(
             decimals=3,
         ),
     ]
+
+
+def _learned(bias: pd.DataFrame | None, beside_truth: pd.DataFrame | None) -> list[Part]:
+    """What the translators say of the data, beside the truth where it is known."""
+    parts: list[Part] = []
     if beside_truth is not None and len(beside_truth):
         inside = beside_truth["inside"].mean()
         caption = (
@@ -147,7 +162,7 @@ def translation_page(
                 _largest(bias), "Largest first, 90% intervals.", heading="Bias between pairs of organisations"
             )
         )
-    return render_page("How well the translators do", parts, pages=HOME, footer=note)
+    return parts
 
 
 def _words(translator: str) -> str:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import pandas as pd
 
-from tire_pipeline.reporting import Figure, Table, Text
+from tire_pipeline.reporting import Figure, Part, Table, Text
 from tire_pipeline.thesis.pages.agent_figures import AGENT_FIGURES, FORCE_FIGURES, shown
 from tire_pipeline.thesis.pages.words import agreement, listed, number, plus_minus, rank_agreement
 from tire_pipeline.thesis.published import AGENT_TABLES, published_figure, published_table
 from tire_pipeline.thesis.result_tables import BETTER, CELL, Results, in_words, over_seeds
 from tire_pipeline.translation.thesis.tables import METRICS, better_than_nothing
 
-Part = Text | Table | Figure
 _SHORT_METRICS = {
     "forces": "forces",
     "cornering_stiffness": "slope",

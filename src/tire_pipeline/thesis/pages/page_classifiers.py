@@ -8,14 +8,13 @@ import pandas as pd
 
 from tire_pipeline.classifiers.tuning import ANN_GRID
 from tire_pipeline.progress import track
-from tire_pipeline.reporting import Figure, Table, Text
+from tire_pipeline.reporting import Figure, Part, Table, Text
 from tire_pipeline.thesis.pages.class_scores import per_class_table
 from tire_pipeline.thesis.pages.figures import BIN_FIGURES, CLASSIFIER_FIGURES, SPLITS
 from tire_pipeline.thesis.pages.words import least_within, listed, number, plus_minus, points
 from tire_pipeline.thesis.published import published_figure, published_table
 from tire_pipeline.thesis.result_tables import Results, in_words, over_trainings
 
-Part = Text | Table | Figure
 CONDITION_COLUMNS = {
     "normal_load": "normal load (N)",
     "condition_median": "condition (median)",

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pandas as pd
 
-from tire_pipeline.reporting import HOME, Table, Text, render_page
+from tire_pipeline.reporting import HOME, Part, Table, Text, render_page
 from tire_pipeline.thesis.pages.page_agents import agent_parts
-from tire_pipeline.thesis.pages.page_classifiers import Part, classifier_parts
+from tire_pipeline.thesis.pages.page_classifiers import classifier_parts
 from tire_pipeline.thesis.pages.questions import answers
 from tire_pipeline.thesis.pages.words import number
 from tire_pipeline.thesis.result_tables import BETTER, Results, over_seeds, over_trainings

@@ -20,8 +20,9 @@ def collect_cells(
     Parameters
     ----------
     judged : mapping
-        Name of the cell -> table ``agents`` of :func:`tire_pipeline.thesis.agents.judged_agent`, one for
-        each seed. Cells that are not there are left out.
+        Name of the cell -> table ``agents`` of
+        :func:`tire_pipeline.thesis.experiments.agents.judged_agent`, one for each seed. Cells that are
+        not there are left out.
     cells : iterable of Cell
 
     Returns

@@ -1,0 +1,1 @@
+"""Translators, classifiers and agents that were judged: figures, sentences, the page."""

@@ -1,0 +1,254 @@
+"""Recordings -> what the model left out, as data, pages and corrected .tir files."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Mapping
+from fnmatch import fnmatch
+from functools import partial
+from pathlib import PurePosixPath
+from typing import Any, Literal
+
+import pandas as pd
+from pydantic import Field
+
+from tire_pipeline.code_hash import code_hash
+from tire_pipeline.errors import RecordingError, did_you_mean
+from tire_pipeline.files.packed import unpack
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.inference.learnt.sizes import learnt
+from tire_pipeline.parameters import Parameters, Several
+from tire_pipeline.progress import track
+from tire_pipeline.recordings.groups import by_folder, matching
+from tire_pipeline.reporting.mismatch.explain_task import COLUMNS, PAGE, ExplainTask, Load, corrected_files
+from tire_pipeline.reporting.mismatch.result_names import result_place
+
+Pairs = Mapping[str, Load]
+Read = Callable[[], bytes]
+
+
+class RecordingRule(Parameters):
+    """What is known of some recordings.
+
+    Attributes
+    ----------
+    match : str
+        Pattern of their paths or file names, such as ``rig_b/*.csv``.
+    axes : {"ISO", "SAE"}, optional
+        Axes of their channels.
+    units, names : dict of str to str
+        By the file's channel name: its unit, and the canonical channel that it is.
+    tir : str
+        The tire's file, relative to the recording's folder or to that of all recordings.
+    without : list of str
+        Effects of the catalogue that are not looked for.
+    """
+
+    match: str = Field("*", min_length=1)
+    axes: Literal["ISO", "SAE"] | None = None
+    units: dict[str, str] = {}
+    names: dict[str, str] = {}
+    tir: str = ""
+    without: Several = []
+
+    def fits(self, name: str) -> bool:
+        """Whether the rule is about a recording."""
+        return _matches(name, self.match)
+
+
+class ExplainParameters(Parameters):
+    """Parameters of ``explain_mismatch``.
+
+    Attributes
+    ----------
+    together : bool
+        Whether the recordings of one folder are of one tire and explained together.
+    hold_out : str
+        With ``together``: pattern of the recording of each folder that takes no part and is predicted.
+    only : list of str
+        Recordings, folders or patterns; empty is all. On the command line several are separated by ``;``.
+    axes : {"ISO", "SAE"}, optional
+        Axes of all recordings, unless a rule of ``recordings`` says otherwise.
+    without : list of str
+        Effects of the catalogue that are looked for in no recording.
+    recordings : list of RecordingRule
+        What is known of some recordings, by pattern.
+    learnt : str
+        File of learnt sizes that ``calibrate_mismatch`` wrote; those of the package if empty.
+    """
+
+    together: bool = False
+    hold_out: str = ""
+    only: Several = []
+    axes: Literal["ISO", "SAE"] | None = None
+    without: Several = []
+    recordings: list[RecordingRule] = []
+    learnt: str = ""
+
+    def how(self, name: str) -> dict[str, Any]:
+        """What is stated of a recording; a later rule counts more than an earlier one."""
+        found: dict[str, Any] = {"axes": self.axes, "units": {}, "names": {}, "tir": ""}
+        for rule in self.recordings:
+            if rule.fits(name):
+                found["axes"] = rule.axes or found["axes"]
+                found["tir"] = rule.tir or found["tir"]
+                found["units"] |= rule.units
+                found["names"] |= rule.names
+        return {key: value for key, value in found.items() if value}
+
+    def left_out(self, names: Iterable[str]) -> tuple[str, ...]:
+        """Effects that are not looked for in recordings that are explained together."""
+        rules = [rule for rule in self.recordings if any(rule.fits(name) for name in names)]
+        return tuple(sorted({*self.without, *(effect for rule in rules for effect in rule.without)}))
+
+
+def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, ExplainTask]:
+    """Explain each recording; what is stored and has not changed is not explained again.
+
+    Parameters
+    ----------
+    recordings : mapping
+        Relative path to the function that reads the recording and its tire.
+    parameters : ExplainParameters
+
+    Raises
+    ------
+    RecordingError
+        None matches ``only``, ``hold_out`` or a rule, or the catalogue has no such effect.
+    """
+    excluded = [*parameters.without, *(each for rule in parameters.recordings for each in rule.without)]
+    check_effects(excluded, "explain_mismatch: without")
+    recordings = _chosen(recordings, parameters)
+    groups = by_folder(recordings) if parameters.together else {name: [name] for name in recordings}
+    held_out = _held_out(groups, parameters)
+    code = code_hash("mismatch", "magic_formula", "tir", "recordings", "reporting")
+    sizes, tasks = learnt(parameters.learnt), {}
+    for name, members in groups.items():
+        loads = {each: recordings[each] for each in members}
+        how = {each: parameters.how(each) for each in members}
+        task = ExplainTask(name, loads, how, held_out.get(name), sizes, parameters.left_out(members))
+        tasks[f"{code}/{task.key}.zip"] = task
+    return tasks
+
+
+def collect_explained(
+    explained: Mapping[str, Read],
+) -> tuple[dict[str, Any], pd.DataFrame, dict[str, Read], dict[str, Read | None]]:
+    """Collect what was found in each recording.
+
+    Parameters
+    ----------
+    explained : mapping
+        What :func:`explain_each` gave, done.
+
+    Returns
+    -------
+    reports : dict
+        ``MismatchReport.to_dict()`` by recording, or ``folder/together``.
+    overview : DataFrame
+        ``recording, verdict, summary, effects, alternatives, held_out, problem``.
+    pages : dict
+        One HTML page a report, by the function that reads it: they are never in memory together.
+    corrected : dict
+        In the same way, ``.tir`` files with the missing physics added, and sidecars for what the format
+        cannot hold. None in place of a file that a recording no longer has, because no physics is missing or
+        a question is open on which all of it rests (its axes): that of an earlier run would be wrong.
+
+    Raises
+    ------
+    RecordingError
+        If not one recording could be explained.
+    """
+    reports, rows = dict[str, Any](), list[dict[str, str]]()
+    pages, corrected = dict[str, Read](), dict[str, Read | None]()
+    for read in track(explained.values(), "collecting reports", total=len(explained)):
+        members = unpack(read())
+        row, report = json.loads(members.pop("row.json")), json.loads(members.pop("report.json"))
+        rows.append(row)
+        if report is None:
+            continue
+        reports[row["recording"]] = report
+        del members[PAGE]
+        pages[result_place(row["recording"], ".html")] = partial(_member, read, PAGE)
+        corrected |= dict.fromkeys(corrected_files(row["recording"]))
+        corrected |= {name: partial(_member, read, name) for name in members}
+    _check_any(reports, rows)
+    return reports, pd.DataFrame(rows, columns=list(COLUMNS)), pages, corrected
+
+
+def _check_any(reports: Mapping[str, Any], rows: list[dict[str, str]]) -> None:
+    if not reports:
+        first = f"{rows[0]['recording']}: {rows[0]['problem']}"
+        raise RecordingError(
+            f"none of {len(rows)} recordings could be explained; {first}",
+            todo="correct that, then run again",
+        )
+
+
+def _member(read: Read, name: str) -> bytes:
+    return unpack(read())[name]
+
+
+def check_effects(names: Iterable[str], where: str) -> None:
+    """Refuse a name that is not in the catalogue of effects.
+
+    Parameters
+    ----------
+    names : iterable of str
+    where : str
+        Who names them, for the message.
+
+    Raises
+    ------
+    RecordingError
+        With the nearest name, or else all of them.
+    """
+    known = catalogue()
+    for effect in names:
+        if effect not in known:
+            raise RecordingError(
+                f"the catalogue has no effect {effect!r}",
+                where=where,
+                todo=did_you_mean(effect, known, f"there are {', '.join(known)}"),
+            )
+
+
+def _chosen(recordings: Pairs, parameters: ExplainParameters) -> Pairs:
+    """The recordings that were asked for; a pattern that matches none is an error."""
+    patterns = [*parameters.only, *(rule.match for rule in parameters.recordings)]
+    for pattern in patterns:
+        if not any(_matches(name, pattern) for name in recordings):
+            raise RecordingError(
+                f"{pattern!r} matches none of {len(recordings)} recordings",
+                where="explain_mismatch",
+                todo=did_you_mean(pattern, recordings, f"there is {next(iter(recordings))}"),
+            )
+    if not parameters.only:
+        return recordings
+    return {
+        name: load
+        for name, load in recordings.items()
+        if any(_matches(name, pattern) for pattern in parameters.only)
+    }
+
+
+def _matches(name: str, pattern: str) -> bool:
+    place = PurePosixPath(name)
+    return pattern in place.parts[:-1] or fnmatch(name, pattern) or fnmatch(place.name, pattern)
+
+
+def _held_out(groups: Mapping[str, list[str]], parameters: ExplainParameters) -> dict[str, str]:
+    """The recording of each group that takes no part."""
+    if not parameters.hold_out:
+        return {}
+    found = {
+        name: matching(members, parameters.hold_out) for name, members in groups.items() if len(members) > 1
+    }
+    held_out = {name: member for name, member in found.items() if member is not None}
+    if not held_out:
+        raise RecordingError(
+            f"hold_out = {parameters.hold_out!r} matches no recording of a folder with several",
+            where="explain_mismatch",
+            todo="correct the pattern, and set explain_mismatch.together to true",
+        )
+    return held_out

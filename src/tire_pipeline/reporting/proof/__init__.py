@@ -1,0 +1,1 @@
+"""What was proved on concealed cases: tables and the page."""

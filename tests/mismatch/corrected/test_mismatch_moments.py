@@ -1,0 +1,40 @@
+"""Moments take no part in the search; the corrected model gives them, and the report their errors."""
+
+import numpy as np
+import pytest
+
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.mismatch import explain_mismatch
+
+MOMENTS = {"QBZ1": 8.0, "QCZ1": 1.1, "QDZ1": 0.12, "QBZ9": 10.0, "QSX1": 0.01, "QSX3": 0.03}
+
+
+@pytest.fixture(scope="module")
+def with_moments(tire, record):
+    """The rig's recording with friction down by 15%, and moments of a tire of that friction."""
+    model = TireModel.from_coefficients({**tire.coefficients, **MOMENTS}, version="5.2")
+    recording = record(5, friction=0.85)
+    rng = np.random.default_rng(2)
+    inputs = {c: recording[c].to_numpy() for c in ("slip_angle", "normal_load")}
+    less = model.replace(LMUY=0.85).forces(**inputs)
+    n = len(recording)
+    return model, recording.assign(mz=less.mz + rng.normal(0, 1.0, n), mx=less.mx + rng.normal(0, 1.0, n))
+
+
+@pytest.mark.slow
+def test_moments_are_corrected_though_no_fit_has_seen_them(with_moments):
+    """How often they are, and by how much: ``rates``."""
+    model, recording = with_moments
+    report = explain_mismatch(model, recording)
+    assert set(report.fit) == {"fy", "mx", "mz"}
+    predicted = report.corrected.predict(recording.drop(columns=["fy", "mz", "mx"]))
+    assert list(predicted) == ["fy", "mx", "mz"]
+    left = recording["mz"] - predicted["mz"]
+    assert np.sqrt(np.mean(left**2)) == pytest.approx(report.fit["mz"].rms_after, rel=0.05)
+
+
+@pytest.mark.slow
+def test_a_model_without_moments_gives_none(tire, with_moments):
+    report = explain_mismatch(tire, with_moments[1])
+    assert set(report.fit) == {"fy"}
+    assert list(report.corrected.predict(with_moments[1])) == ["fy"]

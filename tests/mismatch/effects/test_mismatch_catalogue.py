@@ -1,0 +1,68 @@
+"""The catalogue: open to effects from outside, and known by name to none of the engine's other files."""
+
+import ast
+from importlib.metadata import EntryPoint
+from pathlib import Path
+
+import pytest
+from belt_lift import BeltLift, lifted_sweeps
+
+import tire_pipeline.mismatch
+from tire_pipeline.errors import DomainError
+from tire_pipeline.mismatch import Explainer, effects
+from tire_pipeline.mismatch.effects import catalogue, register
+
+FOLDER = Path(tire_pipeline.mismatch.__file__).parent
+CHANNELS = {"camber", "turn_slip"}
+"""Names of effects that are names of channels, too."""
+
+
+@pytest.fixture
+def belt_lift():
+    register(BeltLift())
+    yield
+    catalogue().pop("belt_lift")
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_an_effect_from_outside_is_weighed_with_the_others(belt_lift, tire, seed):
+    """And tells what it is alone: the lift is found to three of its errors in most draws (``rates``)."""
+    answer = Explainer().weigh(tire, lifted_sweeps(tire, seed)).answer
+    assert "belt_lift" in answer.gains
+    ((_, found),) = answer.single("belt_lift")
+    assert found["lift"] > 0.0
+
+
+def test_a_name_is_given_once():
+    with pytest.raises(DomainError, match="already"):
+        register(catalogue()["temperature"])
+
+
+@pytest.mark.parametrize("lacking", ["name", "title", "equation", "source"])
+def test_an_effect_states_what_it_is(lacking):
+    nameless = type("Nameless", (BeltLift,), {lacking: ""})
+    with pytest.raises(DomainError, match=f"no {lacking}"):
+        register(nameless())
+
+
+def test_an_installed_package_offers_its_effects(monkeypatch):
+    entry = EntryPoint("belt_lift", f"{__name__}:BeltLift", effects.GROUP)
+    monkeypatch.setattr(EntryPoint, "load", lambda self: BeltLift)
+    monkeypatch.setattr(effects, "entry_points", lambda group: [entry] if group == effects.GROUP else [])
+    catalogue.cache_clear()
+    try:
+        assert isinstance(catalogue()["belt_lift"], BeltLift)
+    finally:
+        catalogue.cache_clear()
+
+
+def test_no_name_of_an_effect_outside_of_their_folder():
+    names = set(catalogue()) - CHANNELS
+    said = []
+    for path in sorted(FOLDER.rglob("*.py")):
+        if "effects" in path.relative_to(FOLDER).parts:
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Constant) and node.value in names:
+                said.append(f"{path.relative_to(FOLDER)}:{node.lineno} {node.value}")
+    assert not said

@@ -1,0 +1,75 @@
+"""Before any explanation: whether the recording is of the tire that the file describes."""
+
+import numpy as np
+import pytest
+from mismatch_shared import shared
+
+from tire_pipeline.concealed import make_case
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.recording.prepare import prepare
+from tire_pipeline.recordings import read_recording
+from tire_pipeline.tir import read_tir
+
+
+def check_another(report, tmp_path):
+    assert report.verdict == "another tire"
+    assert report.effects == []
+    assert "cornering stiffness" in report.summary
+    assert "load" in report.summary
+    with pytest.raises(RecordingError, match="file of this tire"):
+        report.corrected.to_tir(tmp_path / "corrected.tir")
+    assert "another tire" in report.to_html(tmp_path / "page.html").read_text()
+
+
+def test_a_recording_of_another_size_asks_for_the_file(tmp_path):
+    """195/65 R15 against the file of a 185/80 R14 was "another slip stiffness and fall of friction"."""
+    tire = read_tir(shared("tir") / "projectchrono__chrono__mf_185_80R14.tir")
+    points = read_recording(shared("recordings/tydex") / "DT_195_65R15_demo.tdx")
+    check_another(explain_mismatch(tire, points), tmp_path)
+
+
+def test_another_tire_on_the_rig_asks_for_the_file(tire, record, tmp_path):
+    other = tire.replace(PDY1=0.9, PDY2=-0.25, PKY1=30.0, PKY2=1.4, PEY1=-0.3)
+    check_another(explain_mismatch(other, record(0)), tmp_path)
+
+
+@pytest.mark.slow
+def test_public_files_against_real_recordings_are_another_tire():
+    """None of the 16 is of one of these tires; friction and stiffness alone may be a state of the same."""
+    calspan = read_recording(shared("recordings/calspan") / "cornering_part.mat", axes="SAE").iloc[::5]
+    points = read_recording(shared("recordings/tydex") / "DT_195_65R15_demo.tdx")
+    recordings = (calspan[calspan["pressure"] > 75e3].drop(columns="slip_ratio"), points)
+    asked = [
+        prepare(read_tir(file), recording).stopped == "another tire"
+        for file in sorted(shared("tir").glob("*.tir"))
+        for recording in recordings
+    ]
+    assert len(asked) == 32
+    assert np.mean(asked) >= 0.9
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"friction": 0.7},
+        {"stiffness": 0.7},
+        {"stiffness": 1.4, "friction": 1.2},
+        {"stiffness": 0.8, "friction": 1.2, "offset": 200.0},
+        {"pressure_effect": 0.5},
+        {"delay": 0.1},
+    ],
+)
+def test_a_state_of_the_same_tire_is_no_other_tire(tire, record, change):
+    assert prepare(tire, record(0, **change)).question is None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["nothing", "single", "pair", "artefact", "ambiguous", "unknown"])
+@pytest.mark.parametrize("count", [1, pytest.param(10, marks=pytest.mark.long)])
+def test_simulated_cases_raise_no_question(kind, count):
+    """Signs and units that are an artefact of the case aside."""
+    cases = [make_case(seed, kind) for seed in range(880001, 880001 + count)]
+    upright = [case for case, answer in cases if "sign_convention" not in [e.name for e in answer.effects]]
+    assert upright
+    assert [prepare(case.tire, case.recording).question for case in upright] == [None] * len(upright)

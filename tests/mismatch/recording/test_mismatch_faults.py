@@ -1,0 +1,48 @@
+"""Faults as users have them: a clear message or the artefact's name, never a physics name."""
+
+import numpy as np
+import pytest
+from small_rig import at_its_limit
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.recording.prepare import prepare
+
+
+@pytest.mark.parametrize("value", [0.0, 100.0])
+def test_a_dead_force_channel_is_said(tire, record, value):
+    with pytest.raises(RecordingError, match="no force was measured"):
+        explain_mismatch(tire, record().assign(fy=value))
+
+
+def test_a_dead_second_force_is_left_out(tire, record):
+    prepared = prepare(tire, record().assign(fx=0.0))
+    assert prepared.data.outputs == ("fy",)
+    assert any("fx is 0 N throughout" in n for n in prepared.notes)
+
+
+def test_an_empty_recording_is_said_to_be_empty(tire, record):
+    with pytest.raises(RecordingError, match="no rows"):
+        explain_mismatch(tire, record().iloc[:0])
+
+
+def test_single_missing_samples_are_bridged(tire, record):
+    """A third of the loads are missing: what was left had an uneven time base and looked like relaxation."""
+    recording = record(21)
+    recording.loc[::3, "normal_load"] = np.nan
+    prepared = prepare(tire, recording)
+    assert any("straight lines" in note for note in prepared.notes)
+    np.testing.assert_allclose(np.diff(prepared.data.time), 0.04)
+
+
+def test_long_steps_ask_for_the_unit_of_time(tire, record):
+    recording = record()
+    notes = prepare(tire, recording.assign(time=1000.0 * recording["time"])).notes
+    assert any("unit of time" in note for note in notes)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_plateau_at_the_end_of_the_range_is_clipped_and_not_stuck(tire, record, seed):
+    """Slow sweeps stay at the limit for long: each plateau is over a twentieth of the recording."""
+    findings = prepare(tire, at_its_limit(tire, record(seed), seed)).findings
+    assert [each.name for each in findings] == ["clipping"]

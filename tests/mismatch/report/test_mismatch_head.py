@@ -1,0 +1,166 @@
+"""The head of a report is three sentences, whatever was found: verdict, size and place, what to do next."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import pytest
+
+from tire_pipeline.mismatch.corrected.as_recorded import with_unnamed, without_unnamed
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.proof.locate import Located
+from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
+from tire_pipeline.mismatch.recording.cleaning import Cleaning
+from tire_pipeline.mismatch.recording.open_questions import Question
+from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit, PredictionError
+from tire_pipeline.mismatch.report.report_page import percent
+from tire_pipeline.mismatch.report.sentences import head, on_question, with_held_out, without_equation
+from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, UnnamedReport
+from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues
+
+NOMINAL = NominalValues(4000.0, 0.3, 16.0, 2e5, 60.0)
+EQUATION = UnnamedPhysics({"fy": "0.1*Fz*v"}, ("speed",), "force", {"v": (0.8, 1.2)}, NOMINAL)
+FOUND = UnnamedReport(EQUATION, unseen={"fy": (300.0, 120.0, 100.0)})
+FIT = {"fy": OutputFit(20.0, 300.0, 120.0, 110.0, 130.0)}
+LEFT = Remainder(size={"fy": 280.0}, located=[], significant=True)
+NONE = Remainder(size={}, located=[], significant=False)
+PLACE = Located("fy", "slip_angle", 0.1, 0.15, -250.0, -0.1, 0.01, True)
+EFFECT = EffectReport(
+    "friction_scale", "physics", "friction of the track", (), 0.99, "fy", {}, [], 0.8, "", "", {}
+)
+OPEN = "the recording agrees with the model only in other axes: fy has the other sign"
+
+
+def said(verdict, effects=(), left=NONE, unnamed=None):
+    return head(verdict, list(effects), FIT, [PLACE], left, "Record again.", unnamed=unnamed)
+
+
+def sentences(text):
+    return re.split(r"(?<=\.) (?=[A-Z])", text)
+
+
+HEADS = {
+    "agrees": said("agrees"),
+    "undecided": said("undecided", left=replace(NONE, unusual={"fy": 0.05}, usual=(0.01, 0.02))),
+    "explained": said("explained", [EFFECT]),
+    "partly explained, with an equation": said("partly explained", [EFFECT], LEFT, FOUND),
+    "unexplained": said("unexplained", left=LEFT),
+    "unexplained, with an equation": said("unexplained", left=LEFT, unnamed=FOUND),
+    "open": on_question(Question(OPEN, "Read it in other axes"), said("explained", [EFFECT])),
+    "unusable": on_question(Question("it carries no answer", "Look at it", "unusable"), said("unexplained")),
+}
+
+
+@pytest.mark.parametrize("case", HEADS)
+def test_three_sentences_of_which_the_last_says_what_to_do(case):
+    told = sentences(HEADS[case].text)
+    assert 2 <= len(told) <= 3, told
+    assert told[-1].startswith(("Next, ", "There is nothing to correct"))
+    assert all(sentence[0].isupper() and sentence.endswith(".") for sentence in told)
+
+
+def test_an_equation_is_in_the_middle_and_its_drivers_beside_it():
+    told = HEADS["unexplained, with an equation"]
+    assert "an equation in speed takes the RMS error of Fy from 300 N to 120 N" in sentences(told.text)[1]
+    assert any("it depends most on speed" in remark for remark in told.remarks)
+    assert any(
+        "removes 60% of the remaining RMS error of Fy" in r
+        for r in HEADS["partly explained, with an equation"].remarks
+    )
+
+
+def test_what_an_equation_predicts_of_unseen_sweeps_was_no_noise():
+    noisy = {"fy": replace(FIT["fy"], noise_floor=100.0), "fx": OutputFit(30.0, 25.0, 25.0, 24.0, 26.0)}
+    told = with_unnamed(noisy, FOUND)
+    assert told["fy"].noise_floor == told["fy"].rms_after == pytest.approx(48.0)
+    assert told["fx"] is noisy["fx"]
+
+
+def test_all_that_is_above_the_noise_is_a_hundred_percent_and_no_dash():
+    shares = (1.0, 0.996, 0.5, -1.0, 0.0, 1.7, float("nan"))
+    assert [percent(share) for share in shares] == ["100%", "100%", "50%", "-100%", "–", "–", "–"]
+
+
+@pytest.mark.parametrize(("felt", "said"), [(-0.24, "0%"), (-0.001, "0%"), (0.4, "40%"), (1.22, "100%")])
+def test_a_share_that_a_force_follows_lies_between_nothing_and_all(felt, said):
+    told = Cleaning("camber", smoothed=True, removed=1e-4, felt=felt, evidence=3.0).text()
+    assert f"the force follows {said} of it" in told
+
+
+@pytest.mark.parametrize("effect", catalogue().values(), ids=catalogue())
+def test_what_to_do_next_is_something_to_do(effect):
+    first = effect.experiment.split(" ")[0]
+    assert first in ("", "record", "repeat", "hang", "look", "drive", "turn")
+
+
+def test_an_open_question_comes_before_what_was_found_and_says_what_to_do():
+    told = HEADS["open"].text
+    assert told.startswith(f"Open: {OPEN}; as it was read: explained: the difference comes from")
+    assert told.endswith("Next, read it in other axes; no corrected file is written until then.")
+
+
+@pytest.mark.parametrize("case", HEADS)
+def test_a_held_out_recording_adds_no_sentence(case):
+    errors = {"fy": PredictionError(310.0, 130.0, 0.4, 0.5)}
+    told = with_held_out(HEADS[case], HeldOutFit("b", 900, errors), [])
+    assert len(sentences(told.text)) <= 3
+    assert "in b, which was held out, the RMS error of Fy falls from 310 N to 130 N" in told.text.replace(
+        "In b", "in b"
+    )
+
+
+def test_an_equation_that_did_not_hold_is_gone_from_head_and_errors():
+    for verdict, effects in (("unexplained", []), ("partly explained", [EFFECT])):
+        plain, put_in = FIT, with_unnamed(FIT, FOUND)
+        told = head(verdict, effects, put_in, [PLACE], LEFT, "", unnamed=FOUND)
+        again = without_unnamed(put_in, FOUND)
+        assert again["fy"].rms_after == pytest.approx(plain["fy"].rms_after)
+        assert put_in["fy"].rms_after == pytest.approx(0.4 * plain["fy"].rms_after)
+        left = without_equation(told, FOUND, verdict, effects, again)
+        assert left.text == head(verdict, effects, again, [PLACE], LEFT, "").text
+        assert "equation" not in " ".join([left.text, *left.remarks])
+
+
+@pytest.mark.parametrize(
+    ("when", "said"),
+    [
+        ([(10.0, 20.0)], " (seen between 10 and 20 s),"),
+        ([(10.0, 20.0), (30.0, 41.5)], " (seen between 10 and 20 s, 30 and 41.5 s),"),
+        ([(0.0, 80.0)], ","),
+        ([], ","),
+    ],
+)
+def test_the_summary_says_when_an_effect_is_seen(when, said):
+    text = head("explained", [replace(EFFECT, when=when)], FIT, [], NONE, "", {"time": (0.0, 100.0)}).text
+    assert text.startswith(
+        f"Explained: the difference comes from {EFFECT.title}{said} which the model leaves out. "
+    )
+    assert text.endswith("Next, test the corrected model on another recording before you use it.")
+
+
+@pytest.mark.parametrize(
+    ("when", "mean"), [([(10.0, 20.0)], 0.1), ([(10.0, 20.0)], 0.3), ([(0.0, 80.0)], 0.1)]
+)
+def test_what_differs_to_both_sides_is_not_said_by_a_small_mean(when, mean):
+    effect = replace(EFFECT, when=when, share=0.9)
+    at = replace(PLACE, low=0.05, high=0.1, mean=mean * FIT["fy"].rms_before, share=0.01)
+    text = head("explained", [effect], FIT, [at], NONE, "", {"time": (0.0, 100.0)}).text
+    said = "Fy differs most between 10 and 20 s, to both sides" in text
+    assert said == (when == [(10.0, 20.0)] and mean < 0.2)
+    assert ("is on average" in text) != said
+
+
+@pytest.mark.parametrize(
+    ("after", "ratio", "said", "todo"),
+    [
+        (130.0, (0.4, 0.5), "falls from 310 N to 130 N", "use the corrected model within the ranges"),
+        (400.0, (1.1, 1.4), "rises from 310 N to 400 N: what was found does not hold there", "find out what"),
+        (305.0, (0.9, 1.1), "is about the same as before", "keep the model as it is"),
+    ],
+)
+def test_what_to_do_after_a_held_out_recording_goes_by_its_error(after, ratio, said, todo):
+    fit = HeldOutFit("b", 900, {"fy": PredictionError(310.0, after, *ratio)})
+    told = with_held_out(head("explained", [EFFECT], FIT, [PLACE], NONE, ""), fit, [EFFECT])
+    assert f"the RMS error of Fy {said}" in told.text
+    assert todo in told.text

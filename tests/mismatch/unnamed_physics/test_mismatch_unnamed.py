@@ -1,0 +1,346 @@
+"""Unnamed physics: the grammar, its reader, hostile sidecars, and what is found and proved."""
+
+import csv
+import json
+import re
+import subprocess
+import sys
+from dataclasses import asdict, replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from weighed import without_visible
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.corrected.as_recorded import never_worse
+from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, from_sidecar
+from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
+from tire_pipeline.mismatch.unnamed_physics.library import memory_factors
+from tire_pipeline.mismatch.unnamed_physics.problem import Unexplained, by_condition
+from tire_pipeline.mismatch.unnamed_physics.products import Columns
+from tire_pipeline.mismatch.unnamed_physics.search import find
+from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues, table_from
+from tire_pipeline.tir import read_tir
+
+NOMINAL = NominalValues(F0=4000.0, R0=0.31, V0=16.0, P0=2.2e5, T0=45.0)
+READER = Path(__file__).parents[3] / "examples" / "read_unnamed.py"
+EQUATIONS = (
+    "0.012*fy*v^2/L",
+    "(-3.1)*fy*(g^2)*(L) + 0.2*F0*L*(L^2)",
+    "0.4*fy*(lag(v*(abs(s*fy) + abs(k*fx))/F0, 7.4))",
+    "0.1*fy_slip*(play(fy/(F0*L), 0.15) - fy/(F0*L))",
+    "0.05*fx*sin(way/0.85) - 0.01*fx*cos(way/0.85)",
+    "fy*highest(abs(s))*exp(-tanh(L))*sqrt(p) + lagway(s, 0.4)*2e2 - -h^3",
+)
+
+
+def table(n=900, seed=0):
+    rng = np.random.default_rng(seed)
+    time = np.arange(n) * 0.02
+    time[n // 2 :] += 5.0
+    start = np.zeros(n, bool)
+    start[[0, n // 2]] = True
+    slip = 0.12 * np.sin(1.3 * time)
+    load = 4000.0 + 1500.0 * np.sign(np.sin(0.31 * time))
+    channels = {
+        "slip_angle": slip,
+        "slip_ratio": 0.05 * np.sin(0.9 * time),
+        "camber": 0.04 * np.sign(np.sin(0.17 * time)),
+        "normal_load": load,
+        "speed": 16.0 + 6.0 * np.sin(0.11 * time) + rng.normal(0.0, 0.01, n),
+        "pressure": np.full(n, 2.2e5),
+        "tread_temperature": 45.0 + 10.0 * np.sin(0.05 * time),
+    }
+    stiff = 12.0 * load
+    forces = {
+        "fy": load * np.tanh(12.0 * slip),
+        "fx": load * np.tanh(15.0 * channels["slip_ratio"]),
+        "fy_slip": stiff / np.cosh(12.0 * slip) ** 2,
+        "fx_slip": 15.0 * load,
+        "fy_load": load * np.tanh(12.0 * slip),
+        "fx_load": load * np.tanh(15.0 * channels["slip_ratio"]),
+    }
+    return table_from(channels, time, start, forces, NOMINAL), channels, time
+
+
+def physics(text, ranges=None):
+    return UnnamedPhysics({"fy": text}, ("speed",), "force", ranges or {"v": (0.8, 1.2)}, NOMINAL)
+
+
+@pytest.mark.parametrize("text", EQUATIONS)
+def test_a_reader_without_our_code_gives_the_same_force(text, tmp_path):
+    columns, channels, time = table()
+    found = physics(text)
+    sidecar, symbols = tmp_path / "tire.tir.sidecar.json", tmp_path / "symbols.csv"
+    sidecar.write_text(json.dumps({"effects": {"unnamed": found.to_sidecar()}}))
+    names = {n: columns.columns[n] for n in columns.columns if n not in {*asdict(NOMINAL), "way"}}
+    pd.DataFrame({**names, "time": time, "speed": channels["speed"]}).to_csv(symbols, index=False)
+    command = [sys.executable, "-I", str(READER), str(sidecar), str(symbols)]
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    read = np.array([float(row["fy"]) for row in csv.DictReader(said.splitlines())])
+    own = found.change(columns)["fy"]
+    assert np.max(np.abs(own)) > 1.0
+    np.testing.assert_allclose(read, own, rtol=1e-9, atol=1e-9 * np.max(np.abs(own)))
+
+
+def test_the_reader_is_short_and_evaluates_nothing():
+    lines = READER.read_text(encoding="utf-8").splitlines()
+    assert len(lines) <= 80
+    assert not any(word in "\n".join(lines) for word in ("eval(", "exec(", "__import__"))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "__import__('os').system('true')",
+        "fy.__class__",
+        "open(fy)",
+        "fy; fx",
+        "lag(fy, -1)",
+        "lag(fy)",
+        "1e999",
+        "fy**2",
+        "(" * 60 + "fy" + ")" * 60,
+        "+".join(["fy"] * 2000),
+        "fy)",
+        "",
+    ],
+)
+def test_what_is_not_of_the_grammar_is_refused(text):
+    with pytest.raises(EquationError):
+        parse(text)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"equation": {"fy": "secret*fy"}},
+        {"equation": {"mz": "fy"}},
+        {"equation": {}},
+        {"equation": "fy"},
+        {"range": {"v": [2.0, 1.0]}},
+        {"range": {"v": [float("nan"), 1.0]}},
+        {"range": {"x": [0.0, 1.0]}},
+        {"nominal": {"F0": 0.0}},
+        {"nominal": {**asdict(NOMINAL), "F0": -1.0}},
+        {"format": "other"},
+        {"fade": 1e9},
+        {"depends_on": 5},
+        {"acts_on": "x" * 30_000},
+    ],
+)
+def test_a_hostile_sidecar_is_refused(change):
+    entry = physics("0.1*fy*v").to_sidecar()
+    assert from_sidecar(entry).equations == {"fy": "0.1*fy*v"}
+    with pytest.raises(EquationError):
+        from_sidecar({**entry, **change})
+
+
+def test_a_value_that_is_not_finite_is_refused():
+    columns, _, _ = table()
+    with pytest.raises(EquationError):
+        evaluate(parse("fy/(L - L)"), columns)
+
+
+def test_outside_of_its_range_it_fades_to_nothing():
+    columns, _, _ = table()
+    v = columns.columns["v"]
+    found = physics("100*v", {"v": (0.9, 1.1)})
+    change = found.change(columns)["fy"]
+    inside, far = (v >= 0.9) & (v <= 1.1), (v < 0.84) | (v > 1.16)
+    assert inside.any()
+    assert far.any()
+    np.testing.assert_allclose(change[inside], 100.0 * v[inside])
+    assert np.all(change[far] == 0.0)
+
+
+def problem(added, seed=1, noise=20.0):
+    """What an engine hands over: white noise, and a formula whose gain and offset may be a little off."""
+    columns, _, time = table(2400)
+    rng = np.random.default_rng(seed)
+    fx, fy = columns.columns["fx"], columns.columns["fy"]
+    rest = {
+        "fx": rng.normal(0.0, noise, fx.size) + 0.001 * fx,
+        "fy": rng.normal(0.0, noise, fy.size) - 0.002 * fy + added(columns),
+    }
+    block = (time // 2.0).astype(int)
+    block = np.unique(block, return_inverse=True)[1]
+    nuisance = {o: np.column_stack([f, np.full(f.size, 40.0)]) / noise for o, f in (("fx", fx), ("fy", fy))}
+    return Unexplained(
+        table=columns,
+        nominal=NOMINAL,
+        moves=frozenset("slip_angle slip_ratio camber normal_load speed tread_temperature time".split()),
+        rest=rest,
+        largest={"fx": 3000.0, "fy": 5000.0},
+        block=block,
+        order=np.argsort(block, kind="stable"),
+        whiten=lambda o, x: x[np.argsort(block, kind="stable")] / noise,
+        nuisance=nuisance,
+        sizes=[{o: np.full(2, 0.01) for o in rest}],
+        inflation=1.0,
+    )
+
+
+def test_speed_is_found_as_the_driver_and_its_square_as_the_form():
+    found = find(problem(lambda t: -0.05 * t.columns["fy"] * t.columns["v"] ** 2))
+    assert found.physics is not None
+    assert found.physics.depends_on == ("speed",)
+    assert "v^2" in found.physics.equations["fy"]
+    assert "fx" not in found.physics.equations
+    before, after, _ = found.unseen["fy"]
+    assert after < 0.3 * before
+    value, error = found.coefficients[0]
+    assert abs(value + 0.05) < 4.0 * error + 0.002
+
+
+def test_a_recording_that_turns_to_one_side_gives_no_equation():
+    both = problem(lambda t: -0.05 * t.columns["fy"] * t.columns["v"] ** 2)
+    one = {**both.table.columns, "s": np.abs(both.table.columns["s"])}
+    found = find(replace(both, table=replace(both.table, columns=one)))
+    assert found.physics is None
+    assert "one side" in found.why_not
+
+
+def test_a_memory_is_found_where_the_force_follows_what_was():
+    def added(columns):
+        return -0.3 * columns.columns["fy"] * evaluate(parse("lag(abs(s), 2) - abs(s)"), columns)
+
+    found = find(problem(added))
+    assert found.physics is not None
+    assert found.physics.depends_on == ("memory of slip_angle",)
+
+
+def test_noise_alone_gives_no_equation():
+    found = find(problem(lambda t: 0.0 * t.columns["fy"]))
+    assert found.physics is None
+    assert found.why_not
+
+
+def test_what_is_never_seen_twice_is_not_kept():
+    """A jolt in one sweep is a driver of nothing: it must not come into the model."""
+
+    def added(columns):
+        out = np.zeros(columns.size)
+        out[300:360] = 900.0
+        return out
+
+    assert find(problem(added)).physics is None
+
+
+@pytest.fixture(scope="module")
+def swinging(tire, record):
+    """A recording whose forces swing by 8% with the turns of a drum of 0.85 m, and its report."""
+    recording = record(9)
+    step = np.diff(recording["time"], prepend=recording["time"].iloc[0])
+    swing = 1.0 + 0.08 * np.sin(np.cumsum(step * recording["speed"]) / 0.85)
+    recording = recording.assign(fy=recording["fy"] * swing)
+    return recording, explain_mismatch(tire, recording)
+
+
+def test_an_equation_is_in_the_corrected_model_and_makes_it_better(swinging):
+    recording, report = swinging
+    assert report.unnamed.physics.depends_on == ("path",)
+    named = replace(report.corrected, unnamed=None).predict(recording)
+    with_it = report.corrected.predict(recording)
+    left = {n: np.std(recording["fy"] - f["fy"]) for n, f in (("named", named), ("all", with_it))}
+    assert left["all"] < 0.7 * left["named"]
+    assert report.fit["fy"].rms_after < report.fit["fy"].rms_before
+    assert any("it depends most on path" in remark for remark in report.head.remarks)
+
+
+def test_the_sidecar_holds_the_equation_and_reads_back(swinging, tmp_path):
+    _, report = swinging
+    written = report.corrected.to_tir(tmp_path / "corrected.tir")
+    entry = read_tir(written).metadata["sidecar"]["unnamed"]
+    assert entry["title"] == "unnamed: depends on path"
+    read = from_sidecar(entry)
+    assert read.equations == report.corrected.unnamed.equations
+    assert read.ranges["t"] == pytest.approx(report.corrected.unnamed.ranges["t"])
+
+
+def test_after_the_recorded_time_it_is_gone_and_that_is_said(swinging):
+    recording, report = swinging
+    later = recording.assign(time=recording["time"] + 1e4)
+    empty = replace(report.corrected.unnamed, equations={"fy": "0*fy"})
+    without = replace(report.corrected, unnamed=empty).predict(later)
+    with_it = report.corrected.predict(later)
+    np.testing.assert_allclose(with_it["fy"], without["fy"])
+    assert "faded outside of its range at 100.0%" in with_it.attrs["notes"][0]
+
+
+def test_the_page_and_the_dictionary_show_it_apart_from_ideas(swinging, tmp_path):
+    report = without_visible(swinging[1])
+    page = report.to_html(tmp_path / "report.html").read_text("utf-8")
+    assert "Unnamed physics" in page
+    assert "Ideas to test" in page
+    assert page.index("sin(way/") < page.index("Ideas to test")
+    shown = re.findall(r"<code>(f[xy] \+= .*?)</code>", page)
+    assert shown
+    assert not re.search(r"\d\.\d{6}", " ".join(shown)), "digits that no reader needs"
+    told = report.to_dict()["unnamed"]
+    assert told["physics"]["equations"]["fy"] == report.unnamed.physics.equations["fy"]
+    assert [idea["name"] for idea in told["ideas"]] == ["drum or wheel out of round"]
+
+
+def test_an_effect_can_be_taken_out_of_the_catalogue(tire, record):
+    with pytest.raises(RecordingError, match="no such_effect"):
+        explain_mismatch(tire, record(9), without=("such_effect",))
+    report = explain_mismatch(tire, record(8, offset=150.0), without=("force_offset",))
+    assert "force_offset" not in [e.name for e in report.effects]
+    rows = {row["name"]: row["why"] for row in report.candidates}
+    assert rows["force_offset"] == "it was taken out of the catalogue"
+
+
+def test_without_speed_no_equation_remembers_the_way_rolled():
+    """One that did could not be put into the recording that it was found in."""
+    without = [factor.text for factor in memory_factors(frozenset({"time", "slip_angle", "normal_load"}))]
+    known = [
+        factor.text for factor in memory_factors(frozenset({"time", "way", "slip_angle", "normal_load"}))
+    ]
+    assert without
+    assert not any("lagway(" in text for text in without)
+    assert any("lagway(" in text for text in known)
+
+
+def levels(count):
+    """A recording at so many loads, each in several sweeps."""
+    both = problem(lambda t: 0.0 * t.columns["fy"])
+    sweeps = int(both.block.max()) + 1
+    load = np.linspace(0.5, 1.5, count)[np.arange(sweeps) % count][both.block]
+    columns = {**both.table.columns, "L": load, "v": np.ones(load.size), "g": np.zeros(load.size)}
+    moves = frozenset({"slip_angle", "normal_load", "time"})
+    return replace(both, table=replace(both.table, columns=columns), moves=moves), load
+
+
+def test_whole_operating_conditions_are_held_out_where_there_are_enough():
+    recording, load = levels(6)
+    together = by_condition(recording, 5).together
+    assert len(set(zip(together, load, strict=True))) == len(set(load)) == len(set(together)) == 6
+    assert by_condition(levels(4)[0], 5).together is None
+
+
+def test_a_condition_is_in_one_fold_only():
+    recording, load = levels(7)
+    folds = Columns(by_condition(recording, 5)).folds
+    assert all(len(set(folds[load == one])) == 1 for one in set(load))
+    assert any(len(set(Columns(recording).folds[load == one])) > 1 for one in set(load))
+
+
+def test_what_was_proved_is_no_agreement(swinging):
+    """Nothing in the catalogue swings with the drum, and odds alone would have called it agreement."""
+    _, report = swinging
+    assert not report.effects
+    assert report.verdict == "unexplained"
+
+
+def test_an_equation_alone_leaves_the_inputs_as_they_were_recorded(swinging):
+    """With a cleaned input the forces that it does not act on would change as well."""
+    recording, report = swinging
+    assert not report.corrected.changes
+    noisy = replace(report.corrected, unnamed=None, cleaned={"slip_angle": 1e-4})
+    _, with_it = never_worse(report.unnamed, noisy, recording)
+    assert with_it.unnamed is not None
+    assert with_it.cleaned == {}

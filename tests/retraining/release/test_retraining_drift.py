@@ -1,0 +1,114 @@
+"""Drift is found where it was put, and seldom elsewhere."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from tire_pipeline.reporting.retraining_page import build_retraining_report
+from tire_pipeline.retraining import ModelRegistry, Release, drift_of_features
+from tire_pipeline.retraining.drift import DRIFT, NEW, SAME, TOO_FEW, stability_index
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "viz"))
+
+from viz_browser import browser, needs_browser, read_page
+
+
+def _features(rng, rows):
+    return pd.DataFrame(rng.standard_normal((rows, 5)), columns=list("abcde"))
+
+
+def test_a_shift_of_one_feature_in_one_category_is_found():
+    rng = np.random.default_rng(1)
+    features = _features(rng, 600)
+    categories = np.repeat(["A", "B"], 300)
+    incoming = np.tile(np.arange(300) >= 250, 2)
+    features.loc[incoming & (categories == "B"), "c"] += 1.5
+    table = drift_of_features(features, categories, incoming)
+    moved = table[table["verdict"] == DRIFT]
+    assert moved[["category", "feature"]].to_numpy().tolist() == [["B", "c"]]
+
+
+@pytest.mark.slow
+def test_false_alarms_are_rarer_than_the_stated_risk():
+    alarms = 0
+    for seed in range(200):
+        rng = np.random.default_rng(seed)
+        features = _features(rng, 120)
+        incoming = np.arange(120) >= 100
+        table = drift_of_features(features, np.full(120, "A"), incoming)
+        alarms += bool((table["verdict"] == DRIFT).any())
+    assert alarms <= 0.05 * 200 + 2 * np.sqrt(0.05 * 0.95 * 200)
+
+
+def test_few_files_and_new_categories_get_no_figures():
+    rng = np.random.default_rng(0)
+    categories = np.array(["A"] * 20 + ["B"] * 10)
+    incoming = np.array([False] * 17 + [True] * 3 + [True] * 10)
+    table = drift_of_features(_features(rng, 30), categories, incoming)
+    verdicts = table.groupby("category")["verdict"].unique().map(list).to_dict()
+    assert verdicts == {"A": [TOO_FEW], "B": [NEW]}
+    assert table["psi"].isna().all()
+
+
+def test_no_incoming_files_give_an_empty_table():
+    rng = np.random.default_rng(0)
+    assert drift_of_features(_features(rng, 20), np.full(20, "A"), np.zeros(20, dtype=bool)).empty
+
+
+def test_the_index_is_the_textbook_one():
+    earlier = np.repeat([0.0, 1.0], [60, 40])
+    incoming = np.repeat([0.0, 1.0], [30, 70])
+    expected = (0.3 - 0.6) * np.log(0.3 / 0.6) + (0.7 - 0.4) * np.log(0.7 / 0.4)
+    assert np.isclose(stability_index(earlier, incoming), expected)
+
+
+def test_a_constant_feature_is_no_drift():
+    table = drift_of_features(pd.DataFrame({"a": np.ones(40)}), np.full(40, "A"), np.arange(40) >= 20)
+    assert table["verdict"].tolist() == [SAME]
+
+
+def test_the_page_of_a_first_run_says_that_there_is_nothing_to_compare():
+    files = pd.DataFrame({"file": ["A/1.tir"], "status": ["read"], "reason": [""]})
+    drift = pd.DataFrame(columns=["category", "feature", "psi", "verdict"])
+    comparison = pd.DataFrame({"model": ["candidate"], "accuracy": [0.75]})
+    page = build_retraining_report(
+        files,
+        drift,
+        comparison,
+        {"event": "released", "reason": "it is the first one"},
+        ModelRegistry(Release()),
+    )
+    assert "Nothing to compare" in page
+    assert "<th>psi</th>" not in page
+    some = pd.DataFrame({"category": ["A"], "feature": ["PKY1"], "psi": [0.5], "verdict": ["drift"]})
+    page = build_retraining_report(
+        files, some, comparison, {"event": "released", "reason": "not worse"}, ModelRegistry(Release())
+    )
+    assert "1 of 1 comparisons show drift" in page
+
+
+def test_the_page_is_read_in_a_browser(tmp_path):
+    needs_browser()
+    files = pd.DataFrame(
+        {"file": ["A/1.tir", "A/<b>2</b>.tir"], "status": ["read", "set aside"], "reason": ["", "line 3"]}
+    )
+    drift = pd.DataFrame({"category": ["A"], "feature": ["PKY1"], "psi": [0.5], "verdict": ["drift"]})
+    comparison = pd.DataFrame({"model": ["candidate"], "accuracy": [0.75]})
+    outcome = {"event": "released", "reason": "not worse"}
+    page = tmp_path / "retraining.html"
+    page.write_text(
+        build_retraining_report(files, drift, comparison, outcome, ModelRegistry(Release())), encoding="utf-8"
+    )
+    with browser(tmp_path) as driver:
+        text = read_page(driver, page)
+        assert [
+            word
+            for word in ("The new model (candidate) was released", "PKY1", "A/<b>2</b>.tir", "0.75")
+            if word not in text
+        ] == []
+        assert driver.find_elements("link text", "All reports")
