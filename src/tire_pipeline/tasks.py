@@ -13,7 +13,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, cast
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.progress import silent, track
+from tire_pipeline.progress import silent, track, under_way
 
 if TYPE_CHECKING:
     from threadpoolctl import ThreadpoolController
@@ -136,7 +136,14 @@ def shown(
         named = list(waiting.values())[:at_once] if at_once <= _LABELS_SHOWN else []
         return "; ".join(filter(None, named))
 
-    for each in track(done, what, total=len(tasks), now_at=now_at):
+    def each_done() -> Iterator[Done[_T]]:
+        if len(tasks) > at_once or at_once == 1:
+            yield from track(done, what, total=len(tasks), now_at=now_at)
+            return
+        with under_way(what, now_at=now_at):  # all begin at once: how many are done tells no time left
+            yield from done
+
+    for each in each_done():
         waiting.pop(each.name, None)
         if each.error is not None:
             _LOG.warning("%s: %s: %s", what, each.name, each.error)
