@@ -11,8 +11,10 @@ from dataclasses import dataclass
 from functools import partial
 
 import pytest
+from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline import progress_display
+from tire_pipeline.kedro_runs.node_progress import NodeProgressHooks
 from tire_pipeline.progress import silent, track, under_way
 from tire_pipeline.tasks import in_turn
 
@@ -220,3 +222,17 @@ def test_the_time_left_shrinks_while_the_next_one_is_under_way():
     assert activity.line(130.0) == "training: 1/3 (30 s each, 60 s left)"
     assert activity.line(150.0) == "training: 1/3 (30 s each, 40 s left)"
     assert activity.line(200.0) == "training: 1/3 (100 s so far, this one takes longer)"
+
+
+def test_a_node_is_done_when_its_last_output_is_written(caplog):
+    caplog.set_level("INFO")
+    node = Node(lambda: (1, 2), inputs=None, outputs=["a", "b"], name="two")
+    hooks = NodeProgressHooks()
+    hooks.before_pipeline_run(Pipeline([node]))
+    hooks.before_node_run(node)
+    hooks.after_node_run(node)
+    for name in ("a", "b"):
+        assert "done" not in caplog.text
+        hooks.before_dataset_saved(name)
+        hooks.after_dataset_saved(name, node)
+    assert "1 of 1 done: two" in caplog.text
