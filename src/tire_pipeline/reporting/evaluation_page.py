@@ -191,8 +191,8 @@ def _classifier(table: pd.DataFrame, scores: pd.DataFrame, per_class: pd.DataFra
     )
     return [
         Text([said], heading="Who measured a tire?"),
-        Table(shown, caption),
-        Table(detail, "The forest that rewards the thesis' agent, for each category."),
+        Table(shown, caption, decimals=3),
+        Table(detail, "The forest that rewards the thesis' agent, for each category.", decimals=2),
     ]
 
 
