@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tire_pipeline.fleet.rig.regimes import COMMON, MANUFACTURER_FIELDS, REGIMES
 
-MEANING = {
+RIG_SETTINGS = {
     "adhesion": "factor on friction by adhesion (fine grit)",
     "hysteresis": "factor on friction by hysteresis (coarse texture)",
     "curvature_radius": "1 / drum radius, 1/m; 0 is a flat belt",
@@ -43,5 +43,5 @@ def regimes_markdown() -> str:
         for regime in REGIMES.values():
             value = getattr(regime, field)
             cells.append("" if value == common else f"{value:g}")
-        lines.append(f"| `{field}` | {MEANING[field]} | " + " | ".join(cells) + " |")
+        lines.append(f"| `{field}` | {RIG_SETTINGS[field]} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
