@@ -73,16 +73,21 @@ def _last(data: Path, name: str) -> Path:
 
 
 def goals(simulated: pd.DataFrame, real: pd.DataFrame) -> str:
-    """The scores of both halves that have a goal, beside naive baseline, floor and oracle."""
-    head = "half|score|value|95% interval|cases|goal|result|stepwise regression|floor|oracle".split("|")
-    rows = []
-    for half, scores in (("simulated", simulated), ("real", real)):
+    """The scores of both halves that have a goal, a table each, beside naive baseline, floor and oracle."""
+    parts = []
+    for half, scores, methods in (
+        ("Simulated cases", simulated, (NAIVE,)),
+        ("Cases from real recordings", real, (NAIVE, FLOOR, ORACLE)),
+    ):
         aimed = scores[scores["target"].map(lambda goal: isinstance(goal, str))]
         values = _beside(scores)
-        for row in aimed[aimed["method"] == OWN].itertuples():
-            others = [_cell(values.get(method, {}).get(row.name), 2) for method in (NAIVE, FLOOR, ORACLE)]
-            rows.append([half, *_own(row), *others])
-    return markdown(head, rows)
+        rows = [
+            [*_own(row), *(_cell(values.get(method, {}).get(row.name), 2) for method in methods)]
+            for row in aimed[aimed["method"] == OWN].itertuples()
+        ]
+        head = ["score", "value", "95% interval", "cases", "goal", "result", *map(_method, methods)]
+        parts += [f"{half}:", markdown(head, rows)]
+    return "\n\n".join(parts)
 
 
 def table(scores: pd.DataFrame) -> str:
@@ -215,9 +220,14 @@ def _own(row: Any) -> list[str]:
         _cell(row.value, 3),
         f"{_cell(row.low, 3)} to {_cell(row.high, 3)}" if row.low < row.high else "",
         f"{row.n:.0f}",
-        row.target if isinstance(row.target, str) else "",
+        _goal(row.target) if isinstance(row.target, str) else "",
         outcome(row._asdict()),
     ]
+
+
+def _goal(target: str) -> str:
+    """A goal on one line."""
+    return target.replace("<=", "≤").replace(">=", "≥").replace(" ", "\u00a0")
 
 
 def _cell(value: float | None, digits: int) -> str:
