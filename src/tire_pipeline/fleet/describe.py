@@ -35,7 +35,7 @@ def regimes_markdown() -> str:
     -------
     str
     """
-    head = ["setting", "what it is", "common", *REGIMES]
+    head = ["setting", "common", *REGIMES]
     lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
     for field in MANUFACTURER_FIELDS:
         common = getattr(COMMON, field)
@@ -43,5 +43,5 @@ def regimes_markdown() -> str:
         for regime in REGIMES.values():
             value = getattr(regime, field)
             cells.append("" if value == common else f"{value:g}")
-        lines.append(f"| `{field}` | {RIG_SETTINGS[field]} | " + " | ".join(cells) + " |")
+        lines.append(f"| `{field}`: {RIG_SETTINGS[field]} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
