@@ -195,25 +195,26 @@ IN_PROCESSES = """
 import sys, time
 from tire_pipeline import progress_display
 from tire_pipeline.progress import track
-from tire_pipeline.tasks import in_processes
+from tire_pipeline.tasks import Labelled, in_processes
 def slow():
     progress_display.SHOW_AFTER_SECONDS = progress_display.LINE_EVERY_SECONDS = 0.0
     progress_display.TICK_SECONDS = 0.01
     for _ in track(range(20), "steps of a task"):
         time.sleep(0.02)
-tasks = {f"task {number}": slow for number in range(int(sys.argv[1]))}
+names = [f"task {number}" for number in range(int(sys.argv[1]))]
+tasks = {name: Labelled(name, slow, steps=name == sys.argv[2]) for name in names}
 progress_display.SHOW_AFTER_SECONDS = progress_display.LINE_EVERY_SECONDS = 0.0
 list(in_processes(2)(tasks, "tasks"))
 """
 
 
-@pytest.mark.parametrize(("tasks", "steps"), [(2, True), (5, False)])
-def test_processes_of_a_pool_show_steps_only_where_each_has_one_task(tasks, steps):
-    command = [sys.executable, "-c", IN_PROCESSES, str(tasks)]
+@pytest.mark.parametrize(("tasks", "asks", "steps"), [(2, "", True), (5, "", False), (5, "task 1", True)])
+def test_processes_of_a_pool_show_steps_where_each_has_one_task_or_a_task_asks_for_it(tasks, asks, steps):
+    command = [sys.executable, "-c", IN_PROCESSES, str(tasks), asks]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
     assert ("steps of a task" in done.stderr) == steps
     assert "tasks (task 0; task 1): " in done.stderr
-    assert ("tasks (task 0; task 1): 0/" in done.stderr) != steps  # how many of two are done says nothing
+    assert ("tasks (task 0; task 1): 0/" in done.stderr) == (tasks > 2)  # how many of two says nothing
 
 
 def test_the_time_left_shrinks_while_the_next_one_is_under_way():
