@@ -244,23 +244,30 @@ def documented(table: pd.DataFrame) -> str:
                 rows.append(
                     [
                         title,
-                        " ".join(name),
+                        " ".join(name).strip(),
                         f"{goal:g}",
                         share,
                         str(len(x)),
                         f"{x.median():.2f}",
-                        f"{x.max():.2f}",
+                        _largest(x.max()),
                     ]
                 )
+    first, last = table["date"].min(), table["date"].max()
+    when = first if first == last else f"{first} to {last}"
     one = table.dropna(subset=["stiffness_low"])
     low, high = one["stiffness_low"].min(), one["stiffness_high"].max()
     below = (
-        f"{table['seed'].nunique()} subsets, {table['date'].min()} to {table['date'].max()}, code "
+        f"{table['seed'].nunique()} subsets, {when}, code "
         f"{', '.join(sorted(set(table['code'])))}. From one load, the cornering stiffness at 0.5 to 1.5 of "
         f"it is {low:.2f} to {high:.2f} times that of a fit to all loads ({len(one)} fits)."
     )
     head = ["ratio", "of", "goal, at most", "share that meets it", "fits", "median", "largest"]
     return markdown(head, rows) + "\n\n" + below
+
+
+def _largest(ratio: float) -> str:
+    """A ratio; one to nearly nothing only says so."""
+    return f"{ratio:.2f}" if ratio < 100.0 else "over 100"
 
 
 def summary(table: pd.DataFrame) -> str:

@@ -14,6 +14,7 @@ from typing import Any
 
 import pandas as pd
 from doc_tables import markdown, write_between
+from miss_tables import missed_effects
 
 from tire_pipeline.concealed.real.published import published, published_text
 from tire_pipeline.concealed.scoring.words import in_words, outcome
@@ -25,6 +26,9 @@ PAGE = ROOT / "docs" / "explanation" / "concealed.md"
 RESULTS_PAGE = ROOT / "docs" / "explanation" / "concealed_results.md"
 REAL = ROOT / "src" / "tire_pipeline" / "concealed" / "real" / "published.csv"
 RUNS = RESULTS / "real_proof_runs.csv"
+MISSES = ("real_proof_misses.csv", "proof_misses.csv")
+BEGIN_SHORT = "<!-- in short, from proof_table.py -->"
+BEGIN_MISSES = "<!-- misses, from proof_table.py -->"
 BEGIN_POOLED = "<!-- pooled, from proof_table.py -->"
 POOLED = 3
 """Runs of the real half that are pooled: chance decides some hundredths of each."""
@@ -33,6 +37,11 @@ BEGIN = "<!-- from proof_table.py -->"
 BEGIN_REAL = "<!-- real, from proof_table.py -->"
 LARGEST = "held-out error over the model's own, largest"
 OWN = "explain_mismatch"
+INVENTED, FALSE = "false physics, nothing missing", "false physics"
+FIRST, AMONG = "right name first, twice the misfit", "truth among the names, twice the misfit"
+ANY, WRONG = "truth among the names, any strength", "sets that hold nothing of the truth"
+WORSE, REMOVED = "held-out error above the model's own", "held-out share of the oracle's"
+OFF = "calibration error"
 NAIVE, FLOOR, ORACLE = "bic_stepwise", "floor", "oracle"
 
 
@@ -64,16 +73,21 @@ def _last(data: Path, name: str) -> Path:
 
 
 def goals(simulated: pd.DataFrame, real: pd.DataFrame) -> str:
-    """The scores of both halves that have a goal, beside naive baseline, floor and oracle."""
-    head = "half|score|value|95% interval|cases|goal|result|stepwise regression|floor|oracle".split("|")
-    rows = []
-    for half, scores in (("simulated", simulated), ("real", real)):
+    """The scores of both halves that have a goal, a table each, beside naive baseline, floor and oracle."""
+    parts = []
+    for half, scores, methods in (
+        ("Simulated cases", simulated, (NAIVE,)),
+        ("Cases from real recordings", real, (NAIVE, FLOOR, ORACLE)),
+    ):
         aimed = scores[scores["target"].map(lambda goal: isinstance(goal, str))]
         values = _beside(scores)
-        for row in aimed[aimed["method"] == OWN].itertuples():
-            others = [_cell(values.get(method, {}).get(row.name), 2) for method in (NAIVE, FLOOR, ORACLE)]
-            rows.append([half, *_own(row), *others])
-    return markdown(head, rows)
+        rows = [
+            [*_own(row), *(_cell(values.get(method, {}).get(row.name), 2) for method in methods)]
+            for row in aimed[aimed["method"] == OWN].itertuples()
+        ]
+        head = ["score", "value", "95% interval", "cases", "goal", "result", *map(_method, methods)]
+        parts += [f"{half}:", markdown(head, rows)]
+    return "\n\n".join(parts)
 
 
 def table(scores: pd.DataFrame) -> str:
@@ -134,6 +148,56 @@ def pooled_table(runs: pd.DataFrame) -> str:
     return markdown(["score", "together", "cases", *(f"seed {seed}" for seed in seeds)], rows)
 
 
+def in_short(simulated: pd.DataFrame, real: pd.DataFrame, runs: pd.DataFrame) -> str:
+    """The answers that most readers look for, a line each, and how many goals are met.
+
+    Parameters
+    ----------
+    simulated, real : pandas.DataFrame
+        Scores of the last run of each half; of `real` those over all sources.
+    runs : pandas.DataFrame
+        Own scores of the runs on real recordings.
+    """
+    share, cases = _together(runs)
+    own = simulated[simulated["method"] == OWN].set_index("name")
+
+    def together(name: str) -> str:
+        return f"{share[name]:.1%}"
+
+    lines = [
+        f"**When it names something**, {1 - share[WRONG]:.1%} of its findings hold a true name "
+        f"({cases[WRONG]:.0f} findings on real recordings).",
+        f"**When nothing is missing**, it invents physics in {together(INVENTED)} of "
+        f"{cases[INVENTED]:.0f} real cases, and in {own['value'][FALSE]:.1%} of "
+        f"{own['n'][FALSE]:.0f} simulated ones.",
+        f"**A strong effect** (twice the misfit) is named first in {together(FIRST)} of "
+        f"{cases[FIRST]:.0f} real cases, and is among the names in {together(AMONG)}. At any strength, "
+        f"{together(ANY)} are among the names.",
+        f"**A correction** makes held-out sweeps worse in {together(WORSE)} of {cases[WORSE]:.0f} "
+        f"real cases. It removes {together(REMOVED)} of the squared error that "
+        "the true model removes, on average.",
+        f"**Confidence** is off by {own['value'][OFF]:.3f} on average (simulated cases).",
+        f"**Goals** of the simulated half: {_met(simulated)}. Of the real half: {_met(real)}.",
+    ]
+    return "\n".join(f"- {line}" for line in lines)
+
+
+def _met(scores: pd.DataFrame) -> str:
+    """How many goals are met, missed, or have too few cases to tell."""
+    own = scores[scores["method"] == OWN]
+    results = [found for row in own.itertuples() if (found := outcome(row._asdict()))]
+    told = [f"{results.count(each)} {each}" for each in ("met", "missed")]
+    few = results.count("too few cases")
+    return ", ".join([*told, f"{few} with too few cases to tell"]) if few else " and ".join(told)
+
+
+def _together(runs: pd.DataFrame) -> tuple[pd.Series, pd.Series]:
+    """Shares of the last runs together, and the number of cases, by name."""
+    last = runs[runs["seed"].isin(sorted(runs["seed"].unique())[-POOLED:])]
+    cases = last.groupby("name")["n"].sum()
+    return (last["value"] * last["n"]).groupby(last["name"]).sum() / cases, cases
+
+
 def _method(name: str) -> str:
     return METHODS.get(name, name)
 
@@ -156,9 +220,14 @@ def _own(row: Any) -> list[str]:
         _cell(row.value, 3),
         f"{_cell(row.low, 3)} to {_cell(row.high, 3)}" if row.low < row.high else "",
         f"{row.n:.0f}",
-        row.target if isinstance(row.target, str) else "",
+        _goal(row.target) if isinstance(row.target, str) else "",
         outcome(row._asdict()),
     ]
+
+
+def _goal(target: str) -> str:
+    """A goal on one line."""
+    return target.replace("<=", "≤").replace(">=", "≥").replace(" ", "\u00a0")
 
 
 def _cell(value: float | None, digits: int) -> str:
@@ -175,10 +244,13 @@ def main() -> None:
     simulated = pd.read_csv(RESULTS / "proof_scores.csv")
     scores, made = published()
     everywhere = scores[scores["source"] == "all"] if made else scores
+    runs, misses = pd.read_csv(RUNS), [pd.read_csv(RESULTS / name) for name in MISSES]
     parts = [
         (PAGE, BEGIN_GOALS, goals(simulated, everywhere)),
         (RESULTS_PAGE, BEGIN, table(simulated)),
-        (RESULTS_PAGE, BEGIN_POOLED, pooled_table(pd.read_csv(RUNS))),
+        (RESULTS_PAGE, BEGIN_POOLED, pooled_table(runs)),
+        (RESULTS_PAGE, BEGIN_SHORT, in_short(simulated, everywhere, runs)),
+        (RESULTS_PAGE, BEGIN_MISSES, missed_effects(*misses)),
     ]
     if made:
         parts.append((RESULTS_PAGE, BEGIN_REAL, real_tables(scores, made)))

@@ -23,6 +23,7 @@ BIAS = RESULTS.with_name("translation_bias_truth.csv")
 BEGIN_SUMMARY = "<!-- summary, from translation_tables.py -->"
 BEGIN_GOALS = "<!-- goals, from translation_tables.py -->"
 BEGIN_BIAS = "<!-- bias, from translation_tables.py -->"
+BEGIN_BANDS = "<!-- bands, from translation_tables.py -->"
 BEGIN = "<!-- from translation_tables.py -->"
 
 RATIOS = ["ratio_forces", "ratio_cornering_stiffness", "ratio_peak_friction"]
@@ -52,6 +53,19 @@ def bias_inside() -> str:
     """How often the reported bias holds the true one."""
     beside = pd.read_csv(BIAS)
     return f"Of the {len(beside)} intervals measured last, {beside['inside'].mean():.0%} hold the true bias."
+
+
+def bands_inside(hidden: pd.DataFrame) -> str:
+    """How much of the target's measurement the bands hold, where each was measured last."""
+    own, last = hidden[hidden["bias_size"] == 1.0], pd.read_csv(BANDS)
+    last = last[last["set"] == "hidden"]
+    before = own[own["translator"].isin(set(MIXED) - set(last["translator"]))]
+    means = pd.concat([before, last]).groupby(["kind", "translator"])[COVERAGE].mean()
+    said = ", ".join(
+        f"{means[column].min():.0%} to {means[column].max():.0%} in {output}"
+        for column, output in zip(COVERAGE, ("Fy", "Fx", "Mz"), strict=True)
+    )
+    return f"The 90% bands hold {said} (shares of the target's points, by kind of fleet and translator)."
 
 
 def by_fleet(hidden: pd.DataFrame) -> str:
@@ -162,6 +176,7 @@ def main() -> None:
     parts = {
         BEGIN_SUMMARY: in_short(hidden),
         BEGIN_BIAS: bias_inside(),
+        BEGIN_BANDS: bands_inside(hidden),
         BEGIN_GOALS: goals(hidden),
         BEGIN: tables(measured),
     }

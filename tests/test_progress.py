@@ -11,8 +11,10 @@ from dataclasses import dataclass
 from functools import partial
 
 import pytest
+from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline import progress_display
+from tire_pipeline.kedro_runs.node_progress import NodeProgressHooks
 from tire_pipeline.progress import silent, track, under_way
 from tire_pipeline.tasks import in_turn
 
@@ -193,24 +195,26 @@ IN_PROCESSES = """
 import sys, time
 from tire_pipeline import progress_display
 from tire_pipeline.progress import track
-from tire_pipeline.tasks import in_processes
+from tire_pipeline.tasks import Labelled, in_processes
 def slow():
     progress_display.SHOW_AFTER_SECONDS = progress_display.LINE_EVERY_SECONDS = 0.0
     progress_display.TICK_SECONDS = 0.01
     for _ in track(range(20), "steps of a task"):
         time.sleep(0.02)
-tasks = {f"task {number}": slow for number in range(int(sys.argv[1]))}
+names = [f"task {number}" for number in range(int(sys.argv[1]))]
+tasks = {name: Labelled(name, slow, steps=name == sys.argv[2]) for name in names}
 progress_display.SHOW_AFTER_SECONDS = progress_display.LINE_EVERY_SECONDS = 0.0
 list(in_processes(2)(tasks, "tasks"))
 """
 
 
-@pytest.mark.parametrize(("tasks", "steps"), [(2, True), (5, False)])
-def test_processes_of_a_pool_show_steps_only_where_each_has_one_task(tasks, steps):
-    command = [sys.executable, "-c", IN_PROCESSES, str(tasks)]
+@pytest.mark.parametrize(("tasks", "asks", "steps"), [(2, "", True), (5, "", False), (5, "task 1", True)])
+def test_processes_of_a_pool_show_steps_where_each_has_one_task_or_a_task_asks_for_it(tasks, asks, steps):
+    command = [sys.executable, "-c", IN_PROCESSES, str(tasks), asks]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
     assert ("steps of a task" in done.stderr) == steps
-    assert "tasks (task 0; task 1): 0/" in done.stderr
+    assert "tasks (task 0; task 1): " in done.stderr
+    assert ("tasks (task 0; task 1): 0/" in done.stderr) == (tasks > 2)  # how many of two says nothing
 
 
 def test_the_time_left_shrinks_while_the_next_one_is_under_way():
@@ -219,3 +223,17 @@ def test_the_time_left_shrinks_while_the_next_one_is_under_way():
     assert activity.line(130.0) == "training: 1/3 (30 s each, 60 s left)"
     assert activity.line(150.0) == "training: 1/3 (30 s each, 40 s left)"
     assert activity.line(200.0) == "training: 1/3 (100 s so far, this one takes longer)"
+
+
+def test_a_node_is_done_when_its_last_output_is_written(caplog):
+    caplog.set_level("INFO")
+    node = Node(lambda: (1, 2), inputs=None, outputs=["a", "b"], name="two")
+    hooks = NodeProgressHooks()
+    hooks.before_pipeline_run(Pipeline([node]))
+    hooks.before_node_run(node)
+    hooks.after_node_run(node)
+    for name in ("a", "b"):
+        assert "done" not in caplog.text
+        hooks.before_dataset_saved(name)
+        hooks.after_dataset_saved(name, node)
+    assert "1 of 1 done: two" in caplog.text

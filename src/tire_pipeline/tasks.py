@@ -13,7 +13,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, cast
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.progress import silent, track
+from tire_pipeline.progress import silent, track, under_way
 
 if TYPE_CHECKING:
     from threadpoolctl import ThreadpoolController
@@ -136,7 +136,14 @@ def shown(
         named = list(waiting.values())[:at_once] if at_once <= _LABELS_SHOWN else []
         return "; ".join(filter(None, named))
 
-    for each in track(done, what, total=len(tasks), now_at=now_at):
+    def each_done() -> Iterator[Done[_T]]:
+        if len(tasks) > at_once or at_once == 1:
+            yield from track(done, what, total=len(tasks), now_at=now_at)
+            return
+        with under_way(what, now_at=now_at):  # all begin at once: how many are done tells no time left
+            yield from done
+
+    for each in each_done():
         waiting.pop(each.name, None)
         if each.error is not None:
             _LOG.warning("%s: %s: %s", what, each.name, each.error)
@@ -197,11 +204,10 @@ def in_processes(count: int) -> Map:
 
 def _surviving(tasks: Mapping[str, Task[_T]], what: str, count: int) -> Iterator[Done[_T]]:
     one_each = len(tasks) <= count  # how many are done says nothing until the end
-    doing = attempt if one_each else attempt_in_silence
     waiting, left = iter(tasks), dict.fromkeys(tasks)
     while True:
         try:
-            for done in _in_pool(doing, tasks, waiting, count):
+            for done in _in_pool(tasks, waiting, count, one_each):
                 del left[done.name]
                 yield done
         except BrokenExecutor:
@@ -213,12 +219,11 @@ def _surviving(tasks: Mapping[str, Task[_T]], what: str, count: int) -> Iterator
 
 
 def _in_pool(
-    doing: Callable[[str, Task[_T]], Done[_T]],
-    tasks: Mapping[str, Task[_T]],
-    names: Iterable[str],
-    count: int,
+    tasks: Mapping[str, Task[_T]], names: Iterable[str], count: int, steps: bool = False
 ) -> Iterator[Done[_T]]:
     """Do tasks in up to ``count`` processes, at least two, of this machine.
+
+    The processes show the steps of all tasks, or of those that ask for it (:class:`Labelled`).
 
     Raises
     ------
@@ -231,14 +236,19 @@ def _in_pool(
     warnings.filterwarnings("ignore", message="A worker stopped while some jobs", category=UserWarning)
     _WAITING.add(count)
     parallel = Parallel(n_jobs=count, return_as="generator_unordered")
-    yield from parallel(delayed(doing)(name, tasks[name]) for name in names)
+    yield from parallel(
+        delayed(attempt if steps or getattr(tasks[name], "steps", False) else attempt_in_silence)(
+            name, tasks[name]
+        )
+        for name in names
+    )
 
 
 def _in_own_process(name: str, task: Task[_T]) -> Done[_T] | None:
     """As :func:`done_alone` asks for."""
     for _ in range(DEATHS):
         with suppress(BrokenExecutor):
-            return next(_in_pool(attempt_in_silence, {name: task}, [name], 2))
+            return next(_in_pool({name: task}, [name], 2))
     return None
 
 
@@ -298,6 +308,8 @@ class Labelled(Generic[_T]):
     ----------
     label : str
     task : callable
+    steps : bool
+        Its process shows its steps, too, because it takes long beside the others.
 
     Examples
     --------
@@ -307,6 +319,7 @@ class Labelled(Generic[_T]):
 
     label: str
     task: Task[_T]
+    steps: bool = False
 
     def __call__(self) -> _T:
         """Do the task."""

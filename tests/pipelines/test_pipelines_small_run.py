@@ -28,10 +28,12 @@ def _latest(folder: Path, layer: str, name: str) -> Path:
 
 def test_it_ends_well_and_says_where_the_results_are(small_run):
     stdout = (small_run / "stdout.txt").read_text()
-    places = dict(re.findall(r"^(report|translated \.tir files|ingest report): (.+)$", stdout, flags=re.M))
+    places = dict(
+        re.findall(r"^(report|translated evaluation files|ingest report): (.+)$", stdout, flags=re.M)
+    )
     assert Path(places["ingest report"]).is_file()
     assert Path(places["report"]).exists()
-    assert list(Path(places["translated .tir files"]).rglob("*.tir"))
+    assert list(Path(places["translated evaluation files"]).rglob("*.tir"))
 
 
 def test_translated_files_are_valid_and_name_their_source(small_run):

@@ -10,7 +10,7 @@ import pandas as pd
 
 from tire_pipeline.pages.drawing import name_ticks
 from tire_pipeline.pages.safe_page import source_hash
-from tire_pipeline.reporting import Figure, Table, Text, inline_svg, new_figure, render_page
+from tire_pipeline.reporting import Figure, Links, Table, Text, inline_svg, new_figure, render_page
 
 HOSTILE = "<script>alert('x')</script>\"&\u202e$\\frac$"
 
@@ -66,6 +66,12 @@ def test_a_column_has_one_number_of_decimals_unless_a_small_value_would_be_lost(
     page = render_page("t", [table])
     assert '<th scope="col" class="number">ratio</th>' in page
     assert '<th scope="col">name</th>' in page
+
+
+def test_a_command_is_set_as_code_and_nothing_of_it_is_markup():
+    page = render_page("t", [Text(["run `a <b>` now"]), Links([("x.html", "x", "made by `y`")])])
+    assert "run <code>a &lt;b&gt;</code> now" in page
+    assert "made by <code>y</code>" in page
 
 
 def test_the_policy_names_the_one_style_and_allows_attributes_only_beside_figures():

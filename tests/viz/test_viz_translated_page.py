@@ -296,6 +296,17 @@ def test_where_there_is_no_curve_the_page_says_why(driver, file, why):
     reset(driver)
 
 
+def test_nothing_to_click_is_printed(driver):
+    def seen(media: str) -> int:
+        driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media})
+        parts = driver.find_elements("css selector", "#controls, #turns, .screen")
+        return sum(part.is_displayed() for part in parts)
+
+    assert seen("screen") == 4
+    assert seen("print") == 0
+    assert seen("") == 4
+
+
 def test_nothing_of_a_file_name_runs_and_nothing_is_asked_for_elsewhere(driver, made):
     page = made[0]
     assert page.count("<script") == 2  # the data and the one that is allowed

@@ -11,7 +11,7 @@ import pandas as pd
 
 from tire_pipeline.classifiers.evaluate import ClassifierScores, evaluate_classifier
 from tire_pipeline.classifiers.parameters import TrainClassifierParameters
-from tire_pipeline.tasks import Map, all_done, in_turn
+from tire_pipeline.tasks import Labelled, Map, all_done, in_turn
 
 SPLITS = ("random", "by_tire")
 SPLIT_WORDS = {"random": "random split", "by_tire": "split by physical tire"}
@@ -58,9 +58,9 @@ def score_classifiers(
     for name, split in product(NAMES, SPLITS):
         rows = split_rows(features, splits, split)
         options = {"seeds": seeds, **parameters.options(name)}
-        tasks[f"{CLASSIFIER_WORDS[name]}, {SPLIT_WORDS[split]}"] = partial(
-            evaluate_classifier, name, values, labels, *rows, **options
-        )
+        label = f"{CLASSIFIER_WORDS[name]}, {SPLIT_WORDS[split]}"
+        task = partial(evaluate_classifier, name, values, labels, *rows, **options)
+        tasks[label] = Labelled(label, task, steps=name == "ann")
     done = all_done(work, tasks, "training classifiers").values()
     scored = [
         _score_row("as they are", name, split, parameters, each.result())

@@ -60,7 +60,7 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
     odd = [str(text) for text in model.metadata.get("warnings", ())]  # type: ignore[attr-defined]
     key = Grid(
         ("quantity", "value", "unit"),
-        [(f.name, f.value, f.unit) for f in figures],
+        [(f.name, f.value, f.unit) for f in figures if f.value == f.value or "peak" in f.name],
         "At the nominal load, no camber",
     )
     valid = Grid(("valid for", "from", "to", "unit"), [_range(n, *ends) for n, ends in ranges.items()])

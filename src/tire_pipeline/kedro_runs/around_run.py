@@ -231,7 +231,7 @@ class OutcomeHooks:
     RESULTS = (
         ("evaluation_report", "report"),
         ("translation_list", "page of the translated files"),
-        ("translated_tir", "translated .tir files"),
+        ("translated_tir", "translated evaluation files"),
         ("translation_files", "translated .tir files"),
         ("mismatch_overview_page", "page of the recordings"),
         ("proof_report", "page of the proof"),

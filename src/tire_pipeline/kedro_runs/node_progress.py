@@ -20,10 +20,16 @@ _LOG = logging.getLogger(__name__)
 
 
 class NodeProgressHooks:
-    """One line when a node has worked for two seconds, one when it is done; what it is at in between."""
+    """One line when a node has worked for two seconds, one when it is done; what it is at in between.
+
+    A node is done when its last output is written: what is read and computed only then (a folder of files) is
+    its work, too.
+    """
 
     def __init__(self) -> None:
         self._total, self._done, self._began = 0, 0, 0.0
+        self._node: Any = None
+        self._unsaved: set[str] = set()
         self._timer: threading.Timer | None = None
         self._under_way = ExitStack()
 
@@ -44,16 +50,17 @@ class NodeProgressHooks:
         self._total, self._done = len(pipeline.nodes), 0
 
     @hook_impl
-    def before_dataset_loaded(self, dataset_name: str) -> None:
+    def before_dataset_loaded(self, dataset_name: str, node: Any) -> None:
         """Say what is read, if it takes long."""
+        self._begin(node)
         self._at(f"reading {dataset_name}")
 
     @hook_impl
     def before_node_run(self, node: Any) -> None:
         """Say what the node does, if it takes long."""
         self._stop()
+        self._begin(node)
         self._at(node.name)
-        self._began = time.monotonic()
         text = (node.func.__doc__ or "").strip().split("\n\n")[0]
         said = f"{node.name}: {' '.join(text.split())}"
         self._timer = threading.Timer(SAY_AFTER_SECONDS, _LOG.info, args=[said])
@@ -62,11 +69,11 @@ class NodeProgressHooks:
 
     @hook_impl
     def after_node_run(self, node: Any) -> None:
-        """Say that it is done."""
+        """Say that it is done, if it has no outputs."""
         self._stop()
-        self._done += 1
-        taken = time.monotonic() - self._began
-        _LOG.info("%d of %d done: %s (%.1f s)", self._done, self._total, node.name, taken)
+        self._unsaved = set(node.outputs)
+        if not node.outputs:
+            self._say_done(node)
 
     @hook_impl
     def before_dataset_saved(self, dataset_name: str) -> None:
@@ -79,9 +86,13 @@ class NodeProgressHooks:
         self._under_way.close()
 
     @hook_impl
-    def after_dataset_saved(self) -> None:
-        """It is written."""
+    def after_dataset_saved(self, dataset_name: str, node: Any) -> None:
+        """It is written; with the last output the node is done."""
         self._under_way.close()
+        if dataset_name in self._unsaved:
+            self._unsaved.discard(dataset_name)
+            if not self._unsaved:
+                self._say_done(node)
 
     @hook_impl
     def on_node_error(self) -> None:
@@ -92,6 +103,15 @@ class NodeProgressHooks:
     def on_pipeline_error(self) -> None:
         """Nor of a dataset."""
         self._stop()
+
+    def _begin(self, node: Any) -> None:
+        if node is not self._node:
+            self._node, self._began = node, time.monotonic()
+
+    def _say_done(self, node: Any) -> None:
+        self._done += 1
+        taken = time.monotonic() - self._began
+        _LOG.info("%d of %d done: %s (%.1f s)", self._done, self._total, node.name, taken)
 
     def _at(self, what: str) -> None:
         self._under_way.close()

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import re
 from collections.abc import Iterable
 from typing import Any
 
 import jinja2
+from markupsafe import Markup
 
 from tire_pipeline.pages.visible_text import visible
 
@@ -26,7 +28,7 @@ def page_environment(package: str) -> jinja2.Environment:
     -------
     jinja2.Environment
     """
-    return jinja2.Environment(
+    environment = jinja2.Environment(
         loader=jinja2.ChoiceLoader(
             [jinja2.PackageLoader(package), jinja2.PackageLoader("tire_pipeline.pages")]
         ),
@@ -36,10 +38,20 @@ def page_environment(package: str) -> jinja2.Environment:
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
+    environment.filters["coded"] = _coded
+    return environment
 
 
 def _finalised(value: Any) -> Any:
     return value if not isinstance(value, str) or hasattr(value, "__html__") else visible(value)
+
+
+def _coded(text: str) -> Markup:
+    """Escape a text and set what stands between backticks as code: commands and files."""
+    parts = re.split(r"`([^`]+)`", text)
+    return Markup("").join(
+        Markup("<code>{}</code>" if i % 2 else "{}").format(visible(part)) for i, part in enumerate(parts)
+    )
 
 
 def source_hash(text: str) -> str:

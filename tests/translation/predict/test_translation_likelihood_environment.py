@@ -1,6 +1,7 @@
 """The environment in which the agent learns."""
 
 import numpy as np
+import pytest
 from gymnasium.utils.env_checker import check_env
 
 from tire_pipeline.translation.predict.curiosity import Curiosity
@@ -24,6 +25,7 @@ def _situation(tires=20, scores=4):
     )
 
 
+@pytest.mark.filterwarnings("ignore:.*A Box observation space:UserWarning")  # scores have no bounds
 def test_gymnasium_accepts_it():
     check_env(LikelihoodEnvironment(_situation()), skip_render_check=True)
 

@@ -68,7 +68,8 @@ def _judged(
         f"{_subject(str(best['name']))}, the best translator, brings the RMS error of lateral force from "
         f"{before:,.0f} N to {rms[best['name']]:,.0f} N ({rms[best['name']] / before:.0%}) on the "
         f"{tires} tires of the set '{name}', which no translator has seen. The floor is "
-        f"{rms[FLOOR]:,.0f} N ({rms[FLOOR] / before:.0%}): {target} measuring the same tires again."
+        f"{rms[FLOOR]:,.0f} N ({rms[FLOOR] / before:.0%}): what {target}, the target, gets by "
+        f"measuring the same tires again."
         f"{uncertain}",
         " ".join([acted_on, *left]),
     ]

@@ -189,10 +189,11 @@ def _classifier(table: pd.DataFrame, scores: pd.DataFrame, per_class: pd.DataFra
     detail = per_class.assign(split=per_class["split"].map(SPLIT_WORDS)).rename(
         columns={"f1": "F1", "rows": "files"}
     )
+    detail["files"] = detail["files"].astype(int)
     return [
         Text([said], heading="Who measured a tire?"),
-        Table(shown, caption),
-        Table(detail, "The forest that rewards the thesis' agent, for each category."),
+        Table(shown, caption, decimals=3),
+        Table(detail, "The forest that rewards the thesis' agent, for each category.", decimals=2),
     ]
 
 
@@ -215,4 +216,4 @@ def _translation(summary: pd.DataFrame, target: str, best: dict[str, Any]) -> li
         improved=written["improved"].map("{:.0%}".format), files=written["files"]
     )
     shown = shown.reset_index().replace({"metric": _METRIC_WORDS})
-    return [Table(shown, caption, heading=f"Translation to {target}")]
+    return [Table(shown, caption, heading=f"Translation to {target}", decimals=2)]

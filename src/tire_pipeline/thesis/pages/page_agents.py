@@ -251,8 +251,9 @@ def _table_6_1(results: Results) -> list[Part]:
                 table[column] = table[column].map(in_words)
             caption = (
                 f"Ours, set {name}, {words}: {len(table)} of {tried} pairs of configuration and metric have "
-                "a mean ratio below 1. seeds_below_1: share of the seeds for which that holds."
+                "a mean ratio below 1. Seeds below 1: share of the seeds for which that holds."
             )
+            table = table.rename(columns={"n_bins": "bins", "seeds_below_1": "seeds below 1"})
             parts.append(Table(table, caption, most_rows=30))
     return parts
 
@@ -271,7 +272,7 @@ def _every_cell(results: Results) -> list[Part]:
             wide = wide[list(METRICS)].rename(columns=_SHORT_METRICS).reset_index()
             for column in ("representation", "reward"):
                 wide[column] = wide[column].map(in_words)
-            tables[quantity] = wide
+            tables[quantity] = wide.rename(columns={"n_bins": "bins"})
         own = floor[floor["set"] == name].set_index("metric")["ratio"]
         reach = listed(f"{in_words(m)} {number(own[m])}" for m in METRICS[:3] if m in own)
         files = int(results["agents"].loc[results["agents"]["set"] == name, "files"].max())

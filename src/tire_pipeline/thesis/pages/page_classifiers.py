@@ -350,7 +350,7 @@ def _calibration(results: Results) -> list[Part]:
         split=errors["split"].map(in_words),
         error=[plus_minus(a, b, 3) for a, b in zip(errors["ece"], errors["ece_std"], strict=True)],
     )[["classifier", "split", "smote", "error", "trainings"]]
-    table = table.rename(columns={"error": "expected calibration error"})
+    table = table.rename(columns={"error": "expected calibration error", "smote": "SMOTE"})
     best = errors.loc[errors.groupby("split")["ece"].idxmin()].set_index("split")
     forest = errors[(errors["classifier"] == "random_forest") & errors["smote"]].set_index("split")
     lines = [
