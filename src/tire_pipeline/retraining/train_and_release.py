@@ -84,7 +84,7 @@ def read_new_files(
     tir_folder : Path or Objects
     parameters : RetrainParameters
     work : Map
-        Does the reading.
+        Does the hashing and the reading.
 
     Returns
     -------
@@ -99,6 +99,7 @@ def read_new_files(
         settle_seconds=parameters.settle_seconds,
         most_wait_seconds=parameters.most_wait_seconds,
         rehash_all=parameters.rehash_all,
+        work=work,
     )
     check_removed(found, ingested.manifest, parameters.most_removed_share, str(tir_folder))
     return ingest(ingested, tir_folder, found, work=work)
