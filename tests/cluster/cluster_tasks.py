@@ -21,6 +21,13 @@ def fails(name: str) -> int:
     raise TirError("no tire", path=name, line=3, todo="mend it")
 
 
+def key() -> str:
+    """What the dashboard calls this task."""
+    from distributed.worker import thread_state
+
+    return str(thread_state.key)
+
+
 def gone() -> None:
     """A file that changed while it was read."""
 

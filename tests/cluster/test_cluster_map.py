@@ -19,7 +19,7 @@ from tire_pipeline.retraining import Manifest, Store, difference, hash_together,
 from tire_pipeline.retraining.hash_together import HashTogether
 from tire_pipeline.retraining.places import UNREADABLE
 from tire_pipeline.retraining.read_together import ReadTogether
-from tire_pipeline.tasks import LostTaskError, all_done, end_processes, in_processes, in_turn
+from tire_pipeline.tasks import Labelled, LostTaskError, all_done, end_processes, in_processes, in_turn
 from tire_pipeline.tir import read_tir
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "tire.tir"
@@ -145,6 +145,15 @@ def test_processes_wait_for_more_tasks_until_they_are_ended():
 def test_one_thread_wherever_it_is_done(work):
     wanted = {"sum": partial(math.fsum, [0.1] * 10)}
     assert all_done(work, wanted, "adding")["sum"].result() == 1.0
+
+
+def test_the_dashboard_has_the_name_of_each_recording_in_one_group(work):
+    from dask.utils import key_split
+
+    wanted = {f"{n}.zip": Labelled(name, tasks.key) for n, name in enumerate(["rig-1/run.csv", "rig"])}
+    keys = [done.result() for done in all_done(work, wanted, "explaining recordings").values()]
+    assert [key.split("-", 2)[2] for key in keys] == ["rig-1/run.csv", "rig"]
+    assert {key_split(key) for key in keys} == {"explaining_recordings"}
 
 
 def test_nothing_listens_but_on_loopback(cluster, work):
