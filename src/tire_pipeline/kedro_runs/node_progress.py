@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import io
 import logging
 import sys
@@ -24,6 +25,7 @@ class NodeProgressHooks:
 
     def __init__(self) -> None:
         self._total, self._done, self._began = 0, 0, 0.0
+        self._goes_on = ""  # the name of a node that gives its results in steps
         self._timer: threading.Timer | None = None
         self._under_way = ExitStack()
 
@@ -41,7 +43,7 @@ class NodeProgressHooks:
     @hook_impl
     def before_pipeline_run(self, pipeline: Any) -> None:
         """Count what there is to do."""
-        self._total, self._done = len(pipeline.nodes), 0
+        self._total, self._done, self._goes_on = len(pipeline.nodes), 0, ""
 
     @hook_impl
     def before_dataset_loaded(self, dataset_name: str) -> None:
@@ -52,6 +54,8 @@ class NodeProgressHooks:
     def before_node_run(self, node: Any) -> None:
         """Say what the node does, if it takes long."""
         self._stop()
+        if self._goes_on:
+            self._say_done(self._goes_on)
         self._at(node.name)
         self._began = time.monotonic()
         text = (node.func.__doc__ or "").strip().split("\n\n")[0]
@@ -62,11 +66,12 @@ class NodeProgressHooks:
 
     @hook_impl
     def after_node_run(self, node: Any) -> None:
-        """Say that it is done."""
+        """Say that it is done; one that gives its results in steps is done when the next node begins."""
         self._stop()
-        self._done += 1
-        taken = time.monotonic() - self._began
-        _LOG.info("%d of %d done: %s (%.1f s)", self._done, self._total, node.name, taken)
+        if inspect.isgeneratorfunction(node.func):
+            self._goes_on = node.name
+        else:
+            self._say_done(node.name)
 
     @hook_impl
     def before_dataset_saved(self, dataset_name: str) -> None:
@@ -92,6 +97,11 @@ class NodeProgressHooks:
     def on_pipeline_error(self) -> None:
         """Nor of a dataset."""
         self._stop()
+
+    def _say_done(self, name: str) -> None:
+        self._done, self._goes_on = self._done + 1, ""
+        taken = time.monotonic() - self._began
+        _LOG.info("%d of %d done: %s (%.1f s)", self._done, self._total, name, taken)
 
     def _at(self, what: str) -> None:
         self._under_way.close()
