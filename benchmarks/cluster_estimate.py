@@ -124,20 +124,23 @@ def estimate(cluster: dict[str, list[dict[str, Any]]], alone: dict[str, Any]) ->
     in_order = sorted(own.items(), key=lambda each: -each[1])
     steps = "; ".join(f"{step}: {_round(seconds)}" for step, seconds in in_order)
     memory = FILES * alone["bytes_a_file"] / 1e9
-    machine = f"**An estimate for {FILES:,} files on {MACHINES} machines** of {THREADS} threads."
-    return (
-        f"A task that does nothing costs {1e3 * a_task:.2g} ms with Dask and two workers.\n\n{machine} The "
-        f"workers read them in {_round(read)}: {1e3 * reading:.2g} ms a file with one thread, measured on "
-        f"{files:,} files. The run itself takes {_round(sum(own.values()))} of processor time, however many "
-        f"machines there are ({steps}), measured on {alone['files']:,} files. So the run's own process is "
-        f"the first limit. Its time is {sum(own.values()) / read:.0f} times that of the workers: more machines help "
-        f"little. Its memory grows by {alone['bytes_a_file'] / 1e3:.2g} kB a file, to {memory:.2g} GB: a "
-        f"machine with less fails here. The second limit is the file server, which has to open "
-        f"{_round_number(FILES / read)} files a second, or the workers wait for it. None of this was tried."
-        f"\n\nThere are {blocks:,} blocks of about {FILES / blocks:.0f} files (a power of two). What a block "
-        f"gives passes through the run's process three times: it is stored, its report is read, and its rows "
-        f"are written into {FILES / PIECE_ROWS:,.0f} parts of the table."
-    )
+    whole = sum(own.values())
+    slower = "The run takes" if whole > read else "The workers take"
+    sentences = [
+        f"A task that does nothing costs {1e3 * a_task:.2g} ms with Dask and two workers.\n\n"
+        f"**An estimate for {FILES:,} files on {MACHINES} machines** of {THREADS} threads.",
+        f"The workers read them in {_round(read)}: {1e3 * reading:.2g} ms a file with one thread, measured",
+        f"on {files:,} files. The run itself takes {_round(whole)} of processor time, however many machines",
+        f"there are ({steps}), measured on {alone['files']:,} files. {slower}",
+        f"{max(whole, read) / min(whole, read):.1f} times as long.",
+        "What breaks first is the run's memory, unless its machine has more:",
+        f"it grows by {alone['bytes_a_file'] / 1e3:.2g} kB a file, to {memory:.2g} GB. Next is the file",
+        f"server, which has to open {_round_number(FILES / read)} files a second, or the workers wait for",
+        f"it. None of this was tried.\n\nThere are {blocks:,} blocks of about {FILES / blocks:.0f} files (a",
+        "power of two). What a block gives passes through the run's process three times: it is stored, its",
+        f"report is read, and its rows are written into {FILES / PIECE_ROWS:,.0f} parts of the table.",
+    ]
+    return " ".join(sentences)
 
 
 def _largest(cluster: dict[str, list[dict[str, Any]]]) -> tuple[int, float]:
