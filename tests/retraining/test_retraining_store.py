@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -320,9 +321,13 @@ def test_where_only_the_earlier_models_are_gone_the_one_in_use_is_kept(three, pl
     assert three.load().release.current == "m3"
 
 
-def test_a_run_that_ends_while_it_reads_repeats_nothing_that_was_stored(dataset, tmp_path, monkeypatch):
+def _parts_of(monkeypatch, rows: int) -> None:
     for module in ("ingest", "partition"):
-        monkeypatch.setattr(f"tire_pipeline.retraining.{module}.PIECE_ROWS", 4)
+        monkeypatch.setattr(sys.modules[f"tire_pipeline.retraining.{module}"], "PIECE_ROWS", rows)
+
+
+def test_a_run_that_ends_while_it_reads_repeats_nothing_that_was_stored(dataset, tmp_path, monkeypatch):
+    _parts_of(monkeypatch, 4)
     folder = tmp_path / "tir"
     put_fleet(folder, range(6), "AB")
     dataset.save(_ingested(dataset, folder))
@@ -338,7 +343,7 @@ def test_a_run_that_ends_while_it_reads_repeats_nothing_that_was_stored(dataset,
     def steps():
         store = dataset.load()
         found = difference(folder, store.manifest)
-        return ingest_in_steps(store, folder, found, noted, step_seconds=0.0)
+        return ingest_in_steps(store, folder, found, noted, step_seconds=0.0, monotonic=float)
 
     begun = steps()
     for _ in range(2):
@@ -357,11 +362,12 @@ def test_a_run_that_ends_while_it_reads_repeats_nothing_that_was_stored(dataset,
 
 
 def test_steps_are_stored_one_after_the_other(dataset, tmp_path, monkeypatch):
-    for module in ("ingest", "partition"):
-        monkeypatch.setattr(f"tire_pipeline.retraining.{module}.PIECE_ROWS", 2)
+    _parts_of(monkeypatch, 2)
     folder = tmp_path / "tir"
     put_fleet(folder, range(5), "AB")
-    taken = list(ingest_in_steps(Store(), folder, difference(folder, Manifest()), step_seconds=0.0))
+    taken = list(
+        ingest_in_steps(Store(), folder, difference(folder, Manifest()), step_seconds=0.0, monotonic=float)
+    )
     assert len(taken) >= 4
     assert [len(store.manifest.files) for store, _ in taken] == sorted({len(report) for _, report in taken})
     for store, _ in taken:

@@ -71,6 +71,7 @@ def ingest_in_steps(
     work: Map = in_turn,
     *,
     step_seconds: float = STEP_SECONDS,
+    monotonic: Callable[[], float] = time.monotonic,
 ) -> Iterator[tuple[Store, pd.DataFrame]]:
     """Read what is new, drop what is gone, keep all the rest as it is.
 
@@ -90,6 +91,8 @@ def ingest_in_steps(
         Does the reading.
     step_seconds : float
         s between two steps, or ten times what the caller took for the last one, if that is longer.
+    monotonic : callable
+        For tests.
 
     Yields
     ------
@@ -119,7 +122,7 @@ def ingest_in_steps(
     scratch, place = Scratch(), place_at(folder, read)
     before = store.partition.for_rows(len(store.partition.table) + len(wanted), scratch)
     partition = before.with_rows(from_models([]), gone, scratch)
-    said, next_step = dict(store.manifest.files), time.monotonic() + step_seconds
+    said, next_step = dict(store.manifest.files), monotonic() + step_seconds
 
     def taken_up() -> tuple[Store, pd.DataFrame]:
         sequence = store.manifest.sequence if partition is before else number
@@ -128,11 +131,11 @@ def ingest_in_steps(
 
     revision = store.manifest.revision
     for some in _together(wanted, partition):
-        if time.monotonic() >= next_step and files != said:
-            said, began = dict(files), time.monotonic()
+        if monotonic() >= next_step and files != said:
+            said, began = dict(files), monotonic()
             yield taken_up()
             revision += 1
-            next_step = time.monotonic() + max(step_seconds, 10.0 * (time.monotonic() - began))
+            next_step = monotonic() + max(step_seconds, 10.0 * (monotonic() - began))
         new = _read(place, {name: wanted[name] for name in some}, files, rows, number, work)
         partition = partition.with_rows(new, (), scratch)
     yield taken_up()
