@@ -27,7 +27,7 @@ from tire_pipeline.tire_table.in_pieces import PIECE_ROWS, Scratch
 INGEST_COLUMNS = ["file", "category", "status", "reason"]
 READ, PENDING, GROWING, REMOVED = "read", "pending", "growing", "removed"
 ASIDE, AGAIN = "set aside", "taken already"
-STEP_SECONDS = 60.0
+STORED_EVERY_SECONDS = 60.0
 """What is read is stored so often while more is read."""
 
 
@@ -70,7 +70,7 @@ def ingest_in_steps(
     read: Callable[[str | Path], TireModel] = read_tir,
     work: Map = in_turn,
     *,
-    step_seconds: float = STEP_SECONDS,
+    step_seconds: float = STORED_EVERY_SECONDS,
     monotonic: Callable[[], float] = time.monotonic,
 ) -> Iterator[tuple[Store, pd.DataFrame]]:
     """Read what is new, drop what is gone, keep all the rest as it is.
