@@ -225,15 +225,23 @@ def test_the_time_left_shrinks_while_the_next_one_is_under_way():
     assert activity.line(200.0) == "training: 1/3 (100 s so far, this one takes longer)"
 
 
-def test_a_node_is_done_when_its_last_output_is_written(caplog):
+def test_a_node_is_done_when_what_it_gives_is_written(caplog):
+    """Or what it gives in steps: the next one begins, or none is left."""
     caplog.set_level("INFO")
-    node = Node(lambda: (1, 2), inputs=None, outputs=["a", "b"], name="two")
+    first = Node(lambda: (1, 2), inputs=None, outputs=["a", "b"], name="first")
+    last = Node(lambda a: a, inputs="a", outputs="c", name="last")
     hooks = NodeProgressHooks()
-    hooks.before_pipeline_run(Pipeline([node]))
-    hooks.before_node_run(node)
-    hooks.after_node_run(node)
-    for name in ("a", "b"):
-        assert "done" not in caplog.text
+    hooks.before_pipeline_run(Pipeline([first, last]))
+    hooks.before_node_run(first)
+    hooks.after_node_run()
+    for name in ("a", "b", "a", "b"):
         hooks.before_dataset_saved(name)
-        hooks.after_dataset_saved(name, node)
-    assert "1 of 1 done: two" in caplog.text
+        hooks.after_dataset_saved()
+        assert "done" not in caplog.text
+    hooks.before_dataset_loaded("a", last)
+    assert "1 of 2 done: first" in caplog.text
+    hooks.before_node_run(last)
+    hooks.after_node_run()
+    assert "2 of 2 done" not in caplog.text
+    hooks.after_pipeline_run()
+    assert "2 of 2 done: last" in caplog.text

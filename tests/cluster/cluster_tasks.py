@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import time
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,13 @@ def double(number: int) -> int:
 
 def fails(name: str) -> int:
     raise TirError("no tire", path=name, line=3, todo="mend it")
+
+
+def key() -> str:
+    """What the dashboard calls this task."""
+    from distributed.worker import thread_state
+
+    return str(thread_state.key)
 
 
 def gone() -> None:
@@ -54,6 +62,19 @@ class DiesUntil:
         from tire_pipeline.tir import read_tir
 
         return read_tir(self.path)
+
+
+@dataclass(frozen=True)
+class KillingPlace:
+    """A place whose file ``killer`` ends the process that opens it."""
+
+    log: Path
+
+    def fingerprints(self, names: Iterable[str]) -> Iterator[tuple[str, str]]:
+        for name in names:
+            if name == "killer":
+                dies(self.log)
+            yield name, f"hash of {name}"
 
 
 def dies_once(log: Path, number: int) -> int:

@@ -14,8 +14,12 @@ import pytest
 from tire_pipeline.cluster.dask_map import check_address, dask_map
 from tire_pipeline.cluster.parameters import ClusterParameters
 from tire_pipeline.errors import DomainError, TirError
+from tire_pipeline.files.packed import as_parquet
+from tire_pipeline.retraining import Manifest, Store, difference, hash_together, ingest
+from tire_pipeline.retraining.hash_together import HashTogether
+from tire_pipeline.retraining.places import UNREADABLE
 from tire_pipeline.retraining.read_together import ReadTogether
-from tire_pipeline.tasks import LostTaskError, all_done, end_processes, in_processes, in_turn
+from tire_pipeline.tasks import Labelled, LostTaskError, all_done, end_processes, in_processes, in_turn
 from tire_pipeline.tir import read_tir
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "tire.tir"
@@ -96,6 +100,36 @@ def test_a_block_is_what_its_files_are():
     assert list(whole.table["file"]) == ["a", "b"]
 
 
+def test_the_one_file_that_kills_while_it_is_hashed_is_found(any_work, tmp_path):
+    names = ["a", "b", "killer", "c"]
+    block = HashTogether(tasks.KillingPlace(tmp_path / "log"), names)
+    (done,) = any_work({"a": block}, "hashing")
+    assert list(done.result()) == names
+    assert done.result()["killer"].startswith(UNREADABLE)
+    assert [done.result()[name] for name in "abc"] == ["hash of a", "hash of b", "hash of c"]
+
+
+def test_a_folder_is_taken_up_the_same_wherever_it_is_hashed_and_read(any_work, tmp_path, monkeypatch):
+    monkeypatch.setattr(hash_together, "FILES_HASHED", 3)
+    content = EXAMPLE.read_bytes()
+    for number in range(8):
+        (tmp_path / f"{number}.tir").write_bytes(content + b"$ %d\n" % number)
+    known, _ = ingest(Store(), tmp_path, difference(tmp_path, Manifest(), settle_seconds=0.0))
+    (tmp_path / "1.tir").write_bytes(content)
+    (tmp_path / "2.tir").touch()
+    (tmp_path / "3.tir").unlink()
+    (tmp_path / "new.tir").write_bytes(content + b"$ new\n")
+    (tmp_path / "bad.tir").write_bytes(b"no tire")
+    taken = []
+    for work in (in_turn, any_work):
+        found = difference(tmp_path, known.manifest, settle_seconds=0.0, work=work)
+        assert (set(found.added), set(found.changed)) == ({"new.tir", "bad.tir"}, {"1.tir"})
+        assert (found.removed, set(found.touched)) == (["3.tir"], {"2.tir"})
+        store, report = ingest(known, tmp_path, found, work=work)
+        taken.append((found, store.manifest.to_json(), as_parquet(store.table), report.to_csv()))
+    assert taken[0] == taken[1]
+
+
 def test_processes_wait_for_more_tasks_until_they_are_ended():
     def used() -> set[int]:
         wanted = {str(number): os.getpid for number in range(4)}
@@ -111,6 +145,15 @@ def test_processes_wait_for_more_tasks_until_they_are_ended():
 def test_one_thread_wherever_it_is_done(work):
     wanted = {"sum": partial(math.fsum, [0.1] * 10)}
     assert all_done(work, wanted, "adding")["sum"].result() == 1.0
+
+
+def test_the_dashboard_has_the_name_of_each_recording_in_one_group(work):
+    from dask.utils import key_split
+
+    wanted = {f"{n}.zip": Labelled(name, tasks.key) for n, name in enumerate(["rig-1/run.csv", "rig"])}
+    keys = [done.result() for done in all_done(work, wanted, "explaining recordings").values()]
+    assert [key.split("-", 2)[2] for key in keys] == ["rig-1/run.csv", "rig"]
+    assert {key_split(key) for key in keys} == {"explaining_recordings"}
 
 
 def test_nothing_listens_but_on_loopback(cluster, work):

@@ -131,8 +131,8 @@ class Shop:
         self.going_back = ReleaseDataset(path=f"{data}/released", for_going_back=True)
 
     def retrain(self) -> None:
-        store, _ = nodes.read_new_files(self.ingested.load(), self.tir, PARAMETERS)
-        self.ingested.save(store)
+        for store, _ in nodes.read_new_files(self.ingested.load(), self.tir, PARAMETERS):
+            self.ingested.save(store)
         table = nodes.stored_table(self.ingested.load())
         few = DedupeFilterParameters(minimum_per_category=1)
         kept, _ = keep_usable(table, few, RepresentParameters(), "D")

@@ -142,8 +142,8 @@ class Zoo:
         stop = check_before_replacing(ticket.check, owner=ticket.note.name)
         try:
             take_turn(ticket)
-            store, report = nodes.read_new_files(self.ingested.load(), self.tir, PARAMETERS)
-            self.ingested.save(store)
+            for store, report in nodes.read_new_files(self.ingested.load(), self.tir, PARAMETERS):  # noqa: B007
+                self.ingested.save(store)
             table = nodes.stored_table(self.ingested.load())
             (self.base / place).mkdir(parents=True)
             report.to_csv(self.base / place / "files.csv")

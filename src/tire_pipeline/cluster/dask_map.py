@@ -230,7 +230,9 @@ class _DaskMap:
             futures.add(future)
 
     def _future(self, name: str, task: Task[_T], what: str) -> Future[Done[_T]]:
-        key = f"{what.replace(' ', '_').replace('-', '_')}-{name}-{uuid.uuid4().hex[:8]}"
+        shown = getattr(task, "label", "") or name
+        group = what.replace(" ", "_").replace("-", "_")
+        key = f"{group}-{uuid.uuid4().hex}-{shown}"  # the dashboard takes what is before the first - together
         return self._client.submit(run_task, name, task, key=key, pure=False)
 
     def _outcome(self, name: str, future: Future[Done[_T]]) -> Done[_T]:

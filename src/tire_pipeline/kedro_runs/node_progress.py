@@ -22,14 +22,13 @@ _LOG = logging.getLogger(__name__)
 class NodeProgressHooks:
     """One line when a node has worked for two seconds, one when it is done; what it is at in between.
 
-    A node is done when its last output is written: what is read and computed only then (a folder of files) is
-    its work, too.
+    A node is done when the next one begins: what is read and computed only as it is written (a folder of files)
+    is its work, too, and so is what it gives in steps.
     """
 
     def __init__(self) -> None:
         self._total, self._done, self._began = 0, 0, 0.0
         self._node: Any = None
-        self._unsaved: set[str] = set()
         self._timer: threading.Timer | None = None
         self._under_way = ExitStack()
 
@@ -47,7 +46,7 @@ class NodeProgressHooks:
     @hook_impl
     def before_pipeline_run(self, pipeline: Any) -> None:
         """Count what there is to do."""
-        self._total, self._done = len(pipeline.nodes), 0
+        self._total, self._done, self._node = len(pipeline.nodes), 0, None
 
     @hook_impl
     def before_dataset_loaded(self, dataset_name: str, node: Any) -> None:
@@ -68,12 +67,14 @@ class NodeProgressHooks:
         self._timer.start()
 
     @hook_impl
-    def after_node_run(self, node: Any) -> None:
-        """Say that it is done, if it has no outputs."""
+    def after_node_run(self) -> None:
+        """It has run; what is left is to write."""
         self._stop()
-        self._unsaved = set(node.outputs)
-        if not node.outputs:
-            self._say_done(node)
+
+    @hook_impl(tryfirst=True)
+    def after_pipeline_run(self) -> None:
+        """Say that the last node is done, before others say what the run has made."""
+        self._begin(None)
 
     @hook_impl
     def before_dataset_saved(self, dataset_name: str) -> None:
@@ -86,13 +87,9 @@ class NodeProgressHooks:
         self._under_way.close()
 
     @hook_impl
-    def after_dataset_saved(self, dataset_name: str, node: Any) -> None:
-        """It is written; with the last output the node is done."""
+    def after_dataset_saved(self) -> None:
+        """It is written."""
         self._under_way.close()
-        if dataset_name in self._unsaved:
-            self._unsaved.discard(dataset_name)
-            if not self._unsaved:
-                self._say_done(node)
 
     @hook_impl
     def on_node_error(self) -> None:
@@ -105,13 +102,14 @@ class NodeProgressHooks:
         self._stop()
 
     def _begin(self, node: Any) -> None:
-        if node is not self._node:
-            self._node, self._began = node, time.monotonic()
-
-    def _say_done(self, node: Any) -> None:
-        self._done += 1
-        taken = time.monotonic() - self._began
-        _LOG.info("%d of %d done: %s (%.1f s)", self._done, self._total, node.name, taken)
+        """Another node begins, or none: the one before is done."""
+        if node is self._node:
+            return
+        if self._node is not None:
+            self._done += 1
+            taken = time.monotonic() - self._began
+            _LOG.info("%d of %d done: %s (%.1f s)", self._done, self._total, self._node.name, taken)
+        self._node, self._began = node, time.monotonic()
 
     def _at(self, what: str) -> None:
         self._under_way.close()

@@ -3,7 +3,7 @@
 from tire_pipeline.retraining.compare import BALANCED, compare_models, not_worse
 from tire_pipeline.retraining.drift import drift_of_features
 from tire_pipeline.retraining.held_out import held_out_rows
-from tire_pipeline.retraining.ingest import Store, ingest
+from tire_pipeline.retraining.ingest import Store, ingest, ingest_in_steps
 from tire_pipeline.retraining.manifest import Manifest, ManifestEntry
 from tire_pipeline.retraining.model import CategoryModel, train_model
 from tire_pipeline.retraining.release import Judged, ModelRegistry, Release, judge, roll_back
@@ -25,6 +25,7 @@ __all__ = [
     "drift_of_features",
     "held_out_rows",
     "ingest",
+    "ingest_in_steps",
     "judge",
     "look_at",
     "not_worse",

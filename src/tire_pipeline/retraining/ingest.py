@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
@@ -25,6 +27,8 @@ from tire_pipeline.tire_table.in_pieces import PIECE_ROWS, Scratch
 INGEST_COLUMNS = ["file", "category", "status", "reason"]
 READ, PENDING, GROWING, REMOVED = "read", "pending", "growing", "removed"
 ASIDE, AGAIN = "set aside", "taken already"
+STORED_EVERY_SECONDS = 60.0
+"""What is read is stored so often while more is read."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +58,21 @@ def ingest(
     read: Callable[[str | Path], TireModel] = read_tir,
     work: Map = in_turn,
 ) -> tuple[Store, pd.DataFrame]:
+    """Read what is new as :func:`ingest_in_steps` does, in one step."""
+    *_, last = ingest_in_steps(store, folder, found, read, work, step_seconds=math.inf)
+    return last
+
+
+def ingest_in_steps(
+    store: Store,
+    folder: str | Path | Objects,
+    found: FolderDifference,
+    read: Callable[[str | Path], TireModel] = read_tir,
+    work: Map = in_turn,
+    *,
+    step_seconds: float = STORED_EVERY_SECONDS,
+    monotonic: Callable[[], float] = time.monotonic,
+) -> Iterator[tuple[Store, pd.DataFrame]]:
     """Read what is new, drop what is gone, keep all the rest as it is.
 
     A file that cannot be read is pending: an earlier reading of it stays in the table. It is tried again when
@@ -70,11 +89,16 @@ def ingest(
         Reads one file of a disk.
     work : Map
         Does the reading.
+    step_seconds : float
+        s between two steps, or ten times what the caller took for the last one, if that is longer.
+    monotonic : callable
+        For tests.
 
-    Returns
-    -------
+    Yields
+    ------
     Store
-        With the next sequence number if the table changed.
+        What is read so far, with the next sequence number if the table changed. A run that is killed after it
+        was stored repeats nothing of it. Each has the revision that storing the one before it gives.
     report : DataFrame
         ``file, category, status, reason``: one row a file that is new, changed, removed, growing or still
         pending, and one an entry of the folder that is set aside or leads to what is taken already.
@@ -96,18 +120,32 @@ def ingest(
     wanted = {**found.added, **found.changed}
     gone = [name for name in found.removed if store.manifest.files[name].row_sha256]
     scratch, place = Scratch(), place_at(folder, read)
-    partition = store.partition.for_rows(len(store.partition.table) + len(wanted), scratch)
-    before = partition
+    before = store.partition.for_rows(len(store.partition.table) + len(wanted), scratch)
+    partition = before.with_rows(from_models([]), gone, scratch)
+    said, next_step = dict(store.manifest.files), monotonic() + step_seconds
+
+    def taken_up() -> tuple[Store, pd.DataFrame]:
+        sequence = store.manifest.sequence if partition is before else number
+        now = replace(store.manifest, sequence=sequence, files=dict(files), revision=revision)
+        return Store(now, store.partition if partition is before else partition), _report(rows, files)
+
+    revision = store.manifest.revision
     for some in _together(wanted, partition):
+        if monotonic() >= next_step and files != said:
+            said, began = dict(files), monotonic()
+            yield taken_up()
+            revision += 1
+            next_step = monotonic() + max(step_seconds, 10.0 * (monotonic() - began))
         new = _read(place, {name: wanted[name] for name in some}, files, rows, number, work)
         partition = partition.with_rows(new, (), scratch)
-    partition = partition.with_rows(from_models([]), gone, scratch)
+    yield taken_up()
+
+
+def _report(rows: list[dict[str, str]], files: Mapping[str, ManifestEntry]) -> pd.DataFrame:
     reported = {row["file"] for row in rows}
-    rows += [_row(n, PENDING, e.reason) for n, e in files.items() if e.pending and n not in reported]
-    report = pd.DataFrame(rows, columns=INGEST_COLUMNS, dtype="str").sort_values("file", ignore_index=True)
-    if partition is before:
-        return Store(replace(store.manifest, files=files), store.partition), report
-    return Store(replace(store.manifest, sequence=number, files=files), partition), report
+    pending = [_row(n, PENDING, e.reason) for n, e in files.items() if e.pending and n not in reported]
+    table = pd.DataFrame([*rows, *pending], columns=INGEST_COLUMNS, dtype="str")
+    return table.sort_values("file", ignore_index=True)
 
 
 def _together(names: Collection[str], partition: Partition) -> Iterator[list[str]]:

@@ -10,8 +10,10 @@ from pathlib import Path
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.files.objects import Objects
+from tire_pipeline.retraining.hash_together import hash_in_blocks
 from tire_pipeline.retraining.manifest import Manifest
 from tire_pipeline.retraining.places import UNREADABLE, Look, place_at
+from tire_pipeline.tasks import Map, in_turn
 
 
 @dataclass(frozen=True)
@@ -86,6 +88,7 @@ def difference(
     now: float | None = None,
     rehash_all: bool = False,
     still: Still | None = None,
+    work: Map = in_turn,
 ) -> FolderDifference:
     """Compare a folder with the manifest by content.
 
@@ -106,22 +109,55 @@ def difference(
         Read every file, whatever its size and dates.
     still : Still, optional
         What earlier looks saw. With it a file that is dated in the future waits, too.
+    work : Map
+        Does the hashing.
     """
     clock = time.time() if now is None else now
+    seen = _seen(folder, manifest, settle_seconds, clock, rehash_all, still)
+    return _hashed(folder, manifest, seen, work)
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """A folder before any file was read: what its looks tell, and the files to hash."""
+
+    found: FolderDifference
+    to_hash: dict[str, Look]
+
+
+def _seen(
+    folder: str | Path | Objects,
+    manifest: Manifest,
+    settle_seconds: float,
+    clock: float,
+    rehash_all: bool,
+    still: Still | None,
+) -> _Seen:
     place = place_at(folder)
     looks, found = place.look()
     gone = (name for name in manifest.files if name not in looks and not found.may_be_there(name))
     result = FolderDifference(removed=sorted(gone), aside=found.aside, again=found.again)
-    other: list[str] = []
+    to_hash: dict[str, Look] = {}
     for name, look in looks.items():
         known = manifest.files.get(name)
         seen = known is not None and look == known.look
         if not seen and place.grows and _grows(name, look, clock, settle_seconds, still):
             result.growing.append(name)
         elif rehash_all or not seen:
-            other.append(name)
-    for name, digest in place.fingerprints(other):
-        known, look = manifest.files.get(name), looks[name]
+            to_hash[name] = look
+    result.growing.sort()
+    return _Seen(result, to_hash)
+
+
+def _hashed(folder: str | Path | Objects, manifest: Manifest, seen: _Seen, work: Map) -> FolderDifference:
+    """Tell apart by content what may be new, changed or as before."""
+    place, digests, result = place_at(folder), dict[str, str](), seen.found
+    for block in work(hash_in_blocks(place, list(seen.to_hash)), "hashing .tir files"):
+        digests.update(block.result())
+    gone = [name for name, digest in digests.items() if not digest]
+    digests.update(place.fingerprints(gone))  # a worker that does not see the folder says so of all
+    for name, look in seen.to_hash.items():
+        known, digest = manifest.files.get(name), digests[name]
         if not digest:
             continue  # gone meanwhile; the next run sees it as removed
         if known is None:
@@ -130,7 +166,6 @@ def difference(
             result.changed[name] = (look, digest)
         elif not digest.startswith(UNREADABLE):
             result.touched[name] = look
-    result.growing.sort()
     return result
 
 
@@ -177,8 +212,11 @@ def settled_difference(
     most_wait_seconds: float = 60.0,
     rehash_all: bool = False,
     sleep: Callable[[float], None] = time.sleep,
+    work: Map = in_turn,
 ) -> FolderDifference:
     """Compare as :func:`difference` does, after waiting a while for files that still grow.
+
+    Nothing is hashed before the waiting is over.
 
     A file counts as settled, too, when it was looked at twice ``settle_seconds`` apart (or as long as the
     run waits at most) and had the same size and dates: so neither a clock that goes back nor a server whose
@@ -192,14 +230,14 @@ def settled_difference(
         Then the growing ones are left for the next run.
     sleep : callable
         For tests.
+    work : Map
+        Does the hashing.
     """
     still = Still(most_wait_seconds)
     while True:
-        found = difference(
-            folder, manifest, settle_seconds=settle_seconds, rehash_all=rehash_all, still=still
-        )
-        if not found.growing or still.waited >= most_wait_seconds:
-            return found
+        seen = _seen(folder, manifest, settle_seconds, time.time(), rehash_all, still)
+        if not seen.found.growing or still.waited >= most_wait_seconds:
+            return _hashed(folder, manifest, seen, work)
         step = min(max(settle_seconds, 0.1), most_wait_seconds - still.waited)
         sleep(step)
         still.waited += step

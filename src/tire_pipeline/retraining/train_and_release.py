@@ -5,6 +5,7 @@ from __future__ import annotations
 import datetime
 import hashlib
 import json
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +26,7 @@ from tire_pipeline.retraining import (
     compare_models,
     drift_of_features,
     held_out_rows,
-    ingest,
+    ingest_in_steps,
     judge,
     not_worse,
     settled_difference,
@@ -74,7 +75,7 @@ class RetrainParameters(Parameters):
 
 def read_new_files(
     ingested: Store, tir_folder: Path | Objects, parameters: RetrainParameters, *, work: Map = in_turn
-) -> tuple[Store, pd.DataFrame]:
+) -> Iterator[tuple[Store, pd.DataFrame]]:
     """Read new and changed files, and none of the others.
 
     Parameters
@@ -84,12 +85,12 @@ def read_new_files(
     tir_folder : Path or Objects
     parameters : RetrainParameters
     work : Map
-        Does the reading.
+        Does the hashing and the reading.
 
-    Returns
-    -------
+    Yields
+    ------
     store : Store
-        Stored at once, whatever happens later in the run.
+        Stored at once, whatever happens later in the run: while many files are read, every minute.
     report : DataFrame
         ``file, category, status, reason`` of all files that are not simply as before.
     """
@@ -99,9 +100,15 @@ def read_new_files(
         settle_seconds=parameters.settle_seconds,
         most_wait_seconds=parameters.most_wait_seconds,
         rehash_all=parameters.rehash_all,
+        work=work,
     )
     check_removed(found, ingested.manifest, parameters.most_removed_share, str(tir_folder))
-    return ingest(ingested, tir_folder, found, work=work)
+    yield from ingest_in_steps(ingested, tir_folder, found, work=work)
+
+
+def report_on_files(files_taken_up: pd.DataFrame) -> pd.DataFrame:
+    """Store the report once all files are read: a table with versions is stored once a run."""
+    return files_taken_up
 
 
 def stored_table(ingested: Store) -> TableInPieces:

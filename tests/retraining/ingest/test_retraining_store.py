@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -25,11 +26,13 @@ from tire_pipeline.retraining import (
     Store,
     difference,
     ingest,
+    ingest_in_steps,
     judge,
     roll_back,
 )
 from tire_pipeline.retraining import train_model as train
 from tire_pipeline.retraining.partition import Partition
+from tire_pipeline.tir import read_tir
 
 REPLACE = os.replace
 
@@ -316,3 +319,60 @@ def test_where_only_the_earlier_models_are_gone_the_one_in_use_is_kept(three, pl
     with pytest.raises(DomainError, match=r"m2 is gone.*m1 is gone.*keep m3, which is in use and whole"):
         roll_back(loaded.release, time="t", unusable=loaded.unusable)
     assert three.load().release.current == "m3"
+
+
+def _parts_of(monkeypatch, rows: int) -> None:
+    for module in ("ingest", "partition"):
+        monkeypatch.setattr(sys.modules[f"tire_pipeline.retraining.{module}"], "PIECE_ROWS", rows)
+
+
+def test_a_run_that_ends_while_it_reads_repeats_nothing_that_was_stored(dataset, tmp_path, monkeypatch):
+    _parts_of(monkeypatch, 4)
+    folder = tmp_path / "tir"
+    put_fleet(folder, range(6), "AB")
+    dataset.save(_ingested(dataset, folder))
+    put_fleet(folder, range(6, 12), "AB")
+    put(folder, "A/bad.tir", "no tire")
+    (folder / "A/T0000.tir").unlink()
+    read = []
+
+    def noted(path):
+        read.append(path)
+        return read_tir(path)
+
+    def steps():
+        store = dataset.load()
+        found = difference(folder, store.manifest)
+        return ingest_in_steps(store, folder, found, noted, step_seconds=0.0, monotonic=float)
+
+    begun = steps()
+    for _ in range(2):
+        dataset.save(next(begun)[0])
+    begun.close()
+    known = dataset.load().manifest.files
+    assert 0 < len(read) < 13
+    assert set(read) == {str(folder / name) for name in known if name[2:] > "T0005.tir"}
+    for store, _ in steps():
+        dataset.save(store)
+    assert len(read) == len(set(read)) == 13
+    whole = ingest(Store(), folder, difference(folder, Manifest()))[0]
+    again = dataset.load()
+    assert again.manifest.digest == whole.manifest.digest
+    assert as_parquet(again.table) == as_parquet(whole.table)
+
+
+def test_steps_are_stored_one_after_the_other(dataset, tmp_path, monkeypatch):
+    _parts_of(monkeypatch, 2)
+    folder = tmp_path / "tir"
+    put_fleet(folder, range(5), "AB")
+    taken = list(
+        ingest_in_steps(Store(), folder, difference(folder, Manifest()), step_seconds=0.0, monotonic=float)
+    )
+    assert len(taken) >= 4
+    assert [len(store.manifest.files) for store, _ in taken] == sorted({len(report) for _, report in taken})
+    for store, _ in taken:
+        assert set(store.table["file"]) == set(store.manifest.files)
+        dataset.save(store)
+    assert dataset.load().manifest.revision == len(taken)
+    once = ingest(Store(), folder, difference(folder, Manifest()))[0]
+    assert as_parquet(dataset.load().table) == as_parquet(once.table)

@@ -12,6 +12,7 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.retraining import Manifest, Store, difference, ingest, look_at, settled_difference
 from tire_pipeline.retraining.places import fingerprint
 from tire_pipeline.retraining.scan import check_removed
+from tire_pipeline.tasks import Done, in_turn
 
 
 @pytest.fixture
@@ -100,6 +101,33 @@ def test_a_run_waits_until_files_have_settled(known):
     assert naps == [5.0, 5.0, 5.0]
     assert found.added["A/3.tir"][1] == fingerprint(path)
     assert path.read_text() == tir_text(3)
+
+
+def test_nothing_is_hashed_before_the_waiting_is_over(known):
+    folder, manifest = known
+    put(folder, "A/3.tir", tir_text(3))
+    put(folder, "A/4.tir", tir_text(4), age=0.0)
+    hashed = []
+
+    def work(tasks, what):
+        hashed.append([name for task in tasks.values() for name in task.names])
+        return in_turn(tasks, what)
+
+    found = settled_difference(
+        folder, manifest, settle_seconds=5.0, most_wait_seconds=60.0, sleep=lambda seconds: None, work=work
+    )
+    assert hashed == [["A/3.tir", "A/4.tir"]]
+    assert set(found.added) == {"A/3.tir", "A/4.tir"}
+
+
+def test_a_worker_that_does_not_see_the_folder_hides_no_file(known):
+    folder, manifest = known
+    put(folder, "A/3.tir", tir_text(3))
+
+    def elsewhere(tasks, what):
+        return (Done(name, dict.fromkeys(task.names, "")) for name, task in tasks.items())
+
+    assert difference(folder, manifest, work=elsewhere).added == difference(folder, manifest).added != {}
 
 
 def test_a_run_does_not_wait_longer_than_asked(known):

@@ -12,6 +12,7 @@ from tire_pipeline.retraining.train_and_release import (
     hold_out,
     measure_drift,
     read_new_files,
+    report_on_files,
     stored_table,
     train_candidate,
 )
@@ -31,9 +32,10 @@ def create_pipeline(**_: object) -> Pipeline:
         Node(
             given_map(read_new_files),
             inputs=["ingested", "tir_folder", "params:retrain"],
-            outputs=["ingested_updated", "retraining_files"],
+            outputs=["ingested_updated", "files_taken_up"],
             name="read_new_files",
         ),
+        Node(report_on_files, inputs="files_taken_up", outputs="retraining_files", name="report_on_files"),
         Node(stored_table, inputs="ingested_updated", outputs="ingested_table", name="stored_table"),
     ]
     cleaning = Pipeline(
