@@ -22,8 +22,8 @@ _LOG = logging.getLogger(__name__)
 class NodeProgressHooks:
     """One line when a node has worked for two seconds, one when it is done; what it is at in between.
 
-    A node is done when the next one begins: what is read and computed only as it is written (a folder of files)
-    is its work, too, and so is what it gives in steps.
+    A node is done when the next one begins: what is read and computed only as it is written (a folder of
+    files) is its work, too, and so is what it gives in steps.
     """
 
     def __init__(self) -> None:
