@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm, gaussian_form
+from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
 from tire_pipeline.mismatch.model.residual import residual, rms
@@ -40,7 +41,9 @@ def remainder(
     """
     data, fit = analysis.data, analysis.fit
     rest = residual(data, fit.changes)
-    size = {o: float(np.sqrt(max(rms(r) ** 2 - noise[o] ** 2, 0.0))) for o, r in rest.items()}
+    sensor = estimate_noise(data, rest)  # of neighbouring samples: what has no name may pass for coloured
+    floor = {o: min(sensor[o].floor, noise[o]) for o in rest}
+    size = {o: float(np.sqrt(max(rms(r) ** 2 - floor[o] ** 2, 0.0))) for o, r in rest.items()}
     significant = answer.agreement < LEVEL and (answer.unnamed > LEVEL or not answer.sets)
     located = locate(data, rest, analysis.noise, analysis.block) if significant else []
     gaussian = gaussian_forms(analysis, size) if significant else []
