@@ -237,3 +237,24 @@ def test_a_node_is_done_when_its_last_output_is_written(caplog):
         hooks.before_dataset_saved(name)
         hooks.after_dataset_saved(name, node)
     assert "1 of 1 done: two" in caplog.text
+
+
+def test_a_node_that_gives_its_results_in_steps_is_done_when_the_next_begins_or_the_run_ends(caplog):
+    def steps():
+        yield 1
+        yield 2
+
+    caplog.set_level("INFO")
+    nodes = [Node(steps, inputs=None, outputs=name, name=f"make_{name}") for name in "ab"]
+    hooks = NodeProgressHooks()
+    hooks.before_pipeline_run(Pipeline(nodes))
+    for number, node in enumerate(nodes):
+        hooks.before_node_run(node)
+        assert caplog.text.count("done: make_") == number
+        hooks.after_node_run(node)
+        for _ in range(2):
+            hooks.before_dataset_saved(node.outputs[0])
+            hooks.after_dataset_saved(node.outputs[0], node)
+        assert caplog.text.count("done: make_") == number
+    hooks.after_pipeline_run()
+    assert "2 of 2 done: make_b" in caplog.text

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import io
 import logging
 import sys
@@ -23,13 +24,14 @@ class NodeProgressHooks:
     """One line when a node has worked for two seconds, one when it is done; what it is at in between.
 
     A node is done when its last output is written: what is read and computed only then (a folder of files) is
-    its work, too.
+    its work, too. One that gives its results in steps is done when the next one begins, or the run ends.
     """
 
     def __init__(self) -> None:
         self._total, self._done, self._began = 0, 0, 0.0
         self._node: Any = None
         self._unsaved: set[str] = set()
+        self._goes_on: Any = None  # a node that gives its results in steps
         self._timer: threading.Timer | None = None
         self._under_way = ExitStack()
 
@@ -48,6 +50,7 @@ class NodeProgressHooks:
     def before_pipeline_run(self, pipeline: Any) -> None:
         """Count what there is to do."""
         self._total, self._done = len(pipeline.nodes), 0
+        self._node = self._goes_on = None
 
     @hook_impl
     def before_dataset_loaded(self, dataset_name: str, node: Any) -> None:
@@ -72,7 +75,9 @@ class NodeProgressHooks:
         """Say that it is done, if it has no outputs."""
         self._stop()
         self._unsaved = set(node.outputs)
-        if not node.outputs:
+        if inspect.isgeneratorfunction(node.func):
+            self._unsaved, self._goes_on = set(), node
+        elif not node.outputs:
             self._say_done(node)
 
     @hook_impl
@@ -95,6 +100,12 @@ class NodeProgressHooks:
                 self._say_done(node)
 
     @hook_impl
+    def after_pipeline_run(self) -> None:
+        """The last node is done, too."""
+        if self._goes_on is not None:
+            self._say_done(self._goes_on)
+
+    @hook_impl
     def on_node_error(self) -> None:
         """Say nothing more of a node that failed."""
         self._stop()
@@ -105,11 +116,14 @@ class NodeProgressHooks:
         self._stop()
 
     def _begin(self, node: Any) -> None:
-        if node is not self._node:
-            self._node, self._began = node, time.monotonic()
+        if node is self._node:
+            return
+        if self._goes_on is not None:
+            self._say_done(self._goes_on)
+        self._node, self._began = node, time.monotonic()
 
     def _say_done(self, node: Any) -> None:
-        self._done += 1
+        self._done, self._goes_on = self._done + 1, None
         taken = time.monotonic() - self._began
         _LOG.info("%d of %d done: %s (%.1f s)", self._done, self._total, node.name, taken)
 
