@@ -15,7 +15,7 @@ import json
 import tempfile
 import time
 import tracemalloc
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -33,7 +33,7 @@ from tire_pipeline.tire_table.read_files import IngestParameters, join_files, re
 OUT = ROOT / "benchmarks/results/cluster_estimate.json"
 CLUSTER = ROOT / "benchmarks/results/bench_cluster.json"
 FILES, MACHINES, THREADS = 10_000_000, 100, 2
-LOOK, JOIN = "looks at the folder", "stores and joins what the workers give"
+STEPS = ("looks at the folder", "stores what the workers give", "joins it", "writes the table and the report")
 
 
 def main() -> None:
@@ -56,13 +56,13 @@ def measured(files: int) -> dict[str, Any]:
     ClusterHooks().after_context_created(one_process)
     with tempfile.TemporaryDirectory() as place:
         half, whole = (_parts(Path(place) / str(number), number) for number in (files // 2, files))
-        seconds = {step: spent / files for step, spent in _run_alone(Path(place) / str(files), whole).items()}
+        spent = _run_alone(Path(place) / str(files), whole, time.process_time)
         sizes = ((files // 2, half), (files, whole))
-        most = [_most_memory(Path(place) / str(number), parts) for number, parts in sizes]
+        small, large = (_most_memory(Path(place) / str(number), parts) for number, parts in sizes)
     return {
         "files": files,
-        "processor_seconds_a_file": seconds,
-        "bytes_a_file": round((most[1] - most[0]) / (files - files // 2)),
+        "processor_seconds_a_file": {step: seconds / files for step, seconds in spent.items()},
+        "bytes_a_file": round(max(large[step] - small[step] for step in large) / (files - files // 2)),
         "date": time.strftime("%Y-%m-%d"),
     }
 
@@ -74,25 +74,35 @@ def _parts(place: Path, files: int) -> dict[str, bytes]:
     return {name: done.result() for name, done in all_done(in_processes(2), blocks, "reading").items()}
 
 
-def _run_alone(place: Path, parts: Mapping[str, bytes]) -> dict[str, float]:
-    """Processor seconds of this process in each step that is its own."""
-    began = time.process_time()
+def _run_alone(place: Path, parts: Mapping[str, bytes], spent: Callable[[], float]) -> dict[str, float]:
+    """What ``spent`` says more after each step that is this process's own."""
+    said = [spent()]
     read_files(TirFolderDataset(path=str(place / "tir")).load())
-    looked = time.process_time()
+    said.append(spent())
     stored = ComputedFolderDataset(path=str(place / "blocks"))
     stored.save({name: _Given(part) for name, part in parts.items()})
+    said.append(spent())
     table, report, _ = join_files(stored.load(), IngestParameters())
+    said.append(spent())
     TablePartsDataset(filepath=str(place / "raw.json")).save(table)
     CsvTableDataset(filepath=str(place / "report.csv"), save_args={"index": False}).save(report)
-    return {LOOK: looked - began, JOIN: time.process_time() - looked}
+    said.append(spent())
+    return {step: after - before for step, before, after in zip(STEPS, said, said[1:], strict=True)}
 
 
-def _most_memory(place: Path, parts: Mapping[str, bytes]) -> int:
-    """The most bytes that these steps take."""
+def _most_memory(place: Path, parts: Mapping[str, bytes]) -> dict[str, float]:
+    """The most bytes that each step takes."""
     tracemalloc.start()
+    total = 0.0
+
+    def spent() -> float:
+        nonlocal total
+        total += tracemalloc.get_traced_memory()[1]
+        tracemalloc.reset_peak()
+        return total
+
     try:
-        _run_alone(place, parts)
-        return tracemalloc.get_traced_memory()[1]
+        return _run_alone(place, parts, spent)
     finally:
         tracemalloc.stop()
 
@@ -132,7 +142,7 @@ def estimate(cluster: dict[str, list[dict[str, Any]]], alone: dict[str, Any]) ->
         f"The workers read them in {_round(read)}: {1e3 * reading:.2g} ms a file with one thread, measured",
         f"on {files:,} files. The run itself takes {_round(whole)} of processor time, however many machines",
         f"there are ({steps}), measured on {alone['files']:,} files. {slower}",
-        f"{max(whole, read) / min(whole, read):.1f} times as long.",
+        f"{max(whole, read) / min(whole, read):.0f} times as long.",
         "What breaks first is the run's memory, unless its machine has more:",
         f"it grows by {alone['bytes_a_file'] / 1e3:.2g} kB a file, to {memory:.2g} GB. Next is the file",
         f"server, which has to open {_round_number(FILES / read)} files a second, or the workers wait for",
@@ -157,7 +167,7 @@ def _largest(cluster: dict[str, list[dict[str, Any]]]) -> tuple[int, float]:
 
 
 def _round(seconds: float) -> str:
-    return f"{seconds:.2g} s" if seconds < 120.0 else f"{seconds / 60.0:.2g} min"
+    return f"{seconds:.0f} s" if seconds < 120.0 else f"{seconds / 60.0:.2g} min"
 
 
 def _round_number(value: float) -> str:
