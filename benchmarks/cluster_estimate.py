@@ -1,8 +1,7 @@
 """What ten million files cost on a hundred machines: by bench_cluster.py, and by what no worker takes over.
 
 Measures the steps of ``ingest_tir`` that the run does itself - looks at the folder, stores what the workers
-give, joins it - in processor seconds a file, and how its memory grows with the files. Other work on the
-same cores changes processor seconds little.
+give, joins it - in processor seconds a file. Other work on the same cores changes them little.
 
 Run: python benchmarks/cluster_estimate.py [--files 16000]
      python benchmarks/cluster_estimate.py --write    # into docs/how-to/cluster.md, nothing measured
@@ -12,10 +11,10 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 import tempfile
 import time
-import tracemalloc
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -33,7 +32,7 @@ from tire_pipeline.tire_table.read_files import IngestParameters, join_files, re
 OUT = ROOT / "benchmarks/results/cluster_estimate.json"
 CLUSTER = ROOT / "benchmarks/results/bench_cluster.json"
 FILES, MACHINES, THREADS = 10_000_000, 100, 2
-STEPS = ("looks at the folder", "stores what the workers give", "joins it", "writes the table and the report")
+LOOK, JOIN = "looks at the folder", "stores and joins what the workers give"
 
 
 def main() -> None:
@@ -44,67 +43,38 @@ def main() -> None:
     if not asked.write:
         write_bytes(OUT, json.dumps(measured(asked.files), indent=1).encode())
     cluster = json.loads(CLUSTER.read_text())
-    text = estimate(cluster, json.loads(OUT.read_text()))
+    text = estimate(cluster, json.loads(OUT.read_text()), PAGE.read_text())
     if asked.write:
         write_between(PAGE, "<!-- cluster_estimate -->", text)
     print(text)
 
 
 def measured(files: int) -> dict[str, Any]:
-    """Processor seconds a file of each step, and bytes a file that the memory grows by."""
+    """Processor seconds a file of each step that is this process's own."""
     one_process = SimpleNamespace(config_loader={"parameters": {"cluster": {"processes": 1}}})
     ClusterHooks().after_context_created(one_process)
     with tempfile.TemporaryDirectory() as place:
-        half, whole = (_parts(Path(place) / str(number), number) for number in (files // 2, files))
-        spent = _run_alone(Path(place) / str(files), whole, time.process_time)
-        sizes = ((files // 2, half), (files, whole))
-        small, large = (_most_memory(Path(place) / str(number), parts) for number, parts in sizes)
+        make_jobs(Path(place), files, 0, 0)
+        blocks = read_files(TirFolderDataset(path=f"{place}/tir").load())
+        parts = {name: done.result() for name, done in all_done(in_processes(2), blocks, "reading").items()}
+        spent = _run_alone(Path(place), parts)
     return {
         "files": files,
         "processor_seconds_a_file": {step: seconds / files for step, seconds in spent.items()},
-        "bytes_a_file": round(max(large[step] - small[step] for step in large) / (files - files // 2)),
         "date": time.strftime("%Y-%m-%d"),
     }
 
 
-def _parts(place: Path, files: int) -> dict[str, bytes]:
-    """So many files, and what workers give for each block of them."""
-    make_jobs(place, files, 0, 0)
-    blocks = read_files(TirFolderDataset(path=str(place / "tir")).load())
-    return {name: done.result() for name, done in all_done(in_processes(2), blocks, "reading").items()}
-
-
-def _run_alone(place: Path, parts: Mapping[str, bytes], spent: Callable[[], float]) -> dict[str, float]:
-    """What ``spent`` says more after each step that is this process's own."""
-    said = [spent()]
+def _run_alone(place: Path, parts: Mapping[str, bytes]) -> dict[str, float]:
+    began = time.process_time()
     read_files(TirFolderDataset(path=str(place / "tir")).load())
-    said.append(spent())
+    looked = time.process_time()
     stored = ComputedFolderDataset(path=str(place / "blocks"))
     stored.save({name: _Given(part) for name, part in parts.items()})
-    said.append(spent())
     table, report, _ = join_files(stored.load(), IngestParameters())
-    said.append(spent())
     TablePartsDataset(filepath=str(place / "raw.json")).save(table)
     CsvTableDataset(filepath=str(place / "report.csv"), save_args={"index": False}).save(report)
-    said.append(spent())
-    return {step: after - before for step, before, after in zip(STEPS, said, said[1:], strict=True)}
-
-
-def _most_memory(place: Path, parts: Mapping[str, bytes]) -> dict[str, float]:
-    """The most bytes that each step takes."""
-    tracemalloc.start()
-    total = 0.0
-
-    def spent() -> float:
-        nonlocal total
-        total += tracemalloc.get_traced_memory()[1]
-        tracemalloc.reset_peak()
-        return total
-
-    try:
-        return _run_alone(place, parts, spent)
-    finally:
-        tracemalloc.stop()
+    return {LOOK: looked - began, JOIN: time.process_time() - looked}
 
 
 class _Given:
@@ -119,8 +89,9 @@ class _Given:
         return self._part
 
 
-def estimate(cluster: dict[str, list[dict[str, Any]]], alone: dict[str, Any]) -> str:
-    """The sentences of the documentation."""
+def estimate(cluster: dict[str, list[dict[str, Any]]], alone: dict[str, Any], page: str) -> str:
+    """The sentences of the documentation; how the memory grows stands in a table of the page."""
+    kilobytes = float(re.findall(r"\| `ingest_tir` \|[^|]*\| ([\d.]+) kB \|", page)[0])
     files, reading = _largest(cluster)
     blocks = 1
     while blocks * 250 < FILES:
@@ -133,7 +104,7 @@ def estimate(cluster: dict[str, list[dict[str, Any]]], alone: dict[str, Any]) ->
     own["hands over the blocks"] = blocks * a_task
     in_order = sorted(own.items(), key=lambda each: -each[1])
     steps = "; ".join(f"{step}: {_round(seconds)}" for step, seconds in in_order)
-    memory = FILES * alone["bytes_a_file"] / 1e9
+    memory = FILES * kilobytes / 1e6
     whole = sum(own.values())
     slower = "The run takes" if whole > read else "The workers take"
     sentences = [
@@ -144,7 +115,7 @@ def estimate(cluster: dict[str, list[dict[str, Any]]], alone: dict[str, Any]) ->
         f"there are ({steps}), measured on {alone['files']:,} files. {slower}",
         f"{max(whole, read) / min(whole, read):.0f} times as long.",
         "What breaks first is the run's memory, unless its machine has more:",
-        f"it grows by {alone['bytes_a_file'] / 1e3:.2g} kB a file, to {memory:.2g} GB. Next is the file",
+        f"it grows by {kilobytes} kB a file (see below), to {memory:.2g} GB. Next is the file",
         f"server, which has to open {_round_number(FILES / read)} files a second, or the workers wait for",
         f"it. None of this was tried.\n\nThere are {blocks:,} blocks of about {FILES / blocks:.0f} files (a",
         "power of two). What a block gives passes through the run's process three times: it is stored, its",
