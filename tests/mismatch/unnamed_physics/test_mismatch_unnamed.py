@@ -196,6 +196,17 @@ def test_speed_is_found_as_the_driver_and_its_square_as_the_form():
     assert abs(value + 0.05) < 4.0 * error + 0.002
 
 
+def test_at_a_load_that_was_not_recorded_an_equation_adds_nothing():
+    """It multiplies forces: what they do at that load was never compared with it."""
+    seen = problem(lambda t: -0.05 * t.columns["fy"] * t.columns["v"] ** 2)
+    physics = find(seen).physics
+    columns = dict(seen.table.columns)
+    inside = physics.weight(seen.table) > 0.0
+    assert inside.mean() > 0.95
+    twice = replace(seen.table, columns={**columns, "L": 2.0 * columns["L"].max() + 0.0 * columns["L"]})
+    assert not np.any(physics.weight(twice))
+
+
 def test_a_recording_that_turns_to_one_side_gives_no_equation():
     both = problem(lambda t: -0.05 * t.columns["fy"] * t.columns["v"] ** 2)
     one = {**both.table.columns, "s": np.abs(both.table.columns["s"])}

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
-from tire_pipeline.channels import SLIP_AND_LOAD, TANGENTIAL_FORCES
+from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.discrepancy.noise import white_noise
 from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
-from tire_pipeline.mismatch.model.channels import one_sided
+from tire_pipeline.mismatch.model.channels import least_spread, one_sided
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
@@ -157,20 +159,27 @@ def _physics(
     texts = equations(choice, model, outputs)
     if not texts:
         return None
-    used = frozenset[str]().union(*(parse(text).symbols for text in texts.values()))
-    table = columns.problem.table
-    symbols = sorted(s for s in used | ({"t"} if "way" in used else set()) if s in CHANNEL)
-    ranges = {}
-    for symbol in symbols:
-        x = table.columns[symbol]
-        low, high = (x.min(), x.max()) if symbol == "t" else np.quantile(x, [0.001, 0.999])
-        ranges[symbol] = (float(low), float(high))
-    if "t" in ranges and not ("t" in used or "way" in used):
-        del ranges["t"]
     terms = [choice.terms[i] for i in model.terms]
     acts = ", ".join(dict.fromkeys(WAY[t.way].acts_on for t in terms))
     drivers = tuple(sorted(drivers_of(model, choice.terms)))
-    return UnnamedPhysics(texts, drivers, acts, ranges, columns.problem.nominal)
+    return UnnamedPhysics(texts, drivers, acts, _ranges(columns.problem, texts), columns.problem.nominal)
+
+
+def _ranges(problem: Unexplained, texts: Mapping[str, str]) -> dict[str, tuple[float, float]]:
+    """Return where an equation was seen to hold: what it names, and the slips and the load.
+
+    The forces in it depend on slip and load. At a load that was not recorded nothing says that it holds.
+    """
+    used = frozenset[str]().union(*(parse(text).symbols for text in texts.values()))
+    of_forces = {s for s in CHANNEL if CHANNEL[s] in FORCE_OF_SLIP and CHANNEL[s] in problem.moves} | {"L"}
+    found = {}
+    seen = used | of_forces | ({"t"} if "way" in used else set())
+    for symbol in sorted(s for s in seen if s in CHANNEL):
+        x = problem.table.columns[symbol]
+        low, high = (x.min(), x.max()) if symbol == "t" else np.quantile(x, [0.001, 0.999])
+        short = 0.5 * max(least_spread(CHANNEL[symbol], x) - (high - low), 0.0) if symbol == "L" else 0.0
+        found[symbol] = (float(low - short), float(high + short))
+    return found
 
 
 def _where(terms: list[Term]) -> str:
