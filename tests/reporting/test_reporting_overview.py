@@ -91,6 +91,7 @@ def _report() -> SimpleNamespace:
 
     return SimpleNamespace(
         verdict="explained",
+        stated_verdict="explained",
         summary="Wear is missing.",
         effects=[SimpleNamespace(name="wear", alternatives=(), kind="physics")],
         held_out=None,

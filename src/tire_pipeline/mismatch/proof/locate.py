@@ -9,14 +9,15 @@ import scipy
 
 from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.discrepancy.noise import ForceNoise
-from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
-from tire_pipeline.mismatch.inference.sets.answer import OPEN
-from tire_pipeline.mismatch.model.channels import SMALL, largest
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-_FLIPS = round(1.0 / OPEN**2) - 1
-"""Random flips of the sweeps' signs: as many as show a chance of the square of that which decides."""
+_LEVEL_OF_FLIPS = 0.05
+_LEAST_FORCE = 0.1
+"""A share of the force is given where the force is above this part of the largest one."""
+_EVEN = 0.7
+"""One share of the force that is this part of the squared difference is off throughout, in no stretch."""
+_BINS_OF_AXIS = 16
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class Located:
         Mean of recorded minus simulated force in the direction of the simulated one, N (of the
         plain difference if ``signed`` is False).
     share : float
-        The same over the mean size of the simulated force; NaN where that is small beside the largest.
+        The same over the mean size of the simulated force; NaN where that is below a tenth of the largest.
     p_value : float
         Largest statistic over all axes, stretches and scales under flips of whole sweeps.
     own : float
@@ -53,7 +54,13 @@ class Located:
 
 
 def locate(
-    data: Data, residual: dict[str, Array], noise: dict[str, ForceNoise], block: Array
+    data: Data,
+    residual: dict[str, Array],
+    noise: dict[str, ForceNoise],
+    block: Array,
+    *,
+    flips: int = 199,
+    seed: int = 0,
 ) -> list[Located]:
     """Find where a residual is not noise.
 
@@ -65,6 +72,8 @@ def locate(
     noise : dict of ForceNoise
     block : ndarray of int
         Sweep of each sample; signs are flipped by whole sweeps.
+    flips : int
+        Number of random flips.
 
     Returns
     -------
@@ -72,80 +81,75 @@ def locate(
         For each axis and output the stretch with the largest difference of those with p at most 0.05,
         along the force where its size is off, else to one side; the largest difference first.
     """
+    rng = np.random.default_rng(seed)
+    count = int(block.max()) + 1
+    signs = np.vstack([np.ones(count), rng.choice([-1.0, 1.0], size=(flips, count))])
     out: list[Located] = []
     for o, r in residual.items():
         for along in (True, False):
-            out += _axes(data, o, r, noise[o], block, along)
+            out += _axes(data, o, r, noise[o], block, signs, along)
     out.sort(key=lambda f: -abs(f.mean))
     return out
 
 
 def _axes(
-    data: Data, output: str, rest: Array, noise: ForceNoise, block: Array, along: bool
+    data: Data, output: str, rest: Array, noise: ForceNoise, block: Array, signs: Array, along: bool
 ) -> list[Located]:
-    """Test all stretches of all axes, and return the largest difference on each that is sure."""
-    plain = rest * np.sign(data.base[output]) if along else rest
-    tests = [(axis, *each) for axis in _axes_of(data) for each in _stretches(_values(data, axis))]
-    chance = _chances(plain / noise.sigma, [rows for *_, rows in tests], block)
-    found, places = [], []
-    for axis in dict.fromkeys(axis for axis, *_ in tests):
-        sure = [
-            i
-            for i, (name, *_, rows) in enumerate(tests)
-            if name == axis and chance[i] <= OPEN and _along(rest, data.base[output], rows) == along
-        ]
+    """Test all stretches of all axes; the largest statistic of each flip gives the p-values."""
+    plain = rest * _direction(data.base[output]) if along else rest
+    scaled = plain / noise.sigma
+    tests: list[tuple[str, float, float, Array]] = []
+    for axis in ("time", *OPERATING_CHANNELS):
+        if axis == "time":
+            if data.time is None:
+                continue
+            values = data.time
+        elif data.varies(axis):
+            values = data.smooth(axis)
+        else:
+            continue
+        edges = np.quantile(values, np.linspace(0.0, 1.0, 17))
+        for width in (1, 2, 4, 8):
+            for k in range(0, 17 - width, max(1, width // 2)):
+                low, high = float(edges[k]), float(edges[k + width])
+                if high - low > 0.02 * (edges[-1] - edges[0]):
+                    tests.append((axis, low, high, (values >= low) & (values <= high)))
+    count = signs.shape[1]
+    sums = np.array([np.bincount(block, scaled * m, count) for *_, m in tests])
+    size = np.sqrt((sums**2).sum(axis=1)) + 1e-12
+    statistics = np.abs(signs @ sums.T) / size[None, :]
+    enough = np.array([(s != 0.0).sum() >= 5 for s in sums])
+    statistics[:, ~enough] = 0.0
+    top = statistics.max(axis=1)
+    found = []
+    rows = []
+    for axis in dict.fromkeys(t[0] for t in tests):
+        own = [i for i, t in enumerate(tests) if t[0] == axis]
+        chance = {i: float((1 + (top[1:] >= statistics[0, i]).sum()) / signs.shape[0]) for i in own}
+        sure = [i for i in own if chance[i] <= _LEVEL_OF_FLIPS]
+        sure = [i for i in sure if _along(rest, data.base[output], tests[i][3]) == along]
         if not sure:
             continue
         best = max(sure, key=lambda i: abs(float(plain[tests[i][3]].mean())))
-        _, low, high, rows = tests[best]
-        mean = float(plain[rows].mean())
-        share = mean / _force(data, output, rows)
-        found.append(Located(output, axis, low, high, mean, share, float(chance[best]), along))
-        places.append(rows)
+        _, low, high, mask = tests[best]
+        mean = float(plain[mask].mean())
+        share = mean / _force(data, output, mask)
+        found.append(Located(output, axis, low, high, mean, share, chance[best], along))
+        rows.append(mask)
     if not found:
         return found
     first = max(found, key=lambda f: abs(f.mean))
-    left = plain - _profile(_values(data, first.axis), plain)
+    rest = plain - _profile(_values(data, first.axis), plain)
     return [
-        f if f is first else replace(f, own=float(left[rows].mean()) / f.mean)
-        for f, rows in zip(found, places, strict=True)
+        f if f is first else replace(f, own=float(rest[r].mean()) / f.mean)
+        for f, r in zip(found, rows, strict=True)
     ]
 
 
-def _axes_of(data: Data) -> list[str]:
-    """Return the axes along which a recording moves."""
-    time = [] if data.time is None else ["time"]
-    return time + [axis for axis in OPERATING_CHANNELS if data.varies(axis)]
-
-
-def _stretches(values: Array) -> list[tuple[float, float, Array]]:
-    """Return stretches of an axis from one bin to half of it, each with its samples; neighbours overlap."""
-    edges = np.quantile(values, np.linspace(0.0, 1.0, INDEPENDENT_STRETCHES + 1))
-    out, width = [], 1
-    while width <= INDEPENDENT_STRETCHES // 2:
-        for k in range(0, INDEPENDENT_STRETCHES + 1 - width, max(1, width // 2)):
-            low, high = float(edges[k]), float(edges[k + width])
-            if high > low:
-                out.append((low, high, (values >= low) & (values <= high)))
-        width *= 2
-    return out
-
-
-def _chances(scaled: Array, stretches: list[Array], block: Array) -> Array:
-    """Return for each stretch how likely flips of whole sweeps have as much in any stretch.
-
-    Parameters
-    ----------
-    scaled : ndarray, shape (n,)
-    stretches : list of ndarray of bool, shape (n,)
-    block : ndarray of int, shape (n,)
-    """
-    sums = np.array([np.bincount(block, scaled * rows) for rows in stretches])
-    flips = np.random.default_rng(0).choice([-1.0, 1.0], size=(_FLIPS, sums.shape[1]))
-    size = np.sqrt((sums**2).sum(axis=1)) + 1e-12
-    most = np.abs(flips @ (sums / size[:, None]).T).max(axis=1)
-    here = np.abs(sums.sum(axis=1)) / size
-    return np.asarray((1 + (most[:, None] >= here).sum(axis=0)) / (1 + _FLIPS))
+def _direction(force: Array) -> Array:
+    """Sign of a force, fading to zero where the force does."""
+    largest = float(np.quantile(np.abs(force), 0.99))
+    return np.sign(force) * np.minimum(np.abs(force) / (0.05 * largest + 1e-12), 1.0)
 
 
 def _along(rest: Array, force: Array, rows: Array) -> bool:
@@ -164,7 +168,7 @@ def _values(data: Data, axis: str) -> Array:
 
 def _profile(values: Array, x: Array) -> Array:
     """Mean over all samples with nearly the same value of an axis."""
-    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, INDEPENDENT_STRETCHES + 1)[1:-1]))
+    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, _BINS_OF_AXIS + 1)[1:-1]))
     number = np.searchsorted(edges, values)
     size = np.maximum(np.bincount(number), 1)
     return np.asarray((np.bincount(number, x) / size)[number])
@@ -174,7 +178,7 @@ def _force(data: Data, output: str, rows: Array) -> float:
     """Mean size of the simulated force, N; NaN where it is too small for a share of it to mean something."""
     size = np.abs(data.base[output])
     here = float(size[rows].mean())
-    return here if here > SMALL * largest(size) else float("nan")
+    return here if here > _LEAST_FORCE * float(np.quantile(size, 0.99)) else float("nan")
 
 
 def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -> dict[str, float]:
@@ -190,15 +194,16 @@ def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -
     Returns
     -------
     dict
-        Output -> gain of the force, less one, by least squares.
+        Output -> mean of the difference along the force over the mean size of the force.
     """
     out = {}
     for o, r in residual.items():
-        force = data.base[o]
-        if not np.any(force) or not any(f.output == o and f.along_force for f in located):
+        rows = np.abs(data.base[o]) > _LEAST_FORCE * float(np.quantile(np.abs(data.base[o]), 0.99))
+        if not rows.any() or not any(f.output == o and f.along_force for f in located):
             continue
-        whole = float(r @ force) / float(force @ force)
-        if np.sum((r - whole * force) ** 2) < 0.5 * np.sum(r**2):
+        force = data.base[o]
+        whole = float((r[rows] * np.sign(force[rows])).mean() / np.abs(force[rows]).mean())
+        if np.sum((r - whole * force) ** 2) < (1.0 - _EVEN) * np.sum(r**2):
             out[o] = whole
     return out
 
@@ -234,7 +239,7 @@ def where(part: Array, data: Data) -> dict[str, tuple[float, float]]:
         values = data.get(axis)
         order = np.argsort(values, kind="stable")
         share = np.cumsum(energy[order]) / total
-        low, high = np.searchsorted(share, [OPEN, 1.0 - OPEN])
+        low, high = np.searchsorted(share, [0.05, 0.95])
         last = values.size - 1
         out[axis] = (float(values[order[min(low, last)]]), float(values[order[min(high, last)]]))
     return out

@@ -3,8 +3,7 @@
 Noise of a slip channel goes through the model into the residual and, worse, into the columns of
 dynamic effects: a delay of the wrong sign would explain some of it (errors in variables). Each
 sample takes the widest window whose estimate agrees with all narrower ones (intersection of
-confidence intervals: Katkovnik 1999, IEEE Trans. Signal Processing 47). Each window is twice as wide
-as the last.
+confidence intervals: Katkovnik 1999, IEEE Trans. Signal Processing 47).
 """
 
 from __future__ import annotations
@@ -12,13 +11,11 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
-from tire_pipeline.mismatch.model.channels import white_noise
-
 Array = np.ndarray
-_INTERVAL = 2.0
-"""Half of a confidence interval in standard errors: 95%."""
-_ORDER = 2
-"""Of the local polynomials."""
+_FILTER_WINDOWS = ((9, 4), (15, 4), (25, 4), (35, 4), (61, 2), (121, 2), (241, 2))
+_INTERVAL_WIDTH = 1.7
+_NOISE_ONLY = 1.5
+"""A channel that spreads no wider than so many times its noise stands still."""
 
 
 def denoise(x: Array, start: Array) -> Array:
@@ -33,33 +30,92 @@ def denoise(x: Array, start: Array) -> Array:
     Returns
     -------
     ndarray, shape (n,)
-        Unchanged if the channel has no noise: a set point, or a channel held at a slower rate.
+        The mean where there is nothing but noise. Unchanged where pieces are shorter than the narrowest
+        window, or if the channel has no noise (a set point, or a channel held at a slower rate).
     """
-    sigma = white_noise(x)
-    if not sigma > np.finfo(np.float32).eps * float(np.ptp(x)):
+    sigma, rho = _noise(x, start)
+    if sigma < 1e-12 or sigma < 2e-6 * float(np.ptp(x)):
         return x
+    if np.std(x) < _NOISE_ONLY * sigma:
+        return np.full_like(x, np.mean(x))
     firsts = np.flatnonzero(start)
-    return np.concatenate([_piece(piece, sigma) for piece in np.split(x, firsts[firsts > 0])])
-
-
-def _piece(x: Array, sigma: float) -> Array:
-    """Smooth an uninterrupted piece; windows grow until they are half of it, or agree nowhere."""
+    ends = np.append(firsts[1:], x.size)
     out = x.copy()
-    low, high = x - _INTERVAL * sigma, x + _INTERVAL * sigma
-    alive = np.ones(x.size, bool)
-    half = _ORDER
-    while alive.any() and 2 * half + 1 <= x.size // 2:
-        value, spread = _polynomial(x, half)
-        low = np.maximum(low, value - _INTERVAL * sigma * spread)
-        high = np.minimum(high, value + _INTERVAL * sigma * spread)
-        alive &= low <= high
-        out = np.where(alive, value, out)
-        half *= 2
+    for first, last in zip(firsts, ends, strict=True):
+        if last - first > 2 * _FILTER_WINDOWS[0][0]:
+            out[first:last] = _piece(x[first:last], sigma, rho)
     return out
 
 
-def _polynomial(x: Array, half: int) -> tuple[Array, float]:
-    """Return the values of local polynomials and their standard deviation for noise of unit variance."""
-    c = scipy.signal.savgol_coeffs(2 * half + 1, _ORDER)
-    padded = np.pad(x, half, mode="reflect", reflect_type="odd")
-    return scipy.signal.oaconvolve(padded, c, mode="valid"), float(np.linalg.norm(c))
+def _noise(x: Array, start: Array) -> tuple[float, float]:
+    """Size of the noise and its correlation from one sample to the next; zero for a set point."""
+    d = x[2:] - 2.0 * x[1:-1] + x[:-2]
+    d = d[~(start[2:] | start[1:-1])]
+    if d.size < 50 or np.mean(d == 0.0) > 0.3:
+        return 0.0, 0.0
+    rho = _colour(x, start)
+    return float(_quiet(np.abs(d)) / 0.6745 / np.sqrt(6.0 - 8.0 * rho + 2.0 * rho**2)), rho
+
+
+def _quiet(size: Array) -> float:
+    """Lower quartile over blocks of 50 samples of the median: where the signal itself is calm."""
+    count = size.size // 50
+    if count < 4:
+        return float(np.median(size))
+    return float(np.quantile(np.median(size[: 50 * count].reshape(count, 50), axis=1), 0.25))
+
+
+def _piece(x: Array, sigma: float, rho: float) -> Array:
+    n = x.size
+    low = np.full(n, -np.inf)
+    high = np.full(n, np.inf)
+    level = np.zeros(n, int)
+    values = []
+    alive = np.ones(n, bool)
+    for window, order in ((1, 0), *_FILTER_WINDOWS):
+        if window > n // 2:
+            break
+        value, spread = _polynomial(x, window, order, rho)
+        values.append(value)
+        half = _INTERVAL_WIDTH * sigma * spread
+        low = np.where(alive, np.maximum(low, value - half), low)
+        high = np.where(alive, np.minimum(high, value + half), high)
+        alive &= low <= high
+        level = np.where(alive, len(values) - 1, level)
+    level = scipy.ndimage.percentile_filter(level, 30, 21, mode="nearest")
+    return np.choose(level, values)
+
+
+def _polynomial(x: Array, window: int, order: int, rho: float) -> tuple[Array, float]:
+    """Return local polynomial values and their standard deviation for noise of unit variance."""
+    if window == 1:
+        return x, 1.0
+    c = scipy.signal.savgol_coeffs(window, order)
+    half = window // 2
+    padded = np.concatenate([2.0 * x[0] - x[half:0:-1], x, 2.0 * x[-1] - x[-2 : -half - 2 : -1]])
+    value = np.convolve(padded, c[::-1], mode="valid")
+    lag = np.abs(np.subtract.outer(np.arange(window), np.arange(window)))
+    spread = float(np.sqrt(max(c @ (rho**lag) @ c, 1e-12)))
+    return value, spread
+
+
+def _colour(x: Array, start: Array) -> float:
+    """Correlation of neighbours, from second differences at lags 1 and 2."""
+    piece = np.cumsum(start)
+    sizes = []
+    for lag in (1, 2):
+        d = x[: -2 * lag] - 2.0 * x[lag:-lag] + x[2 * lag :]
+        ok = piece[2 * lag :] == piece[: -2 * lag]
+        sizes.append(_quiet(np.abs(d[ok])) ** 2 if ok.any() else 0.0)
+    return correlation_from_ratio(sizes[1] / sizes[0]) if sizes[0] > 0.0 else 0.0
+
+
+def correlation_from_ratio(ratio: float) -> float:
+    """Correlation of neighbours from the ratio of squared second differences at lags 2 and 1."""
+
+    def excess(rho: float) -> float:
+        return (6.0 - 8.0 * rho**2 + 2.0 * rho**4) / (6.0 - 8.0 * rho + 2.0 * rho**2) - ratio
+
+    if ratio <= 1.0:
+        return 0.0
+    return 0.95 if excess(0.95) < 0.0 else float(scipy.optimize.brentq(excess, 0.0, 0.95))

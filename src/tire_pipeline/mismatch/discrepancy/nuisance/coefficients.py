@@ -7,6 +7,7 @@ import numpy as np
 from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import plain_forces
+from tire_pipeline.mismatch.model.nominal import OF_CAMBER
 
 Array = np.ndarray
 At = dict[str, Array]
@@ -20,7 +21,6 @@ _COEFFICIENTS_OF_FORCE = {
         "REX1 REX2 RHX1"
     ).split(),
 }
-_OF_CAMBER = frozenset("PDX3 PDY3 PEY4 PEY5 PKY3 PKY6 PKY7 PHY3 PVY3 PVY4 RBX3 RBY4 RVY3".split())
 _LEAST_OF_ALL = 1e-4
 """Columns smaller than so much of the largest one do nothing here, and are not made larger: the coefficients
 of camber in a recording without camber would become a constant force."""
@@ -49,7 +49,7 @@ def jacobian(data: Data, name: str, at: At) -> Array:
     columns = []
     for key in _COEFFICIENTS_OF_FORCE[name]:
         value = float(c.get(key, 0.0))
-        if value == 0.0 or key in missing or (key in _OF_CAMBER and not data.varies("camber")):
+        if value == 0.0 or key in missing or (key in OF_CAMBER[name] and not data.varies("camber")):
             continue  # where camber stands still its coefficients would be a constant force of any size
         h = 1e-4 * max(abs(value), 0.05)
         up, down = (plain_forces(data.tire.replace(**{key: value + s * h}), **at)[name] for s in (1.0, -1.0))
