@@ -253,19 +253,24 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
     return issues + _force_and_load(frame)
 
 
+def unit_stated(frame: pd.DataFrame, column: str, unit: str) -> str:
+    """Return how a user states the unit of a column, by the name that the file gives it."""
+    name = frame.attrs.get("channels", {}).get(column, column)
+    return f"--unit {name}={unit}, in Python units={{{name!r}: {unit!r}}}"
+
+
 def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:
     """Say that a slip or an angle is in another unit, as an explanation takes it."""
     if not in_another_unit(column, values):
         return []
     unit = LARGEST_PLAUSIBLE[column][1]
-    name = frame.attrs.get("channels", {}).get(column, column)
     return [
         Issue(
             "angle_in_degrees" if unit == "deg" else "slip_in_percent",
             "warning",
             f"{column}, up to {np.nanmax(np.abs(values)):.3g}{' rad' if unit == 'deg' else ''}",
             f"no wheel reaches this; explain_mismatch reads it as {unit}. State the unit: "
-            f"--unit {name}={unit}, in Python units={{{name!r}: {unit!r}}}",
+            f"{unit_stated(frame, column, unit)}",
         )
     ]
 

@@ -73,10 +73,14 @@ def test_not_a_frame(tire):
 
 def test_a_pressure_that_may_be_in_two_units_is_left_out(tire, record):
     """75 could be kPa, of a racing tire, or psi, of a van's; no name says which."""
-    prepared = prepare(tire, record().assign(pressure=75.0))
+    recording = record().assign(pressure=75.0)
+    recording.attrs["channels"] = {"pressure": "P"}
+    prepared = prepare(tire, recording)
     assert "pressure" not in prepared.data.present
     assert prepared.findings == []
-    assert any("pressure is left out: 75 to 75 Pa is no tire's" in note for note in prepared.notes)
+    (note,) = (note for note in prepared.notes if note.startswith("pressure is left out"))
+    assert "75 to 75 Pa is no tire's" in note
+    assert "--unit P=kPa, in Python units={'P': 'kPa'}" in note
     stated = prepare(tire.replace(NOMPRES=80e3), record().assign(pressure=75.0))
     assert [f.channel for f in stated.findings] == ["pressure"]
     assert stated.factors["pressure"] == pytest.approx(1000.0)

@@ -142,6 +142,3 @@ def refined(data: Data, noise: ForceNoise, calm: Array) -> ForceNoise:
     share, rho, slow = found.x
     noisy = max(1.0 - slow, 1e-6)
     return ForceNoise(noise.sigma * np.sqrt(variance * noisy), float(min(share / noisy, 1.0)), float(rho))
-
-
-__all__ = ["ForceNoise", "estimate_noise", "refined", "white_noise"]

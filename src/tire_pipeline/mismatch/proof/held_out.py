@@ -7,8 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from tire_pipeline.channels import MOMENT_CHANNELS
-from tire_pipeline.mismatch.discrepancy.noise import white_noise
 from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.model.channels import white_noise
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate_moments
 from tire_pipeline.mismatch.model.residual import residual, rms

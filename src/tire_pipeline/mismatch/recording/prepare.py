@@ -144,7 +144,7 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     findings, bad, factors = (
         repair(tire, arrays, time) if beside is None else ([], np.zeros(rows.size, bool), {})
     )
-    leave_out_no_pressure(arrays, notes)
+    leave_out_no_pressure(recording, arrays, notes)
     if bad.any():
         rows, arrays = rows[~bad], {n: a[~bad] for n, a in arrays.items()}
         time = None if time is None else time[~bad]

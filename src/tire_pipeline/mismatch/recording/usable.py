@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects.sensor.unit_error import inflates_no_tire
@@ -14,6 +15,7 @@ from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, SMALL, moves
 from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
+from tire_pipeline.recordings.check import unit_stated
 
 Array = np.ndarray
 
@@ -192,15 +194,15 @@ def leave_out_still_slip(tire: Any, arrays: dict[str, Array], time: Array | None
         )
 
 
-def leave_out_no_pressure(arrays: dict[str, Array], notes: list[str]) -> None:
+def leave_out_no_pressure(recording: pd.DataFrame, arrays: dict[str, Array], notes: list[str]) -> None:
     """Take out a pressure that no tire has and that no unit explains, or more than one."""
     if "pressure" not in arrays or not inflates_no_tire(arrays["pressure"]):
         return
     low, high = np.nanmin(arrays["pressure"]), np.nanmax(arrays["pressure"])
     del arrays["pressure"]
     notes.append(
-        f"pressure is left out: {low:.4g} to {high:.4g} Pa is no tire's, and its unit cannot be told; "
-        "state it (units={'pressure': 'kPa'}, on the command line --unit)"
+        f"pressure is left out: {low:.4g} to {high:.4g} Pa is no tire's, and its unit cannot be told. "
+        f"State it, if it is kPa: {unit_stated(recording, 'pressure', 'kPa')}"
     )
 
 

@@ -7,9 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD, TANGENTIAL_FORCES
-from tire_pipeline.mismatch.discrepancy.noise import white_noise
 from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
-from tire_pipeline.mismatch.model.channels import least_spread, one_sided
+from tire_pipeline.mismatch.model.channels import least_spread, one_sided, white_noise
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import (

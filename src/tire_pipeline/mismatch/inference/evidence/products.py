@@ -11,12 +11,12 @@ import numpy as np
 from tire_pipeline.mismatch.discrepancy.background import Background
 from tire_pipeline.mismatch.discrepancy.form_error import shape_columns
 from tire_pipeline.mismatch.discrepancy.independent import independent, measured_apart, orders_of
-from tire_pipeline.mismatch.discrepancy.noise import white_noise
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Evidence, Unknown
 from tire_pipeline.mismatch.inference.linearised_set import columns_of
 from tire_pipeline.mismatch.inference.priors import prior
+from tire_pipeline.mismatch.model.channels import white_noise
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import residual, rms
 
