@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import nbformat
@@ -10,6 +11,8 @@ from nbclient import NotebookClient
 
 NOTEBOOKS = sorted((Path(__file__).resolve().parents[2] / "notebooks").glob("*.ipynb"))
 LARGEST = 200_000
+PROGRESS = re.compile(r"^[^:\n]+: (\d+/\d+|\d+ s) .*\n", re.MULTILINE)
+"""Shown of what lasts over two seconds, which it may on a busy machine."""
 
 
 def test_there_are_four():
@@ -25,12 +28,12 @@ def test_it_runs(path, tmp_path, monkeypatch):
         notebook, timeout=600, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}
     ).execute()
     warned = [
-        output.text
+        PROGRESS.sub("", output.text)
         for cell in notebook.cells
         for output in cell.get("outputs", [])
         if output.output_type == "stream" and output.name == "stderr"
     ]
-    assert warned == []
+    assert not any(warned)
     assert len(nbformat.writes(notebook)) < LARGEST
 
 

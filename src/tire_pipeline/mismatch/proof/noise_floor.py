@@ -11,8 +11,11 @@ from tire_pipeline.mismatch.model.residual import residual, rms
 _DEVIATION_SUFFIX = "_std"
 
 
-def noise_floors(analysis: Analysis) -> dict[str, float]:
+def noise_floors(analysis: Analysis, *, settled: bool) -> dict[str, float]:
     """Return the RMS of the noise of each output, N: at most what a smooth misfit leaves of the residual.
+
+    Noise may be slow, and so may physics without a name. Where the residual is not settled, noise is
+    therefore no more than what differs between neighbouring samples.
 
     A recording may state how uncertain its channels are (``fy_std``, ``slip_angle_std``). Samples are weighed
     by it, but it is no noise: much of it is the same throughout a drive, such as an axle mass or the place of
@@ -22,6 +25,8 @@ def noise_floors(analysis: Analysis) -> dict[str, float]:
     ----------
     analysis : Analysis
         With the set that is named.
+    settled : bool
+        Whether the residual is explained, or of a size that fitted models usually leave.
     """
     data, fit = analysis.data, analysis.fit
     rest = residual(data, fit.changes)
@@ -32,4 +37,7 @@ def noise_floors(analysis: Analysis) -> dict[str, float]:
     if len(seen) < len(data.channels):
         plain = replace(data, channels=seen)
         noise = {o: refined(plain, n, calm[o]) for o, n in estimate_noise(plain, calm).items()}
-    return {o: min(n.floor, rms(calm[o]), rms(rest[o])) for o, n in noise.items()}
+    floors = {o: min(n.floor, rms(calm[o]), rms(rest[o])) for o, n in noise.items()}
+    if settled:
+        return floors
+    return {o: min(floors[o], n.floor) for o, n in estimate_noise(data, rest).items()}

@@ -7,14 +7,38 @@ from collections.abc import Mapping
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm, gaussian_form
-from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.locate import locate
 from tire_pipeline.mismatch.proof.measured import Remainder
+from tire_pipeline.mismatch.proof.noise_floor import noise_floors
 
 Array = np.ndarray
+
+
+def unexplained(answer: SetAnswer) -> bool:
+    """Whether the posterior says that something unnamed is likelier than not."""
+    return answer.agreement < LEVEL and (answer.unnamed > LEVEL or not answer.sets)
+
+
+def unusual(
+    analysis: Analysis, answer: SetAnswer, usual: float, largest: Mapping[str, float]
+) -> dict[str, float]:
+    """Return what is left of each output, over its largest force, where fitted models usually leave less.
+
+    Parameters
+    ----------
+    analysis : Analysis
+    answer : SetAnswer
+    usual : float
+        What fitted models leave at most, over the largest force.
+    largest : mapping of float
+        Largest force of each output by which the answer's errors are measured, N.
+    """
+    whole = {o: rms(r) / largest[o] for o, r in residual(analysis.data, analysis.fit.changes).items()}
+    capped = {o: min(left, whole[o]) for o, left in answer.left.items()}  # few samples leave its size open
+    return {o: left for o, left in capped.items() if left > usual}
 
 
 def remainder(
@@ -22,11 +46,8 @@ def remainder(
     answer: SetAnswer,
     usual: tuple[float, float],
     largest: Mapping[str, float],
-    noise: Mapping[str, float],
-) -> Remainder:
-    """Measure what neither the effects nor a misfit of the usual size explains.
-
-    It counts if the posterior says that something unnamed is likelier than not.
+) -> tuple[Remainder, dict[str, float]]:
+    """Measure what neither the effects nor a misfit of the usual size explains; and the noise, N.
 
     Parameters
     ----------
@@ -35,22 +56,16 @@ def remainder(
     usual : (float, float)
         Sizes of the error that fitted models usually leave, over the largest force.
     largest : mapping of float
-        Largest force of each output by which the answer's errors are measured, N.
-    noise : mapping of float
-        Output -> RMS of the recording's noise, N.
+        As for :func:`unusual`.
     """
     data, fit = analysis.data, analysis.fit
+    significant, more = unexplained(answer), unusual(analysis, answer, usual[1], largest)
+    noise = noise_floors(analysis, settled=not (significant or more))
     rest = residual(data, fit.changes)
-    sensor = estimate_noise(data, rest)  # of neighbouring samples: what has no name may pass for coloured
-    floor = {o: min(sensor[o].floor, noise[o]) for o in rest}
-    size = {o: float(np.sqrt(max(rms(r) ** 2 - floor[o] ** 2, 0.0))) for o, r in rest.items()}
-    significant = answer.agreement < LEVEL and (answer.unnamed > LEVEL or not answer.sets)
+    size = {o: float(np.sqrt(max(rms(r) ** 2 - noise[o] ** 2, 0.0))) for o, r in rest.items()}
     located = locate(data, rest, analysis.noise, analysis.block) if significant else []
     gaussian = gaussian_forms(analysis, size) if significant else []
-    whole = {o: rms(r) / largest[o] for o, r in rest.items()}
-    capped = {o: min(left, whole[o]) for o, left in answer.left.items()}  # few samples leave its size open
-    unusual = {o: left for o, left in capped.items() if left > usual[1]}
-    return Remainder(size, located, significant, answer.unnamed, gaussian, unusual, usual)
+    return Remainder(size, located, significant, answer.unnamed, gaussian, more, usual), noise
 
 
 def gaussian_forms(analysis: Analysis, size: dict[str, float]) -> list[GaussianForm]:

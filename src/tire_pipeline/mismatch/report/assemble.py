@@ -28,7 +28,6 @@ from tire_pipeline.mismatch.proof.left_out import each_left_out, shares_left
 from tire_pipeline.mismatch.proof.locate import everywhere, locate, when, where
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.proof.never_worse import harmless
-from tire_pipeline.mismatch.proof.noise_floor import noise_floors
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.prepare import Prepared
@@ -82,8 +81,7 @@ def assembled(it: Explained) -> MismatchReport:
     """Return the report."""
     prepared, analysis, answer = it.prepared, it.analysis, it.answer
     data = analysis.data
-    noise = noise_floors(analysis)
-    left = remainder(analysis, answer, it.sets.likelihood.learnt.left, it.sets.products.largest, noise)
+    left, noise = remainder(analysis, answer, it.sets.likelihood.learnt.left, it.sets.products.largest)
     if prepared.stopped:
         left = replace(left, significant=False, located=[])
     effects = [_exact(finding, prepared) for finding in prepared.findings]
