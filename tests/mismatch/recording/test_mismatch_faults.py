@@ -1,6 +1,7 @@
 """Faults as users have them: a clear message or the artefact's name, never a physics name."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from small_rig import at_its_limit
 
@@ -46,3 +47,24 @@ def test_a_plateau_at_the_end_of_the_range_is_clipped_and_not_stuck(tire, record
     """Slow sweeps stay at the limit for long: each plateau is over a twentieth of the recording."""
     findings = prepare(tire, at_its_limit(tire, record(seed), seed)).findings
     assert [each.name for each in findings] == ["clipping"]
+
+
+def _on_a_faster_clock(recording, rate):
+    """Return a recording with its channels brought to ``rate`` samples per second by straight lines."""
+    time = np.arange(recording["time"].iloc[0], recording["time"].iloc[-1], 1.0 / rate)
+    return pd.DataFrame({n: np.interp(time, recording["time"], x) for n, x in recording.items()})
+
+
+def test_a_slow_channel_in_few_digits_on_a_faster_clock_is_not_stuck(tire, record):
+    """Three equal samples of 25 in a second are 240 of 1000: a logger drew straight lines between them."""
+    slow = record()
+    coarse = slow.assign(normal_load=(slow["normal_load"] / 5.0).round() * 5.0)
+    coarse.loc[1000:1005, "normal_load"] = coarse.loc[1000, "normal_load"]
+    assert prepare(tire, _on_a_faster_clock(coarse, 1000.0)).findings == []
+
+
+def test_a_channel_is_stuck_on_a_faster_clock_too(tire, record):
+    slow = record()
+    slow.loc[1000:1100, "normal_load"] = slow.loc[1000, "normal_load"]
+    found = prepare(tire, _on_a_faster_clock(slow, 1000.0)).findings
+    assert [(each.name, each.channel) for each in found] == [("stuck_channel", "normal_load")]

@@ -15,6 +15,7 @@ OF_CAMBER = {
     "fy": frozenset("PDY3 PEY4 PEY5 PKY3 PKY6 PKY7 PHY3 PVY3 PVY4 RBY4 RVY3".split()),
 }
 """Coefficients through which each force of a model answers to camber."""
+_PRESSURES_OF_FILE = ("NOMPRES", "INFLPRES")
 
 
 class NominalConditions(RecordedChannels):
@@ -51,19 +52,40 @@ class NominalConditions(RecordedChannels):
     def pressure_levels(self) -> list[float]:
         """Pressures at which the model may be right, Pa: the file's, or the most common and the first."""
         nominal = self.pressure_nominal
-        c, missing = self.tire.coefficients, getattr(self.tire, "defaulted", {})
-        if any(c.get(k) == nominal and k not in missing for k in ("NOMPRES", "INFLPRES")):
+        if nominal == self.pressure_of_file:
             return [nominal]
         pressure = self.smooth("pressure")
         first = float(pressure[0])
         return [nominal] + ([first] if abs(first - nominal) > least_spread("pressure", pressure) else [])
 
     @cached_property
+    def pressure_of_file(self) -> float | None:
+        """Pressure at which the file says that it is right, Pa: the first of its values that was recorded."""
+        c, missing = self.tire.coefficients, getattr(self.tire, "defaulted", {})
+        stated = [float(c.get(k, 0.0) or 0.0) for k in _PRESSURES_OF_FILE if k not in missing]
+        pressure = self.channels["pressure"]
+        recorded = [p for p in stated if pressure.min() <= p <= pressure.max()]
+        return next((p for p in recorded + stated if p > 0.0), None)
+
+    @property
+    def off_pressure(self) -> bool:
+        """Whether the pressure stays at another value than the one at which the file says that it is right."""
+        if "pressure" not in self.present or self.varies("pressure") or self.pressure_of_file is None:
+            return False
+        pressure = self.channels["pressure"]
+        return bool(abs(np.median(pressure) - self.pressure_of_file) > least_spread("pressure", pressure))
+
+    @cached_property
     def pressure_nominal(self) -> float:
-        """Pressure at which the model is right, Pa: the file's if it was recorded, else the most common."""
+        """Pressure at which the model is right, Pa.
+
+        The file's if it was recorded, or if the recording stays at one other pressure; else the most common.
+        """
         if "pressure_nominal" in self.fixed:
             return float(self.fixed["pressure_nominal"])
-        return self._stated("pressure", "NOMPRES", "INFLPRES")
+        if self.off_pressure and self.pressure_of_file is not None:
+            return self.pressure_of_file
+        return self._stated("pressure", *_PRESSURES_OF_FILE)
 
     @cached_property
     def speed_nominal(self) -> float:

@@ -58,10 +58,8 @@ def _stuck(x: Array, *, once: bool) -> tuple[Array | None, float]:
     n = x.size
     if n < 60:
         return None, 0.0
-    changes = np.flatnonzero(np.diff(x) != 0.0)
-    starts = np.r_[0, changes + 1]
-    lengths = np.diff(np.r_[starts, n])
-    usual = np.quantile(lengths, 0.9)
+    starts, lengths = _runs(np.diff(x) != 0.0)
+    usual = max(np.quantile(lengths, 0.9), np.quantile(_straight(x), 0.9))
     long = lengths >= max(25, 20.0 * usual)
     if not long.any() or (starts.size - long.sum()) < 0.3 * n / max(usual, 1.0) * 0.2:
         return None, 0.0
@@ -76,6 +74,21 @@ def _stuck(x: Array, *, once: bool) -> tuple[Array | None, float]:
         bad[first : first + length] = True
         value = float(x[first])
     return (bad, value) if bad.any() else (None, 0.0)
+
+
+def _runs(changes: Array) -> tuple[Array, Array]:
+    """Return where runs begin, and their lengths, from whether the next sample (n - 1,) is of another run."""
+    starts = np.r_[0, np.flatnonzero(changes) + 1]
+    return starts, np.diff(np.r_[starts, changes.size + 1])
+
+
+def _straight(x: Array) -> Array:
+    """Return the lengths over which a channel goes straight: a slow one, brought to a faster clock by lines.
+
+    It repeats a value for as many samples as lie between two of its own, without being stuck.
+    """
+    bent = np.abs(np.diff(x, 2)) > np.sqrt(np.finfo(float).eps) * np.ptp(x)
+    return _runs(bent)[1]
 
 
 _FAR_LONGER = 5

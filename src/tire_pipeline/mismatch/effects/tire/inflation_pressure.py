@@ -11,7 +11,7 @@ _OF_PRESSURE = "PPX1 PPX2 PPX3 PPX4 PPY1 PPY2 PPY3 PPY4".split()
 
 
 class InflationPressure(Effect):
-    """The model is right at one pressure and wrong at others.
+    """The model is right at one pressure and wrong at others, or at the one that was recorded.
 
     Covers friction (PPX3, PPX4, PPY3, PPY4), slip stiffness (PPX1, PPX2, PPY1) and stiffness whose change
     depends on load (PPY2: a softer tire saturates at a smaller load). Not covered: what pressure does to
@@ -43,14 +43,19 @@ class InflationPressure(Effect):
     experiment = "record the same sweep at three pressures, in an order that is not the order of time"
     order = 40
 
+    def absent(self, data: object) -> str | None:
+        """Ask for a pressure that varies, or that is another one than the file's throughout."""
+        return None if data.off_pressure else super().absent(data)  # type: ignore[attr-defined]
+
     def starts(self, data: object) -> list[dict[str, float]]:
         """Return each pressure at which the model may be right: the file's, or those of the recording."""
         zero = self.zeros(data)
         return [{**zero, "reference": p} for p in data.pressure_levels]  # type: ignore[attr-defined]
 
     def expected(self, data: object) -> bool:
-        """The file has no coefficient of pressure: every tire answers to it (Besselink et al. 2010)."""
-        return not any(data.tire_coefficients.get(n, 0.0) for n in _OF_PRESSURE)  # type: ignore[attr-defined]
+        """The file has no coefficient of a pressure that varies: every tire answers (Besselink et al. 2010)."""
+        knows = any(data.tire_coefficients.get(n, 0.0) for n in _OF_PRESSURE)  # type: ignore[attr-defined]
+        return not knows and data.varies("pressure")  # type: ignore[attr-defined]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """All but the reference; one stiffness where one force alone is driven."""

@@ -1,0 +1,44 @@
+"""A recording at one pressure, which is not the one at which its file says that it is right."""
+
+import numpy as np
+import pytest
+from small_rig import rig_force, schedule
+
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.recording.prepare import prepare
+
+FILE, RECORDED = 2.5e5, 1.9e5
+
+
+@pytest.fixture(scope="module")
+def stated(tire) -> TireModel:
+    """The tire as a file of MF 6.1 that was measured at 2.5 bar and has no coefficient of pressure."""
+    return TireModel.from_coefficients({**tire.coefficients, "NOMPRES": FILE}, version="6.1")
+
+
+@pytest.fixture(scope="module")
+def softer(tire, record):
+    """Recorded at 1.9 bar: friction and stiffness are those of a softer tire."""
+    t, alpha, load, _ = schedule()
+    pressure = np.full(t.size, RECORDED)
+    d = (RECORDED - FILE) / FILE
+    force = rig_force(tire, alpha, load, 1.0 - 0.3 * d, 1.0 + 0.8 * d)
+    noise = 25.0 * np.random.default_rng(5).standard_normal(t.size)
+    return record().assign(pressure=pressure, fy=force + noise)
+
+
+def test_another_pressure_than_the_files_is_among_the_causes(stated, softer):
+    report = explain_mismatch(stated, softer)
+    assert "inflation_pressure" in {name for names, _ in report.sets for name in names}
+
+
+def test_the_files_own_pressure_is_no_cause(stated, softer):
+    data = prepare(stated, softer.assign(pressure=FILE)).data
+    assert not data.off_pressure
+
+
+def test_a_file_without_a_pressure_says_nothing_of_another_one(tire, softer):
+    data = prepare(tire, softer).data
+    assert data.pressure_of_file is None
+    assert not data.off_pressure
