@@ -69,7 +69,7 @@ class NominalConditions(RecordedChannels):
 
     @property
     def off_pressure(self) -> bool:
-        """Whether the pressure stays at another value than the one at which the file says that it is right."""
+        """Whether the pressure stays at another one than that at which the file says that it is right."""
         if "pressure" not in self.present or self.varies("pressure") or self.pressure_of_file is None:
             return False
         pressure = self.channels["pressure"]

@@ -53,7 +53,7 @@ class InflationPressure(Effect):
         return [{**zero, "reference": p} for p in data.pressure_levels]  # type: ignore[attr-defined]
 
     def expected(self, data: object) -> bool:
-        """The file has no coefficient of a pressure that varies: every tire answers (Besselink et al. 2010)."""
+        """The file knows nothing of a pressure that varies: every tire answers (Besselink et al. 2010)."""
         knows = any(data.tire_coefficients.get(n, 0.0) for n in _OF_PRESSURE)  # type: ignore[attr-defined]
         return not knows and data.varies("pressure")  # type: ignore[attr-defined]
 
