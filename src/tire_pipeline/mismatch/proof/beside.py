@@ -50,7 +50,7 @@ class Beside:
         """Return a set that was enumerated, as others are weighed beside it."""
         products, likelihood = enumerated.products, enumerated.likelihood
         scale = scales(named, likelihood.learnt)
-        columns = products.columns_of_set(named.changes, named.free)
+        _, columns = products.columns_of_set(named.changes, named.free)
         return cls(
             named,
             residual(products.data, named.changes),

@@ -13,7 +13,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
-from tire_pipeline.mismatch.inference.linearised_set import LOCKED, columns_of
+from tire_pipeline.mismatch.inference.linearised_set import LOCKED
 from tire_pipeline.mismatch.inference.priors import prior
 from tire_pipeline.mismatch.inference.sets.answer import answered
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
@@ -93,7 +93,7 @@ class RepeatedChoice:
 def _without(sets: Enumerated, kept: Array) -> Likelihood:
     """Return the likelihood of some rows."""
     unknown, share = sets.likelihood.unknown, float(kept.mean())
-    gram = {o: z[kept].T @ z[kept] / kept.sum() for o, z in sets.products.beside.items()}
+    gram = sets.products.gram_of(kept)
     independent = {o: share * n for o, n in unknown.independent.items()}
     fewer = replace(unknown, gram=gram, samples=int(kept.sum()), independent=independent)
     return Likelihood(fewer, sets.likelihood.learnt)
@@ -105,8 +105,8 @@ class ByFold:
     def __init__(self, sets: Enumerated, each: OfSet, fold: Array) -> None:
         self.products, self.each = sets.products, replace(each, forms=())
         self.likelihood = sets.likelihood
-        self.count = np.bincount(fold)
-        columns = self.products.columns_of_set(each.changes, each.free)
+        self.count = np.bincount(fold[self.products.rows], minlength=int(fold.max()) + 1)
+        _, columns = self.products.columns_of_set(each.changes, each.free)
         self.sums = [self.products.of(columns, fold == k) for k in range(self.count.size)]
 
     def without(self, fold: int) -> OfSet:
@@ -130,12 +130,11 @@ class ByFold:
         the learnt width and an error of any size. Those that one sweep determines stay where they are.
         """
         data, each = self.products.data, self.each
-        labels, _ = columns_of(data, list(each.changes), list(each.free))
+        labels, columns = self.products.columns_of_set(each.changes, each.free)
         off, wide = prior(data, each.changes, labels)
         change = self._likeliest(likelihood, seen) - self._likeliest(self.likelihood, each)
         locked = np.array([name in LOCKED for _, name in labels], bool)
         at = off / wide + np.where(locked, 0.0, change)
-        columns = self.products.columns_of_set(each.changes, each.free)
         return {o: x[:, -1] - x[:, : each.parameters] @ at for o, x in columns.items()}
 
     def _likeliest(self, likelihood: Likelihood, seen: OfSet) -> Array:

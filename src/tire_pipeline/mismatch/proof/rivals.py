@@ -52,6 +52,7 @@ class Rivals:
         self.columns = {o: np.hstack([x, *(p[o] for p in parts)]) for o, x in beside.columns.items()}
         base = products.of({o: np.column_stack([x, self.rest[o]]) for o, x in self.columns.items()})
         self.base = beside.likelihood.projected(base)
+        self.columns = {o: x[products.rows] for o, x in self.columns.items()}
         self.odds = self._odds()
 
     def named(self, variant: Variant, added: Mapping[str, Array]) -> bool:
@@ -79,7 +80,7 @@ class Rivals:
     def _truth(self, variant: Variant, added: Mapping[str, Array]) -> Evidence:
         """Return what the recording says of the effect itself, where its fit would end."""
         changes: list[Change] = [*self.changes, (variant.name, dict(variant.start))]
-        each = self.products.of_set(changes, [*self.beside.named.free, variant.free], added)
+        each = self.products.of_effects(changes, [*self.beside.named.free, variant.free], added)
         return plain(self.beside.likelihood, each)
 
     def _rivals(
@@ -149,8 +150,9 @@ class Rivals:
         own, parts = {}, {}
         for o, y in rest.items():
             own[o] = self.base.own[o].copy()
+            seen = y[self.products.rows]
             own[o][:-1, -1] = own[o][-1, :-1] = (
-                self.columns[o].T @ y / (y.size * self.products.largest[o] ** 2)
+                self.columns[o].T @ seen / (seen.size * self.products.largest[o] ** 2)
             )
             own[o][-1, -1] = residual.own[o][0, 0]
             both = zip(self.base.parts[o], residual.parts[o], strict=True)

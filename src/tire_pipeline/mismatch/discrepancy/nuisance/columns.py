@@ -134,24 +134,34 @@ def _solve(a: Array, b: Array) -> Array:
 
 
 def _grid(data: Data) -> dict[str, Array]:
-    """Even points over the recorded ranges: pure slip, slip with camber, combined slip, at five loads."""
-    low, high = np.quantile(data.get("normal_load"), [0.005, 0.995])
-    loads = np.linspace(low, high, 5) if data.varies("normal_load") else np.array([0.5 * (low + high)])
-    a = _range(data, "slip_angle", 31)
-    k = _range(data, "slip_ratio", 21)
-    rows = [(x, 0.0, 0.0, f) for f in loads for x in a]
-    rows += [(0.0, x, 0.0, f) for f in loads for x in k]
+    """Even points over the recorded ranges: pure slip, slip with camber, combined slip, at five loads.
+
+    The grid covers all that was recorded, also where an input hardly varies: what coefficients do there, such
+    as two that are one at a single load, they do on the recording. An input that stands still stands where it
+    was recorded.
+    """
+    loads = np.linspace(*np.quantile(data.get("normal_load"), [0.005, 0.995]), 5)
+    a, k = _range(data, "slip_angle", 31), _range(data, "slip_ratio", 21)
+    turned, rolled, lean = (_at_rest(data, n) for n in ("slip_angle", "slip_ratio", "camber"))
+    rows = [(x, rolled, lean, f) for f in loads for x in a]
+    rows += [(turned, x, lean, f) for f in loads for x in k]
     if data.varies("camber") and data.knows_camber:
-        g = float(np.quantile(np.abs(data.get("camber")), 0.99))
-        rows += [(x, 0.0, c * g, f) for f in loads for c in (-1.0, -0.5, 0.5, 1.0) for x in a[::2]]
+        leans = np.delete(_range(data, "camber", 5), 2)
+        rows += [(x, rolled, g, f) for f in loads for g in leans for x in a[::2]]
+        rows += [(turned, x, g, f) for f in loads for g in leans for x in k[::2]]
     if data.has_combined:
-        rows += [(s, x, 0.0, f) for f in loads for s in (-0.08, -0.04, 0.04, 0.08) for x in k[::2]]
+        rows += [(s, x, lean, f) for f in loads for s in a[::10] for x in k[::2]]
     points = np.array(rows)
     return dict(zip(SLIP_AND_LOAD, points.T, strict=True))
 
 
 def _range(data: Data, name: str, count: int) -> Array:
     if not data.varies(name):
-        return np.zeros(1)
+        return np.array([_at_rest(data, name)])
     top = float(np.quantile(np.abs(data.get(name)), 0.999))
     return np.linspace(-top, top, count)
+
+
+def _at_rest(data: Data, name: str) -> float:
+    """Return where an input is while another one is swept: at zero, or where it stands still."""
+    return 0.0 if data.varies(name) else float(np.median(data.get(name)))

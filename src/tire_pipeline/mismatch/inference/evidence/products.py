@@ -15,13 +15,15 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Evidence, Unknown
 from tire_pipeline.mismatch.inference.linearised_set import columns_of
-from tire_pipeline.mismatch.inference.priors import prior
+from tire_pipeline.mismatch.inference.priors import Labels, prior
 from tire_pipeline.mismatch.model.channels import white_noise
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import residual, rms
 
 Array = np.ndarray
 Free = Sequence[tuple[str, ...]]
+ENOUGH_ROWS = 5000
+"""Rows from which on products are taken of every second, every third ..."""
 
 
 @dataclass(frozen=True)
@@ -100,6 +102,17 @@ class OfCase:
     sets: tuple[OfSet, ...]
 
 
+def rows_weighed(samples: int) -> Array:
+    """Return the rows over which means of products are taken: of a long recording one of every two, three ...
+
+    The residual of neighbouring samples is alike, so a recording counts for far fewer than it has. Which row
+    of each group is chance: what turns at a frequency of its own does not meet the same phase.
+    """
+    every = max(1, round(samples / ENOUGH_ROWS))
+    firsts = np.arange(0, samples - every + 1, every)
+    return firsts + np.random.default_rng(0).integers(every, size=firsts.size)
+
+
 class RecordingProducts:
     """Makes the products of one recording.
 
@@ -120,7 +133,14 @@ class RecordingProducts:
         }
         self._unnamed, self._forms = background.unnamed, background.forms
         self.families = background.families
-        self.gram = {o: z.T @ z / self.data.size for o, z in self.beside.items()}
+        self.rows = rows_weighed(self.data.size)
+        self._beside = {o: z[self.rows] for o, z in self.beside.items()}
+        self.gram = self.gram_of(np.ones(self.data.size, bool))
+
+    def gram_of(self, kept: Array) -> dict[str, Array]:
+        """Return the mean products of what is never known over some samples (bool, shape (n,))."""
+        parts = {o: z[kept[self.rows]] for o, z in self._beside.items()}
+        return {o: z.T @ z / len(z) for o, z in parts.items()}
 
     @cached_property
     def _orders(self) -> list[Array]:
@@ -154,20 +174,22 @@ class RecordingProducts:
             out[o] = independent(left, self._orders)
         return out
 
-    def of(self, columns: Mapping[str, Array], rows: Array | slice = slice(None)) -> ColumnProducts:
+    def of(self, columns: Mapping[str, Array], rows: Array | None = None) -> ColumnProducts:
         """Return products of some columns in N, the residual last; shape (n, m + 1) for each output.
 
         Parameters
         ----------
         columns : mapping of ndarray
         rows : ndarray of bool, shape (n,), optional
-            Samples over which the mean is taken.
+            Samples over which the mean is taken; all that are weighed if left out.
         """
         own, nuisance = {}, {}
         for o, x in columns.items():
-            scaled = x[rows] / self.largest[o]
+            scaled, beside = x[self.rows] / self.largest[o], self._beside[o]
+            if rows is not None:
+                scaled, beside = scaled[rows[self.rows]], beside[rows[self.rows]]
             own[o] = scaled.T @ scaled / len(scaled)
-            nuisance[o] = self.beside[o][rows].T @ scaled / len(scaled)
+            nuisance[o] = beside.T @ scaled / len(scaled)
         return ColumnProducts(own, nuisance)
 
     @property
@@ -175,39 +197,49 @@ class RecordingProducts:
         """The columns of each unnamed form by itself, N, each of shape (n, k)."""
         return self._forms
 
-    def of_set(
-        self, changes: Sequence[Change], free: Free, added: Mapping[str, Array] | None = None
-    ) -> OfSet:
+    def of_set(self, changes: Sequence[Change], free: Free) -> OfSet:
         """Return a set at given parameters, with columns for its form errors and for unnamed forms.
 
         Parameters
         ----------
         changes : sequence of (name, parameters)
         free : sequence of tuple of str
-        added : mapping of ndarray, shape (n,), optional
+        """
+        return self._weighed(changes, free, *self.columns_of_set(changes, free), self._unnamed)
+
+    def of_effects(self, changes: Sequence[Change], free: Free, added: Mapping[str, Array]) -> OfSet:
+        """Return a set as :meth:`of_set` does, without unnamed forms, where more was recorded.
+
+        Parameters
+        ----------
+        changes : sequence of (name, parameters)
+        free : sequence of tuple of str
+        added : mapping of ndarray, shape (n,)
             What is recorded besides, N.
         """
-        labels, _ = columns_of(self.data, list(changes), list(free))
-        every = self.columns_of_set(changes, free)
-        for o, more in (added or {}).items():
+        none = {o: np.zeros((self.data.size, 0)) for o in self.data.outputs}
+        labels, every = self.columns_of_set(changes, free, none)
+        for o, more in added.items():
             every[o][:, -1] += more
-        count = next(iter(every.values())).shape[1] - 1 - len(labels)
-        unnamed = next(iter(self._unnamed.values())).shape[1]
-        copied = tuple((name, dict(values)) for name, values in changes)
-        return OfSet(copied, tuple(free), len(labels), count - unnamed, self.of(every))
+        return self._weighed(changes, free, labels, every, none)
 
     def with_forms(self, each: OfSet) -> OfSet:
         """Return a set with the columns of every unnamed form by itself."""
-        every = self.columns_of_set(each.changes, each.free)
+        _, every = self.columns_of_set(each.changes, each.free)
         joined = {
             o: np.hstack([x[:, :-1], *(f[o] for f in self._forms), x[:, -1:]]) for o, x in every.items()
         }
         counts = tuple(next(iter(form.values())).shape[1] for form in self._forms)
         return replace(each, products=self.of(joined), forms=counts)
 
-    def columns_of_set(self, changes: Sequence[Change], free: Free) -> dict[str, Array]:
-        """Return the columns of a set, N: parameters, form errors, unnamed forms, and the residual."""
-        data = self.data
+    def columns_of_set(
+        self, changes: Sequence[Change], free: Free, unnamed: Mapping[str, Array] | None = None
+    ) -> tuple[Labels, dict[str, Array]]:
+        """Return the columns of a set, N, and which parameter each of the first ones is.
+
+        Parameters, form errors, unnamed forms (those of the background if left out), and the residual.
+        """
+        data, unnamed = self.data, self._unnamed if unnamed is None else unnamed
         rest = residual(data, changes)
         labels, columns = columns_of(data, list(changes), list(free))
         off, wide = prior(data, changes, labels)
@@ -217,7 +249,18 @@ class RecordingProducts:
             errors = [
                 part[o] if other == o else np.zeros_like(part[o]) for part in shapes for other in data.outputs
             ]
-            every[o] = np.column_stack(
-                [columns[o] * wide, *errors, self._unnamed[o], rest[o] + columns[o] @ off]
-            )
-        return every
+            every[o] = np.column_stack([columns[o] * wide, *errors, unnamed[o], rest[o] + columns[o] @ off])
+        return labels, every
+
+    def _weighed(
+        self,
+        changes: Sequence[Change],
+        free: Free,
+        labels: Labels,
+        every: Mapping[str, Array],
+        unnamed: Mapping[str, Array],
+    ) -> OfSet:
+        first = self.data.outputs[0]
+        errors = every[first].shape[1] - 1 - len(labels) - unnamed[first].shape[1]
+        copied = tuple((name, dict(values)) for name, values in changes)
+        return OfSet(copied, tuple(free), len(labels), errors, self.of(every))

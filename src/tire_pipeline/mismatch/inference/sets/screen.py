@@ -87,7 +87,7 @@ def screen(products: RecordingProducts, guess: Likelihood, forms: Sequence[Scree
         they are chosen again, and scored.
     forms : sequence of ScreenedForm
     """
-    columns = _FormColumns(products, forms)
+    columns = _FormColumns(products, guess, forms)
     independent = _independent(columns, guess, columns.likeliest(columns.scores(guess)))
     likelihood = guess.counting(independent)
     scores = columns.scores(likelihood)
@@ -100,14 +100,14 @@ def screen(products: RecordingProducts, guess: Likelihood, forms: Sequence[Scree
 
 
 class _FormColumns:
-    """The columns of all forms and the residual, and their products."""
+    """The columns of all forms and the residual, and their products as a likelihood weighs them."""
 
-    def __init__(self, products: RecordingProducts, forms: Sequence[ScreenedForm]) -> None:
+    def __init__(self, products: RecordingProducts, guess: Likelihood, forms: Sequence[ScreenedForm]) -> None:
         data = products.data
         rest = residual(data, [])
         self.recording, self.forms = products, forms
         self.columns = {o: np.column_stack([*(f.columns[o] for f in forms), rest[o]]) for o in data.outputs}
-        self.products = products.of(self.columns)
+        self.products = guess.projected(products.of(self.columns))
         counts = [f.columns[data.outputs[0]].shape[1] for f in forms]
         self._rows = np.split(np.arange(sum(counts)), np.cumsum(counts)[:-1])
 
