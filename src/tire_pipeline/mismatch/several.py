@@ -13,8 +13,9 @@ from tire_pipeline.channels import INPUT_CHANNELS
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.as_recorded import without_unnamed
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
+from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.explain import Explainer
-from tire_pipeline.mismatch.model.residual import rms
+from tire_pipeline.mismatch.model.residual import rms, root_ratio_interval
 from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import with_held_out, without_equation
@@ -22,8 +23,6 @@ from tire_pipeline.recordings.conventions.canonical import notes_beside_assumed
 from tire_pipeline.recordings.join import join_recordings
 
 Array = np.ndarray
-_STRETCHES_RESAMPLED = 24
-"""Stretches of a held-out recording that are resampled as wholes for the interval."""
 
 
 def explain_recordings(
@@ -67,8 +66,8 @@ def explain_recordings(
 
     Notes
     -----
-    No fit sees the held-out recording. The interval of its errors resamples 24 stretches of it (Politis and
-    Romano, "The stationary bootstrap", 1994, with stretches of fixed length).
+    No fit sees the held-out recording. The interval of its errors resamples independent stretches of it
+    (Politis and Romano, "The stationary bootstrap", 1994, with stretches of fixed length).
 
     Examples
     --------
@@ -157,7 +156,7 @@ def predict_held_out(corrected: CorrectedModel, recording: pd.DataFrame, name: s
     -----
     Both predictions put in signs and units that were found to be wrong in the explained recordings, so that
     the difference is due to the effects. Wear, drift and a change of surface start from zero in this
-    recording. The interval resamples 24 stretches of the recording.
+    recording. The interval resamples independent stretches of the recording.
     """
     usable = _finite(recording)
     after = corrected.predict(usable)
@@ -186,10 +185,6 @@ def _finite(recording: pd.DataFrame) -> pd.DataFrame:
 
 
 def _error(before: Array, after: Array) -> PredictionError:
-    stretch = np.arange(before.size) * _STRETCHES_RESAMPLED // before.size
-    sums = [np.bincount(stretch, x**2, _STRETCHES_RESAMPLED) for x in (before, after)]
-    picks = np.random.default_rng(0).integers(_STRETCHES_RESAMPLED, size=(1000, _STRETCHES_RESAMPLED))
-    ratio = np.sqrt(sums[1][picks].sum(axis=1) / np.maximum(sums[0][picks].sum(axis=1), 1e-300))
-    low, high = np.quantile(ratio, [0.025, 0.975])
-    rms_before, rms_after = (rms(x) for x in (before, after))
-    return PredictionError(rms_before, rms_after, float(low), float(high))
+    stretch = np.arange(before.size) * INDEPENDENT_STRETCHES // before.size
+    squares = [np.bincount(stretch, x**2, INDEPENDENT_STRETCHES) for x in (after, before)]
+    return PredictionError(rms(before), rms(after), *root_ratio_interval(*squares))

@@ -18,7 +18,6 @@ from tire_pipeline.mismatch.effects.shared import njit
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-_ROWS_AT_ONCE = 512
 
 
 @dataclass
@@ -39,14 +38,6 @@ class Sums:
     ee: Array
     er: Array
     rr: Array
-
-
-def _product(a: Array, b: Array) -> Array:
-    """Return ``a.T @ b``, in pieces that stay in the processor's cache."""
-    out = np.zeros((a.shape[1], b.shape[1]))
-    for first in range(0, a.shape[0], _ROWS_AT_ONCE):
-        out += a[first : first + _ROWS_AT_ONCE].T @ b[first : first + _ROWS_AT_ONCE]
-    return out
 
 
 @njit(cache=True)
@@ -168,7 +159,7 @@ class System:
         ee, er, rr = np.zeros((self.count, k, k)), np.zeros((self.count, k)), np.zeros(self.count)
         for o, x in r.items():
             both = np.column_stack([e[o], x])
-            cross = self._by_block(self.white[o], both) if by_sweep else _product(self.white[o], both)[None]
+            cross = self._by_block(self.white[o], both) if by_sweep else (self.white[o].T @ both)[None]
             own = _block_products(np.ascontiguousarray(both), self._edges)
             ne[o], nr[o] = cross[:, :, :k], cross[:, :, k]
             ee += own[:, :k, :k]

@@ -17,8 +17,10 @@ from tire_pipeline.mismatch.discrepancy.repeating import repeating_forms
 from tire_pipeline.mismatch.discrepancy.ringing import ringing_forms
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import first_order, play
+from tire_pipeline.mismatch.model.channels import ALIKE, used
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
+from tire_pipeline.mismatch.model.simulated import DIFFERENCE
 
 Array = np.ndarray
 Columns = dict[str, Array]
@@ -26,21 +28,18 @@ _LAGS_OF_MEMORY = (1.0, 4.0)
 _PLAYS_BY_SLIP = {"slip_angle": (0.001, 0.003, 0.008), "slip_ratio": (0.008,)}
 """Half widths that are tried, rad and 1: well above the noise of the channels."""
 _SMOOTH = 0.1
-_SIZE_CLASSES = 16
-"""Sizes of slip, and of load, within which a rate is compared with itself."""
 
 
 def constant_form(data: Data, changes: list[Change]) -> Columns:
     """Friction and stiffness off by a constant: what a form gains only beyond this speaks against a name."""
-    h = 0.01
     now = simulate(data, changes)
     ways: dict[str, list[Array]] = {o: [] for o in data.outputs}
     for name, effect in catalogue().items():
         if not effect.constant:
             continue
-        there = simulate(data, [*changes, (name, {effect.constant: h})])
+        there = simulate(data, [*changes, (name, {effect.constant: DIFFERENCE})])
         for o in data.outputs:
-            ways[o].append((there[o] - now[o]) / h)
+            ways[o].append((there[o] - now[o]) / DIFFERENCE)
     return {o: np.column_stack(w) for o, w in ways.items()}
 
 
@@ -84,8 +83,7 @@ def _drivers(data: Data) -> Iterator[Array]:
             yield _beyond_place(data, size, name)
             yield size
             yield _unit(np.sign(x) * rate)
-            level = np.abs(x)
-            level = level / (level + float(np.quantile(level, 0.9)) / 3.0)
+            level = used(x)
         else:
             yield _unit(rate)
             level = x
@@ -105,10 +103,10 @@ def _beyond_place(data: Data, driver: Array, name: str) -> Array:
     """
     cell = np.zeros(data.size, np.intp)
     for x in (np.abs(data.get(name)), data.get("normal_load")):
-        edges = np.quantile(x, np.linspace(0.0, 1.0, _SIZE_CLASSES + 1)[1:-1])
-        cell = cell * _SIZE_CLASSES + np.searchsorted(edges, x)
-    count = np.bincount(cell, minlength=_SIZE_CLASSES**2)
-    mean = np.bincount(cell, driver, _SIZE_CLASSES**2) / np.maximum(count, 1)
+        edges = np.quantile(x, np.linspace(0.0, 1.0, ALIKE + 1)[1:-1])
+        cell = cell * ALIKE + np.searchsorted(edges, x)
+    count = np.bincount(cell, minlength=ALIKE**2)
+    mean = np.bincount(cell, driver, ALIKE**2) / np.maximum(count, 1)
     return driver - mean[cell]
 
 

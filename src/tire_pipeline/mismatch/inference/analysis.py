@@ -146,14 +146,12 @@ def inflation_of(left: dict[str, Array], *, in_time: bool) -> float:
         Whether neighbouring samples are neighbours in time.
     """
     total, weight = 0.0, 0.0
-    for white in left.values():
-        size = float(np.median(white**2) / 0.4549)
-        x = np.clip(white, -4.0 * np.sqrt(size), 4.0 * np.sqrt(size))
+    for x in left.values():
         colour = 1.0
         if in_time:
             lags = [float(np.mean(x[k:] * x[:-k])) / max(float(np.mean(x**2)), 1e-12) for k in range(1, 13)]
             for value in lags:
-                if value < 0.02:
+                if value * np.sqrt(x.size) < 1.0:  # no more than white noise has
                     break
                 colour += 2.0 * value
         total += max(float(np.mean(x**2)), 0.5) * colour

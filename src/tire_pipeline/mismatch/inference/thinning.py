@@ -45,7 +45,7 @@ def thinned(data: Data) -> Data:
 
 
 def _stretch(data: Data) -> int:
-    return max(int(_STRETCH / max(float(np.median(data.step)), 1e-9)), 200)
+    return max(int(_STRETCH / max(float(np.median(data.step)), 1e-9)), 1)
 
 
 def portions(data: Data) -> Iterator[Data]:

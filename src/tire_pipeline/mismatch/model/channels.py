@@ -28,6 +28,12 @@ that is smaller than this part of its largest gets no share."""
 ENOUGH_ROWS = 4000
 """Of a long recording, as many rows spread over it say the same of a few numbers as all of them."""
 
+CHANCE = 0.05
+"""Level of every test, and what an interval or a list leaves out: one in twenty."""
+
+ALIKE = 16
+"""Parts of a channel's range, with as many samples each, within which samples are alike."""
+
 _OUTLIERS = 0.005
 """Part of the samples at either end of a channel that may be outliers."""
 
@@ -41,6 +47,12 @@ def span(x: Array) -> tuple[float, float]:
 def largest(x: Array) -> float:
     """Return the largest size of a channel but for outliers: 99% are no larger."""
     return float(np.quantile(np.abs(x), 1.0 - 2.0 * _OUTLIERS))
+
+
+def used(slip: Array) -> Array:
+    """Return how much of the grip a slip uses, about: three quarters where one in ten is larger."""
+    size = np.abs(slip)
+    return size / (size + max(float(np.quantile(size, 0.9)) / 3.0, 1e-6))
 
 
 def white_noise(x: Array) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
 
 from tire_pipeline.mismatch.model.data import Data
@@ -26,6 +27,24 @@ def rms(x: ArrayLike) -> float:
     values = np.asarray(x, float)
     values = values[np.isfinite(values)]
     return float(np.sqrt(np.mean(values**2))) if values.size else float("nan")
+
+
+def root_ratio_interval(above: Array, below: Array) -> tuple[float, float]:
+    """Return the 95% interval of the root of a ratio of sums by resampling pieces as wholes.
+
+    Parameters
+    ----------
+    above, below : ndarray, shape (pieces,)
+        Of each piece, as its sum of squares and its number of samples; a single piece has no interval.
+    """
+
+    def whole(above: Array, below: Array, axis: int = -1) -> Array:
+        return np.sqrt(above.sum(axis=axis) / np.maximum(below.sum(axis=axis), 1e-300))
+
+    if below.size < 2:
+        return (float(whole(above, below)),) * 2
+    found = scipy.stats.bootstrap((above, below), whole, paired=True, method="percentile", rng=0)
+    return float(found.confidence_interval.low), float(found.confidence_interval.high)
 
 
 def share_above_noise(before: float, after: float, floor: float) -> float:

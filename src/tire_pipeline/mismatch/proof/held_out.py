@@ -8,10 +8,10 @@ import numpy as np
 
 from tire_pipeline.channels import MOMENT_CHANNELS
 from tire_pipeline.mismatch.inference.analysis import Analysis
-from tire_pipeline.mismatch.model.channels import white_noise
+from tire_pipeline.mismatch.model.channels import span, white_noise
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate_moments
-from tire_pipeline.mismatch.model.residual import residual, rms
+from tire_pipeline.mismatch.model.residual import residual, rms, root_ratio_interval
 from tire_pipeline.mismatch.proof.left_out import step_without
 from tire_pipeline.mismatch.proof.measured import OutputFit
 
@@ -22,9 +22,6 @@ def prove(
     analysis: Analysis,
     after: dict[str, Array],
     noise: Mapping[str, float],
-    *,
-    resamples: int = 400,
-    seed: int = 0,
 ) -> dict[str, OutputFit]:
     """Return for each output the error on sweeps that neither the choice of effects nor its fit has seen.
 
@@ -36,17 +33,14 @@ def prove(
         held-out condition the effects are locked, and the parameters are fitted to the sweeps outside of it.
     noise : mapping of float
         Output -> RMS of the recording's noise, N (:func:`.proof.noise_floor.noise_floors`).
-    resamples, seed : int
-        Of the interval, by resampling sweeps.
     """
     data = analysis.data
     before = {o: data.recorded[o] - data.base[o] for o in data.outputs}
-    rng = np.random.default_rng(seed)
     name, rows = held_out_condition(data)
     condition = _condition(analysis, rows) if rows is not None else None
     out = {}
     for o in data.outputs:
-        low, high = _interval(analysis, after[o], resamples, rng)
+        low, high = _interval(analysis, after[o])
         out[o] = OutputFit(
             noise_floor=noise[o],
             rms_before=rms(before[o]),
@@ -60,19 +54,13 @@ def prove(
     return out
 
 
-def _interval(
-    analysis: Analysis, after: Array, resamples: int, rng: np.random.Generator
-) -> tuple[float, float]:
+def _interval(analysis: Analysis, after: Array) -> tuple[float, float]:
     """Return the 95% interval of the RMS by resampling sweeps."""
     sums = np.bincount(analysis.block, after**2, analysis.system.count)
-    size = np.bincount(analysis.block, minlength=analysis.system.count)
-    picks = rng.integers(size.size, size=(resamples, size.size))
-    draws = np.sqrt(sums[picks].sum(axis=1) / np.maximum(size[picks].sum(axis=1), 1))
-    low, high = np.quantile(draws, [0.025, 0.975])
-    return float(low), float(high)
+    return root_ratio_interval(sums, np.bincount(analysis.block, minlength=analysis.system.count))
 
 
-def prove_moments(analysis: Analysis, *, resamples: int = 400, seed: int = 0) -> dict[str, OutputFit]:
+def prove_moments(analysis: Analysis) -> dict[str, OutputFit]:
     """Return the errors of the recorded moments, N m, which no fit has seen: only fx and fy were fitted.
 
     Moments that the model does not give (no coefficients, or another simulator's output in its place) are
@@ -84,12 +72,11 @@ def prove_moments(analysis: Analysis, *, resamples: int = 400, seed: int = 0) ->
         return {}
     plain = simulate_moments(data, [], names)
     corrected = simulate_moments(data, analysis.fit.changes, names)
-    rng = np.random.default_rng(seed)
     out = {}
     for name in names:
         recorded = data.channels[name]
         before, after = recorded - plain[name], recorded - corrected[name]
-        low, high = _interval(analysis, after, resamples, rng)
+        low, high = _interval(analysis, after)
         out[name] = OutputFit(
             noise_floor=white_noise(after) if data.time is not None else float("nan"),
             rms_before=rms(before),
@@ -110,14 +97,12 @@ def recorded_moments(data: Data) -> tuple[str, ...]:
 
 
 def held_out_condition(data: Data) -> tuple[str, Array | None]:
-    """Return the condition to hold out: the highest load, else the largest slip."""
+    """Return the condition to hold out: the upper half of the loads, else of the slips, by their range."""
     for name, unit in (("normal_load", "N"), ("slip_angle", "rad"), ("slip_ratio", "1")):
         if data.varies(name):
             x = np.abs(data.get(name))
-            limit = float(np.quantile(x, 0.8))
-            rows = x > limit
-            if 0.02 < rows.mean() < 0.6:
-                return f"|{name}| above {limit:.4g} {unit}", rows
+            limit = float(np.mean(span(x)))
+            return f"|{name}| above {limit:.4g} {unit}", x > limit
     return "", None
 
 
@@ -128,7 +113,7 @@ def _condition(analysis: Analysis, rows: Array) -> dict[str, Array] | None:
     count = analysis.system.count
     touched = np.bincount(analysis.block, rows.astype(float), count) > 0
     after = residual(analysis.data, analysis.fit.changes)
-    if touched.mean() > 0.7:
+    if touched.all():
         inside = np.bincount(analysis.block, rows.astype(float), count)
         size = np.bincount(analysis.block, minlength=count)
         touched = inside / np.maximum(size, 1) > 0.5

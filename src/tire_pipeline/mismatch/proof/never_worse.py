@@ -11,13 +11,12 @@ import scipy
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
+from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
 from tire_pipeline.mismatch.proof.nested import RepeatedChoice
 
 Array = np.ndarray
-SURE = 0.95
-"""How sure it has to be that a correction helps."""
 
 
 def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, dict[str, Array]]:
@@ -69,7 +68,7 @@ def _surely_less(analysis: Analysis, left: dict[str, Array]) -> bool:
     if gain.size < 2:
         return bool(gain.sum() > 0.0)
     error = float(gain.std(ddof=1)) / np.sqrt(gain.size)
-    return bool(gain.mean() > float(scipy.special.stdtrit(gain.size - 1, SURE)) * error)
+    return bool(gain.mean() > float(scipy.special.stdtrit(gain.size - 1, 1.0 - CHANCE)) * error)
 
 
 def _gains(analysis: Analysis, after: dict[str, Array]) -> Array:

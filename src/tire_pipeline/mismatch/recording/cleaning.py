@@ -14,13 +14,14 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.channels import POINT_CHANNELS, SLIP_AND_LOAD, shown_unit
+from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.recording.smoothing import denoise
 
 Array = np.ndarray
-_EVIDENCE_TO_SMOOTH = float(np.log(20.0))
-"""Log evidence from which the smooth channel is taken: 20 to 1. Without it a channel stays as recorded."""
+_EVIDENCE_TO_SMOOTH = -float(np.log(CHANCE))
+"""Log evidence from which the smooth channel is taken. Without it a channel stays as recorded."""
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
-from tire_pipeline.mismatch.model.channels import one_sided
+from tire_pipeline.mismatch.model.channels import CHANCE, ENOUGH_ROWS, one_sided, span
 from tire_pipeline.mismatch.model.forces import simulate
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
@@ -48,8 +48,6 @@ _TO_DO = {
     "is the tire or the rig, and what follows a channel has found its cause.",
 }
 """What to do next where no open name asks for a sweep."""
-_MOST_SHOWN = 4000
-"""Samples of a curve on the page."""
 
 
 @dataclass(frozen=True)
@@ -308,13 +306,12 @@ def _share(analysis: Analysis, index: int, output: str) -> float:
 
 
 def _ranges(analysis: Analysis) -> dict[str, tuple[float, float]]:
-    """Lowest and highest value of each axis (0.5 and 99.5% quantile)."""
+    """Lowest and highest value of each axis but for outliers."""
     data, out = analysis.data, {}
     for axis in ("time", *OPERATING_CHANNELS):
         values = data.time if axis == "time" else data.channels.get(axis)
         if values is not None:
-            low, high = np.quantile(values, [0.005, 0.995])
-            out[axis] = (float(low), float(high))
+            out[axis] = span(values)
     return out
 
 
@@ -334,7 +331,7 @@ def _candidates(analysis: Analysis, answer: SetAnswer) -> list[dict[str, Any]]:
             why = "is less likely than the named effects" if answer.names else "does not pay for itself"
         row = {"name": name, "kind": effect.kind, "accepted": name in answer.names, "gain": gain, "why": why}
         rows.append(row)
-    return sorted(rows, key=lambda r: (not r["accepted"], -(r["gain"] if r["gain"] is not None else -1e9)))
+    return sorted(rows, key=lambda r: (not r["accepted"], -(r["gain"] if r["gain"] is not None else -np.inf)))
 
 
 def _probabilities(answer: SetAnswer) -> list[tuple[tuple[str, ...], float]]:
@@ -343,7 +340,7 @@ def _probabilities(answer: SetAnswer) -> list[tuple[tuple[str, ...], float]]:
     for names, p in sorted(answer.probabilities.items(), key=lambda each: -each[1]):
         out.append((names, p))
         total += p
-        if total > 0.95:
+        if total > 1.0 - CHANCE:
             break
     return out
 
@@ -351,7 +348,7 @@ def _probabilities(answer: SetAnswer) -> list[tuple[tuple[str, ...], float]]:
 def _series(analysis: Analysis, noise: Mapping[str, float]) -> dict[str, Any]:
     """Arrays for the page's figures."""
     data = analysis.data
-    step = max(1, data.size // _MOST_SHOWN)
+    step = max(1, data.size // ENOUGH_ROWS)
     before, after = residual(data, []), residual(data, analysis.fit.changes)
     out: dict[str, Any] = {
         "time": None if data.time is None else data.time[::step],

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 import re
+import reprlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -30,12 +31,10 @@ from tire_pipeline.mismatch.unnamed_physics.memories import lag
 Array = np.ndarray
 FUNCTIONS = ("abs", "sqrt", "sin", "cos", "exp", "tanh", "highest")
 MEMORIES = ("lag", "lagway", "play")
-LONGEST = 2000
-"""Characters of an equation."""
+LONGEST = 20_000
+"""Characters of an equation, or of a file's entry that holds equations."""
 DEEPEST = 40
 """Brackets within brackets."""
-LARGEST = 1e12
-"""Size of a number."""
 _TOKEN = re.compile(r"\s*(?:(\d+(?:\.\d*)?(?:[eE][+-]?\d{1,3})?)|([A-Za-z_][A-Za-z_0-9]{0,31})|([-+*/^(),]))")
 
 
@@ -75,7 +74,7 @@ class Node:
         return own.union(*(part.symbols for part in self.parts))
 
 
-@lru_cache(maxsize=2000)
+@lru_cache
 def parse(text: str) -> Node:
     """Read an equation.
 
@@ -86,9 +85,16 @@ def parse(text: str) -> Node:
     """
     if not isinstance(text, str) or len(text) > LONGEST:
         raise EquationError(
-            "an equation is text of at most 2000 characters", todo="shorten or leave out the equation"
+            f"an equation is text of at most {LONGEST} characters", todo="shorten or leave out the equation"
         )
-    return _Reader(text).equation()
+    try:
+        tree = _Reader(text).equation()
+        hash((tree, tree.size, tree.symbols))  # what reads it goes as deep as these
+    except RecursionError as error:
+        raise EquationError(
+            "an equation has too many parts within parts", todo="shorten or leave out the equation"
+        ) from error
+    return tree
 
 
 class _Reader:
@@ -101,7 +107,7 @@ class _Reader:
         while at < len(text.rstrip()):
             found = _TOKEN.match(text, at)
             if found is None:
-                raise self._error(f"{text[at : at + 8]!r} is not of the grammar")
+                raise self._error(f"{text[at:].split()[0]!r} is not of the grammar")
             number, name, sign = found.groups()
             self.tokens.append(("number", number) if number else ("name", name) if name else ("sign", sign))
             at = found.end()
@@ -115,7 +121,8 @@ class _Reader:
 
     def _error(self, what: str) -> EquationError:
         return EquationError(
-            f"{what} in the equation {self.text[:80]!r}", todo="write it in the grammar of unnamed physics"
+            f"{what} in the equation {reprlib.repr(self.text)}",
+            todo="write it in the grammar of unnamed physics",
         )
 
     def _next(self, *signs: str) -> str:
@@ -158,7 +165,7 @@ class _Reader:
             raise self._error("a number is missing")
         value = float(self.tokens[self.at][1])
         self.at += 1
-        if not value <= LARGEST:
+        if not math.isfinite(value):
             raise self._error("a number is too large")
         return value
 

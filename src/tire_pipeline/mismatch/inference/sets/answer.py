@@ -19,14 +19,15 @@ from tire_pipeline.mismatch.inference.evidence.hypotheses import (
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
+from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.model.forces import Change
 
 Array = np.ndarray
 Names = tuple[str, ...]
+OPEN = CHANCE
+"""What is less likely than this part of the first is no alternative."""
 LEVEL = 0.5
 """A name, with its alternatives, is given where it is likelier than not."""
-OPEN = 0.05
-"""What is less likely than this part of the first is no alternative: what 95% leave open."""
 MOST_ALTERNATIVES = 2
 """More names would be no answer."""
 

@@ -19,10 +19,10 @@ from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
 _DAMPINGS = (1e-6, 0.1, 3.0)
+_PARTS_OF_TIME = 50.0
+"""Of the whole: so far a moment moves first, half of the way between those that are begun from."""
 _ENOUGH = 0.05
 """Log evidence below which a step is the last one."""
-_LEAST_STEP = 0.05
-"""s; moments are not resolved any better."""
 
 
 def fitted(
@@ -44,8 +44,10 @@ def fitted(
     smooth = [tuple(p for p in v.free if p not in v.effect.scanned) for v in variants]
     for step in range(steps):
         changes, gain, near = _step(products, likelihood, changes, smooth)
-        changes, more = _scan(products, near, changes, smooth, 50.0 if step == 0 else 800.0)
-        if gain + more < _ENOUGH:
+        if step == 0:
+            changes, more = _scan(products, near, changes, smooth)
+            gain += more
+        if gain < _ENOUGH:
             break
     return products.of_set(changes, free)
 
@@ -118,7 +120,6 @@ def _scan(
     likelihood: Likelihood,
     changes: list[Change],
     free: Sequence[tuple[str, ...]],
-    part: float,
 ) -> tuple[list[Change], float]:
     """Move by trial the moments at which the force jumps: the derivative with respect to one is a spike."""
     time = products.data.time
@@ -128,8 +129,8 @@ def _scan(
     assert time is not None  # the effect needs a time line
     first = best = _cost(products, likelihood, changes, free)
     for i, moment in moments:
-        width = float(time[-1] - time[0]) / part
-        while width > _LEAST_STEP:
+        width = float(time[-1] - time[0]) / _PARTS_OF_TIME
+        while width > products.data.sampling:
             for sign in (1.0, -1.0):
                 trial: list[Change] = [(n, dict(p)) for n, p in changes]
                 there = float(np.clip(changes[i][1][moment] + sign * width, time[0], time[-1]))
