@@ -23,11 +23,11 @@ from tire_pipeline.mismatch.unnamed_physics.grammar import number, parse
 from tire_pipeline.mismatch.unnamed_physics.ideas import matching
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
 from tire_pipeline.mismatch.unnamed_physics.problem import (
+    USUAL_MISFIT,
     Unexplained,
     by_condition,
     coarsely,
     problem_of,
-    usual_misfit,
 )
 from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import (
@@ -73,7 +73,7 @@ def more_than_usual(analysis: Analysis) -> bool:
     misfit. The noise here is that of neighbouring samples alone.
     """
     for o, rest in residual(analysis.data, analysis.fit.changes).items():
-        least = np.hypot(usual_misfit() * analysis.largest[o], white_noise(rest))
+        least = np.hypot(USUAL_MISFIT * analysis.largest[o], white_noise(rest))
         if float(np.sqrt(np.mean(rest**2))) > least:
             return True
     return False
