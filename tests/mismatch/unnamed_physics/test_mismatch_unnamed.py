@@ -18,7 +18,7 @@ from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.corrected.as_recorded import never_worse
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, from_sidecar
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
-from tire_pipeline.mismatch.unnamed_physics.library import PLAY_IN, Numbers, memory_factors
+from tire_pipeline.mismatch.unnamed_physics.library import memory_factors
 from tire_pipeline.mismatch.unnamed_physics.problem import Unexplained, by_condition
 from tire_pipeline.mismatch.unnamed_physics.products import Columns
 from tire_pipeline.mismatch.unnamed_physics.search import find
@@ -307,10 +307,10 @@ def test_an_effect_can_be_taken_out_of_the_catalogue(tire, record):
 
 def test_without_speed_no_equation_remembers_the_way_rolled():
     """One that did could not be put into the recording that it was found in."""
-    numbers = Numbers([1.0], [1.0], {text: [0.01] for text in PLAY_IN})
-    moves = frozenset({"time", "slip_angle", "normal_load"})
-    without = [factor.text for factor in memory_factors(moves, numbers)]
-    known = [factor.text for factor in memory_factors(moves | {"way"}, numbers)]
+    without = [factor.text for factor in memory_factors(frozenset({"time", "slip_angle", "normal_load"}))]
+    known = [
+        factor.text for factor in memory_factors(frozenset({"time", "way", "slip_angle", "normal_load"}))
+    ]
     assert without
     assert not any("lagway(" in text for text in without)
     assert any("lagway(" in text for text in known)

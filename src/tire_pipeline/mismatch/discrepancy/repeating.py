@@ -13,8 +13,7 @@ from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.model.states import OF_A_TURN
 
 Array = np.ndarray
-_SHORTEST_LENGTH = 3.0
-LONGEST_LENGTH = 14.0
+_CIRCUMFERENCES = (3.0, 14.0)
 """What drums and belts measure round, m."""
 _HARMONICS = 2
 _PADDED = 2
@@ -56,13 +55,15 @@ def strongest_length(data: Data, rest: Array) -> float | None:
     rolled = data.distance
     way = float(rolled[-1] - rolled[0])
     step = float(np.median(np.diff(rolled)))
-    if way < INDEPENDENT_STRETCHES * LONGEST_LENGTH or not 0.0 < step < _SHORTEST_LENGTH / (2 * _HARMONICS):
+    if way < INDEPENDENT_STRETCHES * _CIRCUMFERENCES[1] or not 0.0 < step < _CIRCUMFERENCES[0] / (
+        2 * _HARMONICS
+    ):
         return None
     even = np.arange(rolled[0], rolled[-1], step)
     fast = rest - data.running_mean(rest, 1.0)
     power = np.abs(np.fft.rfft(np.interp(even, rolled, fast), _PADDED * even.size)) ** 2
     per_metre = np.arange(power.size) / (_PADDED * even.size * step)
-    first = np.flatnonzero((per_metre >= 1.0 / LONGEST_LENGTH) & (per_metre <= 1.0 / _SHORTEST_LENGTH))
+    first = np.flatnonzero((per_metre >= 1.0 / _CIRCUMFERENCES[1]) & (per_metre <= 1.0 / _CIRCUMFERENCES[0]))
     turns = 1.0 / per_metre[first] / (2.0 * np.pi * data.radius)
     first = first[(turns < OF_A_TURN[0]) | (turns > OF_A_TURN[1])]
     first = first[2 * first < power.size]

@@ -6,10 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
-from tire_pipeline.mismatch.discrepancy.repeating import LONGEST_LENGTH
-from tire_pipeline.mismatch.model.channels import largest
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
     MOST_TERMS,
     Model,
@@ -19,11 +16,7 @@ from tire_pipeline.mismatch.unnamed_physics.evidence import (
     shortest,
 )
 from tire_pipeline.mismatch.unnamed_physics.library import (
-    GRID_RATIO,
-    PLAY_IN,
-    Numbers,
     Term,
-    grid,
     now_factors,
     path_factors,
     products,
@@ -34,12 +27,16 @@ from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns, Prod
 Array = np.ndarray
 EVERYTHING = np.ones(FOLDS, bool)
 _GROWN = 8
-"""Terms that are looked at more closely: multiplied by a second factor, and of those a third one, and moved
-between the numbers of the grid."""
+"""Terms of the screen that are multiplied by a second factor, and of those a third one."""
 _SUMMED_TERMS = 90
 """Terms of which all sums are kept."""
-_HALVINGS = 3
-"""Times that the gap between two numbers of the grid is halved around the best one."""
+_REFINED = 4
+_STEPS_OF_NUMBERS = (1.8, 1.35, 1.15)
+_RADII = (0.1, 2.5)
+"""Radii of what may roll along, m."""
+_SHORTEST_WAY = 10.0
+_PER_TURN = 8.0
+_MOST_EVEN_POINTS = 16384
 
 Ranked = list[tuple[float, Term]]
 
@@ -82,40 +79,20 @@ def choose(columns: Columns, kept: Array = EVERYTHING, *, refine: bool = True) -
     problem = columns.problem
     time = problem.table.columns.get("t", np.zeros(1))
     span = (float(time[0]), float(time[-1])) if time[-1] > time[0] else (0.0, 1.0)
-    first = single_terms(problem.moves, problem.outputs, span, _resolved(columns))
-    first += _rolling(columns, kept)
+    first = single_terms(problem.moves, problem.outputs, span) + _rolling(columns, kept)
     ranked = _screened(columns, first, problem.inflation, kept)
     inflation = _inflation_beside_the_best(columns, ranked)
     found = [ranked]
     factors = now_factors(problem.moves)
     for _ in range(2):
-        grown = products(_distinct(found[-1])[:_GROWN], factors)
+        grown = products(_distinct(found[-1][:40])[:_GROWN], factors)
         found.append(_screened(columns, grown, inflation, kept))
     terms = _best_of(found, _SUMMED_TERMS)
     if refine:
         terms = list(dict.fromkeys([*_refined(columns, terms, inflation, kept), *terms]))
     terms, sums = columns.products(terms)
     reduced = columns.reduced(sums, inflation, kept)
-    return ChosenModels(terms, sums, reduced, enumerate_models(terms, reduced, _GROWN))
-
-
-def _resolved(columns: Columns) -> Numbers:
-    """Numbers between what happens from sample to sample and the whole of it: time, drums, what has play."""
-    table = columns.problem.table
-
-    def each_step(x: Array) -> float:
-        return float(np.mean(np.abs(x[~table.start])))
-
-    time = table.columns.get("t", np.zeros(1))
-    parts = {text: columns.part(text) for text in PLAY_IN}
-    return Numbers(
-        grid(each_step(table.step), float(time[-1] - time[0])),
-        grid(each_step(table.way), LONGEST_LENGTH),
-        {
-            text: [] if x is None else grid(each_step(np.diff(x, prepend=x[0])), largest(x))
-            for text, x in parts.items()
-        },
-    )
+    return ChosenModels(terms, sums, reduced, enumerate_models(terms, reduced))
 
 
 def _screened(columns: Columns, terms: Sequence[Term], inflation: float, kept: Array) -> Ranked:
@@ -133,7 +110,7 @@ def _inflation_beside_the_best(columns: Columns, ranked: Ranked) -> float:
     problem = columns.problem
     if problem.settled:
         return problem.inflation
-    best = _distinct(ranked)[:_GROWN]
+    best = _distinct(ranked[:60])[:_GROWN]
     return min(problem.inflation, columns.inflation_beside(best)) if best else problem.inflation
 
 
@@ -161,10 +138,9 @@ def _refined(columns: Columns, terms: Sequence[Term], inflation: float, kept: Ar
     """Move the numbers in the best terms with a memory between those of the grid."""
     out: list[Term] = []
     with_number = [t for t in terms if any("{}" in f.text and f.kind == "memory" for f in t.factors)]
-    for begun in with_number[:_GROWN]:
-        term, step = begun, GRID_RATIO
-        for _ in range(_HALVINGS):
-            step = float(np.sqrt(step))
+    for begun in with_number[:_REFINED]:
+        term = begun
+        for step in _STEPS_OF_NUMBERS:
             trials = [_moved(term, power) for power in (1.0 / step, 1.0, step)]
             ranked = _screened(columns, trials, inflation, kept)
             if ranked:
@@ -185,7 +161,7 @@ def _rolling(columns: Columns, kept: Array) -> list[Term]:
     """Terms that repeat along the road, at the radius at which most power is."""
     p = columns.problem
     way = p.table.columns.get("way")
-    if way is None or way[-1] - way[0] < LONGEST_LENGTH or "slip_angle" not in p.moves | {"slip_ratio"}:
+    if way is None or way[-1] - way[0] < _SHORTEST_WAY or "slip_angle" not in p.moves | {"slip_ratio"}:
         return []
     seen = kept[columns.folds]
     out: list[Term] = []
@@ -209,20 +185,22 @@ def _rolling(columns: Columns, kept: Array) -> list[Term]:
 def _strongest_radius(signal: Array, way: Array) -> float | None:
     """Radius (m) at whose turns a signal has most power: on an even grid of the way, then nearby.
 
-    None if there are too few samples to see what repeats in the longest drum or belt.
+    None if the way is too long for an even grid that resolves the turns.
     """
-    span, count = float(way[-1] - way[0]), way.size
+    span = float(way[-1] - way[0])
+    count = int(np.clip(_PER_TURN * span / (2.0 * np.pi * _RADII[0]), 256, _MOST_EVEN_POINTS))
     even = np.interp(np.linspace(way[0], way[-1], count), way, signal)
     power = np.abs(np.fft.rfft(even, 2 * count))
     rates = np.arange(power.size) * np.pi * (count - 1) / (span * count)
-    inside = rates * LONGEST_LENGTH > 2.0 * np.pi
+    inside = (rates > 1.0 / _RADII[1]) & (rates < 1.0 / _RADII[0])
     if not inside.any():
         return None
     best, width = float(rates[inside][int(np.argmax(power[inside]))]), float(rates[1])
-    near = scipy.optimize.minimize_scalar(
-        lambda rate: -abs(signal @ np.exp(1j * rate * way)), bounds=(best - width, best + width)
-    )
-    return 1.0 / float(near.x)
+    for _ in range(3):
+        near = np.linspace(best - width, best + width, 9)
+        best = float(near[int(np.argmax([abs(signal @ np.exp(1j * rate * way)) for rate in near]))])
+        width /= 4.0
+    return 1.0 / best
 
 
 __all__ = ["EVERYTHING", "ChosenModels", "choose"]

@@ -10,13 +10,17 @@ from itertools import combinations
 
 import numpy as np
 
-from tire_pipeline.mismatch.discrepancy.form_error import USUAL_FORM_ERROR
 from tire_pipeline.mismatch.unnamed_physics.library import Term
-from tire_pipeline.mismatch.unnamed_physics.products import PRIOR_SIZE, Reduced
+from tire_pipeline.mismatch.unnamed_physics.products import Reduced
 
 Array = np.ndarray
+PRIOR_SIZE = 0.05
+"""Standard deviation of what a term does, root mean square over the largest force."""
 EACH_DRIVER = 2.0
 """Log evidence that a driver costs."""
+WRONG_FORM = 0.15
+"""How wrong the form of a term may be, as a share of it: differences of evidence below the square of it, of
+all the evidence, say nothing."""
 MOST_TERMS = 3
 
 
@@ -82,18 +86,20 @@ def coefficients(reduced: Sequence[Reduced], terms: Sequence[int]) -> tuple[Arra
     return found
 
 
-def enumerate_models(terms: Sequence[Term], reduced: Sequence[Reduced], triples_of: int) -> list[Model]:
+def enumerate_models(
+    terms: Sequence[Term], reduced: Sequence[Reduced], *, pairs_of: int = 60, triples_of: int = 12
+) -> list[Model]:
     """Return single terms, pairs and triples, the likeliest first.
 
-    All singles, all pairs, and so many of the likeliest pairs with each third term.
+    All singles, all pairs of the likeliest singles, and the likeliest pairs with each third term.
     """
     singles = np.arange(len(terms))[:, None]
     models = _judged(terms, reduced, singles)
-    every = range(len(terms))
-    pairs = np.array(list(combinations(every, 2)), int).reshape(-1, 2)
+    best = [m.terms[0] for m in models[:pairs_of]]
+    pairs = np.array(list(combinations(best, 2)), int).reshape(-1, 2)
     models += _judged(terms, reduced, pairs) if len(pairs) else []
     two = sorted((m for m in models if len(m.terms) == 2), key=lambda m: -m.score)[:triples_of]
-    three = {tuple(sorted((*m.terms, j))) for m in two for j in every if j not in m.terms}
+    three = {tuple(sorted((*m.terms, j))) for m in two for j in best if j not in m.terms}
     triples = np.array(sorted(three), int).reshape(-1, 3)
     models += _judged(terms, reduced, triples) if len(triples) else []
     return sorted(models, key=lambda m: -m.score)
@@ -110,12 +116,9 @@ def _judged(terms: Sequence[Term], reduced: Sequence[Reduced], sets: Array) -> l
 
 
 def tolerance(models: Sequence[Model]) -> float:
-    """Log evidence by which models have to differ to be told apart: forms are never quite right.
-
-    Of a form that is wrong by a share, the square of it is the part of all evidence that says nothing.
-    """
+    """Log evidence by which models have to differ to be told apart: forms are never quite right."""
     most = max((m.evidence for m in models), default=0.0)
-    return max(1.0, USUAL_FORM_ERROR**2 * most)
+    return max(1.0, WRONG_FORM**2 * most)
 
 
 def shortest(models: Sequence[Model], terms: Sequence[Term], most_terms: int = MOST_TERMS) -> Model | None:

@@ -7,21 +7,20 @@ that breaks this costs more (conicity and ply steer do).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-
-import numpy as np
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.unnamed_physics.grammar import number, parse
 
-GRID_RATIO = float(np.sqrt(10.0))
-"""Between neighbouring numbers that are tried, half a decade; the search goes on between them."""
-PLAY_IN = {"s": "slip_angle", "fy/(F0*L)": "fy"}
-"""What may reach the tire through a joint with play: its text, and the channel."""
-EACH_NODE = float(np.log(2.0))
-"""Log evidence that a node costs, one bit: a shorter equation comes first."""
+LAGS = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0)
+"""s; between them the search goes on from the best."""
+WAYS = (0.1, 0.3, 1.0, 3.0)
+"""m."""
+PLAYS = {"s": (0.0015, 0.004, 0.01), "fy/(F0*L)": (0.05, 0.15, 0.4)}
+EACH_NODE = 0.7
+"""Log evidence that a node costs: a shorter equation comes first."""
 BREAKS_MIRROR = 3.0
 """Log evidence that a term costs which breaks the mirror symmetry."""
 
@@ -182,34 +181,7 @@ def time_factors(first: float, last: float) -> list[Factor]:
     return [_one(f"(t - {number(first)})/{number(last - first)}", "time")]
 
 
-@dataclass(frozen=True)
-class Numbers:
-    """Numbers of the grid that a recording resolves.
-
-    Parameters
-    ----------
-    lags : sequence of float
-        s.
-    ways : sequence of float
-        m.
-    plays : mapping of sequence of float
-        Text of :data:`PLAY_IN` -> half widths.
-    """
-
-    lags: Sequence[float]
-    ways: Sequence[float]
-    plays: Mapping[str, Sequence[float]]
-
-
-def grid(low: float, high: float) -> list[float]:
-    """Return the numbers of the grid from the least to the largest that a recording resolves."""
-    if not 0.0 < low < high:
-        return []
-    first, last = np.ceil(np.log([low, high]) / np.log(GRID_RATIO))
-    return [float(value) for value in GRID_RATIO ** np.arange(first, last)]
-
-
-def memory_factors(moves: frozenset[str], numbers: Numbers) -> Iterator[Factor]:
+def memory_factors(moves: frozenset[str]) -> Iterator[Factor]:
     """Factors of what channels and forces were; a memory of the way rolled where that is known."""
     if "time" not in moves:
         return
@@ -230,18 +202,19 @@ def memory_factors(moves: frozenset[str], numbers: Numbers) -> Iterator[Factor]:
         if not live or (len(channels) == 1 and live != list(channels)):
             continue
         drivers = [c if c == "speed" else f"memory of {c}" for c in live]
-        for value in numbers.lags:
+        for value in LAGS:
             yield _one(f"lag({text}, {{}}) - {text}", *drivers, odd=odd, value=value, kind="memory")
-            if not text.isalpha():
+            if value > 0.2 and len(text) > 4:
                 yield _one(f"lag({text}, {{}})", *drivers, odd=odd, value=value, kind="memory")
         if "way" in moves and ("speed" in moves or text in ("s", "k", "L", "g")):
-            for value in numbers.ways if text.isalpha() else ():
+            for value in WAYS if len(text) < 4 else ():
                 yield _one(f"lagway({text}, {{}}) - {text}", *drivers, odd=odd, value=value, kind="memory")
         if text.startswith("abs("):
             yield _one(f"highest({text})", *drivers, odd=odd, kind="memory")
-    for text, name in PLAY_IN.items():
+    for text, widths in PLAYS.items():
+        name = "slip_angle" if text == "s" else "fy"
         if name in moves | always:
-            for value in numbers.plays[text]:
+            for value in widths:
                 yield _one(
                     f"play({text}, {{}}) - {text}", f"memory of {name}", odd=True, value=value, kind="memory"
                 )
@@ -255,12 +228,10 @@ def path_factors(radius: float) -> tuple[Factor, Factor]:
     )
 
 
-def single_terms(
-    moves: frozenset[str], outputs: tuple[str, ...], span: tuple[float, float], numbers: Numbers
-) -> list[Term]:
+def single_terms(moves: frozenset[str], outputs: tuple[str, ...], span: tuple[float, float]) -> list[Term]:
     """Terms of one factor, for the screen."""
     now = now_factors(moves) + (time_factors(*span) if "time" in moves else [])
-    memory = list(memory_factors(moves, numbers))
+    memory = list(memory_factors(moves))
     return [t for way in WAYS_TO_ACT for t in _of_way(way, now, memory, outputs)]
 
 

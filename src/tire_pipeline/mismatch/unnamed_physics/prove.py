@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
-from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import MOST_TERMS, coefficients, drivers_of
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
@@ -21,8 +20,8 @@ from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 Array = np.ndarray
 _LEAST_GONE = 0.03
 """Least share of the squared mismatch that has to go on unseen sweeps."""
-_VIEWS = 2
-"""In which a recording is weighed, each with one term, two and three: so many tests there are."""
+_LEVEL_OF_WILCOXON = 0.05 / 6.0
+"""Of the Wilcoxon test over sweeps, of which there are six: two views, each with one term, two and three."""
 _NEAR_MOST = 0.95
 _PLAIN_SHARE = 0.1
 _PLAIN_LEVEL = 0.001
@@ -76,7 +75,7 @@ class Proven:
             self.outputs
             and self.choices > FOLDS // 2
             and self.share >= _LEAST_GONE
-            and self.p_value < CHANCE / (_VIEWS * MOST_TERMS)
+            and self.p_value < _LEVEL_OF_WILCOXON
             and 2 * self.better > self.sweeps
         )
 
@@ -124,7 +123,7 @@ def judged(columns: Columns, predicted: Mapping[str, Array], choices: int) -> Pr
     sweeps = int(problem.block.max()) + 1
     weight = {o: 1.0 / max(float(before[o].mean()), 1e-300) for o in good}
     gain = sum(weight[o] * np.bincount(problem.block, before[o] - after[o], sweeps) for o in good)
-    p_value = float(scipy.stats.wilcoxon(gain, alternative="greater").pvalue)
+    p_value = float(scipy.stats.wilcoxon(gain, alternative="greater").pvalue) if sweeps > 5 else 1.0
     share = float(np.mean([gone[o] for o in good]))
     return Proven(predicted, choices, int(np.sum(gain > 0.0)), sweeps, p_value, share, good)
 
@@ -152,12 +151,9 @@ def ceiling(columns: Columns, drivers: frozenset[str], way_terms: list[Term]) ->
     """Predict each fold by a Gaussian process in the same drivers from the other folds, N.
 
     Squared-exponential over the factors of the equation's terms, each over its spread, times what the terms
-    multiply; 60 inducing points (Nystrom), sizes by their evidence. What no equation in these drivers
-    can exceed by much.
+    multiply; 60 inducing points (Nystrom), ridge of the noise. What no equation in these drivers can exceed
+    by much.
     """
-    # Slow to import, and most reports need none.
-    from sklearn.linear_model import BayesianRidge
-
     problem = columns.problem
     out = {o: np.zeros(problem.table.size) for o in problem.outputs}
     inputs = [columns.part(f.written) for t in way_terms for f in t.factors]
@@ -177,8 +173,9 @@ def ceiling(columns: Columns, drivers: frozenset[str], way_terms: list[Term]) ->
         design = design / max(float(np.sqrt(np.mean(design**2))), 1e-12)
         for fold in range(FOLDS):
             seen = columns.folds != fold
-            ridge = BayesianRidge(fit_intercept=False).fit(design[seen], problem.rest[o][seen])
-            out[o][~seen] = ridge.predict(design[~seen])
+            a = design[seen].T @ design[seen] + 1e-3 * seen.sum() * np.eye(design.shape[1])
+            c = np.linalg.solve(a, design[seen].T @ problem.rest[o][seen])
+            out[o][~seen] = design[~seen] @ c
     return out
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
-from tire_pipeline.mismatch.model.channels import ALIKE, least_spread, one_sided, span, white_noise
+from tire_pipeline.mismatch.model.channels import least_spread, one_sided, white_noise
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
@@ -42,6 +42,8 @@ from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL
 
 Array = np.ndarray
 _SHOWN = 3
+_BINS_OF_CURVE = 30
+_ABOVE_NOISE = 1.5
 _ONE_SIDED = "the recording turns to one side, and no equation from it can be trusted on the other"
 _NOT_PROVED = "no equation makes sweeps better that neither its choice nor its fit has seen"
 
@@ -73,7 +75,7 @@ def more_than_usual(analysis: Analysis) -> bool:
     misfit. The noise here is that of neighbouring samples alone.
     """
     for o, rest in residual(analysis.data, analysis.fit.changes).items():
-        least = np.hypot(USUAL_MISFIT * analysis.largest[o], white_noise(rest))
+        least = max(USUAL_MISFIT * analysis.largest[o], _ABOVE_NOISE * white_noise(rest))
         if float(np.sqrt(np.mean(rest**2))) > least:
             return True
     return False
@@ -102,7 +104,7 @@ def find(*views: Unexplained, plainly: bool = False) -> UnnamedReport:
         columns, choice, _ = next((each for each in looked if each[1].models), looked[0])
     best, proof = choice.best(which % MOST_TERMS + 1), proofs[which]
     sets, each = driver_posterior(choice.models, choice.terms)
-    shown = [(tuple(sorted(k)), p) for k, p in list(sets.items())[:_SHOWN]]
+    shown = [(tuple(sorted(k)), p) for k, p in list(sets.items())[:5]]
     if best is None:
         return UnnamedReport(None, "nothing in the library is worth its length", drivers=each, sets=shown)
     terms = [choice.terms[i] for i in best.terms]
@@ -173,7 +175,7 @@ def _ranges(problem: Unexplained, texts: Mapping[str, str]) -> dict[str, tuple[f
     seen = used | of_forces | ({"t"} if "way" in used else set())
     for symbol in sorted(s for s in seen if s in CHANNEL):
         x = problem.table.columns[symbol]
-        low, high = (x.min(), x.max()) if symbol == "t" else span(x)
+        low, high = (x.min(), x.max()) if symbol == "t" else np.quantile(x, [0.001, 0.999])
         short = 0.5 * max(least_spread(CHANNEL[symbol], x) - (high - low), 0.0) if symbol == "L" else 0.0
         found[symbol] = (float(low - short), float(high + short))
     return found
@@ -231,7 +233,7 @@ def _curve(columns: Columns, choice: ChosenModels, model: Model) -> dict[str, ob
     if x is None or base is None:
         return {}
     sign = np.sign(base)
-    edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, ALIKE + 1)))
+    edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, _BINS_OF_CURVE + 1)))
     if edges.size < 3:
         return {}
     at = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, edges.size - 2)

@@ -8,13 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from tire_pipeline.channels import SLIP_OF_FORCE, TANGENTIAL_FORCES
-from tire_pipeline.mismatch.model.forces import Change, simulate
+from tire_pipeline.channels import SLIP_AND_LOAD, SLIP_OF_FORCE, TANGENTIAL_FORCES
+from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
 from tire_pipeline.mismatch.unnamed_physics.grammar import SymbolTable
 
 Array = np.ndarray
 SPAN = 20.0
 """degC that one of ``h`` stands for."""
+_SLIP_DIFFERENCE = 2e-3
+_LOAD_DIFFERENCE = 0.01
 MEANING = {
     "s": "tan(slip_angle)",
     "k": "slip_ratio",
@@ -27,10 +29,10 @@ MEANING = {
     "way": "way rolled since the first sample, m: the sum of |speed| times the time step",
     "fx": "longitudinal force of the tire model with the named effects, N",
     "fy": "lateral force of the same, N",
-    "fx_slip": "d fx / d slip_ratio of the tire model, N",
-    "fy_slip": "d fy / d slip_angle of the tire model, N/rad",
-    "fx_load": "normal_load d fx / d normal_load of the tire model, N",
-    "fy_load": "normal_load d fy / d normal_load of the tire model, N",
+    "fx_slip": "d fx / d slip_ratio of the tire model, N (central difference, step 0.002)",
+    "fy_slip": "d fy / d slip_angle of the tire model, N/rad (central difference, step 0.002 rad)",
+    "fx_load": "normal_load d fx / d normal_load of the tire model, N (central difference, step 1%)",
+    "fy_load": "normal_load d fy / d normal_load of the tire model, N (central difference, step 1%)",
     "F0": "nominal load, N",
     "R0": "radius, m",
     "V0": "nominal speed, m/s",
@@ -118,7 +120,7 @@ def _nominal(data: Any) -> NominalValues:
     return NominalValues(
         F0=data.load_nominal,
         R0=data.radius,
-        V0=(float(data.speed_nominal) if "speed" in data.present else 0.0) or 1.0,
+        V0=max(float(data.speed_nominal), 1e-3) if "speed" in data.present else 1.0,
         P0=float(data.pressure_nominal) if "pressure" in data.present else 1.0,
         T0=round(middle("tread_temperature", 0.0), 1),
     )
@@ -126,8 +128,19 @@ def _nominal(data: Any) -> NominalValues:
 
 def _slopes(data: Any) -> dict[str, Array]:
     """The tire model's own slopes along the recording."""
+    names = SLIP_AND_LOAD
+    more = {"speed": data.model_speed, "pressure": data.model_pressure}
+
+    def at(**moved: Array) -> dict[str, Array]:
+        return plain_forces(data.tire, **{**{n: data.get(n) for n in names}, **moved}, **more)
+
     out = {}
     for force in TANGENTIAL_FORCES:
-        out[f"{force}_slip"] = data.slope(SLIP_OF_FORCE[force])[force]
-        out[f"{force}_load"] = data.get("normal_load") * data.slope("normal_load")[force]
+        slip = SLIP_OF_FORCE[force]
+        up, down = (at(**{slip: data.get(slip) + sign * _SLIP_DIFFERENCE})[force] for sign in (1.0, -1.0))
+        out[f"{force}_slip"] = (up - down) / (2.0 * _SLIP_DIFFERENCE)
+    load = data.get("normal_load")
+    up_load, down_load = (at(normal_load=load * (1.0 + sign * _LOAD_DIFFERENCE)) for sign in (1.0, -1.0))
+    for force in TANGENTIAL_FORCES:
+        out[f"{force}_load"] = (up_load[force] - down_load[force]) / (2.0 * _LOAD_DIFFERENCE)
     return out
