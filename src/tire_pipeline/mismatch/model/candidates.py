@@ -42,8 +42,14 @@ def variants(data: Data, names: Sequence[str] | None = None) -> tuple[list[Varia
         for start in effect.starts(data):
             free = tuple(p for p in effect.free(data, start) if _acts(data, effect, p))
             if free:
-                out.append(Variant(name, start, free))
+                out.append(Variant(name, _within(effect, start), free))
     return out, absent
+
+
+def _within(effect: Effect, start: Mapping[str, float]) -> dict[str, float]:
+    """Return a start within the effect's bounds: five samples are no delay where 20 s lie between two."""
+    bounds = {p.name: (p.low, p.high) for p in effect.parameters}
+    return {n: float(np.clip(x, *bounds[n])) if n in bounds else x for n, x in start.items()}
 
 
 def _acts(data: Data, effect: Effect, name: str) -> bool:

@@ -16,14 +16,12 @@ from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Evidence, Unknown
 from tire_pipeline.mismatch.inference.linearised_set import columns_of
 from tire_pipeline.mismatch.inference.priors import Labels, prior
-from tire_pipeline.mismatch.model.channels import white_noise
+from tire_pipeline.mismatch.model.channels import ENOUGH_ROWS, white_noise
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import residual, rms
 
 Array = np.ndarray
 Free = Sequence[tuple[str, ...]]
-ENOUGH_ROWS = 5000
-"""Rows from which on products are taken of every second, every third ..."""
 
 
 @dataclass(frozen=True)
