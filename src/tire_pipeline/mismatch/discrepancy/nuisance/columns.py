@@ -18,12 +18,13 @@ from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import directions, jacobian, shifts
 from tire_pipeline.mismatch.discrepancy.nuisance.flexible import flexible_form
 from tire_pipeline.mismatch.discrepancy.nuisance.transients import fast_load, memory
+from tire_pipeline.mismatch.model.channels import least_spread
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-_LEAST_DIRECTION = 1e-3
-"""A direction in which all coefficients change by as much as they are, and do less than so much of what the
-strongest direction does, is none that a fit can use."""
+_LEAST_ON_GRID = 1e-3
+"""Columns smaller on the grid than so much of what they are on the recording are not known there: a slip that
+does not vary but for noise has no range to spread a grid over."""
 
 
 class Sizes(NamedTuple):
@@ -84,7 +85,8 @@ def make_nuisance(data: Data) -> Nuisance:
 
     The flexible form is made orthogonal to the coefficients' Jacobian over an even grid of the
     recorded ranges, such as a fitter would have used, and not over the recording itself: what a fit
-    left there may still look like a change of coefficients here.
+    left there may still look like a change of coefficients here. An input that does not vary stands still on
+    both: two coefficients that act alike at one load would cancel there and not here.
 
     Parameters
     ----------
@@ -94,7 +96,7 @@ def make_nuisance(data: Data) -> Nuisance:
     parts: tuple[dict[str, Array], ...] = ({}, {}, {}, {}, {})
     for name in data.outputs:
         largest = largest_force(data, name)
-        here = {n: data.get(n) for n in SLIP_AND_LOAD}
+        here = {n: data.get(n) if data.varies(n) else _still(data, n) for n in SLIP_AND_LOAD}
         flexible, path = _misfit(data, name, here, grid)
         own = (directions(data, name, here) * largest, flexible * largest, path * largest)
         for part, columns in zip(parts, (*own, memory(data, name), fast_load(data, name)), strict=True):
@@ -107,7 +109,8 @@ def _misfit(data: Data, name: str, here: dict[str, Array], grid: dict[str, Array
     b, b_grid, ways = flexible_form(data, name, here, grid)
     c = np.hstack([jacobian(data, name, here), shifts(data, name, here)])
     c_grid = np.hstack([jacobian(data, name, grid), shifts(data, name, grid)])
-    return b - c @ np.linalg.lstsq(c_grid, b_grid, rcond=_LEAST_DIRECTION)[0], ways
+    known = _size(c_grid) > _LEAST_ON_GRID * _size(c)
+    return b - c[:, known] @ _solve(c_grid[:, known], b_grid), ways
 
 
 def largest_force(data: Data, name: str) -> float:
@@ -120,14 +123,22 @@ def largest_force(data: Data, name: str) -> float:
     return sizes[name] if sizes[name] > 0.3 * top else 0.3 * top
 
 
-def _grid(data: Data) -> dict[str, Array]:
-    """Even points over the recorded ranges: pure slip, slip with camber, combined slip, at five loads.
+def _size(columns: Array) -> Array:
+    """Root mean square of each column."""
+    return np.sqrt(np.mean(columns**2, axis=0)) if columns.size else np.zeros(columns.shape[1])
 
-    The grid covers all that was recorded, also where an input hardly varies: what coefficients do there, such
-    as two that are one at a single load, they do on the recording. An input that stands still stands where it
-    was recorded.
-    """
-    loads = np.linspace(*np.quantile(data.get("normal_load"), [0.005, 0.995]), 5)
+
+def _solve(a: Array, b: Array) -> Array:
+    """Least squares, columns of ``a`` scaled, small directions left out."""
+    size = np.sqrt((a**2).sum(axis=0))
+    size[size <= 0.0] = 1.0
+    return np.linalg.lstsq(a / size, b, rcond=1e-3)[0] / size[:, None]
+
+
+def _grid(data: Data) -> dict[str, Array]:
+    """Even points over the recorded ranges: pure slip, slip with camber, combined slip, at five loads."""
+    low, high = np.quantile(data.get("normal_load"), [0.005, 0.995])
+    loads = np.linspace(low, high, 5) if data.varies("normal_load") else [_at_rest(data, "normal_load")]
     a, k = _range(data, "slip_angle", 31), _range(data, "slip_ratio", 21)
     turned, rolled, lean = (_at_rest(data, n) for n in ("slip_angle", "slip_ratio", "camber"))
     rows = [(x, rolled, lean, f) for f in loads for x in a]
@@ -137,7 +148,7 @@ def _grid(data: Data) -> dict[str, Array]:
         rows += [(x, rolled, g, f) for f in loads for g in leans for x in a[::2]]
         rows += [(turned, x, g, f) for f in loads for g in leans for x in k[::2]]
     if data.has_combined:
-        rows += [(s, x, lean, f) for f in loads for s in a[::10] for x in k[::2]]
+        rows += [(s, x, lean, f) for f in loads for s in (-0.08, -0.04, 0.04, 0.08) for x in k[::2]]
     points = np.array(rows)
     return dict(zip(SLIP_AND_LOAD, points.T, strict=True))
 
@@ -149,6 +160,17 @@ def _range(data: Data, name: str, count: int) -> Array:
     return np.linspace(-top, top, count)
 
 
+def _still(data: Data, name: str) -> Array:
+    return np.full(data.size, _at_rest(data, name))
+
+
 def _at_rest(data: Data, name: str) -> float:
-    """Return where an input is while another one is swept: at zero, or where it stands still."""
-    return 0.0 if data.varies(name) else float(np.median(data.get(name)))
+    """Return where an input is while another one is swept: at zero, or where it stands still.
+
+    One that is no farther from zero than it has to move to count as moving is at zero: noise, or a wheel that
+    rolls freely.
+    """
+    if data.varies(name):
+        return 0.0
+    there = float(np.median(data.get(name)))
+    return there if abs(there) > least_spread(name, data.get(name)) else 0.0
