@@ -22,9 +22,9 @@ from tire_pipeline.mismatch.model.channels import least_spread
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-_LEAST_ON_GRID = 1e-3
-"""Columns smaller on the grid than so much of what they are on the recording are not known there: a slip that
-does not vary but for noise has no range to spread a grid over."""
+_LEAST_DIRECTION = 1e-3
+"""A direction in which coefficients change by as much as they are, and do less than so much of what the
+strongest direction does, is none that a fit would use."""
 
 
 class Sizes(NamedTuple):
@@ -96,21 +96,21 @@ def make_nuisance(data: Data) -> Nuisance:
     parts: tuple[dict[str, Array], ...] = ({}, {}, {}, {}, {})
     for name in data.outputs:
         largest = largest_force(data, name)
-        here = {n: data.get(n) if data.varies(n) else _still(data, n) for n in SLIP_AND_LOAD}
-        flexible, path = _misfit(data, name, here, grid)
+        here = {n: data.get(n) for n in SLIP_AND_LOAD}
+        flexible, path = _misfit(data, name, grid)
         own = (directions(data, name, here) * largest, flexible * largest, path * largest)
         for part, columns in zip(parts, (*own, memory(data, name), fast_load(data, name)), strict=True):
             part[name] = columns
     return Nuisance(*parts)
 
 
-def _misfit(data: Data, name: str, here: dict[str, Array], grid: dict[str, Array]) -> tuple[Array, Array]:
+def _misfit(data: Data, name: str, grid: dict[str, Array]) -> tuple[Array, Array]:
     """Return the flexible form without what the coefficients can do on the grid, and its part for the way."""
+    here = {n: data.get(n) if data.varies(n) else _still(data, n) for n in SLIP_AND_LOAD}
     b, b_grid, ways = flexible_form(data, name, here, grid)
     c = np.hstack([jacobian(data, name, here), shifts(data, name, here)])
     c_grid = np.hstack([jacobian(data, name, grid), shifts(data, name, grid)])
-    known = _size(c_grid) > _LEAST_ON_GRID * _size(c)
-    return b - c[:, known] @ _solve(c_grid[:, known], b_grid), ways
+    return b - c @ np.linalg.lstsq(c_grid, b_grid, rcond=_LEAST_DIRECTION)[0], ways
 
 
 def largest_force(data: Data, name: str) -> float:
@@ -121,18 +121,6 @@ def largest_force(data: Data, name: str) -> float:
     sizes = {n: float(np.quantile(np.abs(data.base[n]), 0.995)) for n in data.outputs}
     top = max(*sizes.values(), 1e-09)
     return sizes[name] if sizes[name] > 0.3 * top else 0.3 * top
-
-
-def _size(columns: Array) -> Array:
-    """Root mean square of each column."""
-    return np.sqrt(np.mean(columns**2, axis=0)) if columns.size else np.zeros(columns.shape[1])
-
-
-def _solve(a: Array, b: Array) -> Array:
-    """Least squares, columns of ``a`` scaled, small directions left out."""
-    size = np.sqrt((a**2).sum(axis=0))
-    size[size <= 0.0] = 1.0
-    return np.linalg.lstsq(a / size, b, rcond=1e-3)[0] / size[:, None]
 
 
 def _grid(data: Data) -> dict[str, Array]:
