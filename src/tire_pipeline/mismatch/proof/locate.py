@@ -9,14 +9,15 @@ import scipy
 
 from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.discrepancy.noise import ForceNoise
-from tire_pipeline.mismatch.model.channels import ALIKE, CHANCE, SMALL, largest
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-_FLIPS = round(CHANCE**-2) - 1
-"""Of signs: so many that a p-value at the level is known to a part of it that is the root of the level."""
-_WIDTHS = [2**k for k in range(int(np.log2(ALIKE)))]
-"""Of stretches, in parts of an axis: up to half of it."""
+_LEVEL_OF_FLIPS = 0.05
+_LEAST_FORCE = 0.1
+"""A share of the force is given where the force is above this part of the largest one."""
+_EVEN = 0.7
+"""One share of the force that is this part of the squared difference is off throughout, in no stretch."""
+_BINS_OF_AXIS = 16
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class Located:
         Mean of recorded minus simulated force in the direction of the simulated one, N (of the
         plain difference if ``signed`` is False).
     share : float
-        The same over the mean size of the simulated force; NaN where that is too small for a share of it.
+        The same over the mean size of the simulated force; NaN where that is below a tenth of the largest.
     p_value : float
         Largest statistic over all axes, stretches and scales under flips of whole sweeps.
     own : float
@@ -58,6 +59,7 @@ def locate(
     noise: dict[str, ForceNoise],
     block: Array,
     *,
+    flips: int = 199,
     seed: int = 0,
 ) -> list[Located]:
     """Find where a residual is not noise.
@@ -70,6 +72,8 @@ def locate(
     noise : dict of ForceNoise
     block : ndarray of int
         Sweep of each sample; signs are flipped by whole sweeps.
+    flips : int
+        Number of random flips.
 
     Returns
     -------
@@ -79,7 +83,7 @@ def locate(
     """
     rng = np.random.default_rng(seed)
     count = int(block.max()) + 1
-    signs = np.vstack([np.ones(count), rng.choice([-1.0, 1.0], size=(_FLIPS, count))])
+    signs = np.vstack([np.ones(count), rng.choice([-1.0, 1.0], size=(flips, count))])
     out: list[Located] = []
     for o, r in residual.items():
         for along in (True, False):
@@ -104,9 +108,9 @@ def _axes(
             values = data.smooth(axis)
         else:
             continue
-        edges = np.quantile(values, np.linspace(0.0, 1.0, ALIKE + 1))
-        for width in _WIDTHS:
-            for k in range(0, ALIKE + 1 - width, max(1, width // 2)):
+        edges = np.quantile(values, np.linspace(0.0, 1.0, 17))
+        for width in (1, 2, 4, 8):
+            for k in range(0, 17 - width, max(1, width // 2)):
                 low, high = float(edges[k]), float(edges[k + width])
                 if high - low > 0.02 * (edges[-1] - edges[0]):
                     tests.append((axis, low, high, (values >= low) & (values <= high)))
@@ -114,13 +118,15 @@ def _axes(
     sums = np.array([np.bincount(block, scaled * m, count) for *_, m in tests])
     size = np.sqrt((sums**2).sum(axis=1)) + 1e-12
     statistics = np.abs(signs @ sums.T) / size[None, :]
+    enough = np.array([(s != 0.0).sum() >= 5 for s in sums])
+    statistics[:, ~enough] = 0.0
     top = statistics.max(axis=1)
     found = []
     rows = []
     for axis in dict.fromkeys(t[0] for t in tests):
         own = [i for i, t in enumerate(tests) if t[0] == axis]
         chance = {i: float((1 + (top[1:] >= statistics[0, i]).sum()) / signs.shape[0]) for i in own}
-        sure = [i for i in own if chance[i] <= CHANCE]
+        sure = [i for i in own if chance[i] <= _LEVEL_OF_FLIPS]
         sure = [i for i in sure if _along(rest, data.base[output], tests[i][3]) == along]
         if not sure:
             continue
@@ -142,7 +148,8 @@ def _axes(
 
 def _direction(force: Array) -> Array:
     """Sign of a force, fading to zero where the force does."""
-    return np.clip(force / (SMALL * largest(force) + 1e-12), -1.0, 1.0)
+    largest = float(np.quantile(np.abs(force), 0.99))
+    return np.sign(force) * np.minimum(np.abs(force) / (0.05 * largest + 1e-12), 1.0)
 
 
 def _along(rest: Array, force: Array, rows: Array) -> bool:
@@ -161,7 +168,7 @@ def _values(data: Data, axis: str) -> Array:
 
 def _profile(values: Array, x: Array) -> Array:
     """Mean over all samples with nearly the same value of an axis."""
-    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, ALIKE + 1)[1:-1]))
+    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, _BINS_OF_AXIS + 1)[1:-1]))
     number = np.searchsorted(edges, values)
     size = np.maximum(np.bincount(number), 1)
     return np.asarray((np.bincount(number, x) / size)[number])
@@ -169,8 +176,9 @@ def _profile(values: Array, x: Array) -> Array:
 
 def _force(data: Data, output: str, rows: Array) -> float:
     """Mean size of the simulated force, N; NaN where it is too small for a share of it to mean something."""
-    here = float(np.abs(data.base[output][rows]).mean())
-    return here if here > SMALL * largest(data.base[output]) else float("nan")
+    size = np.abs(data.base[output])
+    here = float(size[rows].mean())
+    return here if here > _LEAST_FORCE * float(np.quantile(size, 0.99)) else float("nan")
 
 
 def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -> dict[str, float]:
@@ -190,12 +198,12 @@ def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -
     """
     out = {}
     for o, r in residual.items():
-        rows = np.abs(data.base[o]) > SMALL * largest(data.base[o])
+        rows = np.abs(data.base[o]) > _LEAST_FORCE * float(np.quantile(np.abs(data.base[o]), 0.99))
         if not rows.any() or not any(f.output == o and f.along_force for f in located):
             continue
         force = data.base[o]
         whole = float((r[rows] * np.sign(force[rows])).mean() / np.abs(force[rows]).mean())
-        if np.sum((r - whole * force) ** 2) < 0.5 * np.sum(r**2):
+        if np.sum((r - whole * force) ** 2) < (1.0 - _EVEN) * np.sum(r**2):
             out[o] = whole
     return out
 
@@ -231,7 +239,7 @@ def where(part: Array, data: Data) -> dict[str, tuple[float, float]]:
         values = data.get(axis)
         order = np.argsort(values, kind="stable")
         share = np.cumsum(energy[order]) / total
-        low, high = np.searchsorted(share, [CHANCE, 1.0 - CHANCE])
+        low, high = np.searchsorted(share, [0.05, 0.95])
         last = values.size - 1
         out[axis] = (float(values[order[min(low, last)]]), float(values[order[min(high, last)]]))
     return out
