@@ -30,8 +30,6 @@ ASSUMED_ZERO = ("camber", "slip_ratio", "slip_angle")
 AS_GIVEN = "columns in ISO W axes and SI units, as they were given"
 _LEAST_RATE = 50.0
 _LONG_STEP = 1.0
-_ANOTHER_UNIT = 10.0
-"""Times the nominal load: a usual load that is further from it is of another unit, or of another tire."""
 
 
 @dataclass
@@ -314,13 +312,17 @@ def _usable(arrays: Mapping[str, Array], time: Array | None, notes: list[str]) -
 def _overlap(tire: Any, arrays: Mapping[str, Array]) -> None:
     """Raise if the recording lies where the model says nothing."""
     load = arrays["normal_load"]
-    nominal = tire.coefficients.get("FNOMIN", float("nan"))
-    apart = float(np.median(np.abs(load))) / nominal
-    if apart * _ANOTHER_UNIT < 1.0 or apart > _ANOTHER_UNIT:
+    c = tire.coefficients
+    low, high = 0.02 * c.get("FNOMIN", 4000.0), 8.0 * c.get("FNOMIN", 4000.0)
+    if c.get("FZMAX", 0.0) > 0.0:
+        low = min(low, c.get("FZMIN", low)) if c.get("FZMIN", 0.0) > 0.0 else low
+        high = max(high, 1.5 * c["FZMAX"])
+    inside = (load > low) & (load < high)
+    if inside.mean() < 0.1:
         raise RecordingError(
             f"no overlap between model and recording: the loads are {np.min(load):.4g} to "
             f"{np.max(load):.4g} N, "
-            f"the model's nominal load is {nominal:.4g} N",
+            f"the model's nominal load is {c.get('FNOMIN', float('nan')):.4g} N",
             where="normal_load",
             todo="use the .tir file of this tire, or check the unit of the load",
         )
@@ -334,10 +336,11 @@ def _pieces(time: Array | None, rows: Array, notes: list[str]) -> Array:
         return start
     steps = np.diff(time)
     typical = float(np.median(steps))
-    gaps = np.flatnonzero((steps > (BRIDGED + 0.5) * typical) | (np.diff(rows) > BRIDGED))
+    gaps = np.flatnonzero((steps > 3.5 * typical) | (np.diff(rows) > 3))
     start[gaps + 1] = True
-    if gaps.size:
-        count, longest = gaps.size, float(steps[gaps].max())
+    long = steps[gaps] > 10.0 * typical
+    if long.any():
+        count, longest = int(long.sum()), float(steps[gaps].max())
         said = f"{count} gaps in the time line, the longest" if count > 1 else "a gap in the time line of"
         notes.append(f"{said} {longest:.3g} s")
     return start
