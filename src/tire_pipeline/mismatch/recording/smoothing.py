@@ -38,7 +38,7 @@ def denoise(x: Array, start: Array) -> Array:
         window, or if the channel has no noise (a set point, or a channel held at a slower rate).
     """
     sigma, rho = _noise(x, start)
-    if sigma <= np.finfo(np.float32).eps * np.ptp(x):
+    if sigma < 1e-12 or sigma < 2e-6 * float(np.ptp(x)):
         return x
     if np.std(x) < _NOISE_ONLY * sigma:
         return np.full_like(x, np.mean(x))
