@@ -14,10 +14,6 @@ import scipy
 Array = np.ndarray
 _FILTER_WINDOWS = ((9, 4), (15, 4), (25, 4), (35, 4), (61, 2), (121, 2), (241, 2))
 _INTERVAL_WIDTH = 1.7
-_STRETCH = 50
-"""Samples over which it is seen whether the signal itself is calm."""
-_MOST_COLOUR = 0.95
-"""Largest correlation of neighbours in a sensor's noise: what is more alike is the signal."""
 _NOISE_ONLY = 1.5
 """A channel that spreads no wider than so many times its noise stands still."""
 
@@ -53,31 +49,20 @@ def denoise(x: Array, start: Array) -> Array:
 
 def _noise(x: Array, start: Array) -> tuple[float, float]:
     """Size of the noise and its correlation from one sample to the next; zero for a set point."""
-    d = np.diff(x, 2)
+    d = x[2:] - 2.0 * x[1:-1] + x[:-2]
     d = d[~(start[2:] | start[1:-1])]
-    if d.size < _STRETCH or np.mean(d == 0.0) > 0.3:
+    if d.size < 50 or np.mean(d == 0.0) > 0.3:
         return 0.0, 0.0
     rho = _colour(x, start)
-    return float(_quiet(d) / np.sqrt(_power(rho))), rho
+    return float(_quiet(np.abs(d)) / 0.6745 / np.sqrt(6.0 - 8.0 * rho + 2.0 * rho**2)), rho
 
 
-def _quiet(d: Array) -> float:
-    """Lower quartile over stretches of the size, from the median: where the signal itself is calm."""
-    count = max(d.size // _STRETCH, 1)
-    stretches = d[: d.size // count * count].reshape(count, -1)
-    size = scipy.stats.median_abs_deviation(stretches, axis=1, center=_zero, scale="normal")
-    return float(np.quantile(size, 0.25))
-
-
-def _zero(x: Array, axis: int) -> Array:
-    """Return the middle of differences, of which as many rise as fall."""
-    return np.zeros(x.shape[0])
-
-
-def _power(rho: float) -> float:
-    """Mean square of second differences of noise of unit power whose neighbours correlate so."""
-    weights = np.array([1.0, -2.0, 1.0])
-    return float(weights @ scipy.linalg.toeplitz(rho ** np.arange(3)) @ weights)
+def _quiet(size: Array) -> float:
+    """Lower quartile over blocks of 50 samples of the median: where the signal itself is calm."""
+    count = size.size // 50
+    if count < 4:
+        return float(np.median(size))
+    return float(np.quantile(np.median(size[: 50 * count].reshape(count, 50), axis=1), 0.25))
 
 
 def _piece(x: Array, sigma: float, rho: float) -> Array:
@@ -121,7 +106,7 @@ def _colour(x: Array, start: Array) -> float:
     for lag in (1, 2):
         d = x[: -2 * lag] - 2.0 * x[lag:-lag] + x[2 * lag :]
         ok = piece[2 * lag :] == piece[: -2 * lag]
-        sizes.append(_quiet(d[ok]) ** 2 if ok.any() else 0.0)
+        sizes.append(_quiet(np.abs(d[ok])) ** 2 if ok.any() else 0.0)
     return correlation_from_ratio(sizes[1] / sizes[0]) if sizes[0] > 0.0 else 0.0
 
 
@@ -129,10 +114,8 @@ def correlation_from_ratio(ratio: float) -> float:
     """Correlation of neighbours from the ratio of squared second differences at lags 2 and 1."""
 
     def excess(rho: float) -> float:
-        return _power(rho**2) / _power(rho) - ratio
+        return (6.0 - 8.0 * rho**2 + 2.0 * rho**4) / (6.0 - 8.0 * rho + 2.0 * rho**2) - ratio
 
     if ratio <= 1.0:
         return 0.0
-    if excess(_MOST_COLOUR) < 0.0:
-        return _MOST_COLOUR
-    return float(scipy.optimize.brentq(excess, 0.0, _MOST_COLOUR))
+    return 0.95 if excess(0.95) < 0.0 else float(scipy.optimize.brentq(excess, 0.0, 0.95))
