@@ -33,6 +33,7 @@ from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.prepare import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
+from tire_pipeline.mismatch.report.left_out import reasons, with_reasons
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import head, on_expected, on_question, on_withheld
@@ -80,6 +81,7 @@ class Explained:
 
 def assembled(it: Explained) -> MismatchReport:
     """Return the report."""
+    it = _with_reasons(it)
     prepared, analysis, answer = it.prepared, it.analysis, it.answer
     data = analysis.data
     noise = noise_floors(analysis)
@@ -128,6 +130,19 @@ def assembled(it: Explained) -> MismatchReport:
         else partial(visible, analysis, it.sets, answer.named, unexplained=left.significant),
         withheld=withheld,
         probabilities=_probabilities(answer),
+    )
+
+
+def _with_reasons(it: Explained) -> Explained:
+    """Say of a channel that was left out why, wherever it is called not recorded."""
+    left_out = reasons([*it.recording.attrs.get("notes", []), *it.prepared.notes])
+    absent = {name: with_reasons(why, left_out) for name, why in it.analysis.absent.items()}
+    assumed = [with_reasons(text, left_out) for text in it.prepared.assumed]
+    notes = [with_reasons(text, left_out) for text in it.prepared.notes]
+    return replace(
+        it,
+        prepared=replace(it.prepared, assumed=assumed, notes=notes),
+        analysis=replace(it.analysis, absent=absent),
     )
 
 
