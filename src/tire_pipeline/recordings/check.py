@@ -21,11 +21,11 @@ from tire_pipeline.recordings.conventions.plausible import (
 
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
-"""Of a recording in time and of steady points: with less nothing is told from noise."""
+"""Least rows of a recording in time and of steady points: fewer cannot tell an effect from noise."""
 LEAST_WHOLE = 0.1
 """Part of the rows that must have a number in all channels."""
 BRIDGED = 3
-"""Holes of so many samples in time are put on a straight line."""
+"""Holes of up to this many samples in time are interpolated linearly."""
 _USED = {*INPUT_CHANNELS, *TANGENTIAL_FORCES, "time"}
 """Channels that a row must have to be used."""
 _UNITS = {c.name: c.unit for c in CANONICAL}

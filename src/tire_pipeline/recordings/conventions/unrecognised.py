@@ -1,4 +1,4 @@
-"""Which channel a column may be that nobody has named: by its unit."""
+"""What a column may be whose name is not known, by its unit."""
 
 from __future__ import annotations
 
