@@ -37,7 +37,7 @@ from tire_pipeline.mismatch.report.left_out import reasons, with_reasons
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import head, on_expected, on_question, on_withheld
-from tire_pipeline.mismatch.report.words import not_looked_for
+from tire_pipeline.mismatch.report.words import not_looked_for, shortened
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.search import more_than_usual, unnamed_physics
 from tire_pipeline.progress import under_way
@@ -270,7 +270,7 @@ def _exact(finding: Finding, prepared: Prepared) -> EffectReport:
     return EffectReport(
         name=finding.name,
         kind=effect.kind,
-        title=f"{effect.title} ({finding.text})",
+        title=f"{effect.title} ({shortened(finding.text)})",
         alternatives=(),
         confidence=finding.evidence,
         output=finding.channel,
