@@ -39,3 +39,4 @@ def test_a_pressure_in_an_unknown_unit_is_left_out_and_not_called_unrecorded(tmp
         assert "pressure is left out (" in text
         assert "its unit cannot be told" in text
     assert "camber is not recorded" in page
+    assert "Next, state the unit of pressure" in report.summary

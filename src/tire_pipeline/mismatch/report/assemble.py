@@ -33,7 +33,7 @@ from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.prepare import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
-from tire_pipeline.mismatch.report.left_out import reasons, with_reasons
+from tire_pipeline.mismatch.report.left_out import reasons, state_units, with_reasons
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import head, on_expected, on_question, on_withheld
@@ -257,7 +257,8 @@ def _following(it: Explained, verdict: str, plain: CorrectedModel) -> str:
     question = it.prepared.question
     if it.prepared.stopped and question is not None:
         return f"{question.todo}."
-    return next_experiment(it.analysis, it.answer, plain) or _TO_DO.get(verdict, "")
+    asked = state_units(it.prepared.notes) if verdict in _TO_DO else ""
+    return asked or next_experiment(it.analysis, it.answer, plain) or _TO_DO.get(verdict, "")
 
 
 def _exact(finding: Finding, prepared: Prepared) -> EffectReport:

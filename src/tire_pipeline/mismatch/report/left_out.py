@@ -33,3 +33,15 @@ def with_reasons(text: str, left_out: Mapping[str, str]) -> str:
     for channel, why in left_out.items():
         text = text.replace(f"{channel} is not recorded", f"{channel} is left out ({why})")
     return text
+
+
+def state_units(notes: Iterable[str]) -> str:
+    """Return what to do next where a channel is left out because of its unit; "" if none is.
+
+    Examples
+    --------
+    >>> state_units(["pressure is left out: 75 Pa is no tire's, and its unit cannot be told. State it"])
+    'State the unit of pressure, which is left out, and explain again.'
+    """
+    of = [channel for channel, why in reasons(notes).items() if "unit" in why]
+    return f"State the unit of {' and '.join(of)}, which is left out, and explain again." if of else ""
