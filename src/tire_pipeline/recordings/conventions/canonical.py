@@ -84,7 +84,7 @@ def canonical_frame(
             f"no channel is recognised among {', '.join(map(_with_unit, raw.channels[:12]))}",
             where=source,
             todo="name them with names={'their name': 'slip_angle', ...}, on the command line with --name "
-            "'their name=slip_angle'",
+            "'their name=slip_angle', in a pipeline as docs/how-to/state_axes_and_units.md shows",
         )
     unnamed = {i.name: (units or {}).get(i.name, i.unit) for i, known, _ in chosen if known is None}
     notes += filter(None, [may_be(unnamed, columns)])
