@@ -99,7 +99,7 @@ def test_what_no_tire_has_is_named_with_the_units_that_it_may_be_in(channel, val
     (issue,) = check_recording(frame)
     assert channel in issue.where
     assert (" or ".join(units) or "no unit that is known") in issue.advice
-    assert not units or f"--unit their name={units[0]}" in issue.advice
+    assert not units or f"--unit 'their name={units[0]}'," in issue.advice
 
 
 @pytest.mark.parametrize("channel", ["time", "normal_load", "fy"])

@@ -48,7 +48,7 @@ def test_columns_of_other_names_are_asked_for_by_their_unit(tmp_path):
     pd.DataFrame(table).to_csv(file, index=False, sep=";", decimal=",", encoding="cp1252")
     (asked,) = [note for note in read_recording(file).attrs["notes"] if "--name" in note]
     assert asked.startswith("Zeit (s), Reifendruck (bar) are not used; if one of them is time or pressure")
-    assert "--name 'Zeit=time'" in asked
+    assert "--name Zeit=time," in asked
     named = read_recording(file, names={"Zeit": "time", "Reifendruck [bar]": "pressure"})
     assert not [note for note in named.attrs["notes"] if "--name" in note]
     np.testing.assert_allclose(named["pressure"], 2.3e5)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from dataclasses import dataclass
 from typing import Literal
 
@@ -258,7 +259,7 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
 def unit_stated(frame: pd.DataFrame, column: str, unit: str) -> str:
     """Return how a user states the unit of a column, by the name that the file gives it."""
     name = frame.attrs.get("channels", {}).get(column, column)
-    return f"--unit {name}={unit}, in Python units={{{name!r}: {unit!r}}}"
+    return f"--unit {shlex.quote(f'{name}={unit}')}, in Python units={{{name!r}: {unit!r}}}"
 
 
 def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:

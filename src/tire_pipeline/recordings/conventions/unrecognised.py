@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterable, Mapping
 
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL
@@ -29,7 +30,7 @@ def may_be(columns: Mapping[str, str | None], known: Iterable[str]) -> str:
     Examples
     --------
     >>> may_be({"Zeit": "s", "Bemerkung": None}, known=["fy"])
-    "Zeit (s) is not used; if it is time, say so: --name 'Zeit=time', in Python names={'Zeit': 'time'}"
+    "Zeit (s) is not used; if it is time, say so: --name Zeit=time, in Python names={'Zeit': 'time'}"
     """
     missing = {c.dimension: c.name for c in _OWN_KIND if c.name not in set(known)}
     hints = {}
@@ -44,8 +45,9 @@ def may_be(columns: Mapping[str, str | None], known: Iterable[str]) -> str:
     columns_said = ", ".join(f"{name} ({unit})" for name, (unit, _) in listed)
     *others, last = dict.fromkeys(channel for _, (_, channel) in listed)
     channels = f"{', '.join(others)} or {last}" if others else last
+    stated = shlex.quote(f"{first}={channel}")
     verb, which = ("is", "it is") if len(listed) == 1 else ("are", "one of them is")
     return (
-        f"{columns_said} {verb} not used; if {which} {channels}, say so: --name '{first}={channel}', "
+        f"{columns_said} {verb} not used; if {which} {channels}, say so: --name {stated}, "
         f"in Python names={{{first!r}: {channel!r}}}"
     )
