@@ -61,6 +61,12 @@ def in_turn(frame, one, other):
         (good().assign(slip_ratio=lambda d: d.slip_angle * 100.0), "slip_in_percent", "warning", ()),
         (good().assign(normal_load=-3000.0), "negative_load", "warning", ()),
         (good().assign(normal_load=0.0), "no_positive_load", "error", ()),
+        (good().assign(pressure=12e3), "implausible_value", "warning", ()),
+        (good().assign(pressure=2e6), "implausible_value", "warning", ()),
+        (good().assign(speed=200.0), "implausible_value", "warning", ()),
+        (good().assign(tread_temperature=300.0), "implausible_value", "warning", ()),
+        (good().assign(normal_load=3e6), "implausible_value", "warning", ()),
+        (good().assign(normal_load=3.0), "implausible_friction", "warning", ()),
         (good().assign(fy=7.0), "constant_force", "error", ()),
         (good().assign(fx=7.0), "constant_force", "warning", ()),
     ],
@@ -71,6 +77,29 @@ def test_each_fault_is_found_where_it_is(frame, name, severity, rows):
     assert issues[0].severity == severity
     assert issues[0].rows == rows
     assert issues[0].advice in str(issues[0])
+
+
+@pytest.mark.parametrize(
+    ("channel", "value", "file_unit", "units"),
+    [
+        ("pressure", 250.0, None, ["kPa"]),
+        ("pressure", 2.3, "", ["bar"]),
+        ("pressure", 75.0, None, ["kPa", "psi"]),
+        ("pressure", 12e3, "kPa", ["bar", "psi"]),
+        ("speed", 160.0, None, ["km/h", "mph"]),
+        ("tread_temperature", 320.0, None, ["K", "degF"]),
+        ("normal_load", 3.0, None, ["kN"]),
+        ("normal_load", 450.0, "N", ["kgf", "lbf"]),
+        ("pressure", 0.0, None, []),
+    ],
+)
+def test_what_no_tire_has_is_named_with_the_units_that_it_may_be_in(channel, value, file_unit, units):
+    frame = good().assign(**{channel: value})
+    frame.attrs = {"file_units": {channel: file_unit}, "channels": {channel: "their name"}}
+    (issue,) = check_recording(frame)
+    assert channel in issue.where
+    assert (" or ".join(units) or "no unit that is known") in issue.advice
+    assert not units or f"--unit 'their name={units[0]}'," in issue.advice
 
 
 @pytest.mark.parametrize("channel", ["time", "normal_load", "fy"])

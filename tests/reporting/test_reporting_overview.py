@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 from types import SimpleNamespace
 
 import pandas as pd
 import pytest
 
 from tire_pipeline.datasets import TextFolderDataset
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.files.packed import pack
 from tire_pipeline.reporting.mismatch.explain_task import corrected_files
 from tire_pipeline.reporting.mismatch.explained_recordings import (
     ExplainParameters,
@@ -121,3 +124,13 @@ def test_verdicts_are_counted_in_words():
     overview = pd.concat([found(name, verdict, "Said.") for name, verdict in names.items()])
     _, outcome = draw_overview(overview, [], {})
     assert outcome[0] == "3 recordings: 2 seem to be of another tire, 1 agrees."
+
+
+def test_where_none_could_be_explained_each_problem_is_told_up_to_three():
+    def task(name):
+        row = {"recording": name, "problem": f"{name} has no load"}
+        return lambda: pack({"row.json": json.dumps(row).encode(), "report.json": b"null"})
+
+    for names, told in ((["a", "b"], "a: a has no load; b: b has no load"), (list("abcde"), "; and 2 more")):
+        with pytest.raises(RecordingError, match=told):
+            collect_explained({name: task(name) for name in names})

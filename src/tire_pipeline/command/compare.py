@@ -75,9 +75,10 @@ def compared(
     changed = changed_values(first, second)
     load = at[len(at) // 2]
     pairs = list(zip(key_figures(first, load), key_figures(second, load), strict=True))
+    held = [(x, y) for x, y in pairs if not math.isnan(x.value) or not math.isnan(y.value)]
     figures = Grid(
         ("quantity", "A", "B", "change", "unit"),
-        [(x.name, x.value, y.value, _change(x.value, y.value), x.unit) for x, y in pairs],
+        [(x.name, x.value, y.value, _change(x.value, y.value), x.unit) for x, y in held],
         f"At {load:,.0f} N, no camber",
     )
     forces = Grid(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from dataclasses import dataclass
 from typing import Literal
 
@@ -9,19 +10,28 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.channels import INPUT_CHANNELS, RECORDED_CHANNELS, TANGENTIAL_FORCES
+from tire_pipeline.recordings.conventions.channel_names import CANONICAL
+from tire_pipeline.recordings.conventions.plausible import (
+    FRICTION,
+    PLAUSIBLE,
+    likely_load_units,
+    likely_units,
+    plausible,
+    size,
+)
 
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
-"""Of a recording in time and of steady points: with less nothing is told from noise."""
-LARGEST_PLAUSIBLE = {"slip_angle": (1.6, "deg"), "camber": (1.2, "deg"), "slip_ratio": (4.0, "%")}
-"""What no wheel does, rad or 1, and the unit in which a channel that does it was recorded."""
+"""Least rows of a recording in time and of steady points: fewer cannot tell an effect from noise."""
 LEAST_WHOLE = 0.1
 """Part of the rows that must have a number in all channels."""
 BRIDGED = 3
-"""Holes of so many samples in time are put on a straight line."""
+"""Holes of up to this many samples in time are interpolated linearly."""
 _USED = {*INPUT_CHANNELS, *TANGENTIAL_FORCES, "time"}
 """Channels that a row must have to be used."""
+_UNITS = {c.name: c.unit for c in CANONICAL}
 _GAP_FACTOR = 5.0
+_WRITTEN_OUT = 1e3
 _NAN_BLOCK = 10
 
 
@@ -106,13 +116,6 @@ def repeated_channels(recording: pd.DataFrame) -> list[str]:
     names = [str(n) for n in recording.columns]
     known = [n for n in names if n in RECORDED_CHANNELS or n.startswith("simulated_")]
     return [n for n in dict.fromkeys(known) if known.count(n) > 1]
-
-
-def in_another_unit(name: str, values: np.ndarray) -> bool:
-    """Tell whether a slip or an angle is larger than any wheel's, but for odd samples: degrees, percent."""
-    return (
-        name in LARGEST_PLAUSIBLE and float(np.nanquantile(np.abs(values), 0.98)) > LARGEST_PLAUSIBLE[name][0]
-    )
 
 
 def _columns(frame: pd.DataFrame) -> list[Issue]:
@@ -256,23 +259,63 @@ def _values(frame: pd.DataFrame) -> list[Issue]:
 def unit_stated(frame: pd.DataFrame, column: str, unit: str) -> str:
     """Return how a user states the unit of a column, by the name that the file gives it."""
     name = frame.attrs.get("channels", {}).get(column, column)
-    return f"--unit {name}={unit}, in Python units={{{name!r}: {unit!r}}}"
+    return f"--unit {shlex.quote(f'{name}={unit}')}, in Python units={{{name!r}: {unit!r}}}"
 
 
 def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:
-    """Say that a slip or an angle is in another unit, as an explanation takes it."""
-    if not in_another_unit(column, values):
+    """Say that no tire has the values of a channel, and which unit would make them plausible."""
+    large = size(values)
+    if plausible(column, large):
         return []
-    unit = LARGEST_PLAUSIBLE[column][1]
+    unit = _UNITS[column]
+    value = f"{large:,.0f}" if large >= _WRITTEN_OUT else f"{large:.3g}"
+    up_to = "up to " if large > PLAUSIBLE[column].high else ""
+    where = f"{column}, {up_to}{value} {unit}".removesuffix(" -")
+    read_as = PLAUSIBLE[column].read_as
+    if not read_as:
+        return [
+            Issue(
+                "implausible_value",
+                "warning",
+                where,
+                f"no tire has this; {_ask(frame, column, likely_units(frame, column, large))}",
+            )
+        ]
     return [
         Issue(
-            "angle_in_degrees" if unit == "deg" else "slip_in_percent",
+            "angle_in_degrees" if read_as == "deg" else "slip_in_percent",
             "warning",
-            f"{column}, up to {np.nanmax(np.abs(values)):.3g}{' rad' if unit == 'deg' else ''}",
-            f"no wheel reaches this; explain_mismatch reads it as {unit}. State the unit: "
-            f"{unit_stated(frame, column, unit)}",
+            where,
+            f"no wheel reaches this; explain_mismatch reads it as {read_as}. State the unit: "
+            f"{unit_stated(frame, column, read_as)}",
         )
     ]
+
+
+def _ask(frame: pd.DataFrame, column: str, units: list[str]) -> str:
+    """Return how to state the unit of a channel, given the units that it may be in."""
+    if not units:
+        return "no unit that is known makes it plausible: check the channel"
+    which = f"the unit is likely {' or '.join(units)}"
+    return f"{which}. State it, if it is {units[0]}: {unit_stated(frame, column, units[0])}"
+
+
+def _friction(frame: pd.DataFrame, forces: dict[str, np.ndarray], load: np.ndarray) -> list[Issue]:
+    """Say that a force is larger than any tire makes it at this load: the load is in another unit."""
+    large = size(load)
+    sizes = {name: size(force) for name, force in forces.items()}
+    name = max(sizes, key=lambda n: sizes[n], default="")
+    if (
+        not name
+        or not large > 0.0
+        or sizes[name] <= FRICTION[1] * large
+        or not plausible("normal_load", large)
+    ):
+        return []
+    where = f"{name}, up to {sizes[name]:.4g} N at a normal_load of up to {large:.3g} N"
+    units = likely_load_units(frame, large, sizes[name])
+    todo = f"no tire makes this force; of the load, {_ask(frame, 'normal_load', units)}"
+    return [Issue("implausible_friction", "warning", where, todo)]
 
 
 def _force_and_load(frame: pd.DataFrame) -> list[Issue]:
@@ -290,6 +333,7 @@ def _force_and_load(frame: pd.DataFrame) -> list[Issue]:
             )
         )
     load = _numbers(frame, "normal_load") if "normal_load" in frame else np.empty(0)
+    issues += _friction(frame, forces, load)
     if load.size and float(np.median(load)) < 0.0:
         issues.append(
             Issue(

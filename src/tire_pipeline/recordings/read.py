@@ -64,7 +64,8 @@ def read_recording(
         Axes of the file where its names do not tell (TYDEX names do). "SAE" (J670e: y to the
         right, z down) mirrors slip_angle, fy, my and mz. Left out: ISO W is assumed, and `attrs` say so.
     units, names : mapping, optional
-        By the file's channel name: its unit (over what the file says), the column that it is.
+        By the file's channel name, with or without the unit in it: its unit (over what the file says), the
+        column that it is.
 
     Returns
     -------
@@ -104,7 +105,8 @@ def read_recording(
     kind = _format(file, format)
     try:
         raw = READERS[kind](file)
-        _split_units(raw)
+        bare = _split_units(raw)
+        units, names = ({bare.get(k, k): v for k, v in (said or {}).items()} for said in (units, names))
         return canonical_frame(raw, source=str(file), axes=axes, units=units, names=names)
     except RecordingError:
         raise
@@ -149,13 +151,16 @@ def _format(file: Path, format: str | None) -> str:
     return kind
 
 
-def _split_units(raw: RawRecording) -> None:
-    """Part units from names where the file has no other place for them."""
+def _split_units(raw: RawRecording) -> dict[str, str]:
+    """Part units from names where the file has no other place for them; return names with and without."""
+    bare = {}
     for channel in raw.channels:
         base, unit = split_unit(channel.name)
         if unit is not None and not (channel.unit and channel.unit.strip()):
+            bare[channel.name] = base
             channel.unit = unit
             channel.name = base
         channel.values = np.asarray(channel.values, dtype=float)
     if len({c.values.size for c in raw.channels}) > 1:
         raise RecordingError("channels have different lengths")
+    return bare

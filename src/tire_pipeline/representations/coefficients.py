@@ -2,10 +2,9 @@
 
 The thesis uses "all coefficients that do not depend on the camber angle: 11 of the 18 lateral
 ones". Striking PDY3, PEY4, PKY3, PHY3, PVY3 and PVY4, which multiply the camber angle in its
-Appendix A, leaves 12. The twelfth is PEY3: the MF-Tyre manual and the property files themselves
-call it "Zero order camber dependency of curvature Efy" (so do all 15 of the 16 public files in
-``shared/tir`` that explain the key at all), although in equation A.22 it multiplies only
-sgn(alpha). Whoever chooses by the files' own words strikes it too, and 11 are left.
+Appendix A, leaves 12. The twelfth is PEY3. The MF-Tyre manual calls it "Zero order camber dependency
+of curvature Efy", and so do the 15 of the 16 public files in ``shared/tir`` that explain the key. In
+equation A.22, however, it multiplies only sgn(alpha). By the files' own words it goes too, and 11 are left.
 """
 
 from __future__ import annotations

@@ -100,7 +100,7 @@ class Release:
 
 @dataclass(frozen=True)
 class ModelRegistry:
-    """The record and the model in use (or the one that shall be).
+    """The record and the model in use (or the one to be put into use).
 
     Attributes
     ----------

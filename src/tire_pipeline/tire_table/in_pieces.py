@@ -95,7 +95,7 @@ class TableInPieces:
         return join_tables(piece.load() for piece in self.pieces)
 
     def gathered(self, rows: int = PIECE_ROWS) -> Iterator[pd.DataFrame]:
-        """The same table in pieces of about so many rows: for storing many small ones."""
+        """The same table in pieces of about this many rows, for storing many small ones."""
         numbers, some = self.numbers, list[pd.DataFrame]()
         for piece in self.pieces:
             if piece.rows:

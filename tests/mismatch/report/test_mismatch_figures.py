@@ -26,7 +26,7 @@ def report(changes: list[str], *, gap: float) -> SimpleNamespace:
     }
     series |= {"before_fy": 100.0 * wave, "after_fy": 10.0 * wave, "floor_fy": 5.0}
     fit = {"fy": SimpleNamespace(rms_before=70.0, noise_floor=5.0)}
-    corrected = SimpleNamespace(changes=changes)
+    corrected = SimpleNamespace(changes=changes, factors={"fy": 1.0})
     return SimpleNamespace(series=series, effects=[], fit=fit, corrected=corrected)
 
 
@@ -46,6 +46,13 @@ def test_captions_speak_of_what_is_drawn():
     assert "after" not in without[0]["caption"]
     assert "Lines break where nothing was recorded" in without[1]["caption"]
     assert "Lines break" not in drawings(report([], gap=0.0))[1]["caption"]
+
+
+def test_captions_say_that_a_wrong_unit_is_set_right_in_the_figures():
+    one = report(["camber"], gap=0.0)
+    assert not any("set right" in each["caption"] for each in drawings(one))
+    one.corrected.factors = {"fy": 1.0, "slip_angle": 0.01745}
+    assert all("unit or sign of slip_angle set right" in each["caption"] for each in drawings(one))
 
 
 def test_no_residual_of_nothing_is_told():

@@ -1,8 +1,8 @@
 """The true tire: a brush model with load saturation, sliding speed and temperature; no Magic Formula.
 
-Bristles on a carcass with a pressure distribution between uniform and parabolic (Pacejka, *Tire and
-Vehicle Dynamics*, chapter 3, with the exponent 3 of the parabolic case left free), friction that
-falls with sliding speed, load and distance from the compound's best temperature.
+Bristles on a carcass, with a pressure distribution between uniform and parabolic (Pacejka, *Tire and
+Vehicle Dynamics*, chapter 3, with the exponent 3 of the parabolic case left free). Friction falls with
+sliding speed, with load and with distance from the compound's best temperature.
 """
 
 from __future__ import annotations

@@ -21,7 +21,7 @@ from tire_pipeline.magic_formula.derivatives.derive import module_source, source
 
 _PACKAGE = Path(__file__).parent
 _OLD = 86_400.0
-"""Seconds after which code of other equations is deleted: nobody is about to compile it any more."""
+"""Age in seconds at which code of other equations is deleted: no process is still compiling it."""
 
 
 @lru_cache(maxsize=2)

@@ -126,14 +126,14 @@ class _StageProblem:
         return Problem(vector, family, output, free, self.rows, self.measured, drawn), bounds
 
     def starts(self, problem: Problem, bounds: Bounds, number: int) -> list[np.ndarray]:
-        """Return where searches start: so many that are drawn, and the seeds."""
+        """Return where searches start: a number of random points, and the seeds."""
         begin = np.array([self.first[n] for n in problem.names])
         drawn = starting_points(begin, bounds, problem.pull.spread, number, self.rng)
         more = [[seed.coefficients.get(n, self.typical[n]) for n in problem.names] for seed in self.seeds]
         return [*drawn, *(np.clip(values, *bounds) for values in more)]
 
     def search(self, free: Sequence[str], number: int, begin: Sequence[np.ndarray] = ()) -> _StageSearch:
-        """Search over these from so many starts that are drawn, the seeds, and others."""
+        """Search over these from random starts, the seeds, and others."""
         problem, bounds = self.problem(free)
         values = least(problem, bounds, [*begin, *self.starts(problem, bounds, number)])
         return _StageSearch(problem, bounds, values, problem.misfit(values))

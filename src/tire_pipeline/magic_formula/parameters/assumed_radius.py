@@ -1,4 +1,4 @@
-"""The unloaded radius of a tire of which nobody states one."""
+"""The unloaded radius to assume where neither the file nor the user states one."""
 
 from __future__ import annotations
 

@@ -34,7 +34,11 @@ def amount_with_error(value: float, error: float, unit: str) -> tuple[str, str]:
     --------
     >>> amount_with_error(-0.844, 0.191, "1"), amount_with_error(0.0123, 0.0004, "s")
     (('-84%', '19%'), ('12.30 ms', '0.40 ms'))
+    >>> amount_with_error(1e-3, 0.0, "times")
+    ('0.001 times', 'exact')
     """
+    if error == 0.0:
+        return amount(value, unit, 3), "exact"
     if not (math.isfinite(error) and error > 0.0):
         return amount(value, unit, 3), amount(error, unit)
     factor, name = _AMOUNTS.get(unit, (1.0, unit))

@@ -32,10 +32,11 @@ from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.prepare import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
+from tire_pipeline.mismatch.report.left_out import reasons, state_units, with_reasons
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import head, on_expected, on_question, on_withheld
-from tire_pipeline.mismatch.report.words import not_looked_for
+from tire_pipeline.mismatch.report.words import not_looked_for, shortened
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.search import more_than_usual, unnamed_physics
 from tire_pipeline.progress import under_way
@@ -77,6 +78,7 @@ class Explained:
 
 def assembled(it: Explained) -> MismatchReport:
     """Return the report."""
+    it = _with_reasons(it)
     prepared, analysis, answer = it.prepared, it.analysis, it.answer
     data = analysis.data
     left, noise = remainder(analysis, answer, it.sets.likelihood.learnt.left, it.sets.products.largest)
@@ -124,6 +126,19 @@ def assembled(it: Explained) -> MismatchReport:
         else partial(visible, analysis, it.sets, answer.named, unexplained=left.significant),
         withheld=withheld,
         probabilities=_probabilities(answer),
+    )
+
+
+def _with_reasons(it: Explained) -> Explained:
+    """Say of a channel that was left out why, wherever it is called not recorded."""
+    left_out = reasons([*it.recording.attrs.get("notes", []), *it.prepared.notes])
+    absent = {name: with_reasons(why, left_out) for name, why in it.analysis.absent.items()}
+    assumed = [with_reasons(text, left_out) for text in it.prepared.assumed]
+    notes = [with_reasons(text, left_out) for text in it.prepared.notes]
+    return replace(
+        it,
+        prepared=replace(it.prepared, assumed=assumed, notes=notes),
+        analysis=replace(it.analysis, absent=absent),
     )
 
 
@@ -238,7 +253,8 @@ def _following(it: Explained, verdict: str, plain: CorrectedModel) -> str:
     question = it.prepared.question
     if it.prepared.stopped and question is not None:
         return f"{question.todo}."
-    return next_experiment(it.analysis, it.answer, plain) or _TO_DO.get(verdict, "")
+    asked = state_units(it.prepared.notes) if verdict in _TO_DO else ""
+    return asked or next_experiment(it.analysis, it.answer, plain) or _TO_DO.get(verdict, "")
 
 
 def _exact(finding: Finding, prepared: Prepared) -> EffectReport:
@@ -251,7 +267,7 @@ def _exact(finding: Finding, prepared: Prepared) -> EffectReport:
     return EffectReport(
         name=finding.name,
         kind=effect.kind,
-        title=f"{effect.title} ({finding.text})",
+        title=f"{effect.title} ({shortened(finding.text)})",
         alternatives=(),
         confidence=finding.evidence,
         output=finding.channel,

@@ -157,7 +157,7 @@ def _map_caption(report: ReportContents, output: str) -> str:
     return (
         f"{output.capitalize()} over slip and load: recorded minus simulated force, "
         f"{'each point' if points else 'mean of each cell'}. Strong colour marks where they "
-        f"differ{faded}.{cancels}"
+        f"differ{faded}.{cancels}{_repaired(report)}"
     )
 
 
@@ -209,12 +209,24 @@ def _has_gaps(report: ReportContents) -> bool:
 def _time_caption(report: ReportContents, output: str) -> str:
     name = output.capitalize()
     if report.series["time"] is None:
-        return f"{name} over the points in their order."
+        return f"{name} over the points in their order.{_repaired(report)}"
     bars = any(effect.when for effect in report.effects if effect.output == output)
     said = " The bars at the top say when each effect is above the noise." if bars else ""
     broken = " Lines break where nothing was recorded." if _has_gaps(report) else ""
     return (
-        f"{name} over time.{said}{broken} What lies within the grey band is noise.{_cleaned(report, output)}"
+        f"{name} over time.{said}{broken} What lies within the grey band is noise.{_repaired(report)}"
+        f"{_cleaned(report, output)}"
+    )
+
+
+def _repaired(report: ReportContents) -> str:
+    """Say that what is drawn is smaller than the errors in the table, which are of the rows as recorded."""
+    channels = [name for name, factor in report.corrected.factors.items() if factor != 1.0]
+    if not channels:
+        return ""
+    return (
+        f" Drawn with the unit or sign of {', '.join(channels)} set right. In the table, the error before is "
+        "that of the recording as it is."
     )
 
 

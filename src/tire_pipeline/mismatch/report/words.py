@@ -85,6 +85,17 @@ def in_words(text: str) -> str:
     return re.sub(rf"\b({'|'.join(n for n in names if '_' in n)})\b", lambda m: catalogue()[m[1]].title, text)
 
 
+def shortened(text: str) -> str:
+    """Return what was found in a channel as it stands after the effect's title.
+
+    Examples
+    --------
+    >>> shortened("pressure is wrong by 0.001 (kPa for Pa)")
+    'pressure: kPa for Pa'
+    """
+    return re.sub(r"^(\S+) is wrong by \S+ \((.+)\)$", r"\1: \2", text)
+
+
 def condition(text: str) -> str:
     """Return ``slip angle beyond ±4.2 deg`` from ``|slip_angle| above 0.0735 rad``."""
     found = re.fullmatch(r"\|(\w+)\| above (\S+) \S+", text)

@@ -14,6 +14,7 @@ from tire_pipeline.errors import RecordingError, did_you_mean
 from tire_pipeline.recordings.conventions.axis_systems import to_iso_w
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL, Channel, find_channel
 from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit
+from tire_pipeline.recordings.conventions.unrecognised import may_be
 
 _SI = {c.name: c.unit for c in CANONICAL}
 _SI_ASSUMED = "no unit given, SI assumed"
@@ -80,11 +81,13 @@ def canonical_frame(
         assumed.append(f"SI units of {', '.join(unsaid)}, for which the file gives none")
     if not any(name in _SI for name in columns):
         raise RecordingError(
-            f"no channel is recognised among {', '.join(c.name for c in raw.channels[:12])!r}",
+            f"no channel is recognised among {', '.join(map(_with_unit, raw.channels[:12]))}",
             where=source,
             todo="name them with names={'their name': 'slip_angle', ...}, on the command line with --name "
-            "'their name=slip_angle'",
+            "'their name=slip_angle', in a pipeline as docs/how-to/state_axes_and_units.md shows",
         )
+    unnamed = {i.name: (units or {}).get(i.name, i.unit) for i, known, _ in chosen if known is None}
+    notes += filter(None, [may_be(unnamed, columns)])
     frame = _ordered(columns)
     axes_said, against = to_iso_w(frame, origin, raw.constants, axes, notes, conversions, source)
     assumed.insert(0, axes_said)
@@ -96,6 +99,7 @@ def canonical_frame(
         "steady_points": "time" not in frame,
         "channels": {c: origin[c] for c in frame.columns if c in origin},
         "units": {c: unit_names[c] for c in frame.columns if c in unit_names},
+        "file_units": {c: (units or {}).get(i.name, i.unit) for i, known, c in chosen if known},
         "conversions": conversions,
         "repeats": repeats,
         "constants": raw.constants,
@@ -105,6 +109,10 @@ def canonical_frame(
         "axes_unclear": against,
     }
     return frame
+
+
+def _with_unit(channel: RawChannel) -> str:
+    return f"{channel.name} ({channel.unit})" if channel.unit else channel.name
 
 
 def _in_si(

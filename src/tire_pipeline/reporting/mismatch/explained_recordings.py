@@ -23,6 +23,9 @@ from tire_pipeline.recordings.groups import by_folder, matching
 from tire_pipeline.reporting.mismatch.explain_task import COLUMNS, PAGE, ExplainTask, Load, corrected_files
 from tire_pipeline.reporting.mismatch.result_names import result_place
 
+_MOST_TOLD = 3
+"""Recordings whose problem an error names."""
+
 Pairs = Mapping[str, Load]
 Read = Callable[[], bytes]
 
@@ -178,9 +181,10 @@ def collect_explained(
 
 def _check_any(reports: Mapping[str, Any], rows: list[dict[str, str]]) -> None:
     if not reports:
-        first = f"{rows[0]['recording']}: {rows[0]['problem']}"
+        told = [f"{row['recording']}: {row['problem']}" for row in rows[:_MOST_TOLD]]
+        more = [f"and {len(rows) - len(told)} more"] if len(rows) > len(told) else []
         raise RecordingError(
-            f"none of {len(rows)} recordings could be explained; {first}",
+            f"none of {len(rows)} recordings could be explained; {'; '.join(told + more)}",
             todo="correct that, then run again",
         )
 

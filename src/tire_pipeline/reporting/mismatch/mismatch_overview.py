@@ -29,7 +29,7 @@ _EARLIER_REPORTS = (
 )
 _NO_ROW = "Open it to see what was found."
 _FEW_RECORDINGS = 5
-"""Of so many recordings a run says what was found in each."""
+"""Up to this many recordings, a run says what was found in each."""
 _CSV = ("tables/mismatch_overview.csv", "Table of the last run (CSV)", "with every recording's summary")
 
 

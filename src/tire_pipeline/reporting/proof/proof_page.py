@@ -173,7 +173,7 @@ def _is_share(goal: object) -> bool:
 
 def _sign(goal: str) -> str:
     """The goal with signs as in print."""
-    return goal.replace(">=", "≥").replace("<=", "≤")
+    return goal.replace(">= ", "≥\N{NO-BREAK SPACE}").replace("<= ", "≤\N{NO-BREAK SPACE}")
 
 
 def _beside(scores: pd.DataFrame, heading: str) -> Table:

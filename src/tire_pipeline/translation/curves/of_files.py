@@ -72,7 +72,7 @@ def _part(band: Band | None, part: str, shape: tuple[int, ...]) -> np.ndarray:
 
 
 def _own_curves(model: TireModel) -> dict[str, np.ndarray]:
-    """Curves of one model; none that cannot be evaluated, or whose levels it does not state."""
+    """Curves of one model, without those that cannot be evaluated or whose levels it does not state."""
     load = LOADS[:, None]
     found = {}
     asked: dict[str, dict[str, Any]] = {

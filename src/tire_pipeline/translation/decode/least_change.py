@@ -25,7 +25,7 @@ _POOR = 1.0  # root mean square in units, above which a second start is tried
 
 @dataclass(frozen=True)
 class DecodeTarget:
-    """What the coefficients of n tires shall give.
+    """What the coefficients of n tires have to give.
 
     Attributes
     ----------

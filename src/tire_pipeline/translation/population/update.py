@@ -65,8 +65,8 @@ class TaughtCells:
     def of_files(cls, model: CurveMixedModel, table: pd.DataFrame) -> Self:
         """Lay out n files of known categories; ``model.pairs`` says whether tires link them.
 
-        A file counts as of each class by that class's probability, which all files of its tire tell together,
-        and as of the mean kind of tire given metadata and class, like a training file of a tire that one
+        A file counts for each class with that class's probability, which all files of its tire tell together.
+        Given metadata and class, its tire is of the mean kind, as for a training file of a tire that one
         category measured.
         """
         source, _ = model.space.encode(table)

@@ -12,7 +12,7 @@ from tire_pipeline.translation.result import LEFT_ALONE, TranslationResult, with
 
 
 class NoChange:
-    """Gives every tire back as it came."""
+    """Returns every tire unchanged."""
 
     name: ClassVar[str] = "no_change"
 

@@ -79,7 +79,7 @@ class Problem:
         return replace(self, pull=self.pull.times(strength))
 
     def thinned(self, most: int) -> Problem:
-        """Return the problem at no more than so many of its points, spread over them."""
+        """Return the problem at a limited number of its points, spread over all of them."""
         step = -(-self.measured.size // most)
         if step <= 1:
             return self

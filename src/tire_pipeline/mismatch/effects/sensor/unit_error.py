@@ -8,7 +8,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.repairs import Simulate, best_repair
-from tire_pipeline.recordings.check import LARGEST_PLAUSIBLE, in_another_unit
+from tire_pipeline.recordings.conventions.plausible import PLAUSIBLE, in_another_unit
 from tire_pipeline.unit_definitions import DEGREE, GRAVITY, POUND_FORCE, PSI
 
 _FORCE_FACTORS = {POUND_FORCE: "pound-force for newton", 1e3: "kN for N", GRAVITY: "kgf for N"}
@@ -27,8 +27,6 @@ _PRESSURE_FACTORS = {
     1e-5: "bar for Pa",
     PSI / 1e3: "kPa for psi",
 }
-_INFLATION = (6e4, 1.2e6)
-"""Pressures that tires have, Pa."""
 _USUAL_PRESSURE = 2.3e5
 """Of a tire whose file states none, Pa."""
 _PRESSURE_RANGE = 4.0
@@ -102,8 +100,7 @@ def _nearer(channels: Mapping[str, Array], factor: float) -> bool:
 def inflates_no_tire(pressure: Array) -> bool:
     """Whether a recorded pressure, Pa, is none that a tire has."""
     median = float(np.nanmedian(pressure))
-    low, high = _INFLATION
-    return not low < median < high
+    return not PLAUSIBLE["pressure"].low < median < PLAUSIBLE["pressure"].high
 
 
 def _pressure(channels: Mapping[str, Array]) -> list[Finding]:
@@ -138,9 +135,9 @@ _OF_UNIT = {"deg": 1.0 / DEGREE, "%": 100.0}
 def _impossible(channels: Mapping[str, Array]) -> list[Finding]:
     """Angles beyond what a wheel can have: degrees, percent."""
     found = []
-    for name, (_, unit) in LARGEST_PLAUSIBLE.items():
+    for name, limits in PLAUSIBLE.items():
         if name in channels and in_another_unit(name, channels[name]):
-            factor = _OF_UNIT[unit]
+            factor = _OF_UNIT[limits.read_as]
             text = _FACTORS_BY_CHANNEL[name][factor]
             parameters = {"ratio": (factor, 0.0, "times")}
             repaired = {name: channels[name] / factor}
