@@ -9,6 +9,7 @@ import pytest
 from draw_rates import DRAWS, EXPECTED, check_most
 from real_at_rates import points
 from recorded_sizes import NOISY, sizes
+from small_rig import ANOTHER
 from turned_axes import TURNED, cambered, leaning, misread
 from unnamed_problem import by_memory, by_speed, jolt, nothing, problem, swinging
 from weighed import all_but, named, named_sets
@@ -52,6 +53,11 @@ def no_physics_is_named_while_axes_are_open(tire, record, seed):
     wrong = misread(cambered(tire, seed), turned, (1.07, 1.0)[seed % 2])
     names = named(leaning(tire), wrong)
     return "sign_convention" in names and not [n for n in names if catalogue()[n].kind == "physics"]
+
+
+def another_tire_on_the_rig_asks_for_the_file(tire, record, seed):
+    report = explain_mismatch(tire.replace(**ANOTHER), record(seed))
+    return report.verdict == "another tire" and report.effects == []
 
 
 def speed_is_the_driver_and_its_square_the_form(tire, record, seed):
@@ -101,6 +107,7 @@ RIGHT = (
     nothing_missing_is_agreement,
     a_missing_friction_is_among_the_names_and_as_large_as_it_is,
     no_physics_is_named_while_axes_are_open,
+    another_tire_on_the_rig_asks_for_the_file,
     speed_is_the_driver_and_its_square_the_form,
     a_memory_is_the_driver,
     noise_alone_gives_no_equation,

@@ -7,7 +7,7 @@ import pytest
 from tire_pipeline.mismatch.recording.identity import figures
 from tire_pipeline.mismatch.recording.prepare import prepare
 
-DRAWS = range(4)
+DRAWS = range(2)
 
 
 def warming_sweeps(tire, seed, per_degree, softer=0.0):
