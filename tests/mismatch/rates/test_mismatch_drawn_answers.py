@@ -18,11 +18,13 @@ from worthless_slip import AXLE, RUINS, free_drive, without_slip
 from tire_pipeline.concealed.scoring.score import share_row
 from tire_pipeline.magic_formula import fit_magic_formula
 from tire_pipeline.mismatch import Explainer, explain_mismatch
+from tire_pipeline.mismatch.discrepancy.gaussian_form import gaussian_form
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.analysis import analyse
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.mismatch.inference.sets.answer import answered
 from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets
+from tire_pipeline.mismatch.model.blocks import sweeps
 from tire_pipeline.mismatch.proof.trial import put_in
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.unnamed_physics.search import find
@@ -90,6 +92,12 @@ def what_is_never_seen_twice_is_not_kept(tire, record, seed):
     return find(problem(jolt, seed)).physics is None
 
 
+def noise_alone_is_predicted_by_no_form(tire, record, seed):
+    data = prepare(tire, record(seed)).data
+    rest = np.random.default_rng(seed).normal(0.0, 50.0, data.size)
+    return abs(gaussian_form(data, rest, "fy", sweeps(data), 50.0).explained) < 0.05
+
+
 def what_swings_with_a_drum_has_its_way_in_the_equation(tire, record, seed):
     recording = swinging(record(seed), 0.08)
     report = explain_mismatch(tire, recording)
@@ -112,6 +120,7 @@ RIGHT = (
     a_memory_is_the_driver,
     noise_alone_gives_no_equation,
     what_is_never_seen_twice_is_not_kept,
+    noise_alone_is_predicted_by_no_form,
     what_swings_with_a_drum_has_its_way_in_the_equation,
 )
 
