@@ -131,15 +131,18 @@ def test_most_draws_are_answered_rightly(tire, record, right):
     check_most(lambda seed: right(tire, record, seed), right.__name__)
 
 
+@pytest.fixture(scope="module")
+def calm_and_noisy(tire, record):
+    """What is seen in each draw with little noise and with four times as much, beside what looks like it."""
+    without = all_but(*NOISY, "low_pass", "relaxation_length", "nonuniformity")
+    return [[sizes(tire, record(seed, noise=n), without)[1] for n in (20.0, 80.0)] for seed in DRAWS]
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("key", NOISY.items(), ids=" ".join)
-def test_more_noise_hides_more(tire, record, key):
-    """Beside three effects that look like it."""
-    without = all_but(*NOISY, "low_pass", "relaxation_length", "nonuniformity")
-
+def test_more_noise_hides_more(calm_and_noisy, key):
     def right(seed):
-        recordings = (record(seed, noise=noise, rate=50.0) for noise in (20.0, 80.0))
-        calm, noisy = (sizes(tire, recording, without)[1][key].seen for recording in recordings)
+        calm, noisy = (found[key].seen for found in calm_and_noisy[seed])
         return calm < noisy
 
     check_most(right, key[0])
