@@ -10,6 +10,8 @@ from functools import cache
 from itertools import combinations
 from pathlib import Path
 
+import pytest
+
 import tire_pipeline
 from tire_pipeline.channels import (
     FORCE_CHANNELS,
@@ -276,10 +278,10 @@ def test_a_file_of_tests_bears_the_name_of_its_folder_and_the_folder_that_of_wha
     assert inner - parts == WHOLE_EXPLANATIONS
 
 
-def test_what_only_ci_runs_is_there():
+@pytest.mark.parametrize("listed", ["ci_only.txt", "known_misses.txt"])
+def test_tests_that_are_listed_are_there(listed):
     tests = Path(__file__).parent
-    lines = (tests / "ci_only.txt").read_text(encoding="utf-8").splitlines()
-    for line in lines:
+    for line in (tests / listed).read_text(encoding="utf-8").splitlines():
         if line.startswith("tests/"):
             file, _, case = line.partition("::")
             test = f"def {case.partition('[')[0]}(" if case else ""

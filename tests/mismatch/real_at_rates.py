@@ -7,11 +7,13 @@ from functools import cache
 
 import numpy as np
 import pandas as pd
+import pytest
 from mismatch_shared import shared
 
 from tire_pipeline.concealed.real.sources import Sweep, sweeps
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
+from tire_pipeline.mismatch import explain_mismatch
 
 RATES = (2, 5, 20, 100, 500)
 """Hz. Recordings of 100 Hz are averaged to fewer, and brought to 500 by straight lines, as loggers do."""
@@ -116,3 +118,44 @@ def forces(tire: TireModel, recording: pd.DataFrame, output: str = "fy") -> np.n
 
 def rms(x) -> float:
     return float(np.sqrt(np.mean(np.square(np.asarray(x, float)))))
+
+
+def simulated(tire, rate, friction, seed):
+    """The small rig at another rate, with another friction: a run to explain, and another one."""
+    parts = []
+    for run in (seed, seed + 100):
+        rng = np.random.default_rng(run)
+        t = np.arange(0.0, 150.0, 1.0 / rate)
+        slip = 0.18 * np.sin(2.0 * np.pi * t / 7.5 + run)
+        load = np.array([3000.0, 5500.0, 1800.0, 4200.0])[(t // 15.0).astype(int) % 4]
+        fy = friction * tire.forces(slip_angle=slip / friction, normal_load=load).fy
+        channels = {"time": t, "slip_angle": slip + rng.normal(0.0, 1e-4, t.size)}
+        channels |= {"normal_load": load + rng.normal(0.0, 8.0, t.size)}
+        channels["fy"] = fy + rng.normal(0.0, 25.0, t.size)
+        parts.append(pd.DataFrame(channels))
+    return tire, *parts
+
+
+def check_before(tire, given, report):
+    """The error before is what ``tire.forces`` leaves; so is that after, if nothing is in."""
+    for output, fit in report.fit.items():
+        if output not in ("fx", "fy"):
+            continue
+        plain = forces(tire, given, output)
+        assert fit.rms_before == pytest.approx(rms(given[output] - plain), rel=1e-9)
+        came = report.corrected.as_it_came.predict(given)[output]
+        np.testing.assert_allclose(came, plain, rtol=1e-9, atol=1e-9 * np.abs(plain).max())
+        if not report.effects and (report.unnamed is None or report.unnamed.physics is None):
+            now = report.corrected.predict(given)[output]
+            np.testing.assert_allclose(now, plain, rtol=1e-9, atol=1e-9 * np.abs(plain).max())
+            assert fit.rms_after == fit.rms_before
+
+
+def check_unseen(tire, given, unseen):
+    report = explain_mismatch(tire, given)
+    check_before(tire, given, report)
+    for output in set(report.fit) & {"fx", "fy"}:
+        assert report.fit[output].rms_after <= report.fit[output].rms_before
+        after = rms(unseen[output] - report.corrected.predict(unseen)[output])
+        assert after <= rms(unseen[output] - forces(tire, unseen, output)) * (1.0 + 1e-9), report
+    return report

@@ -19,6 +19,9 @@ COEFFICIENTS = {
     "PKY2": 2.1,
 }
 
+ANOTHER = {"PDY1": 0.9, "PDY2": -0.25, "PKY1": 30.0, "PKY2": 1.4, "PEY1": -0.3}
+"""Coefficients of another tire."""
+
 LOAD_LAG = 0.24
 """Of the load behind what was asked for, s."""
 

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from weighed import without_visible
+from weighed import all_but, without_visible
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.mismatch import explain_recordings
+from tire_pipeline.mismatch import Explainer, explain_recordings
 from tire_pipeline.mismatch.several import predict_held_out
+
+FEW = Explainer(without=all_but("friction_scale", "stiffness_scale", "force_offset"))
+"""What is named does not matter here: few effects are weighed."""
 
 
 @pytest.fixture(scope="module")
 def together(tire, record):
-    runs = {name: record(seed, friction=0.88).iloc[:2500] for name, seed in (("a", 5), ("b", 6), ("c", 7))}
-    return explain_recordings(tire, runs, held_out="b"), runs
+    runs = {name: record(seed, friction=0.7).iloc[:2500] for name, seed in (("a", 5), ("b", 6), ("c", 7))}
+    return explain_recordings(tire, runs, held_out="b", explainer=FEW), runs
 
 
 def test_the_corrected_model_predicts_the_recording_that_was_held_out(together):
@@ -32,7 +35,7 @@ def test_the_corrected_model_predicts_the_recording_that_was_held_out(together):
 def test_the_held_out_recording_takes_no_part(tire, together, record):
     report, runs = together
     other = {**runs, "b": record(8, friction=1.3).iloc[:2500]}
-    again = explain_recordings(tire, other, held_out="b")
+    again = explain_recordings(tire, other, held_out="b", explainer=FEW)
     assert again.corrected.changes == report.corrected.changes
     assert again.held_out.errors["fy"] != report.held_out.errors["fy"]
 

@@ -5,6 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from tire_pipeline.mismatch import Explainer, MismatchReport
+from tire_pipeline.mismatch.effects import catalogue
+
+
+def all_but(*names: str) -> set[str]:
+    """All of the catalogue but some effects, to leave out: sets of these few alone are weighed."""
+    return set(catalogue()) - set(names)
 
 
 def named_sets(tire, recording) -> list[set[str]]:

@@ -12,6 +12,7 @@ from conftest_kedro import ROOT, kedro_here
 
 from tire_pipeline.datasets.users_files.recording_folder import RecordingFolderDataset
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.reporting.mismatch.explained_recordings import (
     ExplainParameters,
     collect_explained,
@@ -60,6 +61,11 @@ def test_a_recording_gets_a_report_a_page_and_a_verdict(tmp_path):
     assert (place.parent / asked[0]).is_file()
 
 
+def _all_but(*names: str) -> list[str]:
+    """Effects that are left out where it takes a few to see what is done with recordings."""
+    return sorted(set(catalogue()) - set(names))
+
+
 def _explain(loaders, parameters):
     return collect_explained(explain_each(loaders, parameters))
 
@@ -80,7 +86,8 @@ def thirds(tmp_path):
 
 def test_recordings_of_one_folder_are_explained_together_and_one_is_held_out(thirds):
     loaders = RecordingFolderDataset(path=str(thirds)).load()
-    parameters = ExplainParameters(axes="ISO", together=True, hold_out="two*")
+    without = ";".join(_all_but("inflation_pressure", "friction_scale"))
+    parameters = ExplainParameters(axes="ISO", together=True, hold_out="two*", without=without)
     reports, overview, pages, _ = _explain(loaders, parameters)
     report = reports["tire/together"]
     (effect,) = report["effects"]
@@ -125,8 +132,9 @@ def test_effects_that_are_left_out_are_not_looked_for(tmp_path):
     lines = tire.read_text().splitlines(keepends=True)
     tire.write_text("".join(line for line in lines if not line.startswith("UNLOADED_RADIUS")))
     loaders = RecordingFolderDataset(path=str(tmp_path)).load()
-    rule = {"match": "rig", "without": ["inflation_pressure"]}
-    reports, *_ = _explain(loaders, ExplainParameters(axes="ISO", recordings=[rule]))
+    few = _all_but("inflation_pressure", "friction_scale")
+    rules = [{"match": "rig", "without": [*few, "inflation_pressure"]}, {"match": "other", "without": few}]
+    reports, *_ = _explain(loaders, ExplainParameters(axes="ISO", recordings=rules))
     found = {name: [effect["name"] for effect in report["effects"]] for name, report in reports.items()}
     assert found["other/rig_run.csv"] == ["inflation_pressure"]
     assert "inflation_pressure" not in found["rig/rig_run.csv"]

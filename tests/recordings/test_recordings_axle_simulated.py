@@ -9,6 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.stats import chi2
 
+from tire_pipeline.concealed.scoring.score import share_row
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings import DART_CAR, Vehicle, axle_recording
 
@@ -136,19 +137,36 @@ def test_two_stated_deviations_hold_nine_errors_in_ten(scale, axle):
         assert 0.90 <= np.mean(shares) <= 0.999, (name, interval)
 
 
+def with_and_without_noise(axle, seed):
+    """The axle of the model car as it is stated: with the noise of its sensors, and without it."""
+    vehicle, *rest = SCALES["model car"]
+    drive, _ = drive_of(vehicle, *rest, seed=seed, seconds=80.0)
+    still, _ = drive_of(vehicle, *rest[:-2], 0.0, 0.0, seed=seed, seconds=80.0)
+    return axle_recording(drive, vehicle, axle), axle_recording(still, vehicle, axle)
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("axle", ["rear", "front"])
 def test_noise_alone_is_as_large_as_stated(axle):
-    """With the true vehicle, errors scatter as the noise column says: within a fifth."""
+    """Errors scatter as the noise column says, within a fifth: share of drives."""
+    right = []
+    for seed in range(8):
+        found, exact = with_and_without_noise(axle, seed)
+        stated = [found[f"{name}_noise_std"].median() for name in ("fy", "slip_angle")]
+        there = [np.std(found[name] - exact[name]) for name in ("fy", "slip_angle")]
+        right.append(np.all(np.abs(np.divide(there, stated) - 1.0) < 0.2))
+    row = share_row(axle, right)
+    print(f"{row['value']:.2f} ({row['low']:.2f} to {row['high']:.2f}) of {row['n']}")
+    assert row["high"] >= 0.9
+
+
+@pytest.mark.parametrize("axle", ["rear", "front"])
+def test_without_noise_the_force_is_exact(axle):
     vehicle, *rest = SCALES["model car"]
-    drive, truth = drive_of(vehicle, *rest, seed=3, seconds=80.0)
-    still, _ = drive_of(vehicle, *rest[:-2], 0.0, 0.0, seed=3, seconds=80.0)
-    found, exact = axle_recording(drive, vehicle, axle), axle_recording(still, vehicle, axle)
-    for name in ("fy", "slip_angle"):
-        ratio = np.std(found[name] - exact[name]) / found[f"{name}_noise_std"].median()
-        assert 0.8 < ratio < 1.2, (name, ratio)
-    largest = truth[f"{axle}_fy"].abs().max()
+    still, truth = drive_of(vehicle, *rest[:-2], 0.0, 0.0, seed=3, seconds=80.0)
+    exact = axle_recording(still, vehicle, axle)
     true = np.interp(exact["time"], truth["time"], truth[f"{axle}_fy"])
-    assert np.max(np.abs(exact["fy"] - true)) < 0.01 * largest
+    assert np.max(np.abs(exact["fy"] - true)) < 0.01 * truth[f"{axle}_fy"].abs().max()
 
 
 def test_signs_iso():

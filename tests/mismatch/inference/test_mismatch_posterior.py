@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 from scipy.stats import multivariate_normal, norm
 from small_rig import rig_force, schedule
+from weighed import all_but
 
 from tire_pipeline.calibration.learning import CalibrateMismatchParameters, learn_sizes, weigh_cases
 from tire_pipeline.errors import RecordingError
@@ -27,13 +28,16 @@ from tire_pipeline.mismatch.inference.sets.answer import answered
 from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets
 from tire_pipeline.mismatch.recording.prepare import prepare
 
+OTHERS = all_but("friction_scale", "stiffness_scale", "force_offset", "force_gain", "inflation_pressure")
+"""Effects that are not weighed here: what holds of sets of a few holds of all (all of them: ``rates``)."""
+
 
 @pytest.fixture(scope="module")
 def analyses(tire, record):
-    """A recording without anything, and one with 12% less friction."""
+    """A recording without anything, and one with 30% less friction; with 12%: ``rates``."""
     return {
-        names: analyse(prepare(tire, record(**how)).data)
-        for names, how in (((), {}), (("friction_scale",), {"friction": 0.88}))
+        names: analyse(prepare(tire, record(**how)).data, OTHERS)
+        for names, how in (((), {}), (("friction_scale",), {"friction": 0.7}))
     }
 
 
@@ -128,21 +132,22 @@ def test_a_form_beside_a_set_has_the_columns_of_both(cases):
 def test_a_fit_is_held_by_the_priors_that_weigh_it(tire):
     """In a short, noisy recording the width of the prior tells where a fit ends."""
     t, slip_angle, load, _ = schedule(seconds=30.0, rate=2.0)
-    noise = np.random.default_rng(0).normal(0.0, 400.0, t.size)
-    force = rig_force(tire, slip_angle, load, friction=0.7) + noise
-    channels = {"time": t, "slip_angle": slip_angle, "normal_load": load, "fy": force}
-    analysis, found = analyse(prepare(tire, pd.DataFrame(channels)).data), []
-    for width in (0.1, 3.0):
-        sets = enumerate_sets(analysis, replace(learnt(), prior=width), [("friction_scale",)]).case.sets
-        changes = next(each.changes for each in sets if each.names == ("friction_scale",))
-        found.append(changes[0][1]["friction"])
-    assert found[1] < 1.1 * found[0] < 0.0
+    without_noise = rig_force(tire, slip_angle, load, friction=0.7)
+    for seed in range(2):
+        force = without_noise + np.random.default_rng(seed).normal(0.0, 400.0, t.size)
+        channels = {"time": t, "slip_angle": slip_angle, "normal_load": load, "fy": force}
+        analysis, found = analyse(prepare(tire, pd.DataFrame(channels)).data, OTHERS), []
+        for width in (0.1, 3.0):
+            sets = enumerate_sets(analysis, replace(learnt(), prior=width), [("friction_scale",)]).case.sets
+            changes = next(each.changes for each in sets if each.names == ("friction_scale",))
+            found.append(changes[0][1]["friction"])
+        assert found[1] < found[0] < 0.0
 
 
-def test_nothing_missing_is_agreement(cases):
-    answer = answered(cases[()], learnt())
-    assert answer.sets == ()
-    assert answer.agreement > 0.5
+def test_what_is_missing_takes_the_odds_from_agreement(cases):
+    """How often a recording that lacks nothing is said to agree: ``rates``."""
+    without, missing = (answered(case, learnt()).agreement for case in cases.values())
+    assert missing < 1e-6 < without
 
 
 def test_a_missing_friction_is_among_the_names(cases):
@@ -151,7 +156,6 @@ def test_a_missing_friction_is_among_the_names(cases):
     names, probability = answer.sets[0]
     assert "friction_scale" in names
     assert 0.5 < probability <= 1.0
-    assert answer.agreement < 0.05
 
 
 def test_a_name_is_said_from_the_level_on_that_is_asked_for(cases):
@@ -163,7 +167,7 @@ def test_a_name_is_said_from_the_level_on_that_is_asked_for(cases):
 def test_the_fit_finds_the_friction(cases):
     case = cases[("friction_scale",)]
     changes = next(each.changes for each in case.sets if each.names == ("friction_scale",))
-    assert changes[0][1]["friction"] == pytest.approx(-0.12, abs=0.01)
+    assert changes[0][1]["friction"] == pytest.approx(-0.3, abs=0.01)
 
 
 @pytest.fixture(scope="module")

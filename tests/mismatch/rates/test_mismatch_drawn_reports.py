@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 from draw_rates import check_most
 from located_mismatch import located
+from real_at_rates import RATES, check_unseen, simulated
 from small_rig import out_of_round
 
 from tire_pipeline.magic_formula import TireModel
@@ -213,3 +214,16 @@ RIGHT = (
 @pytest.mark.parametrize("right", RIGHT, ids=lambda right: right.__name__)
 def test_most_draws_are_told_rightly_in_full(tire, record, right):
     check_most(lambda seed: right(tire, record, seed), right.__name__)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("rate", RATES)
+@pytest.mark.parametrize(("friction", "named"), [(1.0, []), (0.85, [("friction_scale",)])])
+def test_a_rig_at_any_rate_has_the_friction_named_that_it_lacks_and_no_other(tire, rate, friction, named):
+    """And in no draw are sweeps worse that no fit has seen."""
+
+    def right(seed):
+        report = check_unseen(*simulated(tire, rate, friction, seed))
+        return [names for names, _ in report.sets] == named
+
+    check_most(right, f"friction {friction} at {rate} Hz")

@@ -9,7 +9,6 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
 from mismatch_shared import shared
 
@@ -167,13 +166,3 @@ def test_artefacts_in_real_recordings_get_their_name_and_no_physics(real, which,
     said = [set(names) for names, _ in report.sets]
     assert said
     assert all(names & right for names in said)
-
-
-def test_points_cut_at_one_value_are_clipped(tire):
-    """Steady points have no time line; four exactly at the end of the range say enough."""
-    rng = np.random.default_rng(0)
-    slip = rng.uniform(-0.18, 0.18, 80)
-    load = rng.choice([2000.0, 3500.0, 5000.0], 80) + rng.normal(0.0, 5.0, 80)
-    fy = tire.forces(slip_angle=slip, normal_load=load).fy + rng.normal(0.0, 15.0, 80)
-    points = pd.DataFrame({"slip_angle": slip, "normal_load": load, "fy": np.clip(fy, -3000.0, 3000.0)})
-    assert [e.name for e in explain_mismatch(tire, points).effects] == ["clipping"]
