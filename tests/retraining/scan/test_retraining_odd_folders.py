@@ -41,6 +41,7 @@ def test_a_pipe_behind_a_link_and_names_that_look_the_same(tmp_path):
     read, aside = _ingested(folder)
     assert read == sorted(good)
     assert set(aside) >= {"A/out/pipe.tir", "A/out/pipe_by_link.tir", "A/x.tir"}
+    assert "the sidecar cannot be read: Is a directory -> write it again, or move it away" in aside["A/x.tir"]
     store, status, _ = update_store(folder)
     assert {name for name, found in status.items() if found == "read"} == good
     assert update_store(folder, store)[1].get("A/out/through.tir") != "read"
