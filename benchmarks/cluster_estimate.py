@@ -1,9 +1,10 @@
 """What ten million files cost on a hundred machines: by bench_cluster.py, and by what no worker takes over.
 
 Measures the steps of ``ingest_tir`` that the run does itself - looks at the folder, stores what the workers
-give, joins it - in processor seconds a file. Other work on the same cores changes them little.
+give, joins it - in processor seconds a file. Where much else runs, they are up to twice as many. Then the
+most memory that Python and Arrow take for it at once, for half of the files and for all: what it grows by.
 
-Run: python benchmarks/cluster_estimate.py [--files 16000]
+Run: python benchmarks/cluster_estimate.py [--files 32000]
      python benchmarks/cluster_estimate.py --write    # into docs/how-to/cluster.md, nothing measured
 """
 
@@ -11,14 +12,15 @@ from __future__ import annotations
 
 import argparse
 import json
-import re
 import tempfile
 import time
+import tracemalloc
 from collections.abc import Mapping
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import pyarrow
 from bench_cluster import EMPTY, PAGE, ROOT, make_jobs
 from doc_tables import write_between
 
@@ -37,44 +39,67 @@ LOOK, JOIN = "looks at the folder", "stores and joins what the workers give"
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--files", type=int, default=16_000)
+    parser.add_argument("--files", type=int, default=32_000)
     parser.add_argument("--write", action="store_true", help="only put the estimate into the documentation")
     asked = parser.parse_args()
     if not asked.write:
         write_bytes(OUT, json.dumps(measured(asked.files), indent=1).encode())
     cluster = json.loads(CLUSTER.read_text())
-    text = estimate(cluster, json.loads(OUT.read_text()), PAGE.read_text())
+    alone = json.loads(OUT.read_text())
+    text = estimate(cluster, alone)
     if asked.write:
         write_between(PAGE, "<!-- cluster_estimate -->", text)
+        write_between(PAGE, "<!-- ingest_memory -->", memory(alone))
     print(text)
 
 
 def measured(files: int) -> dict[str, Any]:
-    """Processor seconds a file of each step that is this process's own."""
+    """Processor seconds a file of each step that is this process's own, and the most memory of two sizes."""
     one_process = SimpleNamespace(config_loader={"parameters": {"cluster": {"processes": 1}}})
     ClusterHooks().after_context_created(one_process)
-    with tempfile.TemporaryDirectory() as place:
-        make_jobs(Path(place), files, 0, 0)
-        blocks = read_files(TirFolderDataset(path=f"{place}/tir").load())
-        parts = {name: done.result() for name, done in all_done(in_processes(2), blocks, "reading").items()}
-        spent = _run_alone(Path(place), parts)
+    most_memory = {}
+    for some in (files // 2, files):
+        with tempfile.TemporaryDirectory() as place:
+            make_jobs(Path(place), some, 0, 0)
+            blocks = read_files(TirFolderDataset(path=f"{place}/tir").load())
+            parts = {n: done.result() for n, done in all_done(in_processes(2), blocks, "reading").items()}
+            del blocks
+            spent = _run_alone(Path(place) / "timed", Path(place), parts)
+            most_memory[some] = _most_memory(Path(place), parts)
     return {
         "files": files,
         "processor_seconds_a_file": {step: seconds / files for step, seconds in spent.items()},
+        "most_bytes": most_memory,
         "date": time.strftime("%Y-%m-%d"),
     }
 
 
-def _run_alone(place: Path, parts: Mapping[str, bytes]) -> dict[str, float]:
+def _run_alone(out: Path, place: Path, parts: Mapping[str, bytes]) -> dict[str, float]:
+    """All steps of a run but those of its workers; it holds what a run holds while they work."""
     began = time.process_time()
-    read_files(TirFolderDataset(path=str(place / "tir")).load())
+    files = TirFolderDataset(path=str(place / "tir")).load()
+    blocks = read_files(files)
     looked = time.process_time()
-    stored = ComputedFolderDataset(path=str(place / "blocks"))
+    stored = ComputedFolderDataset(path=str(out / "blocks"))
     stored.save({name: _Given(part) for name, part in parts.items()})
+    del files, blocks
     table, report, _ = join_files(stored.load(), IngestParameters())
-    TablePartsDataset(filepath=str(place / "raw.json")).save(table)
-    CsvTableDataset(filepath=str(place / "report.csv"), save_args={"index": False}).save(report)
+    TablePartsDataset(filepath=str(out / "raw.json")).save(table)
+    CsvTableDataset(filepath=str(out / "report.csv"), save_args={"index": False}).save(report)
     return {LOOK: looked - began, JOIN: time.process_time() - looked}
+
+
+def _most_memory(place: Path, parts: Mapping[str, bytes]) -> int:
+    """Bytes of Python's and numpy's objects, and of Arrow's tables and texts, each where it is largest."""
+    usual, watched = pyarrow.default_memory_pool(), pyarrow.proxy_memory_pool(pyarrow.default_memory_pool())
+    pyarrow.set_memory_pool(watched)
+    tracemalloc.start()
+    try:
+        _run_alone(place / "watched", place, parts)
+        return tracemalloc.get_traced_memory()[1] + watched.max_memory()
+    finally:
+        tracemalloc.stop()
+        pyarrow.set_memory_pool(usual)
 
 
 class _Given:
@@ -89,9 +114,25 @@ class _Given:
         return self._part
 
 
-def estimate(cluster: dict[str, list[dict[str, Any]]], alone: dict[str, Any], page: str) -> str:
-    """The sentences of the documentation; how the memory grows stands in a table of the page."""
-    kilobytes = float(re.findall(r"\| `ingest_tir` \|[^|]*\| ([\d.]+) kB \|", page)[0])
+def _bytes_a_file(alone: dict[str, Any]) -> float:
+    """What the most memory grows by."""
+    (fewer, less), (more, most) = ((int(count), size) for count, size in alone["most_bytes"].items())
+    return (most - less) / (more - fewer)
+
+
+def memory(alone: dict[str, Any]) -> str:
+    """What the run of ``ingest_tir`` holds."""
+    fewer, more = map(int, alone["most_bytes"])
+    return (
+        "`ingest_tir` holds name, reader, place in a block and row of the report of every file: "
+        f"{_bytes_a_file(alone) / 1e3:.2g} kB a file, measured on {fewer:,} and {more:,} files "
+        "with names such as `A/123.tir`."
+    )
+
+
+def estimate(cluster: dict[str, list[dict[str, Any]]], alone: dict[str, Any]) -> str:
+    """The sentences of the documentation."""
+    a_file_holds = _bytes_a_file(alone)
     files, reading = _largest(cluster)
     blocks = 1
     while blocks * 250 < FILES:
@@ -104,7 +145,6 @@ def estimate(cluster: dict[str, list[dict[str, Any]]], alone: dict[str, Any], pa
     own["hands over the blocks"] = blocks * a_task
     in_order = sorted(own.items(), key=lambda each: -each[1])
     steps = "; ".join(f"{step}: {_round(seconds)}" for step, seconds in in_order)
-    memory = FILES * kilobytes / 1e6
     whole = sum(own.values())
     slower = "The run takes" if whole > read else "The workers take"
     sentences = [
@@ -115,11 +155,12 @@ def estimate(cluster: dict[str, list[dict[str, Any]]], alone: dict[str, Any], pa
         f"there are ({steps}), measured on {alone['files']:,} files. {slower}",
         f"{max(whole, read) / min(whole, read):.0f} times as long.",
         "What breaks first is the run's memory, unless its machine has more:",
-        f"it grows by {kilobytes} kB a file (see below), to {memory:.2g} GB. Next is the file",
-        f"server, which has to open {_round_number(FILES / read)} files a second, or the workers wait for",
-        f"it. None of this was tried.\n\nThere are {blocks:,} blocks of about {FILES / blocks:.0f} files (a",
-        "power of two). What a block gives passes through the run's process three times: it is stored, its",
-        f"report is read, and its rows are written into {FILES / PIECE_ROWS:,.0f} parts of the table.",
+        f"it grows by {a_file_holds / 1e3:.2g} kB a file (see below), to",
+        f"{FILES * a_file_holds / 1e9:.2g} GB. Next is the file server, which has to open",
+        f"{_round_number(FILES / read)} files a second, or the workers wait for it. None of this was",
+        f"tried.\n\nThere are {blocks:,} blocks of about {FILES / blocks:.0f} files (a power of two). What a",
+        "block gives passes through the run's process three times: it is stored, its report is read, and its",
+        f"rows are written into {FILES / PIECE_ROWS:,.0f} parts of the table.",
     ]
     return " ".join(sentences)
 

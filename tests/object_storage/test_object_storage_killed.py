@@ -9,33 +9,16 @@ from pathlib import Path
 import pytest
 from bucket_runs import ROOT, run_here
 from kedro.io import DatasetError
+from killed_runs import forked_run
+from moto_keys import KEY, SECRET
 
 from tire_pipeline.datasets import TextFolderDataset
 from tire_pipeline.files.objects import Objects
 
 pytestmark = pytest.mark.long
-KILLED_AT = """
-import os, signal, sys
-from aiobotocore.client import AioBaseClient
-from kedro.framework.cli.cli import main
-
-part, left = sys.argv.pop(1), int(sys.argv.pop(1))
-call = AioBaseClient._make_api_call
-
-async def killing(self, operation, parameters):
-    global left
-    if operation in ("PutObject", "CompleteMultipartUpload") and part in parameters["Key"]:
-        left -= 1
-        if not left:
-            os.kill(os.getpid(), signal.SIGKILL)
-    return await call(self, operation, parameters)
-
-AioBaseClient._make_api_call = killing
-main()
-"""
 TIME = re.compile(rb"20\d\d-\d\d-\d\d[T ]\d\d[.:]\d\d([.:]\d\d)?([.:]\d+)?(Z|\+00:00)?")
 PDY1 = re.compile(r"(?m)^(PDY1\s*=\s*)(\S+)")
-QUICK = "one_run_at_a_time.expiry_seconds=3,cluster.processes=1"
+QUICK = {"one_run_at_a_time": {"expiry_seconds": 3}, "cluster": {"processes": 1}}
 TRANSLATION = [
     ("06_models/translator.npz", 1),
     ("translated_blocks/", 1),
@@ -90,23 +73,24 @@ def _versions(data: Objects) -> set[str]:
     return {part for name in parts for part in name if part.endswith("Z")}
 
 
-def _kill_at_each(kedro, data: Objects, pipeline: str, points, folders, params: str) -> None:
+def _kill_at_each(runs: Path, data: Objects, pipeline: str, points, folders, parameters) -> None:
     """Kill a run at each of the points; what others would load stays that of one run, or is refused."""
     loaded = {folder: [_whole(data.below(folder))] for folder in folders}
-    for part, number in points:
-        program = ["-c", KILLED_AT, part, str(number)]
-        run = kedro("--pipeline", pipeline, "--params", params, program=program)
-        assert run.wait(timeout=500) == -signal.SIGKILL, f"{part}, {number}: {run.said()}"
+    for count, point in enumerate(points):
+        log = runs / f"log{count}"
+        assert forked_run(runs / "conf", log, pipeline, parameters, point) == -signal.SIGKILL, log.read_text()
         for folder, seen in loaded.items():
             now = _whole(data.below(folder))
             if now is not None and now not in seen:
                 seen.append(now)
     for seen in loaded.values():
         assert len(seen) <= 2  # the one of before, and the one that was written last
-    last = kedro("--pipeline", pipeline, "--params", params)
-    assert last.wait(timeout=500) == 0, last.said()
+    log = runs / "log"
+    assert forked_run(runs / "conf", log, pipeline, parameters, None) == 0, log.read_text()
     assert all(_whole(data.below(folder)) is not None for folder in folders)
-    assert "its results are removed" in " ".join(last.said().split())
+    assert "its results are removed" in " ".join(log.read_text().split())
+    for each in runs.glob("log*"):
+        assert not {word for word in (KEY, SECRET) if word in each.read_text()}
 
 
 def _undisturbed(data: Objects, before: dict[str, bytes], conf: Path, pipeline: str, **parameters) -> None:
@@ -128,15 +112,14 @@ def _compare(data: Objects, killed: dict[str, bytes]) -> None:
 def test_a_translation_that_is_killed_at_any_write_leaves_nothing_that_counts(kedro, data, tmp_path):
     conf = tmp_path / "conf"
     run_here(conf, "make_fleet")
-    few = {"translate": {"trials": 12}, "cluster": {"processes": 1}}
+    few = {**QUICK, "translate": {"trials": 12}}
     run_here(conf, "ingest_tir", "dedupe_filter", "normalize", "translate", **few)
     first = _versions(data)
     changed, translated = "01_raw/tir/A/A_00003.tir", "07_model_output/translated/A/A_00003.tir"
     text = data.read(changed).decode()
     data.write(changed, PDY1.sub(lambda found: f"{found[1]}{1.01 * float(found[2])}", text).encode())
     before = {name: data.read(name) for name in data.names()}
-    params = f"{QUICK},translate.trials=12"
-    _kill_at_each(kedro, data, "translate", TRANSLATION, ["07_model_output/translated"], params)
+    _kill_at_each(tmp_path, data, "translate", TRANSLATION, ["07_model_output/translated"], few)
     killed = _results(data)
     assert len(_versions(data) - first) == 1
     _undisturbed(data, before, conf, "translate", **few)
@@ -144,24 +127,27 @@ def test_a_translation_that_is_killed_at_any_write_leaves_nothing_that_counts(ke
     _compare(data, killed)
 
 
-def _recording(rows: slice) -> bytes:
-    head, *lines = (ROOT / "examples/rig_run.csv").read_text().splitlines()
-    return "\n".join([head, *lines[rows], ""]).encode()
+def _recording(start: int, gain: float = 1.0) -> bytes:
+    """A hundred rows of the example from ``start`` on; its forces by a factor."""
+    head, units, *lines = (ROOT / "examples/rig_run.csv").read_text().splitlines()
+    rows = (line.rsplit(",", 1) for line in lines[start : start + 400 : 4])
+    return "\n".join([head, units, *(f"{rest},{gain * float(fy):.1f}" for rest, fy in rows), ""]).encode()
 
 
 def test_an_explanation_that_is_killed_at_any_write_leaves_nothing_that_counts(kedro, data, tmp_path):
     conf = tmp_path / "conf"
     rig = data.below("01_raw/recordings/rig")
     rig.write("model.tir", (ROOT / "examples/tire.tir").read_bytes())
-    rig.write("one.csv", _recording(slice(0, 700)))
-    run_here(conf, "explain_mismatch", cluster={"processes": 1})
+    rig.write("one.csv", _recording(0))
+    run_here(conf, "explain_mismatch", **QUICK)
     first = _versions(data)
-    rig.write("one.csv", _recording(slice(700, 1400)))
-    rig.write("two.csv", _recording(slice(300, 1000)))
+    rig.write("one.csv", _recording(0, gain=0.8))
+    rig.write("two.csv", _recording(500, gain=0.8))
     before = {name: data.read(name) for name in data.names()}
     folders = ["07_model_output/corrected", "08_reporting/mismatch"]
-    _kill_at_each(kedro, data, "explain_mismatch", EXPLANATION, folders, QUICK)
+    _kill_at_each(tmp_path, data, "explain_mismatch", EXPLANATION, folders, QUICK)
     killed = _results(data)
+    assert any(name.startswith("07_model_output/corrected/rig/two") for name in killed)
     assert len(_versions(data) - first) == 1
-    _undisturbed(data, before, conf, "explain_mismatch", cluster={"processes": 1})
+    _undisturbed(data, before, conf, "explain_mismatch", **QUICK)
     _compare(data, killed)

@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 import pickle
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
+from functools import partial
 from hashlib import sha256
 from itertools import compress
 from pathlib import Path
@@ -15,7 +16,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from joblib import Parallel, delayed
 from pydantic import Field
 
 from tire_pipeline.calibration.cases import KnownCase, plans
@@ -37,11 +37,13 @@ from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets
 from tire_pipeline.mismatch.inference.thinning import thinned
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.parameters import Parameters
+from tire_pipeline.tasks import Map, all_done, in_turn
 
 Work = dict[str, Callable[[], bytes]]
 Folder = Mapping[str, Callable[[], bytes]]
 _STOPPED_CASE = pickle.dumps(None)
 """Of a case that stops before the sets are weighed, or cannot be made."""
+_CASES_A_TASK = 8
 
 
 class CalibrateMismatchParameters(Parameters):
@@ -55,7 +57,6 @@ class CalibrateMismatchParameters(Parameters):
         Seed -> number of cases of each kind.
     step : float
         Factor by which each size is tried larger and smaller; 1 learns the odds only.
-    processes : int
     """
 
     recordings: str = "../shared/recordings"
@@ -64,7 +65,6 @@ class CalibrateMismatchParameters(Parameters):
     second: dict[int, int] = {}
     unnamed: dict[int, int] = {}
     step: float = Field(1.6, ge=1.0)
-    processes: int = Field(2, ge=1)
 
 
 def reduce_cases(parameters: CalibrateMismatchParameters) -> Work:
@@ -118,7 +118,11 @@ class _WeighedCase:
 
 
 def learn_sizes(
-    reduced_cases: Folder, weighed_cases: Folder, parameters: CalibrateMismatchParameters
+    reduced_cases: Folder,
+    weighed_cases: Folder,
+    parameters: CalibrateMismatchParameters,
+    *,
+    work: Map = in_turn,
 ) -> tuple[dict[str, Any], pd.DataFrame]:
     """Learn from all sources, and judge each by sizes that were learnt without it.
 
@@ -127,6 +131,8 @@ def learn_sizes(
     reduced_cases, weighed_cases : mapping of callable
         Of :func:`reduce_cases` and :func:`weigh_cases`, in one order.
     parameters : CalibrateMismatchParameters
+    work : Map
+        Weighs the cases by the sizes that are tried, some cases a task.
 
     Returns
     -------
@@ -137,7 +143,7 @@ def learn_sizes(
     """
     cases = [t for read in reduced_cases.values() if (t := pickle.loads(read())) is not None]
     about = [e for read in weighed_cases.values() if (e := pickle.loads(read())) is not None]
-    mapped = _Mapped(parameters.processes)
+    mapped = _Mapped(work)
     found = learn(cases, learnt(), step=parameters.step, about=about, mapped=mapped)
     rows = []
     in_use = log_scores(cases, learnt(), evidence=[each[0] for each in about])
@@ -163,13 +169,25 @@ class _SaidBy:
 
 
 class _Mapped:
-    """``map`` over so many processes."""
+    """``map`` over cases by the run's workers."""
 
-    def __init__(self, processes: int) -> None:
-        self.processes = processes
+    def __init__(self, work: Map) -> None:
+        self.work = work
 
-    def __call__(self, function: Any, items: Any) -> Any:
-        return Parallel(n_jobs=self.processes, batch_size=8)(delayed(function)(item) for item in items)
+    def __call__(self, function: Callable[[Tuning], Any], cases: Iterable[Tuning]) -> list[Any]:
+        every = list(cases)
+        tasks = {
+            f"cases from number {first + 1} on": partial(
+                _of_each, function, every[first : first + _CASES_A_TASK]
+            )
+            for first in range(0, len(every), _CASES_A_TASK)
+        }
+        done = all_done(self.work, tasks, "weighing the sizes")
+        return [found for task in done.values() for found in task.result()]
+
+
+def _of_each(function: Callable[[Tuning], Any], cases: Sequence[Tuning]) -> list[Any]:
+    return [function(case) for case in cases]
 
 
 def _made_with(cases: list[Tuning], found: Learnt, parameters: CalibrateMismatchParameters) -> dict[str, Any]:

@@ -19,6 +19,7 @@ from tire_pipeline.translation.decode.scores_to_coefficients import COEFFICIENTS
 from tire_pipeline.translation.judge.effects import protocol_changes
 from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE, VerdictRules
 from tire_pipeline.translation.population.fit_model import PreparedTraining, fit_curve_mixed_model, prepare
+from tire_pipeline.translation.population.fit_space import with_finite_curves
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.base import Predictor
 from tire_pipeline.translation.predict.batch import BatchLearning
@@ -136,7 +137,8 @@ class CurveTranslator:
         Parameters
         ----------
         training, target, seed
-            As for every translator; the mixed model draws nothing.
+            As for every translator; the mixed model draws nothing. Files whose curves are not finite are
+            left out.
         made : PreparedTraining, optional
             What :func:`.population.fit_model.prepare` gave for ``training``, if it is there already.
 
@@ -145,6 +147,7 @@ class CurveTranslator:
         DomainError
             If the table has no tire of the target, or none of any other category.
         """
+        training = with_finite_curves(training) if made is None else training
         check_target(training, target)
         options, training = self._options, training.reset_index(drop=True)
         if self.learn_from_batch:

@@ -188,7 +188,7 @@ def test_learning_betters_the_log_score(tuning):
 
 def test_the_nodes_learn_what_one_call_learns(tuning):
     """Evidence that is worked out case by case, by any worker, and stored; a stopped case is passed over."""
-    parameters = CalibrateMismatchParameters(processes=1)
+    parameters = CalibrateMismatchParameters()
     stored = [*(pickle.dumps(each) for each in tuning), pickle.dumps(None)]
     reduced = {f"code/{k}.pkl": partial(bytes, each) for k, each in enumerate(stored)}
     work = weigh_cases(reduced, parameters)

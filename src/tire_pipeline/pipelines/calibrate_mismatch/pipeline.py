@@ -3,6 +3,7 @@
 from kedro.pipeline import Node, Pipeline
 
 from tire_pipeline.calibration.learning import learn_sizes, reduce_cases, weigh_cases
+from tire_pipeline.cluster import given_map
 
 
 def create_pipeline(**_: object) -> Pipeline:
@@ -22,7 +23,7 @@ def create_pipeline(**_: object) -> Pipeline:
                 name="weigh_cases",
             ),
             Node(
-                learn_sizes,
+                given_map(learn_sizes),
                 inputs=["tuning_reductions", "tuning_evidence", "params:calibrate_mismatch"],
                 outputs=["mismatch_sizes", "calibration_scores"],
                 name="learn_sizes",

@@ -5,6 +5,7 @@ Noise shows in files of one tire in one category. What is a tire's own is what c
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +18,7 @@ from tire_pipeline.translation.curves.features import encode
 from tire_pipeline.translation.curves.space import PARTS, UNIT, CurveSpace
 from tire_pipeline.translation.population.metadata import Metadata
 
+_LOG = logging.getLogger(__name__)
 _USUAL_SHARE = 0.6  # of repeats, from which the noise is found
 _NOMINAL = 0.01  # of the logarithm of test over nominal pressure
 _FEWEST_REPEATS = 4  # files of a cell tell its noise
@@ -46,6 +48,20 @@ class Cells:
     files: np.ndarray
     cell: np.ndarray
     repeats: np.ndarray
+
+
+def with_finite_curves(table: pd.DataFrame) -> pd.DataFrame:
+    """Leave out files whose values overflow in the equations, and say which they are.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Tire table.
+    """
+    finite = np.all([np.isfinite(values).all(axis=1) for values in encode(table).values()], axis=0)
+    for file in table.loc[~finite, "file"]:
+        _LOG.warning("%s is not learned from: its curves are not finite", file)
+    return table[finite]
 
 
 def fit_curve_space(table: pd.DataFrame) -> tuple[CurveSpace, Cells]:
@@ -179,7 +195,10 @@ def _robust_location(scores: np.ndarray, cell: np.ndarray) -> np.ndarray:
 
 
 def _noise_covariance(apart: np.ndarray, cell: np.ndarray) -> np.ndarray | None:
-    """Covariance of one file about its cell without worn and odd ones; None if too few repeat."""
+    """Covariance of one file about its cell without worn and odd ones; None if too few repeat.
+
+    Zero where most files of a cell are alike: copies, or files without coefficients for these features.
+    """
     from sklearn.covariance import MinCovDet
 
     count = np.bincount(cell)
@@ -187,5 +206,10 @@ def _noise_covariance(apart: np.ndarray, cell: np.ndarray) -> np.ndarray | None:
     if several.sum() < 10 * apart.shape[1]:
         return None
     lost = 1.0 - 1.0 / count[cell[several]].mean()
-    robust = MinCovDet(support_fraction=_USUAL_SHARE, random_state=0).fit(apart[several])
+    try:
+        robust = MinCovDet(support_fraction=_USUAL_SHARE, random_state=0).fit(apart[several])
+    except ValueError as error:
+        if "equal to 0" not in str(error):
+            raise
+        return np.zeros((apart.shape[1], apart.shape[1]))
     return robust.covariance_ / lost
