@@ -78,6 +78,9 @@ def canonical_frame(
     if unsaid:
         notes.append(f"{_SI_ASSUMED}: {', '.join(unsaid)}")
         assumed.append(f"SI units of {', '.join(unsaid)}, for which the file gives none")
+    strange = [column for item, channel, column in chosen if channel is None and not find_channel(item.name)]
+    if strange:
+        notes.append(f"no known channels, so not used: {', '.join(strange)}")
     if not any(name in _SI for name in columns):
         raise RecordingError(
             f"no channel is recognised among {', '.join(c.name for c in raw.channels[:12])!r}",
