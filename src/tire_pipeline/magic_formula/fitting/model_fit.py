@@ -286,6 +286,7 @@ class _Report:
         for reason, names in outcome.released.items():
             self.undetermined.append(
                 f"{reason}: {', '.join(names)} held near {towards}, except where the points demand otherwise"
+                + _unlike_tires(outcome, names)
             )
         drawn = [n for n in outcome.fit.open if not any(n in group for group in outcome.released.values())]
         if drawn:
@@ -299,3 +300,16 @@ class _Report:
                 f"{stage.title}: {rows} points are few for {len(outcome.values)} coefficients, "
                 f"which are drawn to {towards}"
             )
+
+
+def _unlike_tires(outcome: Outcome, names: Sequence[str]) -> str:
+    """Say which of some coefficients, which the ranges cannot tell, are farther off than tires differ."""
+    drawn = outcome.problem.pull
+    rows = zip(outcome.problem.names, drawn.centre.tolist(), drawn.spread.tolist(), strict=True)
+    far = [
+        f"{name} = {outcome.values[name]:.3g} (tires: {centre:.2g} ± {spread:.2g})"
+        for name, centre, spread in rows
+        if name in names and abs(outcome.values[name] - centre) > spread
+    ]
+    where = "the model holds only at the loads, cambers, pressures and speeds that were recorded"
+    return f". {', '.join(far)}: {where}" if far else ""
