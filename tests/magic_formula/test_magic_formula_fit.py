@@ -267,18 +267,3 @@ def test_a_load_that_fluctuates_is_one_load_and_its_stiffness_stays_positive_at_
             for m in (true, fit.model)
         )
         assert ((found / known > 0.5) & (found / known < 2.0)).all(), version
-
-
-@pytest.mark.parametrize("by_pressure", [0.0, 3.0])
-def test_what_the_rows_demand_of_a_pressure_that_hardly_varied_is_said_to_hold_there_only(by_pressure):
-    """A pressure that drifts along with friction made a model that is far off at another pressure."""
-    rng = np.random.default_rng(0)
-    slip, load = np.tile(np.linspace(-0.2, 0.2, 60), 5), np.repeat(np.linspace(0.4, 1.6, 5), 60) * 4000.0
-    tire = TireModel.from_coefficients({"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2})
-    drift = rng.uniform(-0.011, 0.011, slip.size)
-    table = pd.DataFrame({"slip_angle": slip, "normal_load": load, "pressure": 220e3 * (1.0 + drift)})
-    table["fy"] = tire.forces(slip_angle=slip, normal_load=load).fy * (1.0 + by_pressure * drift)
-    table["fy"] += rng.normal(0.0, 15.0, slip.size)
-    said = [text for text in fit_magic_formula(table, "6.1").undetermined if "one pressure only" in text]
-    assert len(said) == 1
-    assert ("PPY3 = " in said[0] and "the model holds only at" in said[0]) == bool(by_pressure)

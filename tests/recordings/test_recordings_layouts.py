@@ -140,3 +140,11 @@ def test_mdf_names_with_a_device_behind_them(tmp_path):
         mdf.append([Signal(v, T, name=f"{n}\\ETKC:1", unit=u) for n, u, v in LISTED[1:]])
         mdf.save(file)
     check(read_recording(file), "MDF4")
+
+
+def test_numbers_beyond_any_measurement_become_missing(tmp_path):
+    file = tmp_path / "a.csv"
+    pd.DataFrame({"time": T, "slip_angle": SA * DEG, "normal_load": FZ, "fy": FY * 1e200}).to_csv(file)
+    recording = read_recording(file)
+    assert recording["fy"].abs().max() == 0.0
+    assert "fy: 49 values are beyond any measurement and became NaN" in recording.attrs["notes"]

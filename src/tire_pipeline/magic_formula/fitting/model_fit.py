@@ -114,11 +114,12 @@ def fit_magic_formula(
     >>> bool(fit.relative_rms["fy"] < 1e-3)
     True
     """
-    points, forces = given.columns(recording)
+    points, forces, said = given.columns(recording)
     base, notes = given.base(recording, version, start, points, nominal_load, unloaded_radius)
     points["speed"] = given.filled(points["speed"], base["LONGVL"])
     points["pressure"] = given.filled(points["pressure"], base.get("NOMPRES", 0.0))
     model = TireModel.from_coefficients(base, version)
+    notes += said
     report = _Report(notes, start is not None)
     options = Options(starts, loss, start is not None, np.random.default_rng(seed), together)
     with threadpool_limits(1):  # many small problems: threads in each only get in each other's way

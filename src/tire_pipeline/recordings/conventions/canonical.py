@@ -130,8 +130,18 @@ def _in_si(
             unit_names[column] = channel.unit
         elif unit:
             unit_names[column] = unit
-        columns[column] = values
+        columns[column] = _no_overflow(item.name, values, notes)
     return columns, unit_names, unsaid
+
+
+def _no_overflow(name: str, values: NDArray[np.float64], notes: list[str]) -> NDArray[np.float64]:
+    """Put NaN where a number is so large that its square is none: no channel reaches it."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        beyond = np.isfinite(values) & ~np.isfinite(values * values)
+    if not beyond.any():
+        return values
+    notes.append(f"{name}: {int(beyond.sum())} values are beyond any measurement and became NaN")
+    return np.where(beyond, np.nan, values)
 
 
 def _check_units(raw: RawRecording, units: Mapping[str, str], source: str) -> None:

@@ -136,7 +136,7 @@ def _layout_of(head: bytes, whole: bool, path: Path) -> _TableLayout | None:
         raise RecordingError(
             f"no header with {fields} names above the first row of numbers",
             where=f"{path}:{line + 1}",
-            todo="put a row with the channels' names first",
+            todo="put a row with the channels' names first, with as many fields as the rows below it",
         )
     comments = [s.strip() for s in lines[:line] if s.strip().startswith(_COMMENTS)]
     return _TableLayout(delimiter, decimal, header, units, line, encoding, comments)
