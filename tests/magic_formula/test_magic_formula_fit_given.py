@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.magic_formula import PoorFitWarning, TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 
 TIRE = TireModel.from_coefficients(
@@ -70,3 +70,50 @@ def test_what_the_rows_demand_of_a_pressure_that_hardly_varied_is_said_to_hold_t
     said = [text for text in fit_magic_formula(table, "6.1").undetermined if "one pressure only" in text]
     assert len(said) == 1
     assert ("PPY3 = " in said[0] and "the model holds only at" in said[0]) == bool(by_pressure)
+
+
+def braked(angles, *, sign=1.0):
+    """Sweeps of the slip ratio at fixed slip angles."""
+    ratio, angle, load = (
+        x.ravel()
+        for x in np.meshgrid(np.linspace(-0.2, 0.2, 31), angles, [2000.0, 4000.0, 6000.0], indexing="ij")
+    )
+    tire = TIRE.replace(PCX1=1.6, PDX1=1.1, PKX1=25.0, RBX1=12.0, RBX2=8.0, RCX1=1.1, RBY1=8.0, RCY1=1.0)
+    forces = tire.forces(slip_angle=angle, slip_ratio=ratio, normal_load=load)
+    table = pd.DataFrame({"slip_angle": angle, "slip_ratio": ratio, "normal_load": load})
+    return table.assign(fx=sign * forces.fx, fy=forces.fy), tire
+
+
+@pytest.mark.parametrize("version", ["5.2", "6.1"])
+def test_braking_at_fixed_slip_angles_alone_gives_the_longitudinal_force(version):
+    """Without a point at zero slip angle Fx was 0, and 60% were left with a reason that was none."""
+    table, tire = braked([-0.14, -0.07, 0.07, 0.14])
+    fit = fit_magic_formula(table, version)
+    assert fit.relative_rms["fx"] < 0.01
+    assert "Fx at pure slip was not measured: told from combined slip" in fit.notes
+    straight = {"slip_ratio": np.linspace(-0.15, 0.15, 21), "normal_load": 4000.0}
+    found, true = (m.forces(**straight).fx for m in (fit.model, tire))
+    assert np.abs(found - true).max() < 0.05 * np.abs(true).max()
+
+
+@pytest.mark.parametrize(
+    ("table", "output", "said"),
+    [
+        (braked([0.0], sign=-1.0)[0], "fx", "falls with slip_ratio"),
+        (
+            braked([0.0])[0].assign(slip_ratio=lambda t: 12.0 * t["slip_ratio"]),
+            "fx",
+            "slip_ratio looks like percent",
+        ),
+        (
+            sweep().assign(slip_angle=lambda t: 5.0 * t["slip_angle"], fy=lambda t: t["fy"] / 30.0),
+            "fy",
+            "stiffness is beyond any tire's",
+        ),
+        (sweep().assign(fy=lambda t: t["fy"] / 1000.0), "fy", "friction is beyond any tire's"),
+    ],
+)
+def test_what_no_tire_has_is_no_success(table, output, said):
+    with pytest.warns(PoorFitWarning, match=said):
+        fit = fit_magic_formula(table)
+    assert said in fit.poor[output]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
@@ -11,6 +12,7 @@ import numpy as np
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.equations.equations_61 import cornering_stiffness
 from tire_pipeline.magic_formula.fitting.output_fit import fit_together
 from tire_pipeline.magic_formula.fitting.report.result import FitResult
@@ -133,7 +135,7 @@ def fit_magic_formula(
         )
     table, shares = residual_table(model, points, forces), relative_rms(model, points, forces)
     measured = pd.DataFrame({**points, **forces})
-    poor = poor_outputs(model, points, forces, shares, report.fitted, start)
+    poor = poor_outputs(model, points, forces, shares, report.fitted, start, report.at_bound)
     for output, text in poor.items():
         warnings.warn(f"{output}: {text}", PoorFitWarning, stacklevel=2)
     return FitResult(
@@ -167,6 +169,11 @@ def _stages(
                 report.leave(f"no {output} measured", names)
                 continue
             chosen = given.choose(stage, points, forces[output])
+            if chosen.size < given.FEWEST_POINTS and output in TANGENTIAL_FORCES:
+                both = given.choose(replace(stage, points="combined"), points, forces[output])
+                if both.size >= given.FEWEST_POINTS:
+                    chosen = np.union1d(chosen, both)
+                    report.notes.append(f"{stage.title} was not measured: told from combined slip")
             if chosen.size < given.FEWEST_POINTS:
                 why = "no" if chosen.size == 0 else f"only {chosen.size} points of"
                 report.leave(f"{why} {_POINTS_OF[stage.points]}", names)
@@ -267,6 +274,7 @@ class _Report:
         self.errors: dict[str, float] = {}
         self.undetermined: list[str] = []
         self.fitted: set[str] = set()
+        self.at_bound: list[str] = []
 
     def leave(self, reason: str, names: Sequence[str], at: Mapping[str, float] | None = None) -> None:
         """Note coefficients that are not fitted, and where they stay if not at 0 or at their start."""
@@ -294,6 +302,7 @@ class _Report:
             self.undetermined.append(
                 f"{stage.title} says little about {', '.join(drawn)}: held near {towards}"
             )
+        self.at_bound += outcome.fit.at_bound
         if outcome.fit.at_bound:
             self.notes.append(f"{stage.title}: {', '.join(outcome.fit.at_bound)} at the bound")
         if rows < FEW_POINTS * len(outcome.values):
