@@ -116,7 +116,7 @@ def fit_magic_formula(
     >>> bool(fit.relative_rms["fy"] < 1e-3)
     True
     """
-    points, forces, said = given.columns(recording)
+    points, forces, left_out, said = given.columns(recording)
     base, notes = given.base(recording, version, start, points, nominal_load, unloaded_radius)
     points["speed"] = given.filled(points["speed"], base["LONGVL"])
     points["pressure"] = given.filled(points["pressure"], base.get("NOMPRES", 0.0))
@@ -147,7 +147,7 @@ def fit_magic_formula(
         shares,
         measured,
         poor,
-        sorted(set(forces) - report.fitted),
+        sorted({*forces, *left_out} - report.fitted),
     )
 
 

@@ -22,18 +22,15 @@ from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
 FEWEST_POINTS = 10
 
 
-def columns(recording: pd.DataFrame) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray], list[str]]:
-    """Return the points and the forces at them, both by name, of the rows that are whole; and notes."""
+def columns(
+    recording: pd.DataFrame,
+) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, str], list[str]]:
+    """Return the points and the forces at them, by name, of whole rows; forces left out, and why; notes."""
     if "normal_load" not in recording:
         raise RecordingError("there is no normal_load", todo="name the load's column normal_load, in newtons")
     wanted = [name for name in FORCE_CHANNELS if name in recording]
     if not wanted:
         raise RecordingError("there is no force or moment to fit", todo="name them fx, fy, mx, my, mz")
-    if not {"slip_angle", "slip_ratio"} & set(recording) and set(wanted) - {"mx", "my"}:
-        raise RecordingError(
-            "neither slip_angle nor slip_ratio is recorded",
-            todo="name the columns slip_angle (rad) and slip_ratio: forces follow them",
-        )
     load = recording["normal_load"].to_numpy(dtype=float)
     good = np.isfinite(load) & (load > 0)
     points, notes = {}, []
@@ -51,6 +48,11 @@ def columns(recording: pd.DataFrame) -> tuple[dict[str, np.ndarray], dict[str, n
             f"only {int(good.sum())} points have a positive load and finite slips",
             todo=f"give at least {FEWEST_POINTS}",
         )
+    if not {"slip_angle", "slip_ratio"} & set(recording) and set(wanted) - {"mx", "my"}:
+        raise RecordingError(
+            "neither slip_angle nor slip_ratio is recorded",
+            todo="name the columns slip_angle (rad) and slip_ratio: forces follow them",
+        )
     forces, left_out = {}, {}
     for name in wanted:
         force = _numbers(recording, name)[good]
@@ -66,7 +68,7 @@ def columns(recording: pd.DataFrame) -> tuple[dict[str, np.ndarray], dict[str, n
             todo="check that the sensor was on, and the unit",
         )
     notes += [f"{text}: not fitted" for text in said]
-    return {name: x[good].copy() for name, x in points.items()}, forces, notes
+    return {name: x[good].copy() for name, x in points.items()}, forces, left_out, notes
 
 
 def _numbers(recording: pd.DataFrame, name: str) -> np.ndarray:
