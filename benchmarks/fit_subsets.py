@@ -76,7 +76,7 @@ def names_of(output: str, family: int) -> list[str]:
 
 def rows_of(table: pd.DataFrame, model: TireModel) -> list[np.ndarray]:
     """Return the inputs of the formula at a table's rows."""
-    points, _ = given.columns(table)
+    points, *_ = given.columns(table)
     points["speed"] = given.filled(points["speed"], model.value("LONGVL"))
     points["pressure"] = given.filled(
         points["pressure"], model.value("NOMPRES") if model.family == 6 else 0.0

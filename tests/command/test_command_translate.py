@@ -89,6 +89,7 @@ def test_a_tire_beyond_the_training_data_is_written_only_if_asked_for(folder):
     text = run(*asked).stdout
     assert ": refused." in text
     assert "outside of what d has measured: distance" in text.lower()
+    assert "Bias of" not in text
     assert not Path("stiff_as_D.tir").exists()
     assert ": translated." in run(*asked, "--farthest", "3").stdout
     assert "beyond its edge, 1; written because asked for" in Path("stiff_as_D.tir").read_text("latin-1")
@@ -98,6 +99,10 @@ def test_who_measured_it_is_told_by_the_option_or_the_folder(folder):
     Path("elsewhere.tir").write_bytes(Path("A/tire.tir").read_bytes())
     stored = ("--model", "06_models/translator.npz", "--no-page")
     assert "add --from with one of A, B, C" in run("translate", "elsewhere.tir", *stored, code=2).stderr
+    Path("A/mine").mkdir()
+    Path("A/mine/tire.tir").write_bytes(Path("A/tire.tir").read_bytes())
+    above = run("translate", "A/mine/tire.tir", *stored, code=2)  # a disk or a user may be called A
+    assert "who measured this tire is not known" in above.stderr
     assert "measured by B" in run("translate", "elsewhere.tir", *stored, "--from", "B").stdout
     wrong = run("translate", "elsewhere.tir", *stored, "--overwrite", "--from", "X", code=2)
     assert "no files of 'X'" in wrong.stderr

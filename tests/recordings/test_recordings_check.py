@@ -54,6 +54,7 @@ def in_turn(frame, one, other):
         (cut(good(), time=(7, np.nan)), "time_not_finite", "warning", ((7, 7),)),
         (cut(good(), time=(7, 0.06)), "repeated_time_stamps", "error", ((7, 7),)),
         (good().drop(index=range(100, 150)), "gaps_in_time", "warning", ((100, 100),)),
+        (good().assign(time=lambda d: 1000.0 * d.time), "long_time_steps", "warning", ()),
         (cut(good(), fy=(slice(20, 49), np.nan)), "missing_block", "warning", ((20, 49),)),
         (good().assign(fx=np.nan), "empty_channel", "warning", ()),
         (in_turn(good(), "fy", "slip_angle"), "few_whole_rows", "error", ()),

@@ -35,7 +35,7 @@ _ASSUMED = (
     help="A fitted translator: its file, its versioned folder (the newest is taken) or a folder of releases.",
 )
 @click.option(
-    "--from", "category", help="Who measured the tire. Default: the known category in the file's path."
+    "--from", "category", help="Who measured the tire. Default: the file's folder, if it is a known category."
 )
 @click.option("-o", "--output", "target", type=FILE, help="The file to write. Default: FILE_as_TARGET.tir.")
 @click.option(
@@ -91,9 +91,9 @@ def command(
 
 
 def _folder(file: Path, known: tuple[str, ...]) -> str:
-    for folder in reversed(file.resolve().parent.parts):
-        if folder in known:
-            return folder
+    folder = file.resolve().parent.name
+    if folder in known:
+        return folder
     raise DomainError(
         "who measured this tire is not known",
         where=str(file),

@@ -27,6 +27,8 @@ LEAST_WHOLE = 0.1
 """Part of the rows that must have a number in all channels."""
 BRIDGED = 3
 """Holes of up to this many samples in time are interpolated linearly."""
+LONG_STEP = 1.0
+"""From sample to sample, s: runs are recorded faster. In a file without units this is often a time in ms."""
 _USED = {*INPUT_CHANNELS, *TANGENTIAL_FORCES, "time"}
 """Channels that a row must have to be used."""
 _UNITS = {c.name: c.unit for c in CANONICAL}
@@ -189,6 +191,7 @@ def _time(frame: pd.DataFrame) -> list[Issue]:
         *_backwards(np.concatenate([[False], step < 0])),
         *_repeated(np.concatenate([[False], step == 0])),
         *_gaps(step),
+        *_long_steps(frame, step),
     ]
 
 
@@ -227,6 +230,15 @@ def _gaps(step: np.ndarray) -> list[Issue]:
     )
     todo = "states such as temperature are unknown after a gap"
     return [Issue("gaps_in_time", "warning", where, todo, _runs(bad))]
+
+
+def _long_steps(frame: pd.DataFrame, step: np.ndarray) -> list[Issue]:
+    usual = float(np.nanmedian(step)) if np.isfinite(step).any() else 0.0
+    if usual <= LONG_STEP:
+        return []
+    where = f"time, {usual:.3g} s from sample to sample"
+    todo = f"lags and delays count in seconds: if time is in ms, state it: {unit_stated(frame, 'time', 'ms')}"
+    return [Issue("long_time_steps", "warning", where, todo)]
 
 
 def _values(frame: pd.DataFrame) -> list[Issue]:

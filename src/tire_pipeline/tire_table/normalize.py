@@ -58,7 +58,7 @@ def normalize_table(table: pd.DataFrame, nominal_load: npt.ArrayLike) -> pd.Data
             absent = np.isnan(old[rows]) & (values == _NOT_ZERO_BY_DEFAULT.get(name, 0.0))
             old[rows] = np.where(absent, np.nan, values)
             result[name] = old
-    return result
+    return result.copy()  # in one piece again: pandas warns of columns that were put in one by one
 
 
 def _changed(

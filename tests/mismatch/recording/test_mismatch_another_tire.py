@@ -9,6 +9,7 @@ from weighed import all_but
 from tire_pipeline.concealed import make_case
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch.recording.identity import figures
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
@@ -67,6 +68,18 @@ def test_public_files_against_real_recordings_are_another_tire():
 )
 def test_a_state_of_the_same_tire_is_no_other_tire(tire, record, change):
     assert [prepare(tire, record(seed, **change)).question for seed in range(2)] == [None] * 2
+
+
+def test_a_camber_that_was_not_recorded_is_no_other_tire():
+    """Sweeps at 4 deg throughout read as another friction, stiffness and curvature at once."""
+    tire = read_tir(shared("tir") / "OpenTire__Sandbox__MagicFormula52_Parameters.tir")
+    slip = np.tile(0.16 * np.sin(np.linspace(0.0, 2.0 * np.pi, 200)), 3)
+    load = np.repeat([0.5, 1.0, 1.5], 200) * tire.value("FNOMIN")
+    force = tire.forces(slip_angle=slip, normal_load=load, camber=0.07, limits="ignore").fy
+    force += np.random.default_rng(0).normal(0.0, 40.0, slip.size)
+    found = figures(tire, {"slip_angle": slip, "normal_load": load, "fy": force}, "fy")
+    assert not found.off.any()
+    assert figures(tire, {"slip_angle": slip, "normal_load": load, "fy": 1.5 * force}, "fy").off[0]
 
 
 @pytest.mark.slow

@@ -31,6 +31,8 @@ def bad(recording, what):
         r["fy"] = 1.0 + 0 * r["fy"]
     if what == "all missing":
         r["fy"] = np.nan
+    if what == "beyond any measurement":
+        r["fy"] *= 1e300
     return r
 
 
@@ -45,6 +47,7 @@ def bad(recording, what):
         ("repeated", "repeated"),
         ("no overlap", "overlap"),
         ("all missing", "force"),
+        ("beyond any measurement", "force"),
     ],
 )
 def test_what_cannot_be_used_is_said(tire, record, what, word):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
@@ -11,6 +12,7 @@ import numpy as np
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
+from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.magic_formula.equations.equations_61 import cornering_stiffness
 from tire_pipeline.magic_formula.fitting.output_fit import fit_together
 from tire_pipeline.magic_formula.fitting.report.result import FitResult
@@ -114,11 +116,12 @@ def fit_magic_formula(
     >>> bool(fit.relative_rms["fy"] < 1e-3)
     True
     """
-    points, forces = given.columns(recording)
+    points, forces, left_out, said = given.columns(recording)
     base, notes = given.base(recording, version, start, points, nominal_load, unloaded_radius)
     points["speed"] = given.filled(points["speed"], base["LONGVL"])
     points["pressure"] = given.filled(points["pressure"], base.get("NOMPRES", 0.0))
     model = TireModel.from_coefficients(base, version)
+    notes += said
     report = _Report(notes, start is not None)
     options = Options(starts, loss, start is not None, np.random.default_rng(seed), together)
     with threadpool_limits(1):  # many small problems: threads in each only get in each other's way
@@ -132,7 +135,7 @@ def fit_magic_formula(
         )
     table, shares = residual_table(model, points, forces), relative_rms(model, points, forces)
     measured = pd.DataFrame({**points, **forces})
-    poor = poor_outputs(model, points, forces, shares, report.fitted, start)
+    poor = poor_outputs(model, points, forces, shares, report.fitted, start, report.at_bound)
     for output, text in poor.items():
         warnings.warn(f"{output}: {text}", PoorFitWarning, stacklevel=2)
     return FitResult(
@@ -144,7 +147,7 @@ def fit_magic_formula(
         shares,
         measured,
         poor,
-        sorted(set(forces) - report.fitted),
+        sorted({*forces, *left_out} - report.fitted),
     )
 
 
@@ -166,6 +169,11 @@ def _stages(
                 report.leave(f"no {output} measured", names)
                 continue
             chosen = given.choose(stage, points, forces[output])
+            if chosen.size < given.FEWEST_POINTS and output in TANGENTIAL_FORCES:
+                both = given.choose(replace(stage, points="combined"), points, forces[output])
+                if both.size >= given.FEWEST_POINTS:
+                    chosen = np.union1d(chosen, both)
+                    report.notes.append(f"{stage.title} was not measured: told from combined slip")
             if chosen.size < given.FEWEST_POINTS:
                 why = "no" if chosen.size == 0 else f"only {chosen.size} points of"
                 report.leave(f"{why} {_POINTS_OF[stage.points]}", names)
@@ -266,6 +274,7 @@ class _Report:
         self.errors: dict[str, float] = {}
         self.undetermined: list[str] = []
         self.fitted: set[str] = set()
+        self.at_bound: list[str] = []
 
     def leave(self, reason: str, names: Sequence[str], at: Mapping[str, float] | None = None) -> None:
         """Note coefficients that are not fitted, and where they stay if not at 0 or at their start."""
@@ -286,12 +295,14 @@ class _Report:
         for reason, names in outcome.released.items():
             self.undetermined.append(
                 f"{reason}: {', '.join(names)} held near {towards}, except where the points demand otherwise"
+                + _unlike_tires(outcome, names)
             )
         drawn = [n for n in outcome.fit.open if not any(n in group for group in outcome.released.values())]
         if drawn:
             self.undetermined.append(
                 f"{stage.title} says little about {', '.join(drawn)}: held near {towards}"
             )
+        self.at_bound += outcome.fit.at_bound
         if outcome.fit.at_bound:
             self.notes.append(f"{stage.title}: {', '.join(outcome.fit.at_bound)} at the bound")
         if rows < FEW_POINTS * len(outcome.values):
@@ -299,3 +310,16 @@ class _Report:
                 f"{stage.title}: {rows} points are few for {len(outcome.values)} coefficients, "
                 f"which are drawn to {towards}"
             )
+
+
+def _unlike_tires(outcome: Outcome, names: Sequence[str]) -> str:
+    """Say which of some coefficients, which the ranges cannot tell, are farther off than tires differ."""
+    drawn = outcome.problem.pull
+    rows = zip(outcome.problem.names, drawn.centre.tolist(), drawn.spread.tolist(), strict=True)
+    far = [
+        f"{name} = {outcome.values[name]:.3g} (tires: {centre:.2g} ± {spread:.2g})"
+        for name, centre, spread in rows
+        if name in names and abs(outcome.values[name] - centre) > spread
+    ]
+    where = "the model holds only at the loads, cambers, pressures and speeds that were recorded"
+    return f". {', '.join(far)}: {where}" if far else ""

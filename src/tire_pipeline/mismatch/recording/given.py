@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from tire_pipeline.channels import RECORDED_CHANNELS
@@ -14,7 +15,8 @@ from tire_pipeline.recordings.check import repeated_channels
 def numeric(recording: Any) -> pd.DataFrame:
     """Return a recording with its known columns as numbers; the same object where they are.
 
-    Numbers that came as text become numbers, and dates seconds from the first one.
+    Numbers that came as text become numbers, and dates seconds from the first one. A number so large that its
+    square is none is missing: no channel reaches it.
 
     Parameters
     ----------
@@ -34,7 +36,14 @@ def numeric(recording: Any) -> pd.DataFrame:
         )
     names = [n for n in recording.columns if n in RECORDED_CHANNELS or str(n).startswith("simulated_")]
     other = [n for n in names if not pd.api.types.is_numeric_dtype(recording[n])]
-    return recording.assign(**{str(n): _numbers(recording[n]) for n in other}) if other else recording
+    changed = {str(n): _numbers(recording[n]) for n in other}
+    for name in names:
+        x = changed.get(str(name), recording[name]).to_numpy(dtype=float, na_value=np.nan)
+        with np.errstate(over="ignore", invalid="ignore"):
+            beyond = np.isfinite(x) & ~np.isfinite(x * x)
+        if beyond.any():
+            changed[str(name)] = pd.Series(np.where(beyond, np.nan, x), recording.index)
+    return recording.assign(**changed) if changed else recording
 
 
 def _numbers(column: pd.Series) -> pd.Series:

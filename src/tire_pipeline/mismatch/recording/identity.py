@@ -128,7 +128,8 @@ def figures(
 
     ``F = m F_file(slip k / m exp(c w))`` with ``log m`` and ``log k`` linear in load and in each recorded
     state that varies, and w between 0 (small slip) and 1 (full sliding): Pacejka, Tire and Vehicle Dynamics,
-    3rd ed., section 4.2, with a bend. A tread that warms in each sweep bends the curve as another tire does;
+    3rd ed., section 4.2, with a bend. A camber that was not recorded may have any value, the same throughout.
+    A tread that warms in each sweep bends the curve as another tire does;
     beside its temperature the bend is not known. Standard errors are by the scatter over stretches of rows.
 
     Parameters
@@ -144,13 +145,11 @@ def figures(
     step = max(1, arrays["normal_load"].size // ENOUGH_ROWS)
     a = {n: arrays[n][::step] for n in (*SLIP_AND_LOAD, *states, output) if n in arrays}
     model = _Similar(tire, a, output)
-    free = np.array([True, model.loaded, True, model.loaded, True, *[True] * model.of_states])
+    free = np.array([True, model.loaded, True, model.loaded, True, *[True] * model.beside])
     recorded, count = a[output], len(FIGURES)
     p, left, columns = _fit(model, recorded, np.flatnonzero(free))
-    by_states = np.arange(free.size) >= count
-    before = (
-        _fit(model, recorded, np.flatnonzero(by_states))[1] if by_states.any() else recorded - model(0.0 * p)
-    )
+    beside = np.arange(free.size) >= count
+    before = _fit(model, recorded, np.flatnonzero(beside))[1] if beside.any() else recorded - model(0.0 * p)
     inverse = np.linalg.pinv(columns.T @ columns, rcond=1e-12)
     stretch = np.arange(recorded.size) * INDEPENDENT_STRETCHES // recorded.size
     score = np.array([np.bincount(stretch, c * left, INDEPENDENT_STRETCHES) for c in columns.T])
@@ -176,24 +175,30 @@ class _Similar:
         }
         self.states = np.array([x / x.std() for x in varying.values()]).reshape(-1, load.size)
         self.of_states = 2 * len(varying)
+        self.camber_unknown = "camber" not in a
+        self.beside = self.of_states + int(self.camber_unknown)
         used = np.abs(self.points[self.slip]) / slip_at_peak(tire, output, load)
         self.bend = used / (1.0 + used)
 
     def __call__(self, p: Array) -> Array:
         """Return the force with figures off by ``p``."""
-        of_friction, of_stiffness = p[len(FIGURES) :].reshape(2, -1)
-        friction, by_load, stiffness, stiffness_by_load, curvature = p[: len(FIGURES)]
+        count = len(FIGURES)
+        of_friction, of_stiffness = p[count : count + self.of_states].reshape(2, -1)
+        friction, by_load, stiffness, stiffness_by_load, curvature = p[:count]
         m = friction + by_load * self.excess + of_friction @ self.states
         k = stiffness + stiffness_by_load * self.excess + of_stiffness @ self.states
         slip = self.points[self.slip] * np.exp(k - m + curvature * self.bend)
-        return np.exp(m) * plain_forces(self.tire, **{**self.points, self.slip: slip})[self.output]
+        points = {**self.points, self.slip: slip}
+        if self.camber_unknown:
+            points["camber"] = np.full(slip.size, p[-1])
+        return np.exp(m) * plain_forces(self.tire, **points)[self.output]
 
 
 def _fit(model: _Similar, recorded: Array, free: Array) -> tuple[Array, Array, Array]:
     """Least squares; return parameters, the residual, and its derivatives by these and by an offset."""
 
     def left(some: Array) -> Array:
-        p = np.zeros(len(FIGURES) + model.of_states)
+        p = np.zeros(len(FIGURES) + model.beside)
         p[free] = some
         rest = recorded - model(p)
         return np.asarray(rest - rest.mean())
@@ -201,6 +206,6 @@ def _fit(model: _Similar, recorded: Array, free: Array) -> tuple[Array, Array, A
     found = scipy.optimize.least_squares(
         left, np.zeros(free.size), bounds=(-_LARGEST_FIGURE, _LARGEST_FIGURE), x_scale="jac"
     )
-    p = np.zeros(len(FIGURES) + model.of_states)
+    p = np.zeros(len(FIGURES) + model.beside)
     p[free] = found.x
     return p, found.fun, np.column_stack([-found.jac, np.ones(recorded.size)])

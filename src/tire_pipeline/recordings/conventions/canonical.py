@@ -79,6 +79,9 @@ def canonical_frame(
     if unsaid:
         notes.append(f"{_SI_ASSUMED}: {', '.join(unsaid)}")
         assumed.append(f"SI units of {', '.join(unsaid)}, for which the file gives none")
+    strange = [column for item, channel, column in chosen if channel is None and not find_channel(item.name)]
+    if strange:
+        notes.append(f"no known channels, so not used: {', '.join(strange)}")
     if not any(name in _SI for name in columns):
         raise RecordingError(
             f"no channel is recognised among {', '.join(map(_with_unit, raw.channels[:12]))}",
@@ -135,8 +138,18 @@ def _in_si(
             unit_names[column] = channel.unit
         elif unit:
             unit_names[column] = unit
-        columns[column] = values
+        columns[column] = _no_overflow(item.name, values, notes)
     return columns, unit_names, unsaid
+
+
+def _no_overflow(name: str, values: NDArray[np.float64], notes: list[str]) -> NDArray[np.float64]:
+    """Put NaN where a number is so large that its square is none: no channel reaches it."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        beyond = np.isfinite(values) & ~np.isfinite(values * values)
+    if not beyond.any():
+        return values
+    notes.append(f"{name}: {int(beyond.sum())} values are beyond any measurement and became NaN")
+    return np.where(beyond, np.nan, values)
 
 
 def _check_units(raw: RawRecording, units: Mapping[str, str], source: str) -> None:

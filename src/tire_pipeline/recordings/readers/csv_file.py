@@ -21,6 +21,8 @@ _HEAD_BYTES = (1 << 16, 1 << 20, 1 << 24)  # the next where no row of numbers is
 _MOST_PREAMBLE = 200
 _EMPTY = {"", "nan", "na", "n/a", "null", "none", "-nan", "inf", "-inf", "+inf"}
 _NUMBER_IN_CELL = re.compile(r"^[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?$")
+_TEMPERATURE = re.compile(r"\bdeg ([CFcf])\b")
+_MOST_HEADER_ROWS = 4
 _COMMENTS = ("#", "%", "//", "!")
 
 
@@ -134,7 +136,7 @@ def _layout_of(head: bytes, whole: bool, path: Path) -> _TableLayout | None:
         raise RecordingError(
             f"no header with {fields} names above the first row of numbers",
             where=f"{path}:{line + 1}",
-            todo="put a row with the channels' names first",
+            todo="put a row with the channels' names first, with as many fields as the rows below it",
         )
     comments = [s.strip() for s in lines[:line] if s.strip().startswith(_COMMENTS)]
     return _TableLayout(delimiter, decimal, header, units, line, encoding, comments)
@@ -173,33 +175,52 @@ def _first_numbers(lines: list[str], delimiter: str, decimal: str) -> tuple[int,
 def _header_above(
     lines: list[str], data: int, fields: int, delimiter: str
 ) -> tuple[list[str] | None, list[str] | None]:
-    """The names and, where there is one, the row of units between them and the data."""
+    """The row of names above the data and, where there is one, the row of units.
+
+    Beside them there may be rows of descriptions or sources: the names are the row with most known channels,
+    the nearest to the data of several; the nearest that holds no units where none is known.
+    """
+    rows = _rows_above(lines, data, fields, delimiter)
+    if not rows:
+        return None, None
+    known = [sum(_is_channel(cell) for cell in row) for row in rows]
+    first = 1 if len(rows) > 1 and _are_units(rows[0]) else 0
+    at = known.index(max(known)) if any(known) else first
+    header = rows[at]
+    units = next((row for i, row in enumerate(rows) if i != at and _are_units(row)), None)
+    if units is None:
+        return header, None
+    units = [cell.strip("[]() ") for cell in units]
+    return header, [*units, *[""] * (len(header) - len(units))][: len(header)]
+
+
+def _rows_above(lines: list[str], data: int, fields: int, delimiter: str) -> list[list[str]]:
+    """Rows of as many cells as the data, the nearest first, up to the first of another length."""
     rows: list[list[str]] = []
     for line in reversed(lines[:data]):
         text = line.strip()
         if not text:
             continue
-        parts = _fields(text, delimiter)
         for mark in _COMMENTS:
-            if parts[0].startswith(mark):
-                parts = _fields(text[len(mark) :].strip(), delimiter)
+            if text.strip('"').startswith(mark):
+                text = text.strip('"')[len(mark) :].strip()
                 break
+        parts = _fields(_TEMPERATURE.sub(r"deg\1", text) if delimiter == " " else text, delimiter)
         if len(parts) >= fields or (rows and len(parts) == len(rows[0])):
             rows.append(parts)
-        if len(rows) == 2:
+        if len(rows) == _MOST_HEADER_ROWS:
             break
-    if not rows:
-        return None, None
-    if _are_units(rows[0]) and len(rows) == 2:
-        header, units = rows[1], rows[0] + [""] * (len(rows[1]) - len(rows[0]))
-        return header, units[: len(header)]
-    return rows[0], None
+    return rows
+
+
+def _is_channel(cell: str) -> bool:
+    return find_channel(split_unit(cell)[0]) is not None
 
 
 def _are_units(row: list[str]) -> bool:
     """Whether a row is one of units: more of them are units than are names of channels."""
     known = sum(find_unit(cell) is not None for cell in row if cell)
-    named = sum(find_channel(split_unit(cell)[0]) is not None for cell in row if cell)
+    named = sum(_is_channel(cell) for cell in row if cell)
     return known > named and known >= sum(bool(cell) for cell in row) / 2
 
 
@@ -219,6 +240,10 @@ def _numbers(column: pd.Series, name: str, decimal: str, notes: list[str]) -> ND
             if stamps.notna().mean() > 0.9:
                 notes.append(f"{name}: dates, counted in seconds from the first")
                 return (stamps - stamps.min()).dt.total_seconds().to_numpy(dtype=float)
+            spans = pd.to_timedelta(text.where(text.str.contains(":")), errors="coerce")
+            if spans.notna().mean() > 0.9:
+                notes.append(f"{name}: hours, minutes and seconds, counted in seconds from the first")
+                return (spans - spans.min()).dt.total_seconds().to_numpy(dtype=float)
         if text.notna().any():
             notes.append(f"{name}: text, left out")
             return None

@@ -68,7 +68,7 @@ def _collect(file: object) -> RawRecording:
             values = samples.astype(float)
             if signal.invalidation_bits is not None:
                 values[np.asarray(signal.invalidation_bits, dtype=bool)] = np.nan
-            channels.append(RawChannel(channel.name, signal.unit or None, values))
+            channels.append(RawChannel(_own_name(channel.name), signal.unit or None, values))
             if master_index is not None and master is None:
                 master = np.asarray(signal.timestamps, dtype=float)
         if channels and channels[0].values.size:
@@ -91,6 +91,11 @@ def _collect(file: object) -> RawRecording:
     if base is not None:
         out.insert(0, RawChannel("time", "s", base))
     return RawRecording("MDF4", out, notes=notes)
+
+
+def _own_name(name: str) -> str:
+    """A channel's name without the device that INCA appends to it: ``FY\\ETKC:1``."""
+    return name.partition("\\")[0] or name
 
 
 def _same(one: np.ndarray | None, other: np.ndarray | None) -> bool:

@@ -189,6 +189,7 @@ class VerdictRules:
         before, after = measured_by_both(model, rows, found)
         said = np.array(describe_bias(before, after, organisations, self.target), dtype=object)
         said[verdict != TRANSLATED] = ""
+        told = ~(self.gate & (distance > self.farthest))  # bands were tested on tires within reach only
         return pd.DataFrame(
             {
                 "verdict": verdict,
@@ -196,7 +197,7 @@ class VerdictRules:
                 "distance": distance,
                 "expected_rms_ratio": np.sqrt(ratio),
                 "harm_probability": harm,
-                "bias_band": [band.in_words(i) for i in range(len(rows))],
+                "bias_band": [band.in_words(i) if told[i] else "" for i in range(len(rows))],
                 "taught": found.taught.astype(int),
                 "changes": said,
             },

@@ -199,7 +199,7 @@ def judged(problem: Problem, bounds: Bounds, values: np.ndarray, loss: str) -> S
     free = np.flatnonzero(~bound)
     inverse = np.linalg.inv(known[np.ix_(free, free)] + np.eye(free.size))
     shares = np.full(len(values), np.nan)
-    shares[free] = np.sqrt(np.diag(inverse))
+    shares[free] = np.sqrt(np.maximum(np.diag(inverse), 0.0))  # of exact forces, rounding goes below
     return StageFit(
         values,
         shares * problem.pull.spread,

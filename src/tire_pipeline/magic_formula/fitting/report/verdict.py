@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,8 @@ MOST_LEFT = 0.1
 """RMS of the residuals, over the largest force, beyond which a fit is no success."""
 _PERCENT = 5.0
 """Slip ratios beyond this look like percent."""
+_BACKWARDS = -1.2
+"""A locked wheel has -1, less its noise; below that it would turn backwards."""
 _MOST_FRICTION = 6.0
 """Largest force over load; racing tires at small loads reach 3, sensors near no load a little more."""
 _FOLLOWS = 0.3
@@ -61,6 +63,7 @@ def poor_outputs(
     shares: Mapping[str, float],
     fitted: set[str],
     start: TireModel | None,
+    at_bound: Collection[str] = (),
 ) -> dict[str, str]:
     """Return, for each output that may not pass for a tire's, what is wrong and the likely reason.
 
@@ -76,6 +79,8 @@ def poor_outputs(
         Outputs that a stage has fitted.
     start : TireModel, optional
         Its sign of the slip stiffness is the tire's own.
+    at_bound : collection of str
+        Coefficients that ended at the bound of what tires have.
 
     Returns
     -------
@@ -86,14 +91,47 @@ def poor_outputs(
         wrong = []
         if shares[output] > MOST_LEFT:
             wrong.append(f"the fit leaves {100 * shares[output]:.0f}% of the largest magnitude")
-        units = _units(output, points, forces[output])
+        units = _units(output, points, forces[output]) or _level_units(output, at_bound)
         if units and not wrong:
             wrong.append("no tire is like that")
-        if output in TANGENTIAL_FORCES and _falls(model, output, points, start):
+        if output in TANGENTIAL_FORCES and (
+            _falls(model, output, points, start) or _turned(output, points, forces[output], start)
+        ):
             wrong.append(f"the force falls with {SLIP_OF_FORCE[output]} in the tire's own convention")
         if wrong:
             found[output] = f"{'; '.join(wrong)}. {units or _reason(output, points, forces[output], start)}"
     return found
+
+
+def _level_units(output: str, at_bound: Collection[str]) -> str:
+    """Return which units to look at where friction or slip stiffness is none that a tire has."""
+    letter = output[1].upper()
+    if output in TANGENTIAL_FORCES and f"PD{letter}1" in at_bound:
+        return (
+            f"Likely reason: units; friction is beyond any tire's, look at those of {output} and normal_load."
+        )
+    if output in TANGENTIAL_FORCES and f"PK{letter}1" in at_bound:
+        slip = SLIP_OF_FORCE[output]
+        unit = "radians" if output == "fy" else "a ratio, no percent"
+        return (
+            "Likely reason: units; the slip stiffness is beyond any tire's, look at those of "
+            f"{slip} ({unit}), {output} and normal_load."
+        )
+    return ""
+
+
+def _turned(
+    output: str, points: Mapping[str, np.ndarray], measured: np.ndarray, start: TireModel | None
+) -> bool:
+    """Whether the measured force falls with slip, in the tire's own convention, at every load and camber."""
+    own = 1.0 if output == "fx" else None if start is None else _sign_of(output, start)
+    if own is None:
+        return False
+    good = np.isfinite(measured)
+    names = (SLIP_OF_FORCE[output], "normal_load", "camber")
+    slip, load, camber = (points[name][good] for name in names)
+    slopes = _slopes(slip, measured[good], load, camber)
+    return bool(slopes.size) and bool((own * slopes < 0.0).all())
 
 
 def _falls(model: TireModel, output: str, points: Mapping[str, np.ndarray], start: TireModel | None) -> bool:
@@ -116,7 +154,7 @@ def _units(output: str, points: Mapping[str, np.ndarray], measured: np.ndarray) 
     for angle in ANGLE_CHANNELS:
         if np.abs(points[angle]).max() > LOOKS_LIKE_DEGREES:
             return f"Likely reason: units; {angle} looks like degrees, it has to be in radians."
-    if np.abs(points["slip_ratio"]).max() > _PERCENT:
+    if np.abs(points["slip_ratio"]).max() > _PERCENT or np.quantile(points["slip_ratio"], 0.02) < _BACKWARDS:
         return "Likely reason: units; slip_ratio looks like percent, it has to be a ratio."
     friction = float(np.nanquantile(np.abs(measured) / points["normal_load"], 0.98))
     if output in TANGENTIAL_FORCES and friction > _MOST_FRICTION:
@@ -135,8 +173,7 @@ def _reason(
     good = np.isfinite(measured)
     slip, load, force = points[name][good], points["normal_load"][good], measured[good]
     slopes = _slopes(slip, force, load, points["camber"][good])
-    own = 1.0 if output == "fx" else None if start is None else _sign_of(output, start)
-    if output in TANGENTIAL_FORCES and slopes.size and own is not None and (own * slopes < 0.0).all():
+    if output in TANGENTIAL_FORCES and _turned(output, points, measured, start):
         whose = "the start model's" if output == "fy" else "a tire's (braking: negative slip_ratio and fx)"
         return f"Likely reason: axes or signs; {output} over {name} has the other sign than {whose}."
     if (slopes > 0.0).any() and (slopes < 0.0).any():

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.channels import FORCE_CHANNELS
+from tire_pipeline.channels import FORCE_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.fitting.setup.stage_definitions import (
     PURE_SLIP_ANGLE,
@@ -22,8 +22,10 @@ from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
 FEWEST_POINTS = 10
 
 
-def columns(recording: pd.DataFrame) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """Return the points and the forces at them, both by name, of the rows that are whole."""
+def columns(
+    recording: pd.DataFrame,
+) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, str], list[str]]:
+    """Return the points and the forces at them, by name, of whole rows; forces left out, and why; notes."""
     if "normal_load" not in recording:
         raise RecordingError("there is no normal_load", todo="name the load's column normal_load, in newtons")
     wanted = [name for name in FORCE_CHANNELS if name in recording]
@@ -31,10 +33,13 @@ def columns(recording: pd.DataFrame) -> tuple[dict[str, np.ndarray], dict[str, n
         raise RecordingError("there is no force or moment to fit", todo="name them fx, fy, mx, my, mz")
     load = recording["normal_load"].to_numpy(dtype=float)
     good = np.isfinite(load) & (load > 0)
-    points = {}
+    points, notes = {}, []
     for name in POINT_CHANNELS:
         missing = np.nan if name in ("speed", "pressure") else 0.0
-        column = recording[name].to_numpy(dtype=float) if name in recording else np.full(load.size, missing)
+        column = _numbers(recording, name) if name in recording else np.full(load.size, missing)
+        if name == "slip_ratio" and _locked(column):
+            notes.append("slip_ratio is -1 throughout, a locked wheel: taken as not measured, and as 0")
+            column = np.zeros(load.size)
         if name in recording:
             good &= np.isfinite(column)
         points[name] = column
@@ -43,13 +48,50 @@ def columns(recording: pd.DataFrame) -> tuple[dict[str, np.ndarray], dict[str, n
             f"only {int(good.sum())} points have a positive load and finite slips",
             todo=f"give at least {FEWEST_POINTS}",
         )
-    forces = {name: recording[name].to_numpy(dtype=float)[good] for name in wanted}
-    kept = {
-        name: value
-        for name, value in forces.items()
-        if np.isfinite(value).any() and np.nanmax(np.abs(value)) > 0
-    }
-    return {name: x[good].copy() for name, x in points.items()}, kept
+    if not {"slip_angle", "slip_ratio"} & set(recording) and set(wanted) - {"mx", "my"}:
+        raise RecordingError(
+            "neither slip_angle nor slip_ratio is recorded",
+            todo="name the columns slip_angle (rad) and slip_ratio: forces follow them",
+        )
+    forces, left_out = {}, {}
+    for name in wanted:
+        force = _numbers(recording, name)[good]
+        why = _not_measured(name, force)
+        if why:
+            left_out[name] = why
+        elif np.nanmax(np.abs(force)) > 0.0:
+            forces[name] = force
+    said = [f"{name} {why}" for name, why in left_out.items()]
+    if not forces:
+        raise RecordingError(
+            "no force or moment was measured" + (f": {', '.join(said)}" if said else ""),
+            todo="check that the sensor was on, and the unit",
+        )
+    notes += [f"{text}: not fitted" for text in said]
+    return {name: x[good].copy() for name, x in points.items()}, forces, left_out, notes
+
+
+def _numbers(recording: pd.DataFrame, name: str) -> np.ndarray:
+    """Return a column; NaN where its square is no number, as nothing can be fitted to it."""
+    x = recording[name].to_numpy(dtype=float)
+    with np.errstate(over="ignore", invalid="ignore"):
+        return np.where(np.isfinite(x * x), x, np.nan)
+
+
+def _locked(slip_ratio: np.ndarray) -> bool:
+    """Whether the wheel is locked in every row: rigs write -1 where they do not measure the slip."""
+    known = slip_ratio[np.isfinite(slip_ratio)]
+    return bool(known.size) and bool((known == -1.0).all())
+
+
+def _not_measured(name: str, force: np.ndarray) -> str:
+    """Return why a column is no measurement; nothing if it may be one."""
+    known = force[np.isfinite(force)]
+    if known.size == 0:
+        return "holds no number"
+    if name in TANGENTIAL_FORCES and np.ptp(known) == 0.0 and known[0] != 0.0:
+        return f"is {known[0]:.4g} N throughout"
+    return ""
 
 
 def base(

@@ -1,0 +1,119 @@
+"""What a fit says of recordings that hold no measurement, or hardly vary."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from tire_pipeline.errors import RecordingError
+from tire_pipeline.magic_formula import PoorFitWarning, TireModel
+from tire_pipeline.magic_formula.fitting import fit_magic_formula
+
+TIRE = TireModel.from_coefficients(
+    {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2, "UNLOADED_RADIUS": 0.3}
+)
+
+
+def sweep() -> pd.DataFrame:
+    slip, load = np.tile(np.linspace(-0.2, 0.2, 40), 3), np.repeat([2000.0, 4000.0, 6000.0], 40)
+    fy = TIRE.forces(slip_angle=slip, normal_load=load).fy
+    return pd.DataFrame({"slip_angle": slip, "normal_load": load, "fy": fy})
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"fy": np.nan}, "no force or moment was measured: fy holds no number"),
+        ({"fy": 1e300}, "no force or moment was measured: fy holds no number"),
+        ({"fy": 5.0}, "no force or moment was measured: fy is 5 N throughout"),
+        ({"fy": 0.0}, "no force or moment was measured"),
+        ({"slip_angle": np.inf}, "only 0 points"),
+    ],
+)
+def test_what_was_not_measured_is_no_fit(change, said):
+    with pytest.raises(RecordingError, match=said):
+        fit_magic_formula(sweep().assign(**change))
+
+
+def test_a_force_without_any_slip_is_no_fit():
+    with pytest.raises(RecordingError, match="neither slip_angle nor slip_ratio is recorded"):
+        fit_magic_formula(sweep().drop(columns="slip_angle"))
+
+
+def test_a_force_that_was_not_measured_does_not_keep_another_from_being_fitted():
+    fit = fit_magic_formula(sweep().assign(fx=-3.0))
+    assert "fx is -3 N throughout: not fitted" in fit.notes
+    assert fit.relative_rms["fy"] < 1e-3
+
+
+def test_infinite_values_are_left_out_as_missing_ones_are():
+    table = sweep()
+    table.loc[::7, "fy"] = np.inf
+    assert fit_magic_formula(table).relative_rms["fy"] < 1e-3
+
+
+def test_a_slip_ratio_that_says_locked_throughout_was_not_measured():
+    """Rigs write -1 where they roll freely."""
+    fit = fit_magic_formula(sweep().assign(slip_ratio=-1.0))
+    assert fit.relative_rms["fy"] < 1e-3
+    assert any("locked wheel" in note for note in fit.notes)
+
+
+@pytest.mark.parametrize("by_pressure", [0.0, 3.0])
+def test_what_the_rows_demand_of_a_pressure_that_hardly_varied_is_said_to_hold_there_only(by_pressure):
+    """A pressure that drifts along with friction made a model that is far off at another pressure."""
+    rng = np.random.default_rng(0)
+    slip, load = np.tile(np.linspace(-0.2, 0.2, 60), 5), np.repeat(np.linspace(0.4, 1.6, 5), 60) * 4000.0
+    drift = rng.uniform(-0.011, 0.011, slip.size)
+    table = pd.DataFrame({"slip_angle": slip, "normal_load": load, "pressure": 220e3 * (1.0 + drift)})
+    table["fy"] = TIRE.forces(slip_angle=slip, normal_load=load).fy * (1.0 + by_pressure * drift)
+    table["fy"] += rng.normal(0.0, 15.0, slip.size)
+    said = [text for text in fit_magic_formula(table, "6.1").undetermined if "one pressure only" in text]
+    assert len(said) == 1
+    assert ("PPY3 = " in said[0] and "the model holds only at" in said[0]) == bool(by_pressure)
+
+
+def braked(angles, *, sign=1.0):
+    """Sweeps of the slip ratio at fixed slip angles."""
+    ratio, angle, load = (
+        x.ravel()
+        for x in np.meshgrid(np.linspace(-0.2, 0.2, 31), angles, [2000.0, 4000.0, 6000.0], indexing="ij")
+    )
+    tire = TIRE.replace(PCX1=1.6, PDX1=1.1, PKX1=25.0, RBX1=12.0, RBX2=8.0, RCX1=1.1, RBY1=8.0, RCY1=1.0)
+    forces = tire.forces(slip_angle=angle, slip_ratio=ratio, normal_load=load)
+    table = pd.DataFrame({"slip_angle": angle, "slip_ratio": ratio, "normal_load": load})
+    return table.assign(fx=sign * forces.fx, fy=forces.fy), tire
+
+
+@pytest.mark.parametrize("version", ["5.2", "6.1"])
+def test_braking_at_fixed_slip_angles_alone_gives_the_longitudinal_force(version):
+    """Without a point at zero slip angle Fx was 0, and 60% were left with a reason that was none."""
+    table, tire = braked([-0.14, -0.07, 0.07, 0.14])
+    fit = fit_magic_formula(table, version)
+    assert fit.relative_rms["fx"] < 0.01
+    assert "Fx at pure slip was not measured: told from combined slip" in fit.notes
+    straight = {"slip_ratio": np.linspace(-0.15, 0.15, 21), "normal_load": 4000.0}
+    found, true = (m.forces(**straight).fx for m in (fit.model, tire))
+    assert np.abs(found - true).max() < 0.05 * np.abs(true).max()
+
+
+@pytest.mark.parametrize(
+    ("table", "output", "said"),
+    [
+        (braked([0.0], sign=-1.0)[0], "fx", "falls with slip_ratio"),
+        (
+            braked([0.0])[0].assign(slip_ratio=lambda t: 12.0 * t["slip_ratio"]),
+            "fx",
+            "slip_ratio looks like percent",
+        ),
+        (
+            sweep().assign(slip_angle=lambda t: 5.0 * t["slip_angle"], fy=lambda t: t["fy"] / 30.0),
+            "fy",
+            "stiffness is beyond any tire's",
+        ),
+        (sweep().assign(fy=lambda t: t["fy"] / 1000.0), "fy", "friction is beyond any tire's"),
+    ],
+)
+def test_what_no_tire_has_is_no_success(table, output, said):
+    with pytest.warns(PoorFitWarning, match=said):
+        fit = fit_magic_formula(table)
+    assert said in fit.poor[output]
