@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.errors import DomainError
-from tire_pipeline.tire_table import IDENTICAL, NO_VALUE, TOO_LARGE, TOO_SMALL, dedupe_and_filter
+from tire_pipeline.tire_table import IDENTICAL, NO_VALUE, OVERFLOWS, TOO_SMALL, dedupe_and_filter
 
 
 def table(rows: int = 6, categories: str = "AAABBB") -> pd.DataFrame:
@@ -78,11 +78,13 @@ def test_files_without_a_feature_are_dropped():
 def test_files_whose_values_overflow_are_dropped():
     data = table()
     data.loc[1, "PDY1"], data.loc[2, ["PCY1", "MASS"]], data.loc[3, "PCY1"] = -1e40, 1e300, 1e9
+    data.loc[4, "FNOMIN"] = 1e-300
     kept, report = dedupe_and_filter(data, 1, ["PCY1"])
-    assert list(kept["file"]) == ["A/0.tir", "B/3.tir", "B/4.tir", "B/5.tir"]
+    assert list(kept["file"]) == ["A/0.tir", "B/3.tir", "B/5.tir"]
     assert report[["reason", "detail"]].to_numpy().tolist() == [
-        [TOO_LARGE, "PDY1"],
-        [TOO_LARGE, "PCY1, MASS"],
+        [OVERFLOWS, "PDY1"],
+        [OVERFLOWS, "PCY1, MASS"],
+        [OVERFLOWS, "FNOMIN"],
     ]
 
 

@@ -3,9 +3,10 @@
 from tire_pipeline.tire_table.binning import Binning
 from tire_pipeline.tire_table.dedupe import (
     IDENTICAL,
+    LARGEST_TO_SQUARE,
     NO_VALUE,
     OVER_MOST,
-    TOO_LARGE,
+    OVERFLOWS,
     TOO_SMALL,
     dedupe_and_filter,
     usable_files,
@@ -19,11 +20,12 @@ from tire_pipeline.tire_table.splits import random_split, split_by_tire, split_t
 __all__ = [
     "IDENTICAL",
     "KNOWN_COEFFICIENTS",
+    "LARGEST_TO_SQUARE",
     "METADATA",
     "NO_VALUE",
+    "OVERFLOWS",
     "OVER_MOST",
     "SIZE_KEYS",
-    "TOO_LARGE",
     "TOO_SMALL",
     "Binning",
     "Piece",

@@ -14,11 +14,11 @@ from tire_pipeline.tire_table.in_pieces import TableInPieces
 
 IDENTICAL = "identical coefficients"
 NO_VALUE = "feature without a value"
-TOO_LARGE = "value too large"
+OVERFLOWS = "value that overflows"
 TOO_SMALL = "category too small"
 OVER_MOST = "more files than training takes"
 
-_LARGEST_TO_SQUARE = float(np.sqrt(np.finfo(np.float32).max))
+LARGEST_TO_SQUARE = float(np.sqrt(np.finfo(np.float32).max))
 """Larger values overflow where they are squared in single precision."""
 _NAME_OF_FORCE_COLUMN = re.compile(r"[PQRS][A-Z]+\d+|L[A-Z]{2,4}|FNOMIN").fullmatch
 
@@ -33,8 +33,8 @@ def dedupe_and_filter(
     In this order, each step on what the one before left: first files whose p, q, r, s coefficients, scale
     factors and ``FNOMIN`` are all equal to those of an earlier row (to the bit; a missing one equals a
     missing one), whatever their category; then files that lack a feature; then files with a number that
-    overflows when it is squared in single precision; then categories with fewer than
-    ``minimum_per_category`` files left. So a category counts by what can be used of it.
+    overflows when it is squared in single precision, or a nominal load so near zero; then categories with
+    fewer than ``minimum_per_category`` files left. So a category counts by what can be used of it.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def dedupe_and_filter(
         The rows that stay, in their order, with a new index.
     report : DataFrame
         One row a dropped file, in the table's order: ``file, category, reason, detail``. ``reason`` is one
-        of ``IDENTICAL``, ``NO_VALUE``, ``TOO_LARGE`` and ``TOO_SMALL``; ``detail`` names the file that
+        of ``IDENTICAL``, ``NO_VALUE``, ``OVERFLOWS`` and ``TOO_SMALL``; ``detail`` names the file that
         stays, the features, the values, or the count.
 
     Raises
@@ -116,8 +116,11 @@ def _keys(table: pd.DataFrame, force: list[str], features: list[str]) -> pd.Data
     keys["tire"] = table["tire_id"].to_numpy() if "tire_id" in table else ""
     empty = table[features].isna().to_numpy()
     keys["missing"] = _named(features, empty)
-    numbers = table.select_dtypes("number")
-    keys["large"] = _named(list(numbers.columns), (numbers.abs() > _LARGEST_TO_SQUARE).to_numpy())
+    sizes = table.select_dtypes("number").abs()
+    overflow = sizes > LARGEST_TO_SQUARE
+    if "FNOMIN" in overflow:  # loads are divided by it
+        overflow["FNOMIN"] |= sizes["FNOMIN"] < 1.0 / LARGEST_TO_SQUARE
+    keys["overflow"] = _named(list(overflow.columns), overflow.to_numpy())
     return keys
 
 
@@ -132,7 +135,7 @@ def _marks(keys: pd.DataFrame, minimum: int) -> tuple[pd.Series, pd.Series]:
     reason = pd.Series("", index=keys.index, dtype="str")
     detail = reason.copy()
     _mark_identical(keys, reason, detail)
-    for column, why in (("missing", NO_VALUE), ("large", TOO_LARGE)):
+    for column, why in (("missing", NO_VALUE), ("overflow", OVERFLOWS)):
         here = (keys[column] != "") & (reason == "")
         reason[here] = why
         detail[here] = keys[column][here]

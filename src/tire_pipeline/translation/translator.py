@@ -137,8 +137,8 @@ class CurveTranslator:
         Parameters
         ----------
         training, target, seed
-            As for every translator; the mixed model draws nothing. Files whose curves are not finite are
-            left out.
+            As for every translator; the mixed model draws nothing. Files whose curves overflow are left
+            out.
         made : PreparedTraining, optional
             What :func:`.population.fit_model.prepare` gave for ``training``, if it is there already.
 

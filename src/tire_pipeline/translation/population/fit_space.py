@@ -14,6 +14,7 @@ from scipy.linalg import eigh
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.progress import track
+from tire_pipeline.tire_table import LARGEST_TO_SQUARE
 from tire_pipeline.translation.curves.features import encode
 from tire_pipeline.translation.curves.space import PARTS, UNIT, CurveSpace
 from tire_pipeline.translation.population.metadata import Metadata
@@ -58,9 +59,10 @@ def with_finite_curves(table: pd.DataFrame) -> pd.DataFrame:
     table : DataFrame
         Tire table.
     """
-    finite = np.all([np.isfinite(values).all(axis=1) for values in encode(table).values()], axis=0)
+    sizes = (np.abs(values) for values in encode(table).values())
+    finite = np.all([(size < LARGEST_TO_SQUARE).all(axis=1) for size in sizes], axis=0)
     for file in table.loc[~finite, "file"]:
-        _LOG.warning("%s is not learned from: its curves are not finite", file)
+        _LOG.warning("%s is not learned from: its curves overflow", file)
     return table[finite]
 
 
