@@ -3,6 +3,7 @@
 import pytest
 from brake_rig import brake_sweeps, weighted
 
+from tire_pipeline.mismatch import explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.recording.prepare import prepare
 
@@ -13,3 +14,12 @@ def test_combined_slip_is_looked_for_in_brake_sweeps(braked, angles, missing):
     """It was not where the slip angle stands still: a gain and crosstalk were named. Shares: ``rates``."""
     data = prepare(braked, brake_sweeps(weighted(braked), angles).drop(columns=missing)).data
     assert catalogue()["combined_slip"].absent(data) is None
+
+
+@pytest.mark.parametrize("factor", [0.8, 1.25])
+def test_less_friction_by_the_files_own_factors_has_its_name_at_combined_slip(braked, factor):
+    """Other programs change LMUX and LMUY, and keep the weights of combined slip: a stiffness was named."""
+    file = weighted(braked)
+    report = explain_mismatch(file, brake_sweeps(file.replace(LMUX=factor, LMUY=factor), (-3.0, 0.0, 5.0)))
+    assert [effect.name for effect in report.effects] == ["friction_scale"]
+    assert report.effects[0].parameters["friction"][0] == pytest.approx(factor - 1.0, abs=0.02)

@@ -9,19 +9,27 @@ from tire_pipeline.mismatch.effects.shared import safe_log1p
 class FrictionScale(Effect):
     """The peak of both forces moves; the slope at zero slip does not.
 
-    Covers one factor for both forces (LMUX = LMUY: another surface or compound). Not covered: friction that
-    differs along and across, which a surface does not make; what changes with load is load_sensitivity,
-    with time surface_change, temperature or wear.
+    Covers one factor for both forces (LMUX = LMUY: another surface or compound). At combined slip either both
+    slips count over the friction, as tread elements slide, or the file's weighting of one slip by the other
+    stays, as other programs have it that change LMUX and LMUY. Not covered: friction that differs along and
+    across, which a surface does not make; what changes with load is load_sensitivity, with time
+    surface_change, temperature or wear.
     """
 
     name = "friction_scale"
     title = "another friction level"
-    equation = "F = m F0(slip / m), m = 1 + friction; the slope at zero slip stays"
+    equation = (
+        "F = m F0(slip / m), m = 1 + friction; the slope at zero slip stays. "
+        "Where `by_file` is 1: LMUX and LMUY times m"
+    )
     source = "Pacejka, Tire and Vehicle Dynamics, 3rd ed., similarity method (4.2.1); LMUX, LMUY"
     constant = "friction"
     family = "scale"
     prior_source = "Judged: dry surfaces differ by 10 to 20%, as LMUX and LMUY are set between rig and road"
-    parameters = (Parameter("friction", "1", -0.7, 1.0, 0.01, prior=0.15),)
+    parameters = (
+        Parameter("friction", "1", -0.7, 1.0, 0.01, prior=0.15),
+        Parameter("by_file", "0 or 1", 0.0, 1.0, 0.1, form=True),
+    )
     looks_like = {
         "force_gain": "a gain also raises the slope at zero slip, and need not act on both forces",
         "surface_change": "a surface change begins at a moment",
@@ -31,8 +39,21 @@ class FrictionScale(Effect):
     experiment = "record one sweep to full sliding at small and at large load, with both forces recorded"
     order = 40
 
+    def starts(self, data: object) -> list[dict[str, float]]:
+        """Both forms where they differ: at combined slip."""
+        zero = self.zeros(data)
+        return [zero, {**zero, "by_file": 1.0}] if data.has_combined else [zero]  # type: ignore[attr-defined]
+
+    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+        """The friction; the form is one of the two."""
+        return ("friction",)
+
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale the friction."""
+        if p["by_file"] >= 0.5:
+            c = data.tire_coefficients  # type: ignore[attr-defined]
+            state.coefficients.update({n: c.get(n, 1.0) * (1.0 + p["friction"]) for n in ("LMUX", "LMUY")})
+            return
         state.log_friction = state.log_friction + safe_log1p(p["friction"])
 
     def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
