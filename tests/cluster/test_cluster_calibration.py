@@ -52,7 +52,7 @@ def test_sizes_are_learnt_by_the_runs_workers_and_the_same_to_the_last_bit(
         return other(tasks, what)
 
     made, scores = learn_sizes(*stored, CalibrateMismatchParameters(), work=in_turn)
-    monkeypatch.setattr(learning, "_CASES_A_TASK", 1)
+    monkeypatch.setattr(learning, "CASES_A_TASK", 1)
     made_there, scores_there = learn_sizes(*stored, CalibrateMismatchParameters(), work=noted)
     assert max(asked) == 3
     assert made_there["sizes"] == made["sizes"]

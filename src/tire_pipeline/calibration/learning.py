@@ -43,7 +43,7 @@ Work = dict[str, Callable[[], bytes]]
 Folder = Mapping[str, Callable[[], bytes]]
 _STOPPED_CASE = pickle.dumps(None)
 """Of a case that stops before the sets are weighed, or cannot be made."""
-_CASES_A_TASK = 8
+CASES_A_TASK = 8
 
 
 class CalibrateMismatchParameters(Parameters):
@@ -178,9 +178,9 @@ class _Mapped:
         every = list(cases)
         tasks = {
             f"cases from number {first + 1} on": partial(
-                _of_each, function, every[first : first + _CASES_A_TASK]
+                _of_each, function, every[first : first + CASES_A_TASK]
             )
-            for first in range(0, len(every), _CASES_A_TASK)
+            for first in range(0, len(every), CASES_A_TASK)
         }
         done = all_done(self.work, tasks, "weighing the sizes")
         return [found for task in done.values() for found in task.result()]

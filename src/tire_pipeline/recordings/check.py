@@ -12,8 +12,8 @@ import pandas as pd
 from tire_pipeline.channels import INPUT_CHANNELS, RECORDED_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL
 from tire_pipeline.recordings.conventions.plausible import (
-    FRICTION,
-    PLAUSIBLE,
+    FORCE_OVER_LOAD,
+    PLAUSIBLE_VALUES,
     likely_load_units,
     likely_units,
     plausible,
@@ -31,7 +31,7 @@ LONG_STEP = 1.0
 """From sample to sample, s: runs are recorded faster. In a file without units this is often a time in ms."""
 _USED = {*INPUT_CHANNELS, *TANGENTIAL_FORCES, "time"}
 """Channels that a row must have to be used."""
-_UNITS = {c.name: c.unit for c in CANONICAL}
+_UNIT_OF_CHANNEL = {c.name: c.unit for c in CANONICAL}
 _GAP_FACTOR = 5.0
 _WRITTEN_OUT = 1e3
 _NAN_BLOCK = 10
@@ -279,11 +279,11 @@ def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:
     large = size(values)
     if plausible(column, large):
         return []
-    unit = _UNITS[column]
+    unit = _UNIT_OF_CHANNEL[column]
     value = f"{large:,.0f}" if large >= _WRITTEN_OUT else f"{large:.3g}"
-    up_to = "up to " if large > PLAUSIBLE[column].high else ""
+    up_to = "up to " if large > PLAUSIBLE_VALUES[column].high else ""
     where = f"{column}, {up_to}{value} {unit}".removesuffix(" -")
-    read_as = PLAUSIBLE[column].read_as
+    read_as = PLAUSIBLE_VALUES[column].read_as
     if not read_as:
         return [
             Issue(
@@ -320,7 +320,7 @@ def _friction(frame: pd.DataFrame, forces: dict[str, np.ndarray], load: np.ndarr
     if (
         not name
         or not large > 0.0
-        or sizes[name] <= FRICTION[1] * large
+        or sizes[name] <= FORCE_OVER_LOAD[1] * large
         or not plausible("normal_load", large)
     ):
         return []

@@ -31,7 +31,7 @@ ENOUGH_ROWS = 4000
 CHANCE = 0.05
 """Level of every test, and what an interval or a list leaves out: one in twenty."""
 
-ALIKE = 16
+PARTS_OF_RANGE = 16
 """Parts of a channel's range, with as many samples each, within which samples are alike."""
 
 _OUTLIERS = 0.005

@@ -22,14 +22,13 @@ from tire_pipeline.mismatch.recording.identity import another_tire
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
 from tire_pipeline.mismatch.recording.usable import judge, leave_out_no_pressure, leave_out_still_slip
-from tire_pipeline.recordings.check import BRIDGED, LEAST_POINTS, LEAST_SAMPLES, LEAST_WHOLE
+from tire_pipeline.recordings.check import BRIDGED, LEAST_POINTS, LEAST_SAMPLES, LEAST_WHOLE, LONG_STEP
 
 Array = np.ndarray
 ASSUMED_ZERO = ("camber", "slip_ratio", "slip_angle")
 """What is taken as zero where it is not recorded."""
 AS_GIVEN = "columns in ISO W axes and SI units, as they were given"
 _LEAST_RATE = 50.0
-_LONG_STEP = 1.0
 
 
 @dataclass
@@ -85,7 +84,7 @@ def _on_time(time: Array | None) -> list[str]:
             "points; a channel that stuck would not show"
         ]
     step = float(np.nanmedian(np.diff(time)))
-    if step > _LONG_STEP:
+    if step > LONG_STEP:
         return [f"there are {step:.3g} s from sample to sample; if that is wrong, the unit of time is"]
     return []
 

@@ -30,7 +30,7 @@ class Plausible(NamedTuple):
     read_as: str = ""
 
 
-PLAUSIBLE = {
+PLAUSIBLE_VALUES = {
     "slip_angle": Plausible(0.0, 1.6, "a wheel that stands across its path has pi/2", "deg"),
     "camber": Plausible(0.0, 1.2, "a motorcycle leans by 65 degrees at most (1.13 rad)", "deg"),
     "slip_ratio": Plausible(0.0, 4.0, "a wheel that spins at five times the road's speed", "%"),
@@ -43,10 +43,10 @@ PLAUSIBLE = {
 }
 """By channel. A low of 0 sets no lower limit: a channel that stands still is no fault."""
 
-FRICTION = (0.1, 3.0)
+FORCE_OVER_LOAD = (0.1, 3.0)
 """Largest force over largest load: that of wet ice, and more than racing tires have on a rig (2.7)."""
 
-_UNITS = (
+_LIKELY_UNITS = (
     "deg",
     "%",
     "kN",
@@ -82,13 +82,13 @@ def size(values: np.ndarray) -> float:
 
 def plausible(channel: str, large: float) -> bool:
     """Whether a tire can have a channel of some size (SI); a channel that is not in the table always can."""
-    limits = PLAUSIBLE.get(channel)
+    limits = PLAUSIBLE_VALUES.get(channel)
     return limits is None or np.isnan(large) or bool(limits.low <= large <= limits.high)
 
 
 def in_another_unit(channel: str, values: np.ndarray) -> bool:
     """Tell whether a slip or an angle is larger than any wheel's, but for odd samples: degrees, percent."""
-    return bool(PLAUSIBLE[channel].read_as) and size(values) > PLAUSIBLE[channel].high
+    return bool(PLAUSIBLE_VALUES[channel].read_as) and size(values) > PLAUSIBLE_VALUES[channel].high
 
 
 def likely_units(frame: pd.DataFrame, channel: str, large: float) -> list[str]:
@@ -115,7 +115,7 @@ def likely_load_units(frame: pd.DataFrame, load: float, force: float) -> list[st
     load, force : float
         Sizes of the load and of the largest force as they were read, N.
     """
-    low, high = FRICTION
+    low, high = FORCE_OVER_LOAD
     return [unit for unit, x in _read_otherwise(frame, "normal_load", load) if low <= force / x <= high]
 
 
@@ -125,7 +125,7 @@ def _read_otherwise(frame: pd.DataFrame, channel: str, large: float) -> list[tup
     stated = find_unit(frame.attrs.get("file_units", {}).get(channel)) or find_unit(known.unit)
     assert stated is not None
     as_filed = (large - stated.offset) / stated.factor
-    units = [(name, UNITS_BY_NAME[name.lower()]) for name in _UNITS]
+    units = [(name, UNITS_BY_NAME[name.lower()]) for name in _LIKELY_UNITS]
     return [
         (name, abs(as_filed * unit.factor + unit.offset))
         for name, unit in units

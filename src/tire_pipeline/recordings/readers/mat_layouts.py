@@ -13,10 +13,10 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.conventions.channel_names import find_channel
 from tire_pipeline.recordings.conventions.units_in_names import split_unit
 
-_DATA = ("data", "values", "value", "samples")
-_NAMES = ("name", "label", "names", "labels", "channel", "channels", "channelname", "channelnames")
-_UNITS = ("unit", "units")
-_DEEPEST = 4
+_DATA_FIELDS = ("data", "values", "value", "samples")
+_NAME_FIELDS = ("name", "label", "names", "labels", "channel", "channels", "channelname", "channelnames")
+_UNIT_FIELDS = ("unit", "units")
+_MOST_NESTED = 4
 
 Vector = NDArray[np.float64]
 
@@ -66,7 +66,7 @@ def richest(content: Mapping[str, object]) -> MatTable:
     RecordingError
         The runs of a struct array cannot follow each other.
     """
-    found = [table for table in _tables(content, "", _DEEPEST) if table.vectors]
+    found = [table for table in _tables(content, "", _MOST_NESTED) if table.vectors]
     best = max(found, key=lambda table: table.known, default=MatTable(""))
     best.others = [t.where for t in found if t is not best and 0 < best.known == t.known]
     return best
@@ -95,7 +95,7 @@ def _table(group: Mapping[str, object], where: str) -> MatTable:
     for key, value in group.items():
         vector = numbers(value)
         columns = _columns(value, group)
-        if key.lower() in _UNITS or (key.lower() in _NAMES and vector is None):
+        if key.lower() in _UNIT_FIELDS or (key.lower() in _NAME_FIELDS and vector is None):
             table.units |= stated_units(value)
         elif vector is not None:
             table.vectors[key] = vector
@@ -104,11 +104,11 @@ def _table(group: Mapping[str, object], where: str) -> MatTable:
         elif columns:
             table.vectors |= columns
             table.units |= _listed_units(list(columns), group)
-        elif isinstance(value, Mapping) and _add(table, _field(value, _NAMES[:2]) or key, value):
+        elif isinstance(value, Mapping) and _add(table, _field(value, _NAME_FIELDS[:2]) or key, value):
             pass
         elif _entry_names(_structs(value)):
             for entry in _structs(value):
-                _add(table, str(_field(entry, _NAMES)).strip(), entry)
+                _add(table, str(_field(entry, _NAME_FIELDS)).strip(), entry)
         elif not isinstance(value, Mapping):
             table.left_out.append(key)
     return table
@@ -116,12 +116,12 @@ def _table(group: Mapping[str, object], where: str) -> MatTable:
 
 def _add(table: MatTable, name: object, entry: Mapping[str, object]) -> bool:
     """Add the channel that a struct of data, name and unit is; tell whether it is one."""
-    vector = numbers(_field(entry, _DATA))
+    vector = numbers(_field(entry, _DATA_FIELDS))
     if vector is None or vector.size < 2:
         return False
     name = str(name).strip()
     table.vectors[name] = vector
-    unit = _field(entry, _UNITS)
+    unit = _field(entry, _UNIT_FIELDS)
     if isinstance(unit, str):
         table.units[name] = unit.strip()
     return True
@@ -152,7 +152,7 @@ def _columns(value: object, group: Mapping[str, object]) -> dict[str, Vector]:
         return {}
     for key, beside in group.items():
         names = _words(beside)
-        if key.lower() not in _UNITS and len(names) in value.shape and any(map(_is_known, names)):
+        if key.lower() not in _UNIT_FIELDS and len(names) in value.shape and any(map(_is_known, names)):
             across = value if value.shape[1] == len(names) else value.T
             return {name: across[:, i].astype(float) for i, name in enumerate(names)}
     return {}
@@ -162,7 +162,7 @@ def _listed_units(names: list[str], group: Mapping[str, object]) -> dict[str, st
     """Units that stand in a list as long as the names."""
     for key, beside in group.items():
         units = _words(beside)
-        if key.lower() in _UNITS and len(units) == len(names):
+        if key.lower() in _UNIT_FIELDS and len(units) == len(names):
             return dict(zip(names, units, strict=True))
     return {}
 
@@ -170,12 +170,12 @@ def _listed_units(names: list[str], group: Mapping[str, object]) -> dict[str, st
 def stated_units(value: object) -> dict[str, str]:
     """Units by channel: of a struct with a field a channel, of lists, or of an array of structs."""
     if isinstance(value, Mapping):
-        names, units = _words(_field(value, _NAMES)), _words(_field(value, _UNITS))
+        names, units = _words(_field(value, _NAME_FIELDS)), _words(_field(value, _UNIT_FIELDS))
         pairs = dict(zip(names, units, strict=False))
         return pairs or {k: u.strip() for k, u in value.items() if isinstance(u, str)}
     pairs = {}
     for entry in _structs(value):
-        name, unit = _field(entry, _NAMES), _field(entry, _UNITS)
+        name, unit = _field(entry, _NAME_FIELDS), _field(entry, _UNIT_FIELDS)
         if isinstance(name, str) and isinstance(unit, str):
             pairs[name.strip()] = unit.strip()
     return pairs
@@ -184,7 +184,8 @@ def stated_units(value: object) -> dict[str, str]:
 def _entry_names(entries: list[Mapping[str, object]]) -> bool:
     """Whether the elements of a struct array are channels: each has a name and numbers."""
     return bool(entries) and all(
-        isinstance(_field(e, _NAMES), str) and numbers(_field(e, _DATA)) is not None for e in entries
+        isinstance(_field(e, _NAME_FIELDS), str) and numbers(_field(e, _DATA_FIELDS)) is not None
+        for e in entries
     )
 
 

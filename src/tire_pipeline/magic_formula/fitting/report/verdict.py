@@ -48,7 +48,7 @@ class PoorFitWarning(UserWarning):
     >>> from tire_pipeline.magic_formula import fit_magic_formula
     >>> slip_angle = np.linspace(-0.15, 0.15, 60)
     >>> points = pd.DataFrame({"slip_angle": slip_angle, "normal_load": 4000.0})
-    >>> points["fy"] = 900.0 * np.sin(200.0 * slip_angle)
+    >>> points["fy"] = 3000.0 * np.sin(200.0 * slip_angle)
     >>> with warnings.catch_warnings(record=True) as told:
     ...     fit = fit_magic_formula(points)
     >>> print(told[0].message)

@@ -8,7 +8,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.repairs import Simulate, best_repair
-from tire_pipeline.recordings.conventions.plausible import PLAUSIBLE, in_another_unit
+from tire_pipeline.recordings.conventions.plausible import PLAUSIBLE_VALUES, in_another_unit
 from tire_pipeline.unit_definitions import DEGREE, GRAVITY, POUND_FORCE, PSI
 
 _FORCE_FACTORS = {POUND_FORCE: "pound-force for newton", 1e3: "kN for N", GRAVITY: "kgf for N"}
@@ -100,7 +100,7 @@ def _nearer(channels: Mapping[str, Array], factor: float) -> bool:
 def inflates_no_tire(pressure: Array) -> bool:
     """Whether a recorded pressure, Pa, is none that a tire has."""
     median = float(np.nanmedian(pressure))
-    return not PLAUSIBLE["pressure"].low < median < PLAUSIBLE["pressure"].high
+    return not PLAUSIBLE_VALUES["pressure"].low < median < PLAUSIBLE_VALUES["pressure"].high
 
 
 def _pressure(channels: Mapping[str, Array]) -> list[Finding]:
@@ -135,7 +135,7 @@ _OF_UNIT = {"deg": 1.0 / DEGREE, "%": 100.0}
 def _impossible(channels: Mapping[str, Array]) -> list[Finding]:
     """Angles beyond what a wheel can have: degrees, percent."""
     found = []
-    for name, limits in PLAUSIBLE.items():
+    for name, limits in PLAUSIBLE_VALUES.items():
         if name in channels and in_another_unit(name, channels[name]):
             factor = _OF_UNIT[limits.read_as]
             text = _FACTORS_BY_CHANNEL[name][factor]
