@@ -164,8 +164,8 @@ def test_tests_import_public_names_only():
 
 
 SHOWN = {"_replace", "_fields", "_asdict", "_repr_html_", "_exit", "_make_api_call"}
-"""Names of the standard library and of notebooks that are public in spite of the underscore, and the one place
-through which aiobotocore sends everything: there a write is killed."""
+"""Names of the standard library and of notebooks that are public in spite of the underscore, and the one
+place through which aiobotocore sends everything: there a write is killed."""
 
 
 def _private(name: str) -> bool:
