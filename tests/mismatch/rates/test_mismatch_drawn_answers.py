@@ -1,4 +1,4 @@
-"""What posterior, sizes, axes and equations without a name tell of several draws: shares with intervals."""
+"""How often the answers are right over several draws, with intervals: names, sizes, axes and equations."""
 
 from __future__ import annotations
 

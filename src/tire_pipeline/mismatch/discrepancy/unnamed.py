@@ -17,7 +17,7 @@ from tire_pipeline.mismatch.discrepancy.repeating import repeating_forms
 from tire_pipeline.mismatch.discrepancy.ringing import ringing_forms
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import first_order, play
-from tire_pipeline.mismatch.model.channels import PARTS_OF_RANGE, used
+from tire_pipeline.mismatch.model.channels import used
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
 from tire_pipeline.mismatch.model.simulated import DIFFERENCE
@@ -27,6 +27,8 @@ Columns = dict[str, Array]
 _LAGS_OF_MEMORY = (1.0, 4.0)
 _PLAYS_BY_SLIP = {"slip_angle": (0.001, 0.003, 0.008), "slip_ratio": (0.008,)}
 """Half widths that are tried, rad and 1: well above the noise of the channels."""
+_SIZE_CLASSES = 16
+"""Sizes of slip, and of load, within which a rate is compared with itself."""
 _SMOOTH = 0.1
 
 
@@ -103,10 +105,10 @@ def _beyond_place(data: Data, driver: Array, name: str) -> Array:
     """
     cell = np.zeros(data.size, np.intp)
     for x in (np.abs(data.get(name)), data.get("normal_load")):
-        edges = np.quantile(x, np.linspace(0.0, 1.0, PARTS_OF_RANGE + 1)[1:-1])
-        cell = cell * PARTS_OF_RANGE + np.searchsorted(edges, x)
-    count = np.bincount(cell, minlength=PARTS_OF_RANGE**2)
-    mean = np.bincount(cell, driver, PARTS_OF_RANGE**2) / np.maximum(count, 1)
+        edges = np.quantile(x, np.linspace(0.0, 1.0, _SIZE_CLASSES + 1)[1:-1])
+        cell = cell * _SIZE_CLASSES + np.searchsorted(edges, x)
+    count = np.bincount(cell, minlength=_SIZE_CLASSES**2)
+    mean = np.bincount(cell, driver, _SIZE_CLASSES**2) / np.maximum(count, 1)
     return driver - mean[cell]
 
 

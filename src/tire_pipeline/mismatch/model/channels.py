@@ -22,17 +22,13 @@ SLOW = 0.5
 """Mean over so many seconds, in which sensor noise goes under."""
 
 SMALL = 0.15
-"""A force that moves by less than this part of the other one is a side effect of what that one does. A force
-that is smaller than this part of its largest gets no share."""
+"""A force that moves by less than this part of the other one is a side effect of what that one does."""
 
 ENOUGH_ROWS = 4000
 """Of a long recording, as many rows spread over it say the same of a few numbers as all of them."""
 
 CHANCE = 0.05
 """Level of every test, and what an interval or a list leaves out: one in twenty."""
-
-PARTS_OF_RANGE = 16
-"""Parts of a channel's range, with as many samples each, within which samples are alike."""
 
 _OUTLIERS = 0.005
 """Part of the samples at either end of a channel that may be outliers."""

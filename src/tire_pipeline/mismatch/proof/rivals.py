@@ -49,10 +49,10 @@ class Rivals:
         own, counts = beside.scale.size, [part[analysis.data.outputs[0]].shape[1] for part in parts]
         rows = np.split(np.arange(own, own + sum(counts)), np.cumsum(counts)[:-1])
         self.picks = [np.r_[np.arange(own), added] for added in rows]
-        self.columns = {o: np.hstack([x, *(p[o] for p in parts)]) for o, x in beside.columns.items()}
-        base = products.of({o: np.column_stack([x, self.rest[o]]) for o, x in self.columns.items()})
+        columns = {o: np.hstack([x, *(p[o] for p in parts)]) for o, x in beside.columns.items()}
+        base = products.of({o: np.column_stack([x, self.rest[o]]) for o, x in columns.items()})
         self.base = beside.likelihood.projected(base)
-        self.columns = {o: x[products.rows] for o, x in self.columns.items()}
+        self.columns = {o: x[products.rows] for o, x in columns.items()}
         self.odds = self._odds()
 
     def named(self, variant: Variant, added: Mapping[str, Array]) -> bool:
