@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ import pandas as pd
 
 from tire_pipeline.channels import INPUT_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch.corrected.agreed import agreed
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.model.data import Data
@@ -59,6 +60,9 @@ class CorrectedModel:
         Input channel that is cleaned of sensor noise before the effects are added -> RMS of that noise, SI.
     unnamed : UnnamedPhysics, optional
         An equation of unnamed physics, put in last.
+    instead : tuple of (tuple of (name, parameters))
+        Other explanations that the recording cannot tell from ``changes``: ``predict`` adds what all of them
+        agree on.
 
     See Also
     --------
@@ -95,6 +99,7 @@ class CorrectedModel:
     question: Question | None = None
     cleaned: Mapping[str, float] = field(default_factory=dict)
     unnamed: UnnamedPhysics | None = None
+    instead: tuple[tuple[Change, ...], ...] = ()
 
     def __repr__(self) -> str:
         put_in = [name for name, _ in self.changes]
@@ -109,7 +114,7 @@ class CorrectedModel:
     @property
     def as_it_came(self) -> CorrectedModel:
         """The model with nothing added and nothing repaired: ``predict`` gives ``tire.forces``."""
-        return replace(self, changes=(), factors={}, limits={}, cleaned={}, unnamed=None)
+        return replace(self, changes=(), factors={}, limits={}, cleaned={}, unnamed=None, instead=())
 
     def predict(self, recording: pd.DataFrame) -> pd.DataFrame:
         """Return the corrected forces at the samples of a recording.
@@ -125,7 +130,8 @@ class CorrectedModel:
             ``fx``, ``fy`` in N and ``mx``, ``my``, ``mz`` in N m (those that were recorded when the
             model was corrected), index as the recording's. Artefacts are added, too, wrong signs and
             units and clipping as well: this is what would be recorded. Without effects and repairs it is
-            what ``tire.forces`` gives at the rows as they are. ``attrs["notes"]`` says where physics without
+            what ``tire.forces`` gives at the rows as they are. Where several explanations are open, a force
+            changes by what they agree on. ``attrs["notes"]`` says where physics without
             a name was outside of its range and faded, and where the angle of the wheel is not known: what
             comes back once a turn is left out there.
 
@@ -141,10 +147,14 @@ class CorrectedModel:
                 raise RecordingError(
                     f"{name} needs the channel {channel}", where=channel, todo="add the column"
                 )
-        forces = simulate(data, self.changes)
+        others = [c for c in self.instead if not any(catalogue()[name].lacking(data) for name, _ in c)]
+        forces = agreed(
+            self._simulated(data, ()) if others else {},
+            [self._simulated(data, changes) for changes in (self.changes, *others)],
+        )
         notes = [*self._of_unknown_phase(data), *self._put_unnamed(data, forces)]
-        if self.moments:
-            forces |= simulate_moments(data, self.changes, self.moments)
+        if len(others) < len(self.instead):
+            notes.append("explanations that need a channel which is not recorded here are not counted")
         recorded = {name: force / self.factors.get(name, 1.0) for name, force in forces.items()}
         for name, (low, high) in self.limits.items():
             recorded[name] = np.clip(recorded[name], low, high)
@@ -152,6 +162,13 @@ class CorrectedModel:
         if notes:
             out.attrs["notes"] = notes
         return out
+
+    def _simulated(self, data: Data, changes: Sequence[Change]) -> dict[str, Array]:
+        """Return forces, N, and moments, N m, with effects added."""
+        forces = simulate(data, changes)
+        if self.moments:
+            forces |= simulate_moments(data, changes, self.moments)
+        return forces
 
     def _of_unknown_phase(self, data: Data) -> list[str]:
         """Say which effects are left out because nobody knows the angle of the wheel."""
@@ -294,6 +311,9 @@ class CorrectedModel:
         said += [f"physics in these coefficients: {', '.join(inside) or 'none'}"]
         beside = [name for name in sidecar if name != "unnamed"]
         said += [f"physics in the sidecar beside this file: {', '.join(beside)}"] if beside else []
+        if self.instead:
+            others = [" and ".join(name for name, _ in changes) for changes in self.instead]
+            said.append(f"the recording does not tell {' and '.join(names)} from: {'; '.join(others)}")
         if self.unnamed is not None:
             said.append("unexplained residual, by an empirical equation: in the sidecar beside this file")
         said += [f"faults of the recording, not in this file: {', '.join(faults)}"] if faults else []

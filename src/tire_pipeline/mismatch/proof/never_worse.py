@@ -23,7 +23,8 @@ def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, d
     """Return the named set without those effects whose correction does not surely help on unseen sweeps.
 
     Both have to help there: the whole choice, made again without them, and the very effects that are added,
-    fitted without them. The effect goes first without which the others leave least.
+    fitted without them. Each of these has to help on average beside the others. The effect goes first
+    without which the others leave least.
 
     Parameters
     ----------
@@ -50,30 +51,33 @@ def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, d
             repeated.unseen(set(analysis.fit.names) - set(fit.names)).left,
             each_left_out(analysis, fit),
         )
-        if all(_surely_less(analysis, left) for left in both):
-            return fit, max(both, key=lambda left: _size(analysis, left))
         numbers = range(len(fit.names))
-        others = [fit.part([j for j in numbers if j != i], analysis.system) for i in numbers]
-        fit = min(others, key=lambda other: _size(analysis, residual(analysis.data, other.changes)))
+        fewer = [fit.part([j for j in numbers if j != i], analysis.system) for i in numbers]
+        without = [each_left_out(analysis, each, refitted=True) for each in fewer]
+        before = residual(analysis.data, [])
+        surely = all(_surely_less(analysis, before, left) for left in both)
+        if surely and all(_size(analysis, both[1]) < _size(analysis, left) for left in without):
+            return fit, max(both, key=lambda left: _size(analysis, left))
+        least = min(numbers, key=lambda i: _size(analysis, without[i]))
+        fit = fewer[least]
     return fit, residual(analysis.data, [])
 
 
-def _surely_less(analysis: Analysis, left: dict[str, Array]) -> bool:
+def _surely_less(analysis: Analysis, before: dict[str, Array], after: dict[str, Array]) -> bool:
     """Whether all forces together surely have a smaller error on sweeps that are predicted without them.
 
     Surely: the mean gain of a sweep is above zero by a one-sided t test over the sweeps, or over the points
     of a recording without a time line. A gain that a few sweeps make and others lose is no gain elsewhere.
     """
-    gain = _gains(analysis, left)
+    gain = _gains(analysis, before, after)
     if gain.size < 2:
         return bool(gain.sum() > 0.0)
     error = float(gain.std(ddof=1)) / np.sqrt(gain.size)
     return bool(gain.mean() > float(scipy.special.stdtrit(gain.size - 1, 1.0 - CHANCE)) * error)
 
 
-def _gains(analysis: Analysis, after: dict[str, Array]) -> Array:
+def _gains(analysis: Analysis, before: dict[str, Array], after: dict[str, Array]) -> Array:
     """Return the squared error that goes in each sweep, or point; each force over its largest."""
-    before = residual(analysis.data, [])
     each = sum((before[o] ** 2 - after[o] ** 2) / analysis.largest[o] ** 2 for o in after)
     if analysis.data.time is None:
         return np.asarray(each)

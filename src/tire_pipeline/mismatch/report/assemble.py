@@ -21,7 +21,7 @@ from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.channels import CHANCE, ENOUGH_ROWS, one_sided, span
-from tire_pipeline.mismatch.model.forces import simulate
+from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.left_out import each_left_out, shares_left
@@ -35,7 +35,13 @@ from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.left_out import reasons, state_units, with_reasons
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.result import MismatchReport
-from tire_pipeline.mismatch.report.sentences import head, on_expected, on_question, on_withheld
+from tire_pipeline.mismatch.report.sentences import (
+    head,
+    on_expected,
+    on_question,
+    on_several,
+    on_withheld,
+)
 from tire_pipeline.mismatch.report.words import not_looked_for, shortened
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.search import more_than_usual, unnamed_physics
@@ -101,7 +107,9 @@ def assembled(it: Explained) -> MismatchReport:
     following = _following(it, verdict, plain)
     ranges, all_over = _ranges(analysis), everywhere(data, before, located)
     told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed)
-    told = told.beside(on_withheld(withheld), on_expected(_unseen(it, effects)))
+    told = told.beside(
+        on_withheld(withheld), on_several(effects if model.instead else []), on_expected(_unseen(it, effects))
+    )
     if prepared.question is not None:
         told = on_question(prepared.question, told)
     return MismatchReport(
@@ -182,10 +190,20 @@ def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Fi
     What was added, and the residual of unseen sweeps, come second and third.
     """
     fit, left = harmless(it.analysis, it.sets, it.level)
-    model = _model(it, fit.changes)
+    model = _model(it, fit.changes, _instead(it, fit))
     if fit.names and not _no_worse(it, model, plain):
         return plain, it.analysis.fit.part([], it.analysis.system), residual(it.analysis.data, [])
     return model, fit, left
+
+
+def _instead(it: Explained, put_in: Fit) -> list[tuple[Change, ...]]:
+    """Return the other likely explanations, without what is withheld of them."""
+    if not put_in.names:
+        return []
+    withheld = set(it.analysis.fit.names) - set(put_in.names)
+    others = [each for each in it.answer.likely if each.names != it.answer.named.names]
+    parts = [tuple((n, p) for n, p in each.changes if n not in withheld) for each in others]
+    return [part for part in parts if part]
 
 
 def _no_worse(it: Explained, model: CorrectedModel, plain: CorrectedModel) -> bool:
@@ -197,7 +215,9 @@ def _no_worse(it: Explained, model: CorrectedModel, plain: CorrectedModel) -> bo
     return after <= before
 
 
-def _model(it: Explained, changes: Sequence[Any]) -> CorrectedModel:
+def _model(
+    it: Explained, changes: Sequence[Change], instead: Sequence[tuple[Change, ...]] = ()
+) -> CorrectedModel:
     data, prepared = it.analysis.data, it.prepared
     outputs = tuple(prepared.data.outputs)
     load = data.get("normal_load")
@@ -207,7 +227,8 @@ def _model(it: Explained, changes: Sequence[Any]) -> CorrectedModel:
         reference["pressure_nominal"] = data.pressure_nominal
     if "speed" in data.present:
         reference["speed_nominal"] = data.speed_nominal
-    if any(catalogue()[n].quarter_turn(p) is not None for n, p in changes):
+    every = [change for explanation in (changes, *instead) for change in explanation]
+    if any(catalogue()[n].quarter_turn(p) is not None for n, p in every):
         reference["rolled"] = _rolled(it)
     return CorrectedModel(
         data.tire,
@@ -220,6 +241,7 @@ def _model(it: Explained, changes: Sequence[Any]) -> CorrectedModel:
         limits=force_limits(prepared.findings, outputs),
         question=prepared.question,
         cleaned={c.channel: c.removed for c in prepared.cleaned if c.smoothed},
+        instead=tuple(instead),
     ).cleaned_where_it_helps(it.recording)
 
 

@@ -177,6 +177,16 @@ def on_withheld(names: Sequence[str]) -> str:
     )
 
 
+def on_several(effects: Sequence[EffectReport]) -> str:
+    """Say what the corrected model adds where several explanations are open."""
+    if not any(effect.alternatives for effect in effects):
+        return ""
+    return (
+        "The recording leaves several explanations open, which differ on other recordings: there the "
+        "corrected model adds only what all of them agree on. A written .tir file holds the likeliest one."
+    )
+
+
 def on_expected(names: Sequence[str]) -> str:
     """Say which effects act in every tire, vary in the recording, and are too small here to be named."""
     if not names:
