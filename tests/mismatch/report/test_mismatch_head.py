@@ -164,3 +164,18 @@ def test_what_to_do_after_a_held_out_recording_goes_by_its_error(after, ratio, s
     told = with_held_out(head("explained", [EFFECT], FIT, [PLACE], NONE, ""), fit, [EFFECT])
     assert f"the RMS error of Fy {said}" in told.text
     assert todo in told.text
+
+
+@pytest.mark.parametrize(
+    ("name", "others", "ends"),
+    [
+        ("friction_scale", ("stiffness_scale",), ", which the model leaves out"),
+        ("sensor_drift", ("force_offset",), ", a fault of the recording"),
+        ("sensor_drift", ("stiffness_scale",), ": what the model leaves out, or a fault of the recording"),
+        ("friction_scale", ("force_gain",), ": what the model leaves out, or a fault of the recording"),
+    ],
+)
+def test_what_may_be_either_is_called_neither_physics_nor_fault(name, others, ends):
+    """The first of three names that cannot be told apart decides nothing."""
+    effect = replace(EFFECT, name=name, kind=catalogue()[name].kind, alternatives=others)
+    assert said("ambiguous", [effect]).causes.endswith(f"(this recording cannot tell them apart){ends}")

@@ -242,16 +242,26 @@ def _causes(verdict: str, effects: Sequence[EffectReport], remainder: Remainder,
     left = _what_is_left(remainder, ranges)
     if not effects:
         return f"I can't tell: no effect of the catalogue explains the difference{left}"
-    physics = [_cause(e, ranges) for e in effects if e.kind == "physics"]
-    faults = [_cause(e, ranges) for e in effects if e.kind != "physics"]
+    said = {kind: [_cause(e, ranges) for e in effects if _kinds(e) == kind] for kind in _KINDS}
     parts = []
-    if physics:
-        parts.append(f"from {' and '.join(physics)}, which the model leaves out")
-    if faults:
-        fault = "a fault" if len(faults) == 1 else "faults"
-        parts.append(f"from {' and '.join(faults)}, {fault} of the recording")
+    if said["physics"]:
+        parts.append(f"from {' and '.join(said['physics'])}, which the model leaves out")
+    if said["artefact"]:
+        fault = "a fault" if len(said["artefact"]) == 1 else "faults"
+        parts.append(f"from {' and '.join(said['artefact'])}, {fault} of the recording")
+    if said[""]:
+        parts.append(f"from {' and '.join(said[''])}: what the model leaves out, or a fault of the recording")
     text = f"{verdict}: the difference comes {', and '.join(parts)}"
     return f"{text}; an unexplained residual remains{left}" if remainder.significant else text
+
+
+_KINDS = ("physics", "artefact", "")
+
+
+def _kinds(effect: EffectReport) -> str:
+    """Whether an effect and what cannot be excluded instead of it are physics or faults; nothing if both."""
+    kinds = {effect.kind, *(catalogue()[name].kind for name in effect.alternatives)}
+    return kinds.pop() if len(kinds) == 1 else ""
 
 
 def _what_is_left(remainder: Remainder, ranges: Ranges) -> str:
@@ -322,7 +332,7 @@ def _next(effects: Sequence[EffectReport], experiment: str) -> str:
         return f"Next, {in_words(f'{experiment[:1].lower()}{experiment[1:]}')}"
     if not effects:
         return ""
-    return _TRY_IT if any(e.kind == "physics" for e in effects) else _RECORD_AGAIN
+    return _RECORD_AGAIN if all(_kinds(e) == "artefact" for e in effects) else _TRY_IT
 
 
 def _to_both_sides(
