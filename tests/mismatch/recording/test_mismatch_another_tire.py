@@ -1,6 +1,7 @@
 """Before any explanation: whether the recording is of the tire that the file describes."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from mismatch_shared import shared
 from small_rig import ANOTHER
@@ -80,6 +81,25 @@ def test_a_camber_that_was_not_recorded_is_no_other_tire():
     found = figures(tire, {"slip_angle": slip, "normal_load": load, "fy": force}, "fy")
     assert not found.off.any()
     assert figures(tire, {"slip_angle": slip, "normal_load": load, "fy": 1.5 * force}, "fy").off[0]
+
+
+@pytest.mark.parametrize(("change", "stopped"), [({"LXAL": 0.3}, ""), ({"PDY1": 1.3}, "another tire")])
+def test_a_side_force_that_is_met_beside_braking_is_of_this_tire(change, stopped):
+    """At one slip angle, combined slip reads as another stiffness of Fx and another change with load."""
+    tire = read_tir(shared("tir") / "OpenTire__Sandbox__MagicFormula52_Parameters.tir")
+    if "PDY1" in change:
+        change = {
+            n: tire.value(n) * f for n, f in {"PDY1": 1.3, "PKX1": 1.3, "PDX1": 0.7, "PKX3": 3.0}.items()
+        }
+    ratio = np.tile(0.15 * np.sin(np.linspace(0.0, 6.0 * np.pi, 300)), 3)
+    load = np.repeat([0.5, 1.0, 1.5], 300) * tire.value("FNOMIN")
+    rig = pd.DataFrame({"time": 0.02 * np.arange(900), "slip_angle": 0.06, "slip_ratio": ratio})
+    rig = rig.assign(camber=0.0, normal_load=load)
+    forces = tire.replace(**change).forces(
+        slip_angle=0.06, slip_ratio=ratio, normal_load=load, limits="ignore"
+    )
+    noise = np.random.default_rng(0).normal(0.0, 38.0, (2, 900))
+    assert prepare(tire, rig.assign(fx=forces.fx + noise[0], fy=forces.fy + noise[1])).stopped == stopped
 
 
 @pytest.mark.slow

@@ -14,7 +14,7 @@ from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.model.channels import ENOUGH_ROWS, least_spread, moves
 from tire_pipeline.mismatch.model.forces import plain_forces, slip_at_peak
 from tire_pipeline.mismatch.recording.open_questions import Question
-from tire_pipeline.mismatch.recording.usable import Drive
+from tire_pipeline.mismatch.recording.usable import LEAST, Drive, drives
 
 Array = np.ndarray
 
@@ -108,6 +108,8 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
     steady = (figures(tire, arrays, o, states=()) for o in outputs)
     if not found or not all(f.another for f in found) or not all(f.another for f in steady):
         return None
+    if _met_beside(tire, arrays, outputs):
+        return None
     said = "; ".join(f.in_words for f in found)
     gone = min(f.removed for f in found)
     return Question(
@@ -119,6 +121,16 @@ def another_tire(tire: Any, arrays: Mapping[str, Array], counted: list[Drive]) -
         "another tire",
         gone,
     )
+
+
+def _met_beside(tire: Any, arrays: Mapping[str, Array], outputs: list[str]) -> bool:
+    """Tell whether the model meets another recorded force, whose slip does not vary, as it is.
+
+    In brake sweeps at one slip angle the side force is such a one. Another tire's would be off, too, so that
+    other figures remove most of it.
+    """
+    others = [d.output for d in drives(tire, arrays, None) if d.output not in outputs and d.plain >= LEAST]
+    return any(figures(tire, arrays, output).removed <= LEAST_REMOVED for output in others)
 
 
 def figures(
