@@ -63,6 +63,22 @@ def test_the_unit_of_a_force_that_the_model_has_is_still_found(braked, channel, 
     assert in_each_draw(braked, wrong) == [("unit_error", channel)]
 
 
+@pytest.mark.parametrize(
+    ("channel", "factor", "said"),
+    [
+        ("fx", 1e-3, "kN taken for N"),
+        ("fx", 1e3, "N taken for kN"),
+        ("fx", 1.0 / 4.4482216, "lbf taken for N"),
+        ("slip_ratio", 100.0, "percent taken for a ratio"),
+    ],
+)
+def test_the_unit_of_the_values_is_told_from_the_one_that_they_were_taken_for(braked, channel, factor, said):
+    """A force in lbf was "the inverse of pound-force for newton"."""
+    recording = brake_sweeps(braked, 265.0, 0)
+    (found,) = prepare(braked, recording.assign(**{channel: recording[channel] * factor})).findings
+    assert found.text.endswith(f"({said})")
+
+
 def a_dozen_points(tire, seed, share=0.0, noise=0.0):
     """Six slip angles at two loads; noise of the force in shares of it and in N."""
     angles, loads = np.meshgrid([-0.12, -0.06, 0.0, 0.06, 0.1, 0.15], [3000.0, 5000.0])

@@ -15,7 +15,13 @@ from tire_pipeline.mismatch.recording.cleaning import Cleaning
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit, PredictionError
 from tire_pipeline.mismatch.report.report_page import percent
-from tire_pipeline.mismatch.report.sentences import head, on_question, with_held_out, without_equation
+from tire_pipeline.mismatch.report.sentences import (
+    head,
+    on_moments,
+    on_question,
+    with_held_out,
+    without_equation,
+)
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues
 
@@ -167,15 +173,23 @@ def test_what_to_do_after_a_held_out_recording_goes_by_its_error(after, ratio, s
 
 
 @pytest.mark.parametrize(
-    ("name", "others", "ends"),
+    ("name", "alternatives", "causes"),
     [
-        ("friction_scale", ("stiffness_scale",), ", which the model leaves out"),
-        ("sensor_drift", ("force_offset",), ", a fault of the recording"),
-        ("sensor_drift", ("stiffness_scale",), ": what the model leaves out, or a fault of the recording"),
-        ("friction_scale", ("force_gain",), ": what the model leaves out, or a fault of the recording"),
+        ("force_gain", (), "a fault of the recording"),
+        ("force_gain", ("sensor_drift",), "a fault of the recording"),
+        ("wear", ("temperature",), "which the model leaves out"),
+        ("force_gain", ("temperature", "friction_scale"), "a fault of the recording or something that"),
+        ("friction_scale", ("force_gain",), "a fault of the recording or something that"),
     ],
 )
-def test_what_may_be_either_is_called_neither_physics_nor_fault(name, others, ends):
-    """The first of three names that cannot be told apart decides nothing."""
-    effect = replace(EFFECT, name=name, kind=catalogue()[name].kind, alternatives=others)
-    assert said("ambiguous", [effect]).causes.endswith(f"(this recording cannot tell them apart){ends}")
+def test_what_may_be_a_fault_or_the_tire_is_called_neither(name, alternatives, causes):
+    effect = replace(EFFECT, name=name, kind=catalogue()[name].kind, alternatives=alternatives)
+    told = said("ambiguous" if alternatives else "explained", [effect]).causes
+    assert causes in told
+    assert ("which the model leaves out" in told) + ("a fault of the recording" in told) == 1
+
+
+@pytest.mark.parametrize(("low", "worse"), [(12.0, True), (9.0, False)])
+def test_a_moment_that_the_correction_makes_worse_is_said(low, worse):
+    told = on_moments({**FIT, "mz": OutputFit(1.0, 10.0, 15.0, low, 18.0)})
+    assert ("Mz 10 N m before, 15 N m after" in told) is worse

@@ -38,6 +38,7 @@ from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import (
     head,
     on_expected,
+    on_moments,
     on_question,
     on_several,
     on_withheld,
@@ -108,7 +109,10 @@ def assembled(it: Explained) -> MismatchReport:
     ranges, all_over = _ranges(analysis), everywhere(data, before, located)
     told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed)
     told = told.beside(
-        on_withheld(withheld), on_several(effects if model.instead else []), on_expected(_unseen(it, effects))
+        on_withheld(withheld),
+        on_several(effects if model.instead else []),
+        on_moments(fit),
+        on_expected(_unseen(it, effects)),
     )
     if prepared.question is not None:
         told = on_question(prepared.question, told)

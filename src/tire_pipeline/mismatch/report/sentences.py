@@ -32,6 +32,7 @@ _SAID_IF_UNDECIDED = (
     "undecided: no cause stands out, and I can't tell a coarse fit or rig from a cause that this recording "
     "does not show"
 )
+_EITHER = "a fault of the recording or something that the model leaves out"
 _NOTHING_TO_DO = "There is nothing to correct; the page lists the effects that this recording rules out."
 
 Ranges = Mapping[str, tuple[float, float]]
@@ -187,6 +188,21 @@ def on_several(effects: Sequence[EffectReport]) -> str:
     )
 
 
+def on_moments(fit: Mapping[str, OutputFit]) -> str:
+    """Say which moments the corrected model predicts worse, with 95% certainty: forces alone are fitted."""
+    worse = [
+        f"{o.capitalize()} {newtons(f.rms_before)} N m before, {newtons(f.rms_after)} N m after"
+        for o, f in fit.items()
+        if o not in TANGENTIAL_FORCES and f.rms_after_low > f.rms_before
+    ]
+    if not worse:
+        return ""
+    return (
+        f"What was found is fitted to forces and makes moments worse (RMS error: {'; '.join(worse)}): take "
+        "these from the model as it was."
+    )
+
+
 def on_expected(names: Sequence[str]) -> str:
     """Say which effects act in every tire, vary in the recording, and are too small here to be named."""
     if not names:
@@ -242,26 +258,25 @@ def _causes(verdict: str, effects: Sequence[EffectReport], remainder: Remainder,
     left = _what_is_left(remainder, ranges)
     if not effects:
         return f"I can't tell: no effect of the catalogue explains the difference{left}"
-    said = {kind: [_cause(e, ranges) for e in effects if _kinds(e) == kind] for kind in _KINDS}
+    physics, faults, either = (
+        [_cause(e, ranges) for e in effects if _kinds(e) == kinds]
+        for kinds in ({"physics"}, {"artefact"}, {"physics", "artefact"})
+    )
     parts = []
-    if said["physics"]:
-        parts.append(f"from {' and '.join(said['physics'])}, which the model leaves out")
-    if said["artefact"]:
-        fault = "a fault" if len(said["artefact"]) == 1 else "faults"
-        parts.append(f"from {' and '.join(said['artefact'])}, {fault} of the recording")
-    if said[""]:
-        parts.append(f"from {' and '.join(said[''])}: what the model leaves out, or a fault of the recording")
+    if physics:
+        parts.append(f"from {' and '.join(physics)}, which the model leaves out")
+    if faults:
+        fault = "a fault" if len(faults) == 1 else "faults"
+        parts.append(f"from {' and '.join(faults)}, {fault} of the recording")
+    if either:
+        parts.append(f"from {' and '.join(either)}: {_EITHER}")
     text = f"{verdict}: the difference comes {', and '.join(parts)}"
     return f"{text}; an unexplained residual remains{left}" if remainder.significant else text
 
 
-_KINDS = ("physics", "artefact", "")
-
-
-def _kinds(effect: EffectReport) -> str:
-    """Whether an effect and what cannot be excluded instead of it are physics or faults; nothing if both."""
-    kinds = {effect.kind, *(catalogue()[name].kind for name in effect.alternatives)}
-    return kinds.pop() if len(kinds) == 1 else ""
+def _kinds(effect: EffectReport) -> set[str]:
+    """Kinds of an effect and of what cannot be excluded instead of it."""
+    return {effect.kind, *(catalogue()[a].kind for a in effect.alternatives)}
 
 
 def _what_is_left(remainder: Remainder, ranges: Ranges) -> str:
@@ -281,7 +296,8 @@ def _cause(effect: EffectReport, ranges: Ranges) -> str:
     apart = "this recording cannot tell them apart" if effect.alternatives else ""
     seen = f"seen {stretches}" if stretches else ""
     said = "; ".join(filter(None, [seen, apart]))
-    return f"{' or '.join(names)} ({said})" if said else names[0]
+    together = ", ".join([*names[:-1], f"or {names[-1]}"]) if len(names) > 2 else " or ".join(names)
+    return f"{together} ({said})" if said else together
 
 
 def _stretches(effect: EffectReport, ranges: Ranges) -> str:

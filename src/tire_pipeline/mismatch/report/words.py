@@ -90,8 +90,8 @@ def shortened(text: str) -> str:
 
     Examples
     --------
-    >>> shortened("pressure is wrong by 0.001 (kPa for Pa)")
-    'pressure: kPa for Pa'
+    >>> shortened("pressure is wrong by 0.001 (kPa taken for Pa)")
+    'pressure: kPa taken for Pa'
     """
     return re.sub(r"^(\S+) is wrong by \S+ \((.+)\)$", r"\1: \2", text)
 

@@ -11,22 +11,23 @@ from tire_pipeline.mismatch.effects.sensor.repairs import Simulate, best_repair
 from tire_pipeline.recordings.conventions.plausible import PLAUSIBLE_VALUES, in_another_unit
 from tire_pipeline.unit_definitions import DEGREE, GRAVITY, POUND_FORCE, PSI
 
-_FORCE_FACTORS = {POUND_FORCE: "pound-force for newton", 1e3: "kN for N", GRAVITY: "kgf for N"}
-_FACTORS_BY_CHANNEL: dict[str, dict[float, str]] = {
-    "slip_angle": {1.0 / DEGREE: "degree for radian"},
-    "camber": {1.0 / DEGREE: "degree for radian"},
-    "slip_ratio": {100.0: "percent for 1"},
+_FORCE_FACTORS = {1.0 / POUND_FORCE: ("lbf", "N"), 1e-3: ("kN", "N"), 1.0 / GRAVITY: ("kgf", "N")}
+_FACTORS_BY_CHANNEL: dict[str, dict[float, tuple[str, str]]] = {
+    "slip_angle": {1.0 / DEGREE: ("degrees", "radians")},
+    "camber": {1.0 / DEGREE: ("degrees", "radians")},
+    "slip_ratio": {100.0: ("percent", "a ratio")},
     "normal_load": _FORCE_FACTORS,
     "fx": _FORCE_FACTORS,
     "fy": _FORCE_FACTORS,
 }
 _PRESSURE_FACTORS = {
-    1e3 / PSI: "psi for kPa",
-    1.0 / PSI: "psi for Pa",
-    1e-3: "kPa for Pa",
-    1e-5: "bar for Pa",
-    PSI / 1e3: "kPa for psi",
+    1e3 / PSI: ("psi", "kPa"),
+    1.0 / PSI: ("psi", "Pa"),
+    1e-3: ("kPa", "Pa"),
+    1e-5: ("bar", "Pa"),
+    PSI / 1e3: ("kPa", "psi"),
 }
+"""Recorded over true -> the unit of the values, and the one that they were taken for."""
 _USUAL_PRESSURE = 2.3e5
 """Of a tire whose file states none, Pa."""
 _PRESSURE_RANGE = 4.0
@@ -58,10 +59,10 @@ class UnitError(Effect):
         found = _pressure(channels) + _impossible(channels)
         channels = {**channels, **{n: x for f in found for n, x in f.repaired.items()}}
         trials = [
-            (name, factor, text if power > 0 else f"the inverse of {text}")
+            (name, factor, _taken(*units[::power]))
             for name, factors in _FACTORS_BY_CHANNEL.items()
             if name in channels
-            for base, text in factors.items()
+            for base, units in factors.items()
             for power in (1, -1)
             for factor in (base**power,)
             if name != "normal_load" or _nearer(channels, 1.0 / factor)
@@ -71,8 +72,8 @@ class UnitError(Effect):
             channels,
             simulate,
             [
-                ({"fx": 1.0 / f**k, "fy": 1.0 / f**k}, ("fx, fy", f**k, t))
-                for f, t in _FORCE_FACTORS.items()
+                ({"fx": 1.0 / f**k, "fy": 1.0 / f**k}, ("fx, fy", f**k, _taken(*units[::k])))
+                for f, units in _FORCE_FACTORS.items()
                 for k in (1, -1)
                 if "fx" in channels and "fy" in channels
             ],
@@ -87,6 +88,11 @@ class UnitError(Effect):
                 Finding(self.name, name, f"{name} is wrong by {factor:.5g} ({text})", parameters, repaired)
             )
         return found
+
+
+def _taken(of: str, as_if: str) -> str:
+    """Say in which unit the values are, and which one they were taken for."""
+    return f"{of} taken for {as_if}"
 
 
 def _nearer(channels: Mapping[str, Array], factor: float) -> bool:
@@ -113,8 +119,8 @@ def _pressure(channels: Mapping[str, Array]) -> list[Finding]:
     median = float(np.nanmedian(channels["pressure"]))
     nominal = float(channels["_nominal_pressure"][0]) if "_nominal_pressure" in channels else _USUAL_PRESSURE
     able = [
-        (factor, text)
-        for factor, text in _PRESSURE_FACTORS.items()
+        (factor, _taken(*units))
+        for factor, units in _PRESSURE_FACTORS.items()
         if median > 0.0 and abs(np.log(median / factor / nominal)) < np.log(_PRESSURE_RANGE)
     ]
     if len(able) != 1:
@@ -138,7 +144,7 @@ def _impossible(channels: Mapping[str, Array]) -> list[Finding]:
     for name, limits in PLAUSIBLE_VALUES.items():
         if name in channels and in_another_unit(name, channels[name]):
             factor = _OF_UNIT[limits.read_as]
-            text = _FACTORS_BY_CHANNEL[name][factor]
+            text = _taken(*_FACTORS_BY_CHANNEL[name][factor])
             parameters = {"ratio": (factor, 0.0, "times")}
             repaired = {name: channels[name] / factor}
             found.append(
