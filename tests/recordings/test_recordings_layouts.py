@@ -1,5 +1,7 @@
 """Where names, units and values stand in MATLAB, text and MDF files of other programs."""
 
+import re
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -148,3 +150,24 @@ def test_numbers_beyond_any_measurement_become_missing(tmp_path):
     recording = read_recording(file)
     assert recording["fy"].abs().max() == 0.0
     assert "fy: 49 values are beyond any measurement and became NaN" in recording.attrs["notes"]
+
+
+def test_a_load_in_kg_is_the_weight(tmp_path):
+    """It was taken for newtons, with a note alone."""
+    file = tmp_path / "kg.csv"
+    file.write_text("SA [deg],FZ [kg],FY [kg]\n" + "\n".join(f"{a},300,{10 * a}" for a in range(-8, 9)))
+    recording = read_recording(file)
+    assert recording["normal_load"].to_numpy() == pytest.approx(300.0 * 9.80665)
+    assert recording["fy"].to_numpy()[-1] == pytest.approx(80.0 * 9.80665)
+
+
+def test_columns_of_a_vehicle_say_how_to_read_one_wheel(tmp_path):
+    file = tmp_path / "car.csv"
+    head = "t [s],SA_FL [deg],Fz_FL [N],Fy_FL [N],SA_FR [deg],Fz_FR [N],Fy_FR [N]\n"
+    file.write_text(head + "\n".join(f"{0.1 * i},{i},3000,{-9 * i},{i},2000,{-5 * i}" for i in range(20)))
+    (said,) = [note for note in read_recording(file).attrs["notes"] if "end with a wheel" in note]
+    names = dict(re.findall(r"--name (\S+)=(\S+)", said))
+    assert names == {"SA_FL": "slip_angle", "Fz_FL": "normal_load", "Fy_FL": "fy"}
+    recording = read_recording(file, names=names)
+    assert recording["fy"].iloc[3] == -27.0
+    assert recording["normal_load"].iloc[0] == 3000.0

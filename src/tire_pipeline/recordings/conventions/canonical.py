@@ -14,7 +14,7 @@ from tire_pipeline.errors import RecordingError, did_you_mean
 from tire_pipeline.recordings.conventions.axis_systems import to_iso_w
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL, Channel, find_channel
 from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit
-from tire_pipeline.recordings.conventions.unrecognised import may_be
+from tire_pipeline.recordings.conventions.unrecognised import may_be, of_a_wheel
 
 _SI = {c.name: c.unit for c in CANONICAL}
 _SI_ASSUMED = "no unit given, SI assumed"
@@ -82,15 +82,17 @@ def canonical_frame(
     strange = [column for item, channel, column in chosen if channel is None and not find_channel(item.name)]
     if strange:
         notes.append(f"no known channels, so not used: {', '.join(strange)}")
+    wheels = of_a_wheel(strange)
     if not any(name in _SI for name in columns):
         raise RecordingError(
             f"no channel is recognised among {', '.join(map(_with_unit, raw.channels[:12]))}",
             where=source,
-            todo="name them with names={'their name': 'slip_angle', ...}, on the command line with --name "
+            todo=wheels
+            or "name them with names={'their name': 'slip_angle', ...}, on the command line with --name "
             "'their name=slip_angle', in a pipeline as docs/how-to/state_axes_and_units.md shows",
         )
     unnamed = {i.name: (units or {}).get(i.name, i.unit) for i, known, _ in chosen if known is None}
-    notes += filter(None, [may_be(unnamed, columns)])
+    notes += filter(None, [wheels, may_be(unnamed, columns)])
     frame = _ordered(columns)
     axes_said, against = to_iso_w(frame, origin, raw.constants, axes, notes, conversions, source)
     assumed.insert(0, axes_said)

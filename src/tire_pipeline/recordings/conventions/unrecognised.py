@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections.abc import Iterable, Mapping
 
-from tire_pipeline.recordings.conventions.channel_names import CANONICAL
+from tire_pipeline.recordings.conventions.channel_names import CANONICAL, find_channel
 from tire_pipeline.recordings.conventions.units import find_unit
 
 _MOST = 8
+_OF_A_WHEEL = re.compile(r"(.+?)[ _.-]+(FL|FR|RL|RR|LF|RF|LR)", re.IGNORECASE)
 _OWN_KIND = [
     c
     for c in CANONICAL
@@ -51,3 +53,24 @@ def may_be(columns: Mapping[str, str | None], known: Iterable[str]) -> str:
         f"{columns_said} {verb} not used; if {which} {channels}, say so: --name {stated}, "
         f"in Python names={{{first!r}: {channel!r}}}"
     )
+
+
+def of_a_wheel(columns: Iterable[str]) -> str:
+    """Return how to read one wheel of a vehicle, whose columns end with where it is; "" if none does.
+
+    Examples
+    --------
+    >>> of_a_wheel(["Fy_FL", "Fy_FR", "Fz_FL", "Fz_FR", "steering"])
+    'columns end with a wheel (FL, FR); to read FL: --name Fy_FL=fy --name Fz_FL=normal_load'
+    """
+    wheels: dict[str, dict[str, str]] = {}
+    for name in columns:
+        parts = _OF_A_WHEEL.fullmatch(name)
+        known = parts and find_channel(parts[1])
+        if parts and known:
+            wheels.setdefault(parts[2], {})[name] = known[0].name
+    if not wheels:
+        return ""
+    first, named = next(iter(wheels.items()))
+    stated = " ".join(f"--name {shlex.quote(f'{name}={channel}')}" for name, channel in named.items())
+    return f"columns end with a wheel ({', '.join(wheels)}); to read {first}: {stated}"
