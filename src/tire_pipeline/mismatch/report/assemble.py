@@ -34,15 +34,9 @@ from tire_pipeline.mismatch.recording.prepare import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.left_out import reasons, state_units, with_reasons
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
+from tire_pipeline.mismatch.report.remarks import on_expected, on_moments, on_several, on_withheld
 from tire_pipeline.mismatch.report.result import MismatchReport
-from tire_pipeline.mismatch.report.sentences import (
-    head,
-    on_expected,
-    on_moments,
-    on_question,
-    on_several,
-    on_withheld,
-)
+from tire_pipeline.mismatch.report.sentences import head, on_question
 from tire_pipeline.mismatch.report.words import not_looked_for, shortened
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.search import more_than_usual, unnamed_physics

@@ -167,56 +167,6 @@ def _on_held_out(fit: HeldOutFit) -> str:
     return f"in {fit.recording}, which was held out, the RMS error of {', that of '.join(parts)}"
 
 
-def on_withheld(names: Sequence[str]) -> str:
-    """Say which named effects are not in the corrected model."""
-    if not names:
-        return ""
-    titles = " and ".join(catalogue()[n].title for n in names)
-    return (
-        f"The corrected model leaves out {titles}: on sweeps that its fit has not seen, a gain is not "
-        "certain."
-    )
-
-
-def on_several(effects: Sequence[EffectReport]) -> str:
-    """Say what the corrected model adds where several explanations are open."""
-    if not any(effect.alternatives for effect in effects):
-        return ""
-    return (
-        "The recording leaves several explanations open, which differ on other recordings: there the "
-        "corrected model adds only what all of them agree on. A written .tir file holds the likeliest one."
-    )
-
-
-def on_moments(fit: Mapping[str, OutputFit]) -> str:
-    """Say which moments the corrected model predicts worse, with 95% certainty: forces alone are fitted."""
-    worse = [
-        f"{o.capitalize()} {newtons(f.rms_before)} N m before, {newtons(f.rms_after)} N m after"
-        for o, f in fit.items()
-        if o not in TANGENTIAL_FORCES and f.rms_after_low > f.rms_before
-    ]
-    if not worse:
-        return ""
-    return (
-        f"What was found is fitted to forces and makes moments worse (RMS error: {'; '.join(worse)}): take "
-        "these from the model as it was."
-    )
-
-
-def on_expected(names: Sequence[str]) -> str:
-    """Say which effects act in every tire, vary in the recording, and are too small here to be named."""
-    if not names:
-        return ""
-    titles = " and ".join(catalogue()[n].title for n in names)
-    acts, it, is_ = (
-        ("act", "them", "their effects are") if len(names) > 1 else ("acts", "it", "its effect is")
-    )
-    return (
-        f"{titles[:1].upper()}{titles[1:]} {acts} on every tire, and the tire model has no coefficient for "
-        f"{it}: in this recording {is_} too small to be told from the misfit of the formula."
-    )
-
-
 def _agreement(fit: Mapping[str, OutputFit]) -> Head:
     sizes = ", ".join(
         f"{o.capitalize()} {newtons(f.rms_before)} N (noise {newtons(f.noise_floor)} N)"
@@ -348,7 +298,7 @@ def _next(effects: Sequence[EffectReport], experiment: str) -> str:
         return f"Next, {in_words(f'{experiment[:1].lower()}{experiment[1:]}')}"
     if not effects:
         return ""
-    return _RECORD_AGAIN if all(_kinds(e) == "artefact" for e in effects) else _TRY_IT
+    return _RECORD_AGAIN if all(_kinds(e) == {"artefact"} for e in effects) else _TRY_IT
 
 
 def _to_both_sides(

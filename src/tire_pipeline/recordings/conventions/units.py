@@ -35,7 +35,7 @@ UNITS_BY_NAME: dict[str, Unit] = {
     **_same("force", 1e3, "kn"),
     **_same("force", 10, "dan"),
     **_same("force", POUND_FORCE, "lb", "lbs", "lbf"),
-    **_same("force", GRAVITY, "kgf", "kp"),
+    **_same("force", GRAVITY, "kgf", "kp", "kg", "kgs"),
     **_same("moment", 1, "nm", "n-m", "n*m", "newtonmeter", "newton-meter"),
     **_same("moment", 1e3, "knm"),
     **_same("moment", 1e-3, "nmm", "n-mm", "n*mm"),
