@@ -16,7 +16,7 @@ from tire_pipeline.mismatch.corrected.model import CorrectedModel, force_limits
 from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
-from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
 from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
@@ -38,7 +38,11 @@ from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import head, on_expected, on_question, on_withheld
 from tire_pipeline.mismatch.report.words import not_looked_for, shortened
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
-from tire_pipeline.mismatch.unnamed_physics.search import more_than_usual, unnamed_physics
+from tire_pipeline.mismatch.unnamed_physics.search import (
+    instead_of_names,
+    more_than_usual,
+    unnamed_physics,
+)
 from tire_pipeline.progress import under_way
 
 Array = np.ndarray
@@ -78,7 +82,7 @@ class Explained:
 
 def assembled(it: Explained) -> MismatchReport:
     """Return the report."""
-    it = _with_reasons(it)
+    it, instead = _beaten(_with_reasons(it))
     prepared, analysis, answer = it.prepared, it.analysis, it.answer
     data = analysis.data
     left, noise = remainder(analysis, answer, it.sets.likelihood.learnt.left, it.sets.products.largest)
@@ -92,7 +96,7 @@ def assembled(it: Explained) -> MismatchReport:
     withheld = tuple(n for n in analysis.fit.names if n not in put_in.names)
     inside = replace(analysis, fit=put_in)
     fit = as_recorded({**prove(inside, unseen, noise), **prove_moments(inside)}, inside, model, it.recording)
-    unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit)
+    unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit, instead)
     if unnamed is not None and unnamed.physics is not None and not effects:
         verdict = "unexplained"  # what was proved is no agreement, though it has no name
     silent = prepared.stopped or verdict == "agrees"
@@ -140,6 +144,20 @@ def _with_reasons(it: Explained) -> Explained:
         prepared=replace(it.prepared, assumed=assumed, notes=notes),
         analysis=replace(it.analysis, absent=absent),
     )
+
+
+def _beaten(it: Explained) -> tuple[Explained, UnnamedReport | None]:
+    """Take back names where an equation alone predicts unseen sweeps surely better, and return it, too."""
+    if it.prepared.stopped or not it.answer.names:
+        return it, None
+    with under_way("looking for an equation instead of the names"):
+        found = instead_of_names(it.analysis)
+        if found is not None:
+            found, _ = never_worse(found, _model(it, []), it.recording)
+    if found is None or found.physics is None:
+        return it, None
+    answer = replace(it.answer, sets=(), named=it.answer.case.sets[0])
+    return replace(it, answer=answer, analysis=with_fit(it.analysis, Fit([], []))), found
 
 
 def _unseen(it: Explained, effects: Sequence[EffectReport]) -> list[str]:
@@ -232,7 +250,12 @@ def _rolled(it: Explained) -> WheelWay:
 
 
 def _unnamed(
-    it: Explained, verdict: str, named: bool, model: CorrectedModel, fit: dict[str, OutputFit]
+    it: Explained,
+    verdict: str,
+    named: bool,
+    model: CorrectedModel,
+    fit: dict[str, OutputFit],
+    instead: UnnamedReport | None,
 ) -> tuple[UnnamedReport | None, CorrectedModel, dict[str, OutputFit]]:
     """Look for an equation of the residual, and put it in where it proves right.
 
@@ -243,7 +266,8 @@ def _unnamed(
     if it.prepared.stopped or (named and plainly and not more_than_usual(it.analysis)):
         return None, model, fit
     with under_way("looking for an equation of the residual"):
-        found, model = never_worse(unnamed_physics(it.analysis, plainly=plainly), model, it.recording)
+        found = instead or unnamed_physics(it.analysis, plainly=plainly)
+        found, model = never_worse(found, model, it.recording)
     fit = with_unnamed(fit, found)
     return None if plainly and found.physics is None else found, model, fit
 
