@@ -38,11 +38,7 @@ from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import head, on_expected, on_question, on_withheld
 from tire_pipeline.mismatch.report.words import not_looked_for, shortened
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
-from tire_pipeline.mismatch.unnamed_physics.search import (
-    instead_of_names,
-    more_than_usual,
-    unnamed_physics,
-)
+from tire_pipeline.mismatch.unnamed_physics.search import instead_of_names, more_than_usual, unnamed_physics
 from tire_pipeline.progress import under_way
 
 Array = np.ndarray
@@ -267,7 +263,7 @@ def _unnamed(
         return None, model, fit
     with under_way("looking for an equation of the residual"):
         found = instead or unnamed_physics(it.analysis, plainly=plainly)
-        found, model = never_worse(found, model, it.recording)
+    found, model = never_worse(found, model, it.recording)
     fit = with_unnamed(fit, found)
     return None if plainly and found.physics is None else found, model, fit
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -85,7 +86,8 @@ def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
         With the set that is named.
     """
     problem = by_condition(problem_of(with_fit(analysis, Fit([], []))), FOLDS)
-    return find_better(problem, each_left_out(analysis, analysis.fit))
+    found = find_better(problem, each_left_out(analysis, analysis.fit))
+    return None if found is None else replace(found, instead_of=tuple(analysis.fit.names))
 
 
 def find_better(problem: Unexplained, rival: Mapping[str, Array]) -> UnnamedReport | None:
