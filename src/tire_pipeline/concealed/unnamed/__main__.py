@@ -37,6 +37,7 @@ ALONE, TWO, BESIDE = "alone", "two", "beside a named one"
 PLAN = (ALONE, TWO, ALONE, BESIDE)
 """How each round of all mechanisms has them; then it begins again."""
 _BELOW_ONE = 1e-9
+_MOST_DRAWS = 100
 
 
 def mechanisms_of(half: str) -> tuple[Mechanism, ...]:
@@ -69,13 +70,13 @@ def drawn(half: str, number: int) -> tuple[int, OpenCase, tuple[Mechanism, ...]]
     A run that does not excite a mechanism is drawn again.
     """
     chosen, beside = planned(half, number)
-    for attempt in range(20):
+    for attempt in range(_MOST_DRAWS):
         seed = SEEDS[half] + 1000 * number + attempt
         try:
             return seed, draw_open_case(seed, chosen, beside, rows=ROWS), chosen
         except ValueError:
             continue
-    raise ValueError(f"case {number}: no run of 20 excites {chosen[0].name}")
+    raise ValueError(f"case {number}: no run of {_MOST_DRAWS} excites {chosen[0].name}")
 
 
 def run(half: str, number: int) -> dict[str, Any]:
