@@ -1,11 +1,16 @@
 """The open-world half: a case comes back the same, and the judge counts what is right."""
 
+import json
+import subprocess
+from collections import Counter
+
 import numpy as np
 import pytest
 
 from tire_pipeline.concealed.open_world.tuning import MECHANISMS
 from tire_pipeline.concealed.open_world.world import Nominal
-from tire_pipeline.concealed.unnamed.cases import draw_open_case
+from tire_pipeline.concealed.unnamed import __main__ as trial
+from tire_pipeline.concealed.unnamed.cases import CATALOGUE_NAMES, draw_open_case
 from tire_pipeline.concealed.unnamed.judge import drivers_right, equation_right, removed
 from tire_pipeline.mismatch.unnamed_physics.found import Alternative, UnnamedPhysics, UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues
@@ -70,3 +75,61 @@ def test_removed_is_a_share_of_what_the_oracle_removes():
     assert removed(before, {"fx": 4.0, "fy": 2.5}, {"fx": 4.0, "fy": 1.0})[0] == pytest.approx(0.5)
     assert removed(before, {"fx": 4.0, "fy": 5.5}, {"fx": 4.0, "fy": 1.0})[0] == pytest.approx(-0.5)
     assert np.isnan(removed(before, before, {"fx": 4.0, "fy": 3.9})[0])
+
+
+def test_a_plan_of_400_has_every_mechanism_alone_in_twos_and_beside_named_causes():
+    planned = [trial.planned("tuning", number) for number in range(400)]
+    kinds = Counter((len(mechanisms), len(beside)) for mechanisms, beside in planned)
+    assert {kind: round(count / 400, 1) for kind, count in kinds.items()} == {
+        (1, 0): 0.5,
+        (2, 0): 0.2,
+        (1, 1): 0.2,
+    }
+    for kind in kinds:
+        held = Counter(m.name for ms, beside in planned for m in ms if (len(ms), len(beside)) == kind)
+        assert set(held) == set(BY_NAME)
+    assert {cause for _, beside in planned for cause in beside} == set(CATALOGUE_NAMES)
+    assert all(len({m.name for m in mechanisms}) == len(mechanisms) for mechanisms, _ in planned)
+
+
+def test_the_oracle_takes_away_a_named_cause_too():
+    case = draw_open_case(5, (BY_NAME["drum runout"],), ("force offset",), 3.0, rows=1500)
+    named = case.held_with - case.held_without - case.added[0].change[1500:]
+    assert np.ptp(named, axis=0) == pytest.approx(0.0, abs=1e-9)  # an offset is the same in every row
+    assert list(np.abs(named[0]) > 1.0) == [False, True, False]
+
+
+def test_a_run_goes_on_where_it_was_and_its_table_is_committed(tmp_path, monkeypatch):
+    asked = []
+    row = {"mechanism": "m", "beside": "", "strength": 2.0, "verdict": "agrees", "names": "", "equation": ""}
+    row |= {
+        "false_name": False,
+        "drivers": "",
+        "true_drivers": "",
+        "drivers_right": False,
+        "in_grammar": True,
+    }
+    row |= {"driver_shared": False, "equation_right": False, "removed": 0.5, "worse": False}
+    row |= {"oracle_worse": False, "seconds": 1.0}
+    for name in trial.ON_RESIDUAL:
+        row |= {f"removed_{name}": 0.1, f"worse_{name}": False}
+    monkeypatch.setattr(trial, "run", lambda half, number: asked.append(number) or {"case": number, **row})
+    page = tmp_path / "docs" / "explanation" / "concealed_results.md"
+    page.parent.mkdir(parents=True)
+    (tmp_path / "benchmarks" / "results").mkdir(parents=True)
+    page.write_text("a\n<!-- unnamed tuning, from concealed.unnamed -->\nold\n<!-- end -->\nb\n", "utf-8")
+    git = ["git", "-C", str(tmp_path)]
+    for words in (["init", "-q"], ["config", "user.email", "a@b.c"], ["config", "user.name", "a"]):
+        subprocess.run([*git, *words], check=True)
+    common = ["--folder", str(tmp_path / "rows"), "--write", str(tmp_path), "--commit"]
+    trial.main(["tuning", "--cases", "2", *common])
+    trial.main(["tuning", "--cases", "3", *common])
+    assert asked == [0, 1, 2]
+    log = subprocess.run([*git, "log", "--format=%s"], check=True, capture_output=True, text=True).stdout
+    assert [line.split(",")[1].strip() for line in log.splitlines()] == ["3 cases", "2 cases"]
+    text = page.read_text("utf-8")
+    assert "| an equation was kept | 0.00 | 3 |" in text
+    assert "old" not in text
+    assert text.startswith("a\n")
+    assert text.endswith("b\n")
+    assert [json.loads(f.read_text())["case"] for f in sorted(tmp_path.glob("rows/*/*/*.json"))] == [0, 1, 2]

@@ -22,7 +22,7 @@ from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evalua
 from tire_pipeline.mismatch.unnamed_physics.library import memory_factors
 from tire_pipeline.mismatch.unnamed_physics.problem import by_condition
 from tire_pipeline.mismatch.unnamed_physics.products import Columns
-from tire_pipeline.mismatch.unnamed_physics.search import find
+from tire_pipeline.mismatch.unnamed_physics.search import find, find_better
 from tire_pipeline.tir import read_tir
 
 READER = Path(__file__).parents[3] / "examples" / "read_unnamed.py"
@@ -140,6 +140,17 @@ def test_speed_is_found_as_the_driver_and_its_square_as_the_form():
     assert after < 0.3 * before
     value, error = found.coefficients[0]
     assert abs(value + 0.05) < 4.0 * error + 0.002
+
+
+@pytest.mark.parametrize(("taken_up", "beaten"), [(0.5, True), (1.0, False)])
+def test_an_equation_beats_names_that_take_up_a_part_and_not_those_that_take_up_all(taken_up, beaten):
+    seen = problem(by_speed, noise=NOISE)
+    part = by_speed(seen.table)
+    names = {o: rest - taken_up * part if o == "fy" else rest for o, rest in seen.rest.items()}
+    found = find_better(seen, names)
+    assert (found is not None) is beaten
+    if found is not None:
+        assert found.physics.depends_on == ("speed",)
 
 
 def test_at_a_load_that_was_not_recorded_an_equation_adds_nothing():

@@ -33,6 +33,16 @@ from tire_pipeline.magic_formula import TireModel, fit_magic_formula
 
 _PRESSURE_CHANGE = 0.2
 """Either way, where a mechanism needs the pressure to change."""
+CATALOGUE_NAMES = {
+    "inflation pressure": "inflation_pressure",
+    "surface friction": "friction_scale",
+    "carcass stiffness": "stiffness_scale",
+    "load sensitivity": "load_sensitivity",
+    "tread wear": "wear",
+    "force offset": "force_offset",
+    "slip angle offset": "slip_angle_offset",
+}
+"""Causes of the second simulator that may stand beside a mechanism -> effects of the catalogue."""
 HELD_OUT_SHARE = 0.25
 """Rows that follow the recording and that nobody is shown, over those of the recording."""
 _OF_FIT = (*SLIP_AND_LOAD, "speed")
@@ -55,7 +65,8 @@ class OpenCase:
     named : tuple of str
         Causes of the second simulator's catalogue that are in, too.
     held_with, held_without : ndarray, shape (rows, 3)
-        Forces of the held-out rows with and without the mechanisms, free of noise.
+        Forces of the held-out rows with and without all that was put in, free of noise. A pressure that
+        changes is in both: the tire has it by itself.
     change : ndarray, shape (rows, 3)
         What the mechanisms do in the shown rows.
     unit : ndarray, shape (3,)
@@ -130,6 +141,7 @@ def _drawn(
     one = unit(rig, world.forces.T, formula_misfit())
     added = tuple(put_in(m, world, one, rng, strength) for m in mechanisms)
     change = sum((a.change for a in added), np.zeros_like(world.forces))
+    without = run.forces().T if placed else world.forces
     table = _table(run, world, change, draw_noise(rig, len(change), rng))
     return OpenCase(
         tire=_fitted(rng, tire, rig),
@@ -138,7 +150,7 @@ def _drawn(
         added=added,
         named=(*named, *(("inflation pressure",) if pressures else ())),
         held_with=(world.forces + change)[rows:],
-        held_without=world.forces[rows:],
+        held_without=without[rows:],
         change=change[:rows],
         unit=one,
         nominal=world.nominal,

@@ -11,7 +11,7 @@ import pandas as pd
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.concealed.cases.clean_run import model_forces
 from tire_pipeline.concealed.open_world.mechanism import Mechanism
-from tire_pipeline.concealed.unnamed.cases import OpenCase
+from tire_pipeline.concealed.unnamed.cases import CATALOGUE_NAMES, OpenCase
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, SymbolTable, evaluate, parse
@@ -22,7 +22,6 @@ _DRAWN_POINTS = 200
 _CLOSE = 0.01
 _SHOWS = 0.2
 """Least share of the squared held-out error that the true change removes, so that it can be judged."""
-_IN_CATALOGUE = {"inflation pressure": "inflation_pressure"}
 _SLOW_CHANNELS = ("camber", "normal_load", "speed", "pressure", "tread_temperature", "time")
 
 
@@ -44,7 +43,7 @@ def removed(
 
 
 def oracle_of(case: OpenCase) -> tuple[dict[str, float], dict[str, float]]:
-    """Squared errors of the model as it came, and with the true change added."""
+    """Squared errors of the model as it came, and with the true change of all that was put in."""
     plain = pd.DataFrame(model_forces(case.tire, case.held_out), columns=list(TANGENTIAL_FORCES))
     change = (case.held_with - case.held_without)[:, :2]
     return squared(case, plain), squared(case, plain + change)
@@ -145,18 +144,20 @@ def judged(case: OpenCase, mechanisms: Sequence[Mechanism], report: MismatchRepo
     after = squared(case, report.corrected.predict(case.held_out))
     share, possible = removed(before, after, oracle)
     names = tuple(e.name for e in report.effects)
-    allowed = {_IN_CATALOGUE.get(n, n) for n in case.named}
+    allowed = {CATALOGUE_NAMES[n] for n in case.named}
+    false = any(allowed.isdisjoint((e.name, *e.alternatives)) for e in report.effects)
     found = report.unnamed
     true = tuple(dict.fromkeys(d for m in mechanisms for d in m.drivers))
     said = found.physics.depends_on if found is not None and found.physics is not None else ()
     exact, some = drivers_right(said, true, same_channels(case))
     return {
         "mechanism": " + ".join(m.name for m in mechanisms),
+        "beside": ", ".join(case.named),
         "strength": max(a.strength for a in case.added),
         "in_grammar": all(m.expressions for m in mechanisms),
         "verdict": report.verdict,
         "names": " ".join(names),
-        "false_name": bool(set(names) - allowed),
+        "false_name": false,
         "equation": "; ".join(found.physics.equations.values()) if found and found.physics else "",
         "true_drivers": ", ".join(true),
         "drivers": ", ".join(said),

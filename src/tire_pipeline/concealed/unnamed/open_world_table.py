@@ -10,8 +10,8 @@ import pandas as pd
 
 _STRONG_MISFITS, _CLEAR_MISFITS = 2.0, 1.0
 _CASE_COLUMNS = (
-    "case mechanism strength verdict names true_drivers drivers drivers_right equation_right removed worse "
-    "seconds"
+    "case mechanism beside strength verdict names true_drivers drivers drivers_right equation_right removed "
+    "worse seconds"
 ).split()
 
 
@@ -70,4 +70,5 @@ def _scores(cases: pd.DataFrame) -> list[tuple[tuple[str, int], float, str]]:
         out.append(row(f"{name}: held-out error removed, median", judged, values.median()))
         out.append(row(f"{name}: a force made worse", cases, cases[f"worse_{name}"].mean()))
     out.append(row("processor seconds a case, median", cases, cases["seconds"].median()))
+    out.append(row("the same, at most", cases, cases["seconds"].max(), "60"))
     return out

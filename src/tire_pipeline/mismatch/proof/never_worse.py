@@ -66,10 +66,16 @@ def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, d
 def _surely_less(analysis: Analysis, before: dict[str, Array], after: dict[str, Array]) -> bool:
     """Whether all forces together surely have a smaller error on sweeps that are predicted without them.
 
-    Surely: the mean gain of a sweep is above zero by a one-sided t test over the sweeps, or over the points
-    of a recording without a time line. A gain that a few sweeps make and others lose is no gain elsewhere.
+    By sweeps, or by the points of a recording without a time line.
     """
-    gain = _gains(analysis, before, after)
+    return surely_above_zero(_gains(analysis, before, after))
+
+
+def surely_above_zero(gain: Array) -> bool:
+    """Whether the mean gain of a sweep is above zero by a one-sided t test, shape (sweeps,).
+
+    A gain that a few sweeps make and others lose is no gain elsewhere.
+    """
     if gain.size < 2:
         return bool(gain.sum() > 0.0)
     error = float(gain.std(ddof=1)) / np.sqrt(gain.size)

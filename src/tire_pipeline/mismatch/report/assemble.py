@@ -15,31 +15,30 @@ from tire_pipeline.mismatch.corrected.as_recorded import as_recorded, never_wors
 from tire_pipeline.mismatch.corrected.model import CorrectedModel, force_limits
 from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.effects.base import Finding
-from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
 from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.channels import CHANCE, ENOUGH_ROWS, one_sided, span
-from tire_pipeline.mismatch.model.forces import Change, simulate
+from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
-from tire_pipeline.mismatch.proof.left_out import each_left_out, shares_left
-from tire_pipeline.mismatch.proof.locate import everywhere, locate, when, where
+from tire_pipeline.mismatch.proof.locate import everywhere, locate
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.prepare import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
+from tire_pipeline.mismatch.report.found_effects import from_factors, from_fit
 from tire_pipeline.mismatch.report.left_out import reasons, state_units, with_reasons
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.remarks import on_expected, on_moments, on_several, on_withheld
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import head, on_question
-from tire_pipeline.mismatch.report.words import not_looked_for, shortened
+from tire_pipeline.mismatch.report.words import not_looked_for
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
-from tire_pipeline.mismatch.unnamed_physics.search import more_than_usual, unnamed_physics
+from tire_pipeline.mismatch.unnamed_physics.search import instead_of_names, more_than_usual, unnamed_physics
 from tire_pipeline.progress import under_way
 
 Array = np.ndarray
@@ -79,21 +78,21 @@ class Explained:
 
 def assembled(it: Explained) -> MismatchReport:
     """Return the report."""
-    it = _with_reasons(it)
+    it, instead = _beaten(_with_reasons(it))
     prepared, analysis, answer = it.prepared, it.analysis, it.answer
     data = analysis.data
     left, noise = remainder(analysis, answer, it.sets.likelihood.learnt.left, it.sets.products.largest)
     if prepared.stopped:
         left = replace(left, significant=False, located=[])
-    effects = [_exact(finding, prepared) for finding in prepared.findings]
-    effects += [_found(analysis, answer, name, noise) for name in answer.names]
+    effects = [from_factors(finding, prepared) for finding in prepared.findings]
+    effects += [from_fit(analysis, answer, name, noise) for name in answer.names]
     verdict = prepared.stopped or _verdict(effects, left)
     plain = _model(it, [])
     model, put_in, unseen = _corrected(it, plain)
     withheld = tuple(n for n in analysis.fit.names if n not in put_in.names)
     inside = replace(analysis, fit=put_in)
     fit = as_recorded({**prove(inside, unseen, noise), **prove_moments(inside)}, inside, model, it.recording)
-    unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit)
+    unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit, instead)
     if unnamed is not None and unnamed.physics is not None and not effects:
         verdict = "unexplained"  # what was proved is no agreement, though it has no name
     silent = prepared.stopped or verdict == "agrees"
@@ -146,6 +145,20 @@ def _with_reasons(it: Explained) -> Explained:
         prepared=replace(it.prepared, assumed=assumed, notes=notes),
         analysis=replace(it.analysis, absent=absent),
     )
+
+
+def _beaten(it: Explained) -> tuple[Explained, UnnamedReport | None]:
+    """Take back names where an equation alone predicts unseen sweeps surely better, and return it, too."""
+    if it.prepared.stopped or not it.answer.names:
+        return it, None
+    with under_way("looking for an equation instead of the names"):
+        found = instead_of_names(it.analysis)
+        if found is not None:
+            found, _ = never_worse(found, _model(it, []), it.recording)
+    if found is None or found.physics is None:
+        return it, None
+    answer = replace(it.answer, sets=(), named=it.answer.case.sets[0])
+    return replace(it, answer=answer, analysis=with_fit(it.analysis, Fit([], []))), found
 
 
 def _unseen(it: Explained, effects: Sequence[EffectReport]) -> list[str]:
@@ -252,7 +265,12 @@ def _rolled(it: Explained) -> WheelWay:
 
 
 def _unnamed(
-    it: Explained, verdict: str, named: bool, model: CorrectedModel, fit: dict[str, OutputFit]
+    it: Explained,
+    verdict: str,
+    named: bool,
+    model: CorrectedModel,
+    fit: dict[str, OutputFit],
+    instead: UnnamedReport | None,
 ) -> tuple[UnnamedReport | None, CorrectedModel, dict[str, OutputFit]]:
     """Look for an equation of the residual, and put it in where it proves right.
 
@@ -263,7 +281,8 @@ def _unnamed(
     if it.prepared.stopped or (named and plainly and not more_than_usual(it.analysis)):
         return None, model, fit
     with under_way("looking for an equation of the residual"):
-        found, model = never_worse(unnamed_physics(it.analysis, plainly=plainly), model, it.recording)
+        found = instead or unnamed_physics(it.analysis, plainly=plainly)
+    found, model = never_worse(found, model, it.recording)
     fit = with_unnamed(fit, found)
     return None if plainly and found.physics is None else found, model, fit
 
@@ -275,70 +294,6 @@ def _following(it: Explained, verdict: str, plain: CorrectedModel) -> str:
         return f"{question.todo}."
     asked = state_units(it.prepared.notes) if verdict in _TO_DO else ""
     return asked or next_experiment(it.analysis, it.answer, plain) or _TO_DO.get(verdict, "")
-
-
-def _exact(finding: Finding, prepared: Prepared) -> EffectReport:
-    effect = catalogue()[finding.name]
-    spans: list[tuple[float, float]] = []
-    if prepared.data.time is not None:
-        spans = [(float(prepared.data.time[0]), float(prepared.data.time[-1]))]
-    if finding.span is not None:
-        spans = [finding.span]
-    return EffectReport(
-        name=finding.name,
-        kind=effect.kind,
-        title=f"{effect.title} ({shortened(finding.text)})",
-        alternatives=(),
-        confidence=finding.evidence,
-        output=finding.channel,
-        where={},
-        when=spans,
-        share=float("nan"),
-        equation=effect.equation,
-        source=effect.source,
-        parameters=finding.parameters,
-        evidence={"found": finding.text},
-    )
-
-
-def _found(analysis: Analysis, answer: SetAnswer, name: str, noise: Mapping[str, float]) -> EffectReport:
-    data, fit = analysis.data, analysis.fit
-    index = fit.names.index(name)
-    (group, confidence) = next(each for each in answer.sets if each[0][0] == name)
-    effect = catalogue()[name]
-    rest = [change for j, change in enumerate(fit.changes) if j != index]
-    whole, without = simulate(data, fit.changes), simulate(data, rest)
-    part = {o: whole[o] - without[o] for o in data.outputs}
-    output = max(data.outputs, key=lambda o: float(np.mean(part[o] ** 2)))
-    units = {p.name: p.unit for p in effect.parameters}
-    parameters = {
-        n: (float(fit.changes[index][1][n]), float(error), units[n])
-        for (i, n), error in zip(fit.labels, fit.errors, strict=True)
-        if i == index
-    }
-    return EffectReport(
-        name=name,
-        kind=effect.kind,
-        title=effect.title,
-        alternatives=group[1:],
-        confidence=confidence,
-        output=output,
-        where=where(part[output], data),
-        when=when(part[output], data, noise[output]),
-        share=_share(analysis, index, output),
-        equation=effect.equation,
-        source=effect.source,
-        parameters=parameters,
-        evidence={"log_evidence": answer.gains.get(name, float("nan"))},
-    )
-
-
-def _share(analysis: Analysis, index: int, output: str) -> float:
-    """Share of the squared mismatch that an effect removes on sweeps that the fit has not seen."""
-    fit, before = analysis.fit, residual(analysis.data, [])
-    others = fit.part([j for j in range(len(fit.names)) if j != index], analysis.system)
-    with_it, without = (shares_left(each_left_out(analysis, f), before)[output] for f in (fit, others))
-    return without - with_it
 
 
 def _ranges(analysis: Analysis) -> dict[str, tuple[float, float]]:

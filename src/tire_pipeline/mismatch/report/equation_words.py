@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.report.words import newtons
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
@@ -13,7 +14,7 @@ def on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
     first = verdict in ("unexplained", "partly explained")
     what = "The unexplained residual" if first else "The remaining residual"
     text = (
-        f"{what} does not look like any effect of the catalogue. Of what was recorded, it depends most on "
+        f"{what} {_resembles(found)}. Of what was recorded, it depends most on "
         f"{_drivers(found)}. The corrected model contains an equation for it"
     )
     if verdict in ("unexplained", "undecided"):
@@ -37,6 +38,14 @@ def of_equation(found: UnnamedReport | None) -> str:
         for o, (before, after, _) in _unseen(found).items()
     )
     return f"an equation in {_drivers(found)} takes the RMS error of {errors} on held-out sweeps"
+
+
+def _resembles(found: UnnamedReport) -> str:
+    """Say which effects it could be taken for, if any."""
+    if not found.instead_of:
+        return "does not look like any effect of the catalogue"
+    names = " and ".join(catalogue()[name].title.lower() for name in found.instead_of)
+    return f"resembles {names}, but an equation alone predicts unseen sweeps better"
 
 
 def _drivers(found: UnnamedReport) -> str:

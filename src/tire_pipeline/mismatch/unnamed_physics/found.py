@@ -188,6 +188,8 @@ class UnnamedReport:
     p_value : float
         Wilcoxon, over sweeps.
     ideas : list of Idea
+    instead_of : tuple of str
+        Effects whose names it takes back: it leaves less on unseen sweeps than they do.
     curve : dict of list
         ``x`` (driver or term), ``left`` and ``fitted`` by bins, for the figure.
     """
@@ -205,4 +207,5 @@ class UnnamedReport:
     sweeps: int = 0
     p_value: float = 1.0
     ideas: list[Idea] = field(default_factory=list)
+    instead_of: tuple[str, ...] = ()
     curve: dict[str, Any] = field(default_factory=dict)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
+from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.model.channels import least_spread, one_sided, white_noise
 from tire_pipeline.mismatch.model.residual import residual, rms
+from tire_pipeline.mismatch.proof.left_out import each_left_out
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
     MOST_TERMS,
@@ -36,11 +39,13 @@ from tire_pipeline.mismatch.unnamed_physics.prove import (
     ceiling,
     fitted,
     forces_of,
+    leaves_less,
     proven,
 )
 from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL
 
 Array = np.ndarray
+_Looked = tuple[Columns, ChosenModels, list[Proven]]
 _SHOWN = 3
 _BINS_OF_CURVE = 30
 _ABOVE_NOISE = 1.5
@@ -66,6 +71,36 @@ def unnamed_physics(analysis: Analysis, *, plainly: bool = False) -> UnnamedRepo
     if plainly:
         return find(by_condition(problem, FOLDS), plainly=True)
     return find(problem, coarsely(problem, analysis))
+
+
+def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
+    """Return an equation that predicts unseen sweeps better than the named effects do, if there is one.
+
+    An effect of the catalogue often resembles a part of what has no name, and then the posterior names it:
+    it weighs no equation. Here an equation alone, by the stricter proof, has to leave surely less than the
+    named effects fitted without each sweep.
+
+    Parameters
+    ----------
+    analysis : Analysis
+        With the set that is named.
+    """
+    problem = by_condition(problem_of(with_fit(analysis, Fit([], []))), FOLDS)
+    found = find_better(problem, each_left_out(analysis, analysis.fit))
+    return None if found is None else replace(found, instead_of=tuple(analysis.fit.names))
+
+
+def find_better(problem: Unexplained, rival: Mapping[str, Array]) -> UnnamedReport | None:
+    """The same against any rival: output -> what it leaves on unseen sweeps, N, shape (n,)."""
+    columns = Columns(problem)
+    choice = choose(columns)
+    models = [m for k in range(MOST_TERMS) if (m := choice.best(k + 1)) is not None]
+    if not any(leaves_less(problem, forces_of(columns, choice, m.terms), rival) for m in models):
+        return None  # not even where it was fitted
+    found = _reported([(columns, choice, proven(columns))], plainly=True, rival=rival)
+    if found.physics is None or "t" in found.physics.ranges:
+        return None  # an equation in time, or in the way rolled, ends with its recording; a name does not
+    return found
 
 
 def more_than_usual(analysis: Analysis) -> bool:
@@ -96,7 +131,14 @@ def find(*views: Unexplained, plainly: bool = False) -> UnnamedReport:
         that it has not seen.
     plainly : bool
     """
-    looked = [_look(problem) for problem in views]
+    return _reported([_look(problem) for problem in views], plainly=plainly)
+
+
+def _reported(
+    looked: Sequence[_Looked], *, plainly: bool, rival: Mapping[str, Array] | None = None
+) -> UnnamedReport:
+    """Return the best of what was found, with its equation if it is proved."""
+    problem = looked[0][0].problem
     proofs = [proof for _, _, of_view in looked for proof in of_view]
     which = best_of(proofs)
     columns, choice, _ = looked[which // MOST_TERMS]
@@ -110,8 +152,9 @@ def find(*views: Unexplained, plainly: bool = False) -> UnnamedReport:
     terms = [choice.terms[i] for i in best.terms]
     values, errors = fitted(choice, best.terms)
     drivers = drivers_of(best, choice.terms)
-    one_sided = _one_sided(views[0])
+    one_sided = _one_sided(problem)
     kept = (proof.plain(drivers) if plainly else proof.holds) and not one_sided
+    kept = kept and (rival is None or leaves_less(problem, proof.predicted, rival))
     physics = _physics(columns, choice, best, proof.outputs) if kept else None
     return UnnamedReport(
         physics=physics,
@@ -131,7 +174,7 @@ def find(*views: Unexplained, plainly: bool = False) -> UnnamedReport:
     )
 
 
-def _look(problem: Unexplained) -> tuple[Columns, ChosenModels, list[Proven]]:
+def _look(problem: Unexplained) -> _Looked:
     """Choose with all sweeps, and without each fold."""
     columns = Columns(problem)
     return columns, choose(columns), proven(columns)
