@@ -78,7 +78,8 @@ def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
 
     An effect of the catalogue often resembles a part of what has no name, and then the posterior names it:
     it weighs no equation. Here an equation alone, by the stricter proof, has to leave surely less than the
-    named effects fitted without each sweep.
+    named effects fitted without each sweep, and no more than these with an equation of what they leave: one
+    true cause beside something without a name keeps its name.
 
     Parameters
     ----------
@@ -86,8 +87,25 @@ def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
         With the set that is named.
     """
     problem = by_condition(problem_of(with_fit(analysis, Fit([], []))), FOLDS)
-    found = find_better(problem, each_left_out(analysis, analysis.fit))
-    return None if found is None else replace(found, instead_of=tuple(analysis.fit.names))
+    names = each_left_out(analysis, analysis.fit)
+    found = find_better(problem, names)
+    if found is None or _size_beside(analysis, names) < _size_alone(problem, found):
+        return None
+    return replace(found, instead_of=tuple(analysis.fit.names))
+
+
+def _size_alone(problem: Unexplained, found: UnnamedReport) -> float:
+    """Squared error that an equation leaves on unseen sweeps, each force over its largest."""
+    left = {o: found.unseen[o][1] if o in found.unseen else rms(rest) for o, rest in problem.rest.items()}
+    return sum((error / problem.largest[o]) ** 2 for o, error in left.items())
+
+
+def _size_beside(analysis: Analysis, names: Mapping[str, Array]) -> float:
+    """The same of named effects and an equation of what they leave."""
+    problem = by_condition(problem_of(analysis), FOLDS)
+    proofs = proven(Columns(problem))
+    added = proofs[best_of(proofs)].predicted
+    return sum((rms(left - added[o]) / problem.largest[o]) ** 2 for o, left in names.items())
 
 
 def find_better(problem: Unexplained, rival: Mapping[str, Array]) -> UnnamedReport | None:
