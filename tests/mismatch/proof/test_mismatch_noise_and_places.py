@@ -48,6 +48,16 @@ def test_the_error_of_a_force_in_kilonewtons_is_in_newtons():
         assert getattr(wrong, name) == pytest.approx(getattr(right, name), rel=1e-6)
 
 
+def test_samples_of_a_stuck_channel_are_no_noise(tire, record):
+    """They are taken out before anything is weighed, but are among the rows of which the errors are."""
+    recording = record(3)
+    whole = explain_mismatch(tire, recording).fit["fy"]
+    recording.loc[2000:2300, "fy"] = recording["fy"].iloc[2000]
+    report = explain_mismatch(tire, recording)
+    assert [effect.name for effect in report.effects] == ["stuck_channel"]
+    assert report.fit["fy"].noise_floor < 1.2 * whole.noise_floor < report.fit["fy"].rms_before
+
+
 @pytest.fixture(scope="module")
 def sweeps_of_slip():
     tire = read_tir(EXAMPLES / "tire.tir")

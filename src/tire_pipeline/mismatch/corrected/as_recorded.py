@@ -24,7 +24,11 @@ Array = np.ndarray
 
 
 def as_recorded(
-    fit: dict[str, OutputFit], analysis: Analysis, corrected: CorrectedModel, recording: pd.DataFrame
+    fit: dict[str, OutputFit],
+    analysis: Analysis,
+    corrected: CorrectedModel,
+    recording: pd.DataFrame,
+    used: Array,
 ) -> dict[str, OutputFit]:
     """Return the errors on the recorded rows.
 
@@ -36,6 +40,8 @@ def as_recorded(
     corrected : CorrectedModel
     recording : pandas.DataFrame
         As it came.
+    used : ndarray of int
+        Its rows that were weighed: what was taken out as a fault is no noise.
 
     Returns
     -------
@@ -53,7 +59,17 @@ def as_recorded(
         there = simulate_moments(analysis.data, analysis.fit.changes, moments)
         here |= {o: analysis.data.channels[o] - there[o] for o in moments}
     inside = {o: rms(r) for o, r in here.items()}
-    return {o: _moved(f, o, before[o], after[o], inside[o], recording, same) for o, f in fit.items()}
+    moved = {o: _moved(f, before[o], after[o], inside[o], recording, same) for o, f in fit.items()}
+    return {
+        o: replace(m, noise_floor=_noise(fit[o].noise_floor, after[o][used], inside[o]))
+        for o, m in moved.items()
+    }
+
+
+def _noise(floor: float, after: Array, inside: float) -> float:
+    """Return the noise of the recorded rows: that of the weighed rows, and what averaging took off it."""
+    further = rms(after) ** 2 - inside**2
+    return float(np.sqrt(floor**2 + further)) if further > 0.0 else floor
 
 
 def _errors(
@@ -68,7 +84,7 @@ def _errors(
 
 
 def _moved(
-    f: OutputFit, output: str, before: Array, after: Array, inside: float, recording: pd.DataFrame, same: bool
+    f: OutputFit, before: Array, after: Array, inside: float, recording: pd.DataFrame, same: bool
 ) -> OutputFit:
     first, last = rms(before), rms(after)
     further = last**2 - inside**2
@@ -76,10 +92,8 @@ def _moved(
     def at_rows(value: float) -> float:
         return float(np.sqrt(max(value**2 + further, 0.0)))
 
-    floor = max(at_rows(f.noise_floor), f.noise_floor if further < 0.0 else 0.0)
     rows = _inside(f.held_out_condition, recording)
     changed: dict[str, Any] = {
-        "noise_floor": floor,
         "rms_before": first,
         "rms_after": first if same else at_rows(f.rms_after),
         "rms_after_low": at_rows(f.rms_after_low),

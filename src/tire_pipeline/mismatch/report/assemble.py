@@ -91,7 +91,8 @@ def assembled(it: Explained) -> MismatchReport:
     model, put_in, unseen = _corrected(it, plain)
     withheld = tuple(n for n in analysis.fit.names if n not in put_in.names)
     inside = replace(analysis, fit=put_in)
-    fit = as_recorded({**prove(inside, unseen, noise), **prove_moments(inside)}, inside, model, it.recording)
+    proved = {**prove(inside, unseen, noise), **prove_moments(inside)}
+    fit = as_recorded(proved, inside, model, it.recording, prepared.rows)
     unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit, instead)
     if unnamed is not None and unnamed.physics is not None and not effects:
         verdict = "unexplained"  # what was proved is no agreement, though it has no name
