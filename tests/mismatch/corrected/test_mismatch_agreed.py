@@ -17,15 +17,28 @@ def run():
     return pd.DataFrame({"slip_angle": slip_angle, "normal_load": 4000.0})
 
 
-def test_the_smallest_change_of_one_sign_and_none_where_signs_differ():
+def test_the_smallest_likely_change_along_the_likeliest_and_none_where_signs_differ():
     plain = {"fy": np.array([100.0, 100.0, 100.0])}
-    each = [{"fy": np.array([110.0, 90.0, 80.0])}, {"fy": np.array([130.0, 130.0, 95.0])}]
-    assert agreed(plain, each)["fy"].tolist() == [110.0, 100.0, 95.0]
+    each = [{"fy": np.array([130.0, 90.0, 80.0])}, {"fy": np.array([110.0, 130.0, 70.0])}]
+    assert agreed(plain, each, [1.0, 0.5])["fy"].tolist() == [110.0, 100.0, 80.0]
+
+
+def test_what_is_unlikely_changes_nothing():
+    """Less likely than one standard deviation below: the likeliest explanation counts alone."""
+    plain, each = {"fy": np.array([100.0])}, [{"fy": np.array([130.0])}, {"fy": np.array([110.0])}]
+    assert agreed(plain, each, [0.9, 0.1])["fy"].tolist() == [130.0]
+    assert agreed(plain, each, [0.8, 0.2])["fy"].tolist() == [110.0]
+
+
+def test_several_unlikely_ones_count_together():
+    plain = {"fy": np.array([100.0])}
+    each = [{"fy": np.array([100.0 + change])} for change in (30.0, 10.0, 20.0)]
+    assert agreed(plain, each, [0.8, 0.1, 0.1])["fy"].tolist() == [120.0]
 
 
 def test_no_true_explanation_among_them_is_overshot(tire, run):
     """Whichever of them is true, no sample is predicted worse than by the model as it came."""
-    both = CorrectedModel(tire, GAIN, {}, ("fy",), instead=(OFFSET,)).predict(run)["fy"]
+    both = CorrectedModel(tire, GAIN, {}, ("fy",), instead=((0.5, OFFSET),)).predict(run)["fy"]
     plain = CorrectedModel(tire, (), {}, ("fy",)).predict(run)["fy"]
     assert float(np.abs(both - plain).max()) > 100.0
     for truth in (GAIN, OFFSET):
@@ -35,13 +48,13 @@ def test_no_true_explanation_among_them_is_overshot(tire, run):
 
 def test_one_explanation_alone_is_added_whole(tire, run):
     alone = CorrectedModel(tire, GAIN, {}, ("fy",))
-    twice = CorrectedModel(tire, GAIN, {}, ("fy",), instead=(GAIN,))
+    twice = CorrectedModel(tire, GAIN, {}, ("fy",), instead=((0.5, GAIN),))
     assert np.allclose(alone.predict(run)["fy"], twice.predict(run)["fy"])
 
 
 def test_one_that_needs_a_channel_which_is_not_there_is_not_counted(tire, run):
     slower = (("speed_dependence", {"friction": -0.5, "stiffness": 0.0}),)
-    model = CorrectedModel(tire, GAIN, {"speed_nominal": 16.7}, ("fy",), instead=(slower,))
+    model = CorrectedModel(tire, GAIN, {"speed_nominal": 16.7}, ("fy",), instead=((0.5, slower),))
     found = model.predict(run)
     assert np.allclose(found["fy"], CorrectedModel(tire, GAIN, {}, ("fy",)).predict(run)["fy"])
     assert any("need a channel" in note for note in found.attrs["notes"])
@@ -49,6 +62,6 @@ def test_one_that_needs_a_channel_which_is_not_there_is_not_counted(tire, run):
 
 def test_the_file_says_what_else_it_could_be(tire, tmp_path):
     scale = (("stiffness_scale", {"stiffness": -0.1, "lateral_stiffness": 0.0}),)
-    model = CorrectedModel(tire, scale, {}, ("fy",), instead=(OFFSET,))
+    model = CorrectedModel(tire, scale, {}, ("fy",), instead=((0.5, OFFSET),))
     text = model.to_tir(tmp_path / "c.tir").read_text()
     assert "the recording does not tell stiffness_scale from: force_offset" in text

@@ -1,39 +1,50 @@
-"""What all explanations agree on, where a recording cannot tell them apart."""
+"""What explanations agree on, where a recording cannot tell them apart."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+import scipy
 
 Array = np.ndarray
+UNSURE = float(scipy.special.ndtr(-1.0))
+"""Probability that a change may be smaller than what is added: that of one standard deviation below."""
 
 
-def agreed(plain: Mapping[str, Array], each: Sequence[Mapping[str, Array]]) -> dict[str, Array]:
-    """Return forces changed by as much as every explanation changes them at least.
+def agreed(
+    plain: Mapping[str, Array], each: Sequence[Mapping[str, Array]], weights: Sequence[float]
+) -> dict[str, Array]:
+    """Return forces changed by no more than explanations agree on.
 
-    On the recording that was explained the explanations come to the same. At other loads, times and slips
-    they need not: wear goes on and a gain stays. If one of them is true, its change has the sign and at least
-    the size of what is returned, so that no sample becomes worse.
+    On the recording that was explained the explanations come to nearly the same. At other loads, times and
+    slips they need not: wear goes on and a gain stays. Each sample changes in the direction of the likeliest
+    explanation, by the size that the true change has at least, but for a probability of ``UNSURE``.
 
     Parameters
     ----------
     plain : mapping of str to ndarray, shape (n,)
         Output -> what the model predicts with nothing added, N or N m.
     each : sequence of mappings
-        The same with each explanation added; one at least.
+        The same with each explanation added, the likeliest first.
+    weights : sequence of float
+        Of the explanations: their probabilities, or multiples of them.
 
     Returns
     -------
     dict of ndarray, shape (n,)
-        The smallest change of each sample, or none where explanations differ in its sign.
+        With one explanation alone, what it predicts.
     """
     if len(each) == 1:
         return dict(each[0])
+    weight = np.asarray(weights, float) / np.sum(weights)
     out = {}
     for name, start in plain.items():
         changes = np.array([forces[name] - start for forces in each])
-        one_sign = (changes > 0.0).all(axis=0) | (changes < 0.0).all(axis=0)
-        least = np.take_along_axis(changes, np.abs(changes).argmin(axis=0)[None], axis=0)[0]
-        out[name] = start + np.where(one_sign, least, 0.0)
+        sign = np.sign(changes[0])
+        sizes = np.maximum(changes * sign, 0.0)
+        order = np.argsort(sizes, axis=0)
+        below = np.cumsum(weight[order], axis=0)
+        first = (below > UNSURE).argmax(axis=0)
+        out[name] = start + sign * np.take_along_axis(np.sort(sizes, axis=0), first[None], axis=0)[0]
     return out

@@ -60,8 +60,10 @@ def as_recorded(
         here |= {o: analysis.data.channels[o] - there[o] for o in moments}
     inside = {o: rms(r) for o, r in here.items()}
     moved = {o: _moved(f, before[o], after[o], inside[o], recording, same) for o, f in fit.items()}
+    alone = replace(corrected, instead=())
+    of_fit = after if same or not corrected.instead else _errors(alone, recording, fit)
     return {
-        o: replace(m, noise_floor=_noise(fit[o].noise_floor, after[o][used], inside[o]))
+        o: replace(m, noise_floor=_noise(fit[o].noise_floor, of_fit[o][used], inside[o]))
         for o, m in moved.items()
     }
 

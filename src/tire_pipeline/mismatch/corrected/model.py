@@ -60,9 +60,9 @@ class CorrectedModel:
         Input channel that is cleaned of sensor noise before the effects are added -> RMS of that noise, SI.
     unnamed : UnnamedPhysics, optional
         An equation of unnamed physics, put in last.
-    instead : tuple of (tuple of (name, parameters))
-        Other explanations that the recording cannot tell from ``changes``: ``predict`` adds what all of them
-        agree on.
+    instead : tuple of (odds, changes)
+        Other explanations that the recording cannot tell from ``changes``, and how likely they are beside
+        these: ``predict`` adds what they agree on (:func:`.agreed`).
 
     See Also
     --------
@@ -99,7 +99,7 @@ class CorrectedModel:
     question: Question | None = None
     cleaned: Mapping[str, float] = field(default_factory=dict)
     unnamed: UnnamedPhysics | None = None
-    instead: tuple[tuple[Change, ...], ...] = ()
+    instead: tuple[tuple[float, tuple[Change, ...]], ...] = ()
 
     def __repr__(self) -> str:
         put_in = [name for name, _ in self.changes]
@@ -147,10 +147,15 @@ class CorrectedModel:
                 raise RecordingError(
                     f"{name} needs the channel {channel}", where=channel, todo="add the column"
                 )
-        others = [c for c in self.instead if not any(catalogue()[name].lacking(data) for name, _ in c)]
+        others = [
+            (odds, changes)
+            for odds, changes in self.instead
+            if not any(catalogue()[name].lacking(data) for name, _ in changes)
+        ]
         forces = agreed(
             self._simulated(data, ()) if others else {},
-            [self._simulated(data, changes) for changes in (self.changes, *others)],
+            [self._simulated(data, changes) for changes in (self.changes, *(c for _, c in others))],
+            [1.0, *(odds for odds, _ in others)],
         )
         notes = [*self._of_unknown_phase(data), *self._put_unnamed(data, forces)]
         if len(others) < len(self.instead):
@@ -312,7 +317,7 @@ class CorrectedModel:
         beside = [name for name in sidecar if name != "unnamed"]
         said += [f"physics in the sidecar beside this file: {', '.join(beside)}"] if beside else []
         if self.instead:
-            others = [" and ".join(name for name, _ in changes) for changes in self.instead]
+            others = [" and ".join(name for name, _ in changes) for _, changes in self.instead]
             said.append(f"the recording does not tell {' and '.join(names)} from: {'; '.join(others)}")
         if self.unnamed is not None:
             said.append("unexplained residual, by an empirical equation: in the sidecar beside this file")

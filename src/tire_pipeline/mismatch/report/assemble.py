@@ -208,14 +208,18 @@ def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Fi
     return model, fit, left
 
 
-def _instead(it: Explained, put_in: Fit) -> list[tuple[Change, ...]]:
-    """Return the other likely explanations, without what is withheld of them."""
+def _instead(it: Explained, put_in: Fit) -> list[tuple[float, tuple[Change, ...]]]:
+    """Return the other likely explanations with their odds, without what is withheld of them."""
     if not put_in.names:
         return []
     withheld = set(it.analysis.fit.names) - set(put_in.names)
-    others = [each for each in it.answer.likely if each.names != it.answer.named.names]
-    parts = [tuple((n, p) for n, p in each.changes if n not in withheld) for each in others]
-    return [part for part in parts if part]
+    probability, named = it.answer.probabilities, it.answer.named.names
+    others = [each for each in it.answer.likely if each.names != named]
+    parts = [
+        (probability[each.names] / probability[named], tuple(c for c in each.changes if c[0] not in withheld))
+        for each in others
+    ]
+    return [(odds, changes) for odds, changes in parts if changes]
 
 
 def _no_worse(it: Explained, model: CorrectedModel, plain: CorrectedModel) -> bool:
@@ -228,7 +232,7 @@ def _no_worse(it: Explained, model: CorrectedModel, plain: CorrectedModel) -> bo
 
 
 def _model(
-    it: Explained, changes: Sequence[Change], instead: Sequence[tuple[Change, ...]] = ()
+    it: Explained, changes: Sequence[Change], instead: Sequence[tuple[float, tuple[Change, ...]]] = ()
 ) -> CorrectedModel:
     data, prepared = it.analysis.data, it.prepared
     outputs = tuple(prepared.data.outputs)
@@ -239,7 +243,7 @@ def _model(
         reference["pressure_nominal"] = data.pressure_nominal
     if "speed" in data.present:
         reference["speed_nominal"] = data.speed_nominal
-    every = [change for explanation in (changes, *instead) for change in explanation]
+    every = [change for explanation in (changes, *(c for _, c in instead)) for change in explanation]
     if any(catalogue()[n].quarter_turn(p) is not None for n, p in every):
         reference["rolled"] = _rolled(it)
     return CorrectedModel(

@@ -28,7 +28,7 @@ def on_several(effects: Sequence[EffectReport]) -> str:
         return ""
     return (
         "The recording leaves several explanations open, which differ on other recordings: there the "
-        "corrected model adds only what all of them agree on. A written .tir file holds the likeliest one."
+        "corrected model adds only what they agree on. A written .tir file holds the likeliest one."
     )
 
 
