@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-import scipy
 
 Array = np.ndarray
-UNSURE = float(scipy.special.ndtr(-1.0))
+UNSURE = 0.5 * math.erfc(math.sqrt(0.5))
 """Probability that a change may be smaller than what is added: that of one standard deviation below."""
 
 

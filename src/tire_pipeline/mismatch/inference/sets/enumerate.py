@@ -1,10 +1,13 @@
-"""Enumerate sets: singles of the effects that the screen keeps, and its likeliest pairs and triples."""
+"""Enumerate sets: singles and pairs of the effects that the screen keeps, triples from the likeliest
+pairs."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+
+import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.background import make_background
 from tire_pipeline.mismatch.inference.analysis import Analysis
@@ -61,7 +64,7 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
         fits[(name,)] = max(choices, key=lambda each: plain_evidence(likelihood, each))
     for pair in pairs:
         fits[pair] = fitted(products, likelihood, _from_singles(fits, pair), _FIT_STEPS)
-    for triple in _likeliest(found, 3, TRIPLES):
+    for triple in _triples(likelihood, list(fits.values()), found):
         fits[triple] = fitted(products, likelihood, _from_singles(fits, triple), _FIT_STEPS)
     return Enumerated(products, likelihood, _with_forms(products, likelihood, fits))
 
@@ -102,7 +105,7 @@ def sets_to_fit(
     sure = sorted(set(expected) & set(found.forms))
     wanted = [tuple(sorted(names)) for names in beside if set(names) <= set(found.forms)]
     wanted += [(name,) for name in sure]
-    pairs = [*_likeliest(found, 2, PAIRS), *(names for names in wanted if len(names) == 2)]
+    pairs = [*_likeliest_pairs(found), *(names for names in wanted if len(names) == 2)]
     pairs += [tuple(sorted((first, n))) for first in sure for n in found.forms if n != first]
     singles = [*found.kept, *(n for names in pairs + wanted for n in names)]
     return list(dict.fromkeys(singles)), list(dict.fromkeys(pairs))
@@ -117,10 +120,9 @@ def _with_forms(
     return tuple(products.with_forms(e) if names in asked else e for names, e in fits.items())
 
 
-def _likeliest(found: Screened, effects: int, number: int) -> list[Names]:
-    """Return the likeliest sets of some effects that are kept, by the screen."""
-    every: list[Names] = list(combinations(sorted(found.kept), effects))
-    return sorted(every, key=lambda names: -found.evidence[names])[:number]
+def _likeliest_pairs(found: Screened) -> list[Names]:
+    pairs: list[Names] = list(combinations(sorted(found.kept), 2))
+    return sorted(pairs, key=lambda pair: -found.evidence[pair])[:PAIRS]
 
 
 def _from_singles(fits: Mapping[Names, OfSet], names: Names) -> list[Variant]:
@@ -129,3 +131,18 @@ def _from_singles(fits: Mapping[Names, OfSet], names: Names) -> list[Variant]:
     return [
         Variant(n, dict(each.changes[0][1]), each.free[0]) for n, each in zip(names, singles, strict=True)
     ]
+
+
+def _triples(likelihood: Likelihood, fits: Sequence[OfSet], found: Screened) -> list[Names]:
+    """Return the likeliest pair with each effect that does best beside its members."""
+    pairs = [each for each in fits if len(each.names) == 2]
+    if not pairs:
+        return []
+    first = max(pairs, key=lambda each: plain_evidence(likelihood, each)).names
+    others = [name for name in found.kept if name not in first]
+
+    def beside(name: str) -> float:
+        return float(np.sum([found.evidence[tuple(sorted((name, n)))] for n in first]))
+
+    chosen = sorted(others, key=lambda name: -beside(name))[:TRIPLES]
+    return [tuple(sorted((*first, name))) for name in chosen]

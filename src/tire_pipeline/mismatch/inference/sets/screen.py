@@ -1,4 +1,4 @@
-"""Screen: log evidence of single effects, pairs and triples about a model without effects, all linear."""
+"""Screen: log evidence of all single effects and all pairs about a model without effects, all linear."""
 
 from __future__ import annotations
 
@@ -42,8 +42,7 @@ class Screened:
         Of each effect the likeliest form, and that of each other choice of parameters that float: which of
         these is likelier shows only where they are fitted.
     evidence : dict
-        Log evidence of each single effect, each pair, and each triple of what is kept, by names, above that
-        of no effect.
+        Log evidence of each single effect and each pair, by names, above that of no effect.
     kept : tuple of str
         Effects that are kept.
     independent : dict of float
@@ -97,10 +96,7 @@ def screen(products: RecordingProducts, guess: Likelihood, forms: Sequence[Scree
     evidence: dict[Names, float] = {(name,): scores[k] - nothing for name, k in best.items()}
     for pair in combinations(sorted(best), 2):
         evidence[pair] = columns.score(likelihood, *(best[name] for name in pair)) - nothing
-    kept = _kept(evidence)
-    for triple in combinations(sorted(kept), 3):
-        evidence[triple] = columns.score(likelihood, *(best[name] for name in triple)) - nothing
-    return Screened(columns.each_choice(scores), evidence, kept, independent)
+    return Screened(columns.each_choice(scores), evidence, _kept(evidence), independent)
 
 
 class _FormColumns:
