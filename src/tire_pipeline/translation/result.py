@@ -243,7 +243,7 @@ def _how_known(said: pd.Series) -> str:
     return "as given" if probability == 1.0 else f"probability {probability:.2f}"
 
 
-def write_translated(  # type: ignore[no-untyped-def]
+def write_translated(
     model, result: TranslationResult, row: int, names: tuple[str, ...], *, beyond: bool = False
 ):
     """Give the source's model the translated coefficients, and the comment lines that belong to it.

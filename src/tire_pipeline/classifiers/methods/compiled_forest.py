@@ -134,7 +134,7 @@ def compile_forest(forest: Any) -> CompiledForest:
 if njit is not None:
 
     @njit(cache=True, nogil=True)
-    def add_leaves(rows, forest, out):  # type: ignore[no-untyped-def]
+    def add_leaves(rows, forest, out):
         """Add to ``out`` (n, outputs) the leaves of the forest that the ``rows`` (n, d) fall into."""
         feature, threshold, left, right, value, roots = forest
         for row in range(rows.shape[0]):

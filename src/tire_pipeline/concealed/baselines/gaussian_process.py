@@ -14,7 +14,7 @@ from tire_pipeline.concealed.cases.clean_run import residual
 from tire_pipeline.magic_formula import TireModel
 
 
-def _search(objective, start, bounds):  # type: ignore[no-untyped-def]
+def _search(objective, start, bounds):
     """Maximise the likelihood in at most 20 steps: enough here, and cheap."""
     found = minimize(objective, start, method="L-BFGS-B", jac=True, bounds=bounds, options={"maxiter": 20})
     return found.x, found.fun

@@ -59,7 +59,7 @@ STRENGTH_GUESS = PHYSICS_GUESS | artefacts.ARTEFACT_GUESS | unknown_effects.UNKN
 STRENGTH_LIMITS = PHYSICS_LIMITS | artefacts.ARTEFACT_LIMITS | unknown_effects.UNKNOWN_LIMITS
 
 
-def draw_ratio(rng, low: float, high: float) -> float:  # type: ignore[no-untyped-def]
+def draw_ratio(rng, low: float, high: float) -> float:
     """Draw effect over misfit: 45% of the draws below twice the misfit, the rest above."""
     if rng.random() < 0.45:
         return float(rng.uniform(low, 2.0))

@@ -96,7 +96,7 @@ def fit_curve_space(table: pd.DataFrame) -> tuple[CurveSpace, Cells]:
             bad = table["file"].iloc[int(np.flatnonzero(~np.isfinite(values).all(axis=1))[0])]
             raise DomainError(f"the curves of {bad} are not finite", todo="drop the file")
         *fitted, own, left, spread = _fit_part(values, cell, over, known, part.components)
-        parts[name] = tuple(fitted)  # type: ignore[assignment]
+        parts[name] = tuple(fitted)
         scores.append(own)
         apart.append(left)
         noise.append(spread)

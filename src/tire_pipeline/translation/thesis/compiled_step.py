@@ -10,7 +10,7 @@ from tire_pipeline.translation.thesis.rules import OUT_OF_BOUNDS, REACHED, STEP
 
 
 @njit(cache=True, nogil=True)
-def is_real(state, rules):  # type: ignore[no-untyped-def]
+def is_real(state, rules):
     """Tell whether one state has a real solution."""
     features = rules.real_features
     for group in range(features.shape[0]):
@@ -21,7 +21,7 @@ def is_real(state, rules):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def move(state, action, best, row, sums, rules, forest):  # type: ignore[no-untyped-def]
+def move(state, action, best, row, sums, rules, forest):
     """Move one tire, and give its reward, what its valuation gained, and whether the target is reached.
 
     Parameters
@@ -51,9 +51,7 @@ def move(state, action, best, row, sums, rules, forest):  # type: ignore[no-unty
 
 
 @njit(cache=True, nogil=True)
-def advance(  # type: ignore[no-untyped-def]
-    actions, states, best, without_improvement, steps, rewards, ended, cut, frozen, rules, forest
-):
+def advance(actions, states, best, without_improvement, steps, rewards, ended, cut, frozen, rules, forest):
     """Move N tires by one action each; every array but the rules and the forest is written.
 
     Parameters
