@@ -29,14 +29,7 @@ def agreed(
         The same with each explanation added, the likeliest first.
     weights : sequence of float
         Of the explanations: their probabilities, or multiples of them.
-
-    Returns
-    -------
-    dict of ndarray, shape (n,)
-        With one explanation alone, what it predicts.
     """
-    if len(each) == 1:
-        return dict(each[0])
     weight = np.asarray(weights, float) / np.sum(weights)
     out = {}
     for name, start in plain.items():
@@ -44,7 +37,7 @@ def agreed(
         sign = np.sign(changes[0])
         sizes = np.maximum(changes * sign, 0.0)
         order = np.argsort(sizes, axis=0)
-        below = np.cumsum(weight[order], axis=0)
-        first = (below > UNSURE).argmax(axis=0)
-        out[name] = start + sign * np.take_along_axis(np.sort(sizes, axis=0), first[None], axis=0)[0]
+        first = (np.cumsum(weight[order], axis=0) > UNSURE).argmax(axis=0)
+        chosen = np.take_along_axis(order, first[None], axis=0)
+        out[name] = start + sign * np.take_along_axis(sizes, chosen, axis=0)[0]
     return out

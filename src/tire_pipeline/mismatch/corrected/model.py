@@ -131,9 +131,9 @@ class CorrectedModel:
             model was corrected), index as the recording's. Artefacts are added, too, wrong signs and
             units and clipping as well: this is what would be recorded. Without effects and repairs it is
             what ``tire.forces`` gives at the rows as they are. Where several explanations are open, a force
-            changes by what they agree on. ``attrs["notes"]`` says where physics without
-            a name was outside of its range and faded, and where the angle of the wheel is not known: what
-            comes back once a turn is left out there.
+            changes by what they agree on. ``attrs["notes"]`` says where physics without a name was outside of
+            its range and faded, and where the angle of the wheel is not known: what comes back once a turn is
+            left out there.
 
         Raises
         ------
@@ -152,11 +152,10 @@ class CorrectedModel:
             for odds, changes in self.instead
             if not any(catalogue()[name].lacking(data) for name, _ in changes)
         ]
-        forces = agreed(
-            self._simulated(data, ()) if others else {},
-            [self._simulated(data, changes) for changes in (self.changes, *(c for _, c in others))],
-            [1.0, *(odds for odds, _ in others)],
-        )
+        forces = self._simulated(data, self.changes)
+        if others:
+            each = [forces, *(self._simulated(data, changes) for _, changes in others)]
+            forces = agreed(self._simulated(data, ()), each, [1.0, *(odds for odds, _ in others)])
         notes = [*self._of_unknown_phase(data), *self._put_unnamed(data, forces)]
         if len(others) < len(self.instead):
             notes.append("explanations that need a channel which is not recorded here are not counted")

@@ -5,6 +5,8 @@ It can withhold a correction, never choose a name.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import scipy
 
@@ -42,10 +44,15 @@ def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, d
         Output -> the residual, N, of sweeps that neither the choice of what is added nor its fit has seen;
         by what is added, fitted without them, if that leaves more: a repeated choice can be another one.
     """
-    fit = analysis.fit
+    fit, before = analysis.fit, residual(analysis.data, [])
     if not fit.names:
-        return fit, residual(analysis.data, [])
+        return fit, before
     repeated = RepeatedChoice(sets, analysis.block, level)
+    sweep = None if analysis.data.time is None else analysis.block
+
+    def size(left: Mapping[str, Array]) -> float:
+        return size_over_largest(left, analysis.largest)
+
     while fit.names:
         both = (
             repeated.unseen(set(analysis.fit.names) - set(fit.names)).left,
@@ -54,42 +61,39 @@ def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, d
         numbers = range(len(fit.names))
         fewer = [fit.part([j for j in numbers if j != i], analysis.system) for i in numbers]
         without = [each_left_out(analysis, each, refitted=True) for each in fewer]
-        before = residual(analysis.data, [])
-        surely = all(_surely_less(analysis, before, left) for left in both)
-        if surely and all(_size(analysis, both[1]) < _size(analysis, left) for left in without):
-            return fit, max(both, key=lambda left: _size(analysis, left))
-        least = min(numbers, key=lambda i: _size(analysis, without[i]))
-        fit = fewer[least]
-    return fit, residual(analysis.data, [])
+        surely = all(surely_less(before, left, analysis.largest, sweep) for left in both)
+        if surely and all(size(both[1]) < size(left) for left in without):
+            return fit, max(both, key=size)
+        fit = fewer[min(numbers, key=lambda i: size(without[i]))]
+    return fit, before
 
 
-def _surely_less(analysis: Analysis, before: dict[str, Array], after: dict[str, Array]) -> bool:
+def surely_less(
+    before: Mapping[str, Array], after: Mapping[str, Array], largest: Mapping[str, float], sweep: Array | None
+) -> bool:
     """Whether all forces together surely have a smaller error on sweeps that are predicted without them.
 
-    By sweeps, or by the points of a recording without a time line.
+    Surely: the mean gain of a sweep is above zero by a one-sided t test over the sweeps. A gain that a few
+    sweeps make and others lose is no gain elsewhere.
+
+    Parameters
+    ----------
+    before, after : mapping of ndarray, shape (n,)
+        Output -> residual, N.
+    largest : mapping of float
+        Output -> largest force, N: each force counts over its largest.
+    sweep : ndarray of int, shape (n,), optional
+        Sweep of each sample. Without it each sample counts by itself: a recording without a time line.
     """
-    return surely_above_zero(_gains(analysis, before, after))
-
-
-def surely_above_zero(gain: Array) -> bool:
-    """Whether the mean gain of a sweep is above zero by a one-sided t test, shape (sweeps,).
-
-    A gain that a few sweeps make and others lose is no gain elsewhere.
-    """
+    gain = np.asarray(sum((before[o] ** 2 - after[o] ** 2) / largest[o] ** 2 for o in after))
+    if sweep is not None:
+        gain = np.bincount(sweep, gain)
     if gain.size < 2:
         return bool(gain.sum() > 0.0)
     error = float(gain.std(ddof=1)) / np.sqrt(gain.size)
     return bool(gain.mean() > float(scipy.special.stdtrit(gain.size - 1, 1.0 - CHANCE)) * error)
 
 
-def _gains(analysis: Analysis, before: dict[str, Array], after: dict[str, Array]) -> Array:
-    """Return the squared error that goes in each sweep, or point; each force over its largest."""
-    each = sum((before[o] ** 2 - after[o] ** 2) / analysis.largest[o] ** 2 for o in after)
-    if analysis.data.time is None:
-        return np.asarray(each)
-    return np.bincount(analysis.block, each, analysis.system.count)
-
-
-def _size(analysis: Analysis, rest: dict[str, Array]) -> float:
-    """Squared residuals of all forces, each over the square of its largest."""
-    return sum(float(np.mean((r / analysis.largest[o]) ** 2)) for o, r in rest.items())
+def size_over_largest(left: Mapping[str, Array], largest: Mapping[str, float]) -> float:
+    """Mean squared residuals of all forces, each over the square of its largest."""
+    return sum(float(np.mean((r / largest[o]) ** 2)) for o, r in left.items())

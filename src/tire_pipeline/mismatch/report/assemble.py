@@ -78,7 +78,7 @@ class Explained:
 
 def assembled(it: Explained) -> MismatchReport:
     """Return the report."""
-    it, instead = _beaten(_with_reasons(it))
+    it, equation = _beaten(_with_reasons(it))
     prepared, analysis, answer = it.prepared, it.analysis, it.answer
     data = analysis.data
     left, noise = remainder(analysis, answer, it.sets.likelihood.learnt.left, it.sets.products.largest)
@@ -93,7 +93,7 @@ def assembled(it: Explained) -> MismatchReport:
     inside = replace(analysis, fit=put_in)
     proved = {**prove(inside, unseen, noise), **prove_moments(inside)}
     fit = as_recorded(proved, inside, model, it.recording, prepared.rows)
-    unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit, instead)
+    unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit, equation)
     if unnamed is not None and unnamed.physics is not None and not effects:
         verdict = "unexplained"  # what was proved is no agreement, though it has no name
     silent = prepared.stopped or verdict == "agrees"
@@ -275,7 +275,7 @@ def _unnamed(
     named: bool,
     model: CorrectedModel,
     fit: dict[str, OutputFit],
-    instead: UnnamedReport | None,
+    equation: UnnamedReport | None,
 ) -> tuple[UnnamedReport | None, CorrectedModel, dict[str, OutputFit]]:
     """Look for an equation of the residual, and put it in where it proves right.
 
@@ -286,7 +286,7 @@ def _unnamed(
     if it.prepared.stopped or (named and plainly and not more_than_usual(it.analysis)):
         return None, model, fit
     with under_way("looking for an equation of the residual"):
-        found = instead or unnamed_physics(it.analysis, plainly=plainly)
+        found = equation or unnamed_physics(it.analysis, plainly=plainly)
     found, model = never_worse(found, model, it.recording)
     fit = with_unnamed(fit, found)
     return None if plainly and found.physics is None else found, model, fit

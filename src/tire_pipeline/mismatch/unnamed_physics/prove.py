@@ -12,11 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
-from tire_pipeline.mismatch.proof.never_worse import surely_above_zero
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import MOST_TERMS, coefficients, drivers_of
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
-from tire_pipeline.mismatch.unnamed_physics.problem import Unexplained
 from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 
 Array = np.ndarray
@@ -128,23 +126,6 @@ def judged(columns: Columns, predicted: Mapping[str, Array], choices: int) -> Pr
     p_value = float(scipy.stats.wilcoxon(gain, alternative="greater").pvalue) if sweeps > 5 else 1.0
     share = float(np.mean([gone[o] for o in good]))
     return Proven(predicted, choices, int(np.sum(gain > 0.0)), sweeps, p_value, share, good)
-
-
-def leaves_less(problem: Unexplained, added: Mapping[str, Array], rival: Mapping[str, Array]) -> bool:
-    """Whether what is added surely leaves less than a rival, over the sweeps, all forces together.
-
-    Parameters
-    ----------
-    problem : Unexplained
-    added : mapping of ndarray, shape (n,)
-        Output -> force, N.
-    rival : mapping of ndarray, shape (n,)
-        Output -> what the rival leaves, N.
-    """
-    each = sum(
-        (rival[o] ** 2 - (problem.rest[o] - added[o]) ** 2) / problem.largest[o] ** 2 for o in problem.rest
-    )
-    return surely_above_zero(np.bincount(problem.block, each, int(problem.block.max()) + 1))
 
 
 def forces_of(columns: Columns, choice: ChosenModels, terms: tuple[int, ...]) -> dict[str, Array]:

@@ -13,6 +13,7 @@ from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.model.channels import least_spread, one_sided, white_noise
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.left_out import each_left_out
+from tire_pipeline.mismatch.proof.never_worse import size_over_largest, surely_less
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
     MOST_TERMS,
@@ -39,7 +40,6 @@ from tire_pipeline.mismatch.unnamed_physics.prove import (
     ceiling,
     fitted,
     forces_of,
-    leaves_less,
     proven,
 )
 from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL
@@ -78,8 +78,8 @@ def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
 
     An effect of the catalogue often resembles a part of what has no name, and then the posterior names it:
     it weighs no equation. Here an equation alone, by the stricter proof, has to leave surely less than the
-    named effects fitted without each sweep, and no more than these with an equation of what they leave: one
-    true cause beside something without a name keeps its name.
+    named effects fitted without each sweep, and no more than these together with an equation of their own
+    residual. So a true cause keeps its name where something unnamed acts, too.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def _size_beside(analysis: Analysis, names: Mapping[str, Array]) -> float:
     problem = by_condition(problem_of(analysis), FOLDS)
     proofs = proven(Columns(problem))
     added = proofs[best_of(proofs)].predicted
-    return sum((rms(left - added[o]) / problem.largest[o]) ** 2 for o, left in names.items())
+    return size_over_largest({o: left - added[o] for o, left in names.items()}, problem.largest)
 
 
 def find_better(problem: Unexplained, rival: Mapping[str, Array]) -> UnnamedReport | None:
@@ -113,12 +113,18 @@ def find_better(problem: Unexplained, rival: Mapping[str, Array]) -> UnnamedRepo
     columns = Columns(problem)
     choice = choose(columns)
     models = [m for k in range(MOST_TERMS) if (m := choice.best(k + 1)) is not None]
-    if not any(leaves_less(problem, forces_of(columns, choice, m.terms), rival) for m in models):
+    if not any(_leaves_less(problem, forces_of(columns, choice, m.terms), rival) for m in models):
         return None  # not even where it was fitted
     found = _reported([(columns, choice, proven(columns))], plainly=True, rival=rival)
     if found.physics is None or "t" in found.physics.ranges:
         return None  # an equation in time, or in the way rolled, ends with its recording; a name does not
     return found
+
+
+def _leaves_less(problem: Unexplained, added: Mapping[str, Array], rival: Mapping[str, Array]) -> bool:
+    """Whether forces that are added, N, surely leave less than a rival does."""
+    left = {o: rest - added[o] for o, rest in problem.rest.items()}
+    return surely_less(rival, left, problem.largest, problem.block)
 
 
 def more_than_usual(analysis: Analysis) -> bool:
@@ -172,7 +178,7 @@ def _reported(
     drivers = drivers_of(best, choice.terms)
     one_sided = _one_sided(problem)
     kept = (proof.plain(drivers) if plainly else proof.holds) and not one_sided
-    kept = kept and (rival is None or leaves_less(problem, proof.predicted, rival))
+    kept = kept and (rival is None or _leaves_less(problem, proof.predicted, rival))
     physics = _physics(columns, choice, best, proof.outputs) if kept else None
     return UnnamedReport(
         physics=physics,
