@@ -129,7 +129,7 @@ def _equation_held(report: MismatchReport, recording: pd.DataFrame, name: str) -
         corrected=named,
         fit=fit,
         unnamed=replace(found, physics=None, why_not=f"it predicts {name}, which was held out, no better"),
-        head=without_equation(report.head, found, report.verdict, report.effects, fit),
+        head=without_equation(report.head, report.verdict, report.effects, fit),
     )
 
 

@@ -81,6 +81,17 @@ def test_the_next_experiment_separates_what_is_open(tire, record):
     assert next_experiment(it.analysis, both, plain).startswith("To separate ")
     one = replace(it.answer, sets=((("time_delay",), 0.9),))
     assert next_experiment(it.analysis, one, plain) == ""
+    shares = dict.fromkeys([(name,) for name in names], 0.5)
+    neither = replace(it.answer, sets=(), agreement=0.0, unnamed=0.0, probabilities=shares)
+    assert {each.names for each in neither.rivals} == set(shares)
+    assert next_experiment(it.analysis, neither, plain).startswith("To tell the explanations apart, record ")
+
+
+def test_what_may_be_unnamed_or_nothing_has_no_rivals(softer):
+    answer = replace(softer.answer, sets=())
+    assert answer.rivals
+    assert not replace(answer, agreement=0.3, unnamed=0.3).rivals
+    assert not softer.answer.rivals
 
 
 def test_probabilities_in_the_report_hold_95_percent_and_no_more_sets_than_that_takes(softer):

@@ -101,7 +101,8 @@ def assembled(it: Explained) -> MismatchReport:
     located = [] if silent else locate(data, before, analysis.noise, analysis.block)
     following = _following(it, verdict, plain)
     ranges, all_over = _ranges(analysis), everywhere(data, before, located)
-    told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed)
+    rivals = [each.names for each in answer.rivals]
+    told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed, rivals)
     told = told.beside(
         on_withheld(withheld),
         on_several(effects if model.instead else []),

@@ -19,15 +19,23 @@ class Head:
         How much, before and after; a clause, "" where nothing was corrected.
     todo : str
         What to do next; a sentence, "" where nothing is to be done.
-    remarks : tuple of str
+    notes : tuple of str
         What a reader must know beside it, the most important first; each in sentences.
+    equation : str
+        What is known of the unexplained residual, in sentences; "" where nothing is.
     """
 
     causes: str
     spot: str = ""
     size: str = ""
     todo: str = ""
-    remarks: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    equation: str = ""
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """Everything that stands beside the three sentences."""
+        return (*self.notes, *filter(None, [self.equation]))
 
     @property
     def text(self) -> str:
@@ -36,6 +44,6 @@ class Head:
         sentences = [f"{part[:1].upper()}{part[1:]}." for part in (self.causes, middle) if part]
         return " ".join(filter(None, [*sentences, self.todo]))
 
-    def beside(self, *remarks: str) -> Head:
-        """Return the head with remarks before its own; empty ones are none."""
-        return replace(self, remarks=(*filter(None, remarks), *self.remarks))
+    def beside(self, *notes: str) -> Head:
+        """Return the head with notes before its own; empty ones are none."""
+        return replace(self, notes=(*filter(None, notes), *self.notes))

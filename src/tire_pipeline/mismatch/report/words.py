@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -83,6 +83,17 @@ def in_words(text: str) -> str:
     """Return a text with the titles of effects in place of their names."""
     names = sorted(catalogue(), key=len, reverse=True)
     return re.sub(rf"\b({'|'.join(n for n in names if '_' in n)})\b", lambda m: catalogue()[m[1]].title, text)
+
+
+def listed(texts: Sequence[str], word: str = "or") -> str:
+    """Return ``a``, ``a or b``, ``a, b, or c``.
+
+    Examples
+    --------
+    >>> listed(["wear", "temperature", "drift"])
+    'wear, temperature, or drift'
+    """
+    return ", ".join([*texts[:-1], f"{word} {texts[-1]}"]) if len(texts) > 2 else f" {word} ".join(texts)
 
 
 def shortened(text: str) -> str:
