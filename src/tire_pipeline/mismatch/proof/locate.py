@@ -16,7 +16,8 @@ _LEVEL_OF_FLIPS = 0.05
 _LEAST_FORCE = 0.1
 """A share of the force is given where the force is above this part of the largest one."""
 _EVEN = 0.7
-"""One share of the force that is this part of the squared difference is off throughout, in no stretch."""
+"""What is off throughout, in no stretch: one share of the force, or one force, that is this part of the
+squared difference."""
 _BINS_OF_AXIS = 16
 
 
@@ -181,8 +182,25 @@ def _force(data: Data, output: str, rows: Array) -> float:
     return here if here > _LEAST_FORCE * float(np.quantile(size, 0.99)) else float("nan")
 
 
-def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -> dict[str, float]:
-    """Return the share of the force by which an output is off throughout, if that is most of the mismatch.
+@dataclass(frozen=True)
+class Throughout:
+    """How a force is off everywhere.
+
+    Parameters
+    ----------
+    mean : float
+        Mean of recorded minus simulated force, N.
+    share : float
+        Mean of the difference along the force over the mean size of the force; NaN where the force is off to
+        one side instead.
+    """
+
+    mean: float
+    share: float = float("nan")
+
+
+def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -> dict[str, Throughout]:
+    """Return by what an output is off throughout, if that is most of the mismatch: a share of it, or a force.
 
     Parameters
     ----------
@@ -194,17 +212,20 @@ def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -
     Returns
     -------
     dict
-        Output -> mean of the difference along the force over the mean size of the force.
+        Output -> how it is off.
     """
     out = {}
     for o, r in residual.items():
-        rows = np.abs(data.base[o]) > _LEAST_FORCE * float(np.quantile(np.abs(data.base[o]), 0.99))
-        if not rows.any() or not any(f.output == o and f.along_force for f in located):
-            continue
-        force = data.base[o]
-        whole = float((r[rows] * np.sign(force[rows])).mean() / np.abs(force[rows]).mean())
-        if np.sum((r - whole * force) ** 2) < (1.0 - _EVEN) * np.sum(r**2):
-            out[o] = whole
+        found = {f.along_force for f in located if f.output == o}
+        mean, force = float(r.mean()), data.base[o]
+        rows = np.abs(force) > _LEAST_FORCE * float(np.quantile(np.abs(force), 0.99))
+        ways = [(np.sum((r - mean) ** 2), Throughout(mean))] if False in found else []
+        if True in found and rows.any():
+            share = float((r[rows] * np.sign(force[rows])).mean() / np.abs(force[rows]).mean())
+            ways.append((np.sum((r - share * force) ** 2), Throughout(mean, share)))
+        left, way = min(ways, key=lambda each: each[0], default=(np.inf, None))
+        if way is not None and left < (1.0 - _EVEN) * np.sum(r**2):
+            out[o] = way
     return out
 
 

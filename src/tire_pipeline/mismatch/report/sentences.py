@@ -9,7 +9,7 @@ import numpy as np
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.proof.locate import Located
+from tire_pipeline.mismatch.proof.locate import Located, Throughout
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit
@@ -49,7 +49,7 @@ def head(
     remainder: Remainder,
     next_experiment: str,
     ranges: Ranges | None = None,
-    even: Mapping[str, float] | None = None,
+    even: Mapping[str, Throughout] | None = None,
     unnamed: UnnamedReport | None = None,
     rivals: Sequence[Sequence[str]] = (),
 ) -> Head:
@@ -62,7 +62,7 @@ def head(
     ranges : mapping, optional
         Axis -> (lowest, highest) recorded, SI, to say "above" and "below" where a stretch ends there.
     even : mapping, optional
-        Output -> share of the force by which it is off throughout.
+        Output -> how it is off throughout.
     rivals : sequence of sequence of str
         Sets of effects of which one is the answer, where no name stands out.
     """
@@ -275,7 +275,7 @@ def _spot(
     located: Sequence[Located],
     remainder: Remainder,
     ranges: Ranges,
-    even: Mapping[str, float],
+    even: Mapping[str, Throughout],
 ) -> str:
     """Where they differ; nothing if an exact fault of the recording is all there is."""
     exact = bool(effects) and not any(np.isfinite(e.share) for e in effects)
@@ -328,7 +328,7 @@ def _to_both_sides(
     return f"{main.output.capitalize()} differs most {stretches}, to both sides"
 
 
-def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, float]) -> str:
+def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, Throughout]) -> str:
     """Where recorded and simulated force differ most."""
     top = max(located, key=lambda f: abs(f.mean))
     output = top.output
@@ -345,9 +345,12 @@ def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, float]
     best = max(own, key=lambda f: abs(f.mean))
     name = output.capitalize()
     if output in even:
-        word = "lower" if even[output] < 0.0 else "higher"
+        share = even[output].share
+        if not np.isfinite(share):
+            return f"{name} differs from the model by {even[output].mean:+,.3g} N throughout"
+        word = "lower" if share < 0.0 else "higher"
         most = f"most in newtons {where}: {newtons(abs(best.mean))} N"
-        return f"{name} is {abs(even[output]) * 100:.2g}% {word} than the model throughout ({most})"
+        return f"{name} is {abs(share) * 100:.2g}% {word} than the model throughout ({most})"
     much = _of_the_force(best.share)
     if best.along_force:
         word = "lower" if best.mean < 0.0 else "higher"
