@@ -92,7 +92,8 @@ def assembled(it: Explained) -> MismatchReport:
     withheld = tuple(n for n in analysis.fit.names if n not in put_in.names)
     inside = replace(analysis, fit=put_in)
     proved = {**prove(inside, unseen, noise), **prove_moments(inside)}
-    fit = as_recorded(proved, inside, model, it.recording, prepared.rows)
+    spoiled = any(finding.bad is not None for finding in prepared.findings)
+    fit = as_recorded(proved, inside, model, it.recording, prepared.rows, spoiled)
     unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit, equation)
     if unnamed is not None and unnamed.physics is not None and not effects:
         verdict = "unexplained"  # what was proved is no agreement, though it has no name
