@@ -260,7 +260,7 @@ def _moved(products: Projected, size: float) -> Projected:
     turn[count - 2, -1] = size
     return Projected(
         {o: turn.T @ a @ turn for o, a in products.own.items()},
-        {o: tuple(part @ turn for part in parts) for o, parts in products.parts.items()},
+        {o: parts @ turn for o, parts in products.parts.items()},
     )
 
 

@@ -203,7 +203,8 @@ def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Fi
 
     What was added, and the residual of unseen sweeps, come second and third.
     """
-    fit, left = harmless(it.analysis, it.sets, it.level)
+    likely = it.sets.with_mass(it.answer.probabilities, it.answer.named.names)
+    fit, left = harmless(it.analysis, likely, it.level)
     model = _model(it, fit.changes, _instead(it, fit))
     if fit.names and not _no_worse(it, model, plain):
         return plain, it.analysis.fit.part([], it.analysis.system), residual(it.analysis.data, [])
