@@ -17,6 +17,7 @@ from tire_pipeline.mismatch.inference.named import with_named
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer, answered, nothing
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated, enumerate_sets
 from tire_pipeline.mismatch.inference.thinning import thinned
+from tire_pipeline.mismatch.model.data import Choices
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import shares_left
 from tire_pipeline.mismatch.proof.measured import OutputFit
@@ -129,8 +130,7 @@ class Explainer:
         steps = track(_PROGRESS_STAGES, "explaining the mismatch")
         step = next(steps)
         try:
-            prepared = prepare(tire, recording)
-            prepared.data.fixed["priors"] = self.priors
+            prepared = prepare(tire, recording, Choices(self.priors))
             step = next(steps)
             analysis = analyse(thinned(prepared.data), self.without)
             step = next(steps)

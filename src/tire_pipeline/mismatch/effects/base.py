@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,13 @@ TOO_SMALL_TO_SEE = 1e-9
 """A size too small to see. In a start it says that this parameter floats in the form that begins there."""
 _OF_UNIFORM = 12.0**-0.5
 """Standard deviation of a uniform distribution over its width."""
+_MEASURES: dict[str, Callable[[Any], float]] = {
+    "": lambda data: 1.0,
+    "load_nominal": lambda data: data.nominal.load,
+    "radius": lambda data: data.nominal.radius,
+    "sampling": lambda data: data.sampling,
+}
+"""What of a recording a prior may be a multiple of, in the parameter's unit."""
 
 
 @dataclass(frozen=True)
@@ -221,11 +229,11 @@ class Effect:
         the recording for a moment in time, is as likely: the centre is NaN.
         """
         p = self.parameter(name)
-        stated = data.fixed.get("priors", {}).get(self.name, {}).get(name)  # type: ignore[attr-defined]
+        stated = data.stated_prior(self.name, name)  # type: ignore[attr-defined]
         if stated is not None:
-            return self.zeros(data)[name], float(stated)
+            return self.zeros(data)[name], stated
         if p.prior:
-            return self.zeros(data)[name], p.prior * float(getattr(data, p.prior_in) if p.prior_in else 1.0)
+            return self.zeros(data)[name], p.prior * _MEASURES[p.prior_in](data)
         width, time = p.high - p.low, data.time  # type: ignore[attr-defined]
         if p.unit == "s" and time is not None:
             width = min(width, float(time[-1] - time[0]))

@@ -96,7 +96,7 @@ def _axes(
     data: Data, output: str, rest: Array, noise: ForceNoise, block: Array, signs: Array, along: bool
 ) -> list[Located]:
     """Test all stretches of all axes; the largest statistic of each flip gives the p-values."""
-    plain = rest * _direction(data.base[output]) if along else rest
+    plain = rest * _direction(data.simulation.base[output]) if along else rest
     scaled = plain / noise.sigma
     tests: list[tuple[str, float, float, Array]] = []
     for axis in ("time", *OPERATING_CHANNELS):
@@ -127,7 +127,7 @@ def _axes(
         own = [i for i, t in enumerate(tests) if t[0] == axis]
         chance = {i: float((1 + (top[1:] >= statistics[0, i]).sum()) / signs.shape[0]) for i in own}
         sure = [i for i in own if chance[i] <= _LEVEL_OF_FLIPS]
-        sure = [i for i in sure if _along(rest, data.base[output], tests[i][3]) == along]
+        sure = [i for i in sure if _along(rest, data.simulation.base[output], tests[i][3]) == along]
         if not sure:
             continue
         best = max(sure, key=lambda i: abs(float(plain[tests[i][3]].mean())))
@@ -176,7 +176,7 @@ def _profile(values: Array, x: Array) -> Array:
 
 def _force(data: Data, output: str, rows: Array) -> float:
     """Mean size of the simulated force, N; NaN where it is too small for a share of it to mean something."""
-    size = np.abs(data.base[output])
+    size = np.abs(data.simulation.base[output])
     here = float(size[rows].mean())
     return here if here > _LEAST_FORCE * float(np.quantile(size, 0.99)) else float("nan")
 
@@ -198,10 +198,12 @@ def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -
     """
     out = {}
     for o, r in residual.items():
-        rows = np.abs(data.base[o]) > _LEAST_FORCE * float(np.quantile(np.abs(data.base[o]), 0.99))
+        rows = np.abs(data.simulation.base[o]) > _LEAST_FORCE * float(
+            np.quantile(np.abs(data.simulation.base[o]), 0.99)
+        )
         if not rows.any() or not any(f.output == o and f.along_force for f in located):
             continue
-        force = data.base[o]
+        force = data.simulation.base[o]
         whole = float((r[rows] * np.sign(force[rows])).mean() / np.abs(force[rows]).mean())
         if np.sum((r - whole * force) ** 2) < (1.0 - _EVEN) * np.sum(r**2):
             out[o] = whole

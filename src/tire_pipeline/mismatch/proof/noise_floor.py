@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise, refined
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.residual import residual, rms
@@ -33,10 +31,9 @@ def noise_floors(analysis: Analysis, *, settled: bool) -> dict[str, float]:
     smooth = analysis.system.fitted(rest, fit.columns if fit.labels else None)
     calm = {o: r - analysis.columns[o] @ smooth[o] for o, r in rest.items()}
     noise = analysis.noise
-    seen = {n: x for n, x in data.channels.items() if not n.endswith(_DEVIATION_SUFFIX)}
-    if len(seen) < len(data.channels):
-        plain = replace(data, channels=seen)
-        noise = {o: refined(plain, n, calm[o]) for o, n in estimate_noise(plain, calm).items()}
+    if any(n.endswith(_DEVIATION_SUFFIX) for n in data.channels):
+        seen = estimate_noise(data, calm, stated=False)
+        noise = {o: refined(data, n, calm[o]) for o, n in seen.items()}
     floors = {o: min(n.floor, rms(calm[o]), rms(rest[o])) for o, n in noise.items()}
     if settled:
         return floors

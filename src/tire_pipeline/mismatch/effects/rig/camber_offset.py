@@ -31,7 +31,7 @@ class CamberOffset(Effect):
 
     def absent(self, data: object) -> str | None:
         """Ask for a model that knows camber."""
-        if not data.knows_camber:  # type: ignore[attr-defined]
+        if not data.nominal.knows_camber:  # type: ignore[attr-defined]
             return "the model does not answer to camber"
         return super().absent(data)
 

@@ -42,6 +42,6 @@ class Compliance(Effect):
 
     def inputs(self, state: State, data: object, p: Parameters) -> None:
         """Turn the wheel by the forces that then act."""
-        load = data.load_nominal  # type: ignore[attr-defined]
-        turned = data.turned_by_force  # type: ignore[attr-defined]
+        load = data.nominal.load  # type: ignore[attr-defined]
+        turned = data.simulation.turned_by_force  # type: ignore[attr-defined]
         state.slip_angle = turned(state.slip_angle, p["steer"] / load, p["steer_by_fx"] / load)

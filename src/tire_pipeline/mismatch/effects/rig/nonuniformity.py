@@ -47,14 +47,14 @@ class Nonuniformity(Effect):
     def absent(self, data: object) -> str | None:
         """Ask for enough samples a turn besides."""
         missing = super().absent(data)
-        if missing is None and not data.turns_resolved:  # type: ignore[attr-defined]
+        if missing is None and not data.wheel.turns_resolved:  # type: ignore[attr-defined]
             missing = "fewer than three samples a wheel turn"
         return missing
 
     def starts(self, data: object) -> list[dict[str, float]]:
         """In both forms, from the rolling radius at which the residual has most power of that form."""
-        force = data.rolling_radius()  # type: ignore[attr-defined]
-        wobble = data.rolling_radius(("slip_angle", "normal_load"))  # type: ignore[attr-defined]
+        force = data.wheel.rolling_radius()  # type: ignore[attr-defined]
+        wobble = data.wheel.rolling_radius(("slip_angle", "normal_load"))  # type: ignore[attr-defined]
         zero = self.zeros(data)
         return [{**zero, "radius": force}, {**zero, "radius": wobble, "angle_cosine": TOO_SMALL_TO_SEE}]
 
@@ -89,5 +89,5 @@ class Nonuniformity(Effect):
 
     @staticmethod
     def _turn(data: object, p: Parameters) -> tuple[np.ndarray, np.ndarray]:
-        phase = data.wheel_way / p["radius"]  # type: ignore[attr-defined]
+        phase = data.wheel.way / p["radius"]  # type: ignore[attr-defined]
         return np.nan_to_num(np.cos(phase)), np.nan_to_num(np.sin(phase))  # NaN: the angle is not known

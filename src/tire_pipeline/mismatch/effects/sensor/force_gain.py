@@ -34,7 +34,7 @@ class ForceGain(Effect):
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """Gains of the forces that move."""
-        return tuple(n for n in data.outputs if data.driven(n))  # type: ignore[attr-defined]
+        return tuple(n for n in data.outputs if data.simulation.driven(n))  # type: ignore[attr-defined]
 
     def outputs(self, state: State, data: object, p: Parameters) -> None:
         """Scale the forces."""

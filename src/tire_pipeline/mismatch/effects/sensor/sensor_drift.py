@@ -48,7 +48,7 @@ class SensorDrift(Effect):
 
     def starts(self, data: object) -> list[dict[str, float]]:
         """In proportion to time, and settling within a twelfth or a third of the recording."""
-        zero, span = self.zeros(data), data.scales["time_span"]  # type: ignore[attr-defined]
+        zero, span = self.zeros(data), data.states.scales.time_span  # type: ignore[attr-defined]
         lags = [lag for lag in (span / 12.0, span / 3.0) if _LEAST_LAG < lag < _MOST_LAG]
         return [zero, *({**zero, "lag": lag} for lag in lags)]
 
@@ -63,9 +63,9 @@ class SensorDrift(Effect):
 
     def outputs(self, state: State, data: object, p: Parameters) -> None:
         """Add the drift."""
-        so_far = np.clip(data.elapsed, 0.0, 1.0)  # type: ignore[attr-defined]
+        so_far = np.clip(data.states.elapsed, 0.0, 1.0)  # type: ignore[attr-defined]
         if p["lag"] > 0.0:
-            lags = data.scales["time_span"] / p["lag"]  # type: ignore[attr-defined]
+            lags = data.states.scales.time_span / p["lag"]  # type: ignore[attr-defined]
             so_far = np.expm1(-lags * so_far) / np.expm1(-lags)
         for name in TANGENTIAL_FORCES:
             if name in state.forces:

@@ -47,12 +47,12 @@ class Camber(Effect):
 
     def expected(self, data: object) -> bool:
         """The file knows no camber: every tire answers to it (Pacejka, 3rd ed., 4.3.1)."""
-        return not data.knows_camber  # type: ignore[attr-defined]
+        return not data.nominal.knows_camber  # type: ignore[attr-defined]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """All but the longitudinal friction where nothing brakes or drives."""
         names = tuple(p.name for p in self.parameters if p.name != "friction_loss_x")
-        return (*names, "friction_loss_x") if data.driven("fx") else names  # type: ignore[attr-defined]
+        return (*names, "friction_loss_x") if data.simulation.driven("fx") else names  # type: ignore[attr-defined]
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Change friction and stiffness with camber."""
@@ -64,7 +64,7 @@ class Camber(Effect):
         state.log_friction_y = state.log_friction_y + np.log(loss) - np.log(loss_x)
         state.log_stiffness_y = state.log_stiffness_y + np.log(soft)
         state.slip_angle = state.slip_angle + p["shift"] * g
-        excess = data.load_excess(state.normal_load)  # type: ignore[attr-defined]
+        excess = data.nominal.load_excess(state.normal_load)  # type: ignore[attr-defined]
         thrust = p["thrust"] + p["thrust_load"] * excess
         fade = 1.0 / np.sqrt(1.0 + (10.0 * state.slip_ratio) ** 2)
         state.added_y = state.added_y + state.normal_load * g * thrust * fade

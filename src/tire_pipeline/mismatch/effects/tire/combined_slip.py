@@ -57,7 +57,7 @@ class CombinedSlip(Effect):
 
         Near zero the weighting does not answer to a coefficient at first order, and a fit would stay there.
         """
-        c = data.tire_coefficients  # type: ignore[attr-defined]
+        c = data.nominal.coefficients  # type: ignore[attr-defined]
         own = {n: float(c.get(n, 0.0)) for n in _WEIGHT_COEFFICIENTS}
         other = {n: own[n] if own[n] > 0.05 * _TYPICAL[n] else _TYPICAL[n] for n in _WEIGHT_COEFFICIENTS}
         return [{**other, "more_x": 0.0, "more_y": 0.0}, {**own, "more_x": 6.0, "more_y": 6.0}]
@@ -68,12 +68,12 @@ class CombinedSlip(Effect):
 
     def zeros(self, data: object) -> dict[str, float]:
         """Return the file's own values: there the effect is absent."""
-        c = data.tire_coefficients  # type: ignore[attr-defined]
+        c = data.nominal.coefficients  # type: ignore[attr-defined]
         return {**{n: float(c.get(n, 0.0)) for n in _WEIGHT_COEFFICIENTS}, "more_x": 0.0, "more_y": 0.0}
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Replace the weighting coefficients."""
-        c = data.tire_coefficients  # type: ignore[attr-defined]
+        c = data.nominal.coefficients  # type: ignore[attr-defined]
         if p["more_x"] or p["more_y"]:
             return
         changes = {n: p[n] for n in _WEIGHT_COEFFICIENTS}

@@ -51,7 +51,7 @@ class FrictionScale(Effect):
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale the friction."""
         if p["by_file"] >= 0.5:
-            c = data.tire_coefficients  # type: ignore[attr-defined]
+            c = data.nominal.coefficients  # type: ignore[attr-defined]
             state.coefficients.update({n: c.get(n, 1.0) * (1.0 + p["friction"]) for n in ("LMUX", "LMUY")})
             return
         state.log_friction = state.log_friction + safe_log1p(p["friction"])

@@ -45,21 +45,21 @@ class InflationPressure(Effect):
 
     def absent(self, data: object) -> str | None:
         """Ask for a pressure that varies, or that is another one than the file's throughout."""
-        return None if data.off_pressure else super().absent(data)  # type: ignore[attr-defined]
+        return None if data.nominal.off_pressure else super().absent(data)  # type: ignore[attr-defined]
 
     def starts(self, data: object) -> list[dict[str, float]]:
         """Return each pressure at which the model may be right: the file's, or those of the recording."""
         zero = self.zeros(data)
-        return [{**zero, "reference": p} for p in data.pressure_levels]  # type: ignore[attr-defined]
+        return [{**zero, "reference": p} for p in data.nominal.pressure_levels]  # type: ignore[attr-defined]
 
     def expected(self, data: object) -> bool:
         """The file knows nothing of a pressure that varies: every tire answers (Besselink et al. 2010)."""
-        knows = any(data.tire_coefficients.get(n, 0.0) for n in _OF_PRESSURE)  # type: ignore[attr-defined]
+        knows = any(data.nominal.coefficients.get(n, 0.0) for n in _OF_PRESSURE)  # type: ignore[attr-defined]
         return not knows and data.varies("pressure")  # type: ignore[attr-defined]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """All but the reference; one stiffness where one force alone is driven."""
-        both = data.driven("fx") and data.driven("fy")  # type: ignore[attr-defined]
+        both = data.simulation.driven("fx") and data.simulation.driven("fy")  # type: ignore[attr-defined]
         names: tuple[str, ...] = ("friction", "stiffness", "stiffness_curvature", "friction_curvature")
         if data.varies("normal_load"):  # type: ignore[attr-defined]
             names = (*names, "stiffness_load")
@@ -67,7 +67,7 @@ class InflationPressure(Effect):
 
     def outside(self, data: object, p: Parameters) -> bool:
         """Whether the stiffness changes by more than a factor of three at a pressure of the recording."""
-        factor = 1.0 + _bent(p, _excess(data, p), data.load_excess(data.get("normal_load")))  # type: ignore[attr-defined]
+        factor = 1.0 + _bent(p, _excess(data, p), data.nominal.load_excess(data.get("normal_load")))  # type: ignore[attr-defined]
         return bool(np.min(factor) < 1.0 / 3.0 or np.max(factor) > 3.0)
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
@@ -75,7 +75,7 @@ class InflationPressure(Effect):
         d = _excess(data, p)
         friction = p["friction"] * d + p["friction_curvature"] * d**2
         state.log_friction = state.log_friction + safe_log1p(friction)
-        load = data.load_excess(state.normal_load)  # type: ignore[attr-defined]
+        load = data.nominal.load_excess(state.normal_load)  # type: ignore[attr-defined]
         state.log_stiffness = state.log_stiffness + safe_log1p(_bent(p, d, load))
         state.log_stiffness_y = state.log_stiffness_y + safe_log1p(p["lateral_stiffness"] * d)
 
@@ -100,7 +100,7 @@ class InflationPressure(Effect):
 
 
 def _excess(data: object, p: Parameters) -> np.ndarray:
-    reference = p["reference"] or data.pressure_nominal  # type: ignore[attr-defined]
+    reference = p["reference"] or data.nominal.pressure  # type: ignore[attr-defined]
     return (data.smooth("pressure") - reference) / reference  # type: ignore[attr-defined]
 
 

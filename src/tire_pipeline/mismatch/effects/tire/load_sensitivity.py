@@ -45,7 +45,7 @@ class LoadSensitivity(Effect):
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """One stiffness where one force alone is driven."""
-        both = data.driven("fx") and data.driven("fy")  # type: ignore[attr-defined]
+        both = data.simulation.driven("fx") and data.simulation.driven("fy")  # type: ignore[attr-defined]
         return ("rate", "stiffness", "lateral_stiffness") if both else ("rate", "stiffness")
 
     def expected(self, data: object) -> bool:
@@ -54,12 +54,12 @@ class LoadSensitivity(Effect):
         No tire's friction and stiffness are known so far from the loads they were fitted to (Pacejka, 3rd
         ed., 4.3.2: PDY2 and PKY2 take several loads).
         """
-        (low, high), load = data.load_range, data.get("normal_load")  # type: ignore[attr-defined]
+        (low, high), load = data.nominal.load_range, data.get("normal_load")  # type: ignore[attr-defined]
         return bool(max(low - np.min(load), np.max(load) - high) > high - low)
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale friction and stiffness with load."""
-        excess = data.load_excess(state.normal_load)  # type: ignore[attr-defined]
+        excess = data.nominal.load_excess(state.normal_load)  # type: ignore[attr-defined]
         state.log_friction = state.log_friction + safe_log1p(p["rate"] * excess)
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * excess)
         state.log_stiffness_y = state.log_stiffness_y + safe_log1p(p["lateral_stiffness"] * excess)

@@ -49,7 +49,7 @@ class PlysteerConicity(Effect):
         """As a force that stays, as one that fades, and as camber where the model knows camber."""
         zero = self.zeros(data)
         out = [zero, {**zero, "thrust": TOO_SMALL_TO_SEE}]
-        if data.knows_camber:  # type: ignore[attr-defined]
+        if data.nominal.knows_camber:  # type: ignore[attr-defined]
             out.append({**zero, "pseudo_camber": 1e-6})
         return out
 
@@ -64,7 +64,7 @@ class PlysteerConicity(Effect):
         state.slip_angle = state.slip_angle + p["ply_steer"]
         state.camber = state.camber + p["pseudo_camber"]
         if p["thrust"]:
-            shift = data.shift_by_thrust  # type: ignore[attr-defined]
+            shift = data.simulation.shift_by_thrust  # type: ignore[attr-defined]
             state.slip_angle = state.slip_angle + p["thrust"] * shift
 
     def tire(self, state: State, data: object, p: Parameters) -> None:

@@ -48,7 +48,7 @@ class RelaxationLength(Effect):
 
     def starts(self, data: object) -> list[dict[str, float]]:
         """Two sizes, in radii of the wheel, with the length constant or falling with slip."""
-        radius, zero = data.radius, self.zeros(data)  # type: ignore[attr-defined]
+        radius, zero = data.nominal.radius, self.zeros(data)  # type: ignore[attr-defined]
         return [{**zero, "length": s * radius, "fades": f} for s in (0.3, 1.2) for f in (0.0, 1.0)]
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
@@ -56,22 +56,25 @@ class RelaxationLength(Effect):
         names = ["length"]
         if data.varies("normal_load"):  # type: ignore[attr-defined]
             names.append("load")
-        if data.driven("fx") and data.driven("fy"):  # type: ignore[attr-defined]
+        if data.simulation.driven("fx") and data.simulation.driven("fy"):  # type: ignore[attr-defined]
             names.append("along")
         return tuple(names)
 
     def outside(self, data: object, p: Parameters) -> bool:
         """Whether no tire has such a length: it is a matter of the contact patch and the carcass."""
         low, high = _IN_RADII
-        return not low <= p["length"] / data.radius <= high  # type: ignore[attr-defined]
+        return not low <= p["length"] / data.nominal.radius <= high  # type: ignore[attr-defined]
 
     def inputs(self, state: State, data: object, p: Parameters) -> None:
         """Lag the slips."""
         if p["length"] <= 0.0:
             return
         step = data.step * np.maximum(np.abs(data.get("speed")), 0.1)  # type: ignore[attr-defined]
-        by_load = np.maximum(1.0 + p["load"] * data.load_excess(state.normal_load), 0.05)  # type: ignore[attr-defined]
-        slips = (("slip_angle", data.slope_share, 1.0), ("slip_ratio", data.slope_share_x, p["along"]))  # type: ignore[attr-defined]
+        by_load = np.maximum(1.0 + p["load"] * data.nominal.load_excess(state.normal_load), 0.05)  # type: ignore[attr-defined]
+        slips = (
+            ("slip_angle", data.simulation.slope_share, 1.0),
+            ("slip_ratio", data.simulation.slope_share_x, p["along"]),
+        )  # type: ignore[attr-defined]
         for slip, share, along in slips:
             length = p["length"] * (1.0 - p["fades"] + p["fades"] * share) * by_load * along
             gain = 1.0 - np.exp(-step / np.maximum(length, 1e-3))

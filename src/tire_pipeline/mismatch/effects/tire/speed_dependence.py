@@ -58,10 +58,10 @@ class SpeedDependence(Effect):
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale friction and stiffness with speed."""
-        d = data.speed_excess  # type: ignore[attr-defined]
+        d = data.nominal.speed_excess  # type: ignore[attr-defined]
         if p["linear"] < 0.5:
             d = np.log(np.maximum(1.0 + d, 0.02))
         slides = np.hypot(np.tan(np.clip(state.slip_angle, -1.4, 1.4)), state.slip_ratio)
-        faster = slides * data.speed_excess  # type: ignore[attr-defined]
+        faster = slides * data.nominal.speed_excess  # type: ignore[attr-defined]
         state.log_friction = state.log_friction + safe_log1p(p["friction"] * d - p["sliding"] * faster)
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * d)

@@ -35,7 +35,7 @@ class StiffnessScale(Effect):
 
     def free(self, data: object, start: Parameters) -> tuple[str, ...]:
         """One stiffness where one force alone is driven."""
-        both = data.driven("fx") and data.driven("fy")  # type: ignore[attr-defined]
+        both = data.simulation.driven("fx") and data.simulation.driven("fy")  # type: ignore[attr-defined]
         return ("stiffness", "lateral_stiffness") if both else ("stiffness",)
 
     def tire(self, state: State, data: object, p: Parameters) -> None:

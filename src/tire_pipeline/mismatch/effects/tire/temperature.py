@@ -62,7 +62,7 @@ class Temperature(Effect):
             return "the tread temperature does not vary"
         if data.time is None:  # type: ignore[attr-defined]
             return "neither tread temperature nor time is recorded"
-        if data.power is None:  # type: ignore[attr-defined]
+        if data.states.power is None:  # type: ignore[attr-defined]
             return "no speed, so that friction power is not known"
         return None
 
@@ -87,7 +87,7 @@ class Temperature(Effect):
             t = data.smooth("tread_temperature")  # type: ignore[attr-defined]
             points = [*np.quantile(t, [0.02, 0.5, 0.95]), np.max(t) + _WARMER]
             return [{**every, "reference": float(v), "lag": 10.0} for v in points]
-        lags = [8.0, 20.0, 50.0, min(3.0 * data.scales["time_span"], 250.0)]  # type: ignore[attr-defined]
+        lags = [8.0, 20.0, 50.0, min(3.0 * data.states.scales.time_span, 250.0)]  # type: ignore[attr-defined]
         places = [{"reference": r, "lag": lag} for lag in lags for r in (0.0, 0.5, 1.2)]
         return [{**form, **place} for form in (friction, every) for place in places]
 
@@ -106,8 +106,7 @@ class Temperature(Effect):
 
     def blind(self, data: object) -> bool:
         """Without a temperature channel, now or where the effect was found."""
-        measured = data.fixed.get("measured")  # type: ignore[attr-defined]
-        return "tread_temperature" not in (data.present if measured is None else measured)  # type: ignore[attr-defined]
+        return "tread_temperature" not in data.measured  # type: ignore[attr-defined]
 
     def other_forms(self, data: object, p: Parameters) -> list[dict[str, float]]:
         """Without a channel: a tire has more masses than one, which warm faster and slower."""
@@ -118,7 +117,7 @@ class Temperature(Effect):
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale friction and stiffness."""
         if self.blind(data):
-            d = data.heat(p["lag"]) - p["reference"]  # type: ignore[attr-defined]
+            d = data.states.heat(p["lag"]) - p["reference"]  # type: ignore[attr-defined]
         else:
             d = (data.smooth("tread_temperature") - p["reference"]) / 50.0  # type: ignore[attr-defined]
         change = p["friction"] * d - p["curvature"] * d**2

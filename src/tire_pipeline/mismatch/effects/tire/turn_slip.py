@@ -33,5 +33,5 @@ class TurnSlip(Effect):
         """Shift the slip angle, lower the friction."""
         spin = data.get("turn_slip")  # type: ignore[attr-defined]
         state.slip_angle = state.slip_angle + p["shift"] * spin
-        loss = safe_log1p(-p["friction_loss"] * abs(spin) * data.radius)  # type: ignore[attr-defined]
+        loss = safe_log1p(-p["friction_loss"] * abs(spin) * data.nominal.radius)  # type: ignore[attr-defined]
         state.log_friction = state.log_friction + loss

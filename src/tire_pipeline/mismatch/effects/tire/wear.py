@@ -37,6 +37,6 @@ class Wear(Effect):
 
     def tire(self, state: State, data: object, p: Parameters) -> None:
         """Scale friction and stiffness with the work done."""
-        w = data.work  # type: ignore[attr-defined]
+        w = data.states.work  # type: ignore[attr-defined]
         state.log_friction = state.log_friction + safe_log1p(p["friction"] * w)
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * w)
