@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Set
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.model.channels import RecordedChannels
 from tire_pipeline.mismatch.model.nominal import NominalConditions, Reference
 from tire_pipeline.mismatch.model.simulated import BaseSimulation
 from tire_pipeline.mismatch.model.states import States, StatesOfPart
 from tire_pipeline.mismatch.model.wheel import Wheel
-
-if TYPE_CHECKING:
-    from tire_pipeline.magic_formula import TireModel
 
 Array = np.ndarray
 

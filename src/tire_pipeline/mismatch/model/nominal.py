@@ -5,15 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Set
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
 from tire_pipeline.mismatch.model.channels import RecordedChannels, least_spread
-
-if TYPE_CHECKING:
-    from tire_pipeline.magic_formula import TireModel
 
 Array = np.ndarray
 OF_CAMBER = {

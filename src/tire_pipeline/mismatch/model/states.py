@@ -45,6 +45,11 @@ class States:
         work = max(float(np.sum(self.power * self._recording.step)), 1e-12)
         return Scales(work, max(largest(self.power), 1e-12), begin, span)
 
+    @property
+    def time_span(self) -> float:
+        """Duration of the recording that was explained, s."""
+        return self.scales.time_span
+
     @cached_property
     def power(self) -> Array | None:
         """Friction power ``|Fy v sin a| + |Fx v k|`` of the model, W."""
@@ -112,6 +117,11 @@ class StatesOfPart:
     def scales(self) -> Scales:
         """Those of the whole recording."""
         return self.whole.scales
+
+    @property
+    def time_span(self) -> float:
+        """Duration of the whole recording, s."""
+        return self.whole.time_span
 
     @cached_property
     def power(self) -> Array | None:
