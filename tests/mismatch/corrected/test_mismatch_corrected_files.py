@@ -16,7 +16,7 @@ def corrected(tire, recording, name, **parameters):
     """The model with one effect put in."""
     data = prepare(tire, recording).data
     changes = ((name, {**catalogue()[name].zeros(data), **parameters}),)
-    return CorrectedModel(tire, changes, Reference(pressure_nominal=data.nominal.pressure), ("fy",))
+    return CorrectedModel(tire, changes, ("fy",), Reference(pressure_nominal=data.nominal.pressure))
 
 
 def test_friction_goes_into_the_coefficients_of_the_file(tire, record, tmp_path):
@@ -49,6 +49,6 @@ def test_a_clipped_force_is_predicted_clipped(tire, record):
     wrong = record().assign(fy=lambda r: np.clip(r["fy"], -3500.0, 3400.0))
     findings = prepare(tire, wrong).findings
     assert [each.name for each in findings] == ["clipping"]
-    model = CorrectedModel(tire, (), Reference(), ("fy",), limits=force_limits(findings, ("fy",)))
+    model = CorrectedModel(tire, (), ("fy",), limits=force_limits(findings, ("fy",)))
     predicted = model.predict(wrong.drop(columns="fy"))["fy"]
     assert (predicted.min(), predicted.max()) == (-3500.0, 3400.0)

@@ -5,7 +5,6 @@ import numpy as np
 from tire_pipeline.mismatch import CorrectedModel
 from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.recording.prepare import prepare
 
 
@@ -19,7 +18,7 @@ def test_a_wave_is_added_in_the_recording_that_was_explained_and_left_out_of_ano
         "radius": 0.97 * data.nominal.radius,
     }
     rolled = WheelWay(data.time, recording["speed"].to_numpy(), data.wheel.way)
-    corrected = CorrectedModel(tire, (("nonuniformity", wave),), Reference(), ("fy",), rolled=rolled)
+    corrected = CorrectedModel(tire, (("nonuniformity", wave),), ("fy",), rolled=rolled)
     other = recording.assign(time=recording["time"] + 1000.0)
     found, elsewhere = corrected.predict(recording), corrected.predict(other)
     added = found["fy"] - corrected.as_it_came.predict(recording)["fy"]

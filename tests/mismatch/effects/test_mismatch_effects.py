@@ -220,7 +220,7 @@ def test_a_drift_that_settles_is_all_there_at_the_end(tire, record):
 
 def test_a_drift_goes_nowhere_outside_of_the_time_that_was_recorded(tire, record):
     recording = record()
-    plain = CorrectedModel(tire, (), Reference(prepare(tire, recording).data.states.scales), ("fy",))
+    plain = CorrectedModel(tire, (), ("fy",), Reference(prepare(tire, recording).data.states.scales))
     changes = (("sensor_drift", {"fy": 100.0, "fx": 0.0, "lag": 20.0}),)
     drifting = dataclasses.replace(plain, changes=changes)
     for later, there in ((1e4, 100.0), (-1e4, 0.0)):

@@ -17,7 +17,7 @@ from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.model.channels import RecordedChannels
-from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.data import NO_REFERENCE, Data
 from tire_pipeline.mismatch.model.forces import Change, simulate, simulate_moments
 from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
@@ -44,11 +44,11 @@ class CorrectedModel:
         The model as it came; None where it stands in for another simulator.
     changes : tuple of (name, parameters)
         Effects of the catalogue, with their parameters in SI, in the order they are added.
-    reference : Reference
-        Nominal pressure and speed, loads, what work, heat and time are measured by, and which channels were
-        recorded.
     outputs : tuple of str
         Forces that were recorded.
+    reference : Reference
+        Of the recording that was explained: nominal pressure and speed, loads, what work, heat and time are
+        measured by, and which channels were recorded. What it lacks is found in the recording to predict.
     stands_in : bool
         True if the tire model only stands in for another simulator, whose output a recording to
         predict must have as ``simulated_fy``.
@@ -84,11 +84,10 @@ class CorrectedModel:
     10% less stiffness at small slip, and the same friction:
 
     >>> import pandas as pd
-    >>> from tire_pipeline.mismatch.model.nominal import Reference
     >>> from tire_pipeline.tir import read_tir
     >>> tire = read_tir("tire.tir")
     >>> changes = (("stiffness_scale", {"stiffness": -0.1, "lateral_stiffness": 0.0}),)
-    >>> softer = CorrectedModel(tire, changes, Reference(), outputs=("fy",))
+    >>> softer = CorrectedModel(tire, changes, outputs=("fy",))
     >>> run = pd.DataFrame({"slip_angle": [0.001, 0.3], "normal_load": 4000.0})
     >>> before = tire.forces(slip_angle=run["slip_angle"], normal_load=run["normal_load"]).fy
     >>> (softer.predict(run)["fy"] / before).round(1).tolist()
@@ -97,8 +96,8 @@ class CorrectedModel:
 
     tire: Any
     changes: tuple[Change, ...]
-    reference: Reference
     outputs: tuple[str, ...]
+    reference: Reference = NO_REFERENCE
     stands_in: bool = False
     moments: tuple[str, ...] = ()
     factors: Mapping[str, float] = field(default_factory=dict)

@@ -250,10 +250,10 @@ def _model(
     return CorrectedModel(
         data.tire,
         tuple(changes),
-        reference,
         outputs,
-        data.simulation.beside is not None,
-        recorded_moments(data),
+        reference,
+        stands_in=data.simulation.beside is not None,
+        moments=recorded_moments(data),
         factors=prepared.factors,
         limits=force_limits(prepared.findings, outputs),
         question=prepared.question,
