@@ -32,7 +32,7 @@ def prove(
         The residual of each output, N: :class:`~tire_pipeline.mismatch.proof.nested.RepeatedChoice`. In the
         held-out condition the effects are locked, and the parameters are fitted to the sweeps outside of it.
     noise : mapping of float
-        Output -> RMS of the recording's noise, N (:func:`.proof.noise_floor.noise_floors`).
+        Output -> RMS of the recording's noise, N (:func:`.proof.remainder.noise_floors`).
     """
     data = analysis.data
     before = {o: data.recorded[o] - data.simulation.base[o] for o in data.outputs}

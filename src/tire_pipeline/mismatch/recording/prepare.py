@@ -32,7 +32,7 @@ AS_GIVEN = "columns in ISO W axes and SI units, as they were given"
 _LEAST_RATE = 50.0
 
 
-@dataclass
+@dataclass(frozen=True)
 class Prepared:
     """The recording, cleaned.
 

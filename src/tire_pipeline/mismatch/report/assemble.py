@@ -32,9 +32,16 @@ from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.prepare import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.found_effects import from_factors, from_fit
-from tire_pipeline.mismatch.report.left_out import reasons, state_units, with_reasons
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
-from tire_pipeline.mismatch.report.remarks import on_expected, on_moments, on_several, on_withheld
+from tire_pipeline.mismatch.report.remarks import (
+    on_expected,
+    on_moments,
+    on_several,
+    on_withheld,
+    reasons,
+    state_units,
+    with_reasons,
+)
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import head, on_question
 from tire_pipeline.mismatch.report.words import not_looked_for
