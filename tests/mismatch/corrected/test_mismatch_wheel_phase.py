@@ -1,7 +1,9 @@
 """What comes back once a turn is added where the angle of the wheel is known, and nowhere else."""
 
 import numpy as np
+import pytest
 
+from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import CorrectedModel
 from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
 from tire_pipeline.mismatch.effects import catalogue
@@ -26,3 +28,5 @@ def test_a_wave_is_added_in_the_recording_that_was_explained_and_left_out_of_ano
     assert "notes" not in found.attrs
     np.testing.assert_allclose(elsewhere["fy"], corrected.as_it_came.predict(other)["fy"])
     assert "angle of the wheel" in elsewhere.attrs["notes"][0]
+    with pytest.raises(RecordingError, match="nonuniformity needs the channel speed"):
+        corrected.predict(recording.drop(columns="speed"))

@@ -281,8 +281,14 @@ class CorrectedModel:
             beside=beside,
             own_relaxation=own_relaxation(self.tire) if self._changed else None,
             reference=self.reference,
-            way=None if self.rolled is None or time is None else self.rolled.at(time, channels["speed"]),
+            way=self._way(time, channels.get("speed")),
         )
+
+    def _way(self, time: Array | None, speed: Array | None) -> Array | None:
+        """Return how far the wheel had rolled, m, if an effect follows it and the recording tells."""
+        if self.rolled is None or time is None or speed is None:
+            return None
+        return self.rolled.at(time, speed)
 
     def tire_model(self) -> tuple[Any, dict[str, dict[str, object]]]:
         """Return the tire model with all effects that its format has a place for, and the rest.
