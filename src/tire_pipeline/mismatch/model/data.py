@@ -104,7 +104,8 @@ class Data:
             self.simulation.own_relaxation,
         )
         way = None if self.states.power is None else self.wheel.way[rows]
-        return Data(recording, nominal, simulation, StatesOfPart(self.states, rows), Wheel(simulation, way))
+        states = StatesOfPart(self.states, rows)
+        return Data(recording, nominal, simulation, states, Wheel(simulation, way), self.choices)
 
     @property
     def tire(self) -> TireModel:
