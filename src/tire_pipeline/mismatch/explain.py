@@ -24,7 +24,7 @@ from tire_pipeline.mismatch.report.assemble import Explained, assembled
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.progress import track, under_way
 
-_STEPS = ("check", "noise and misfit", "sets", "answer")
+_PROGRESS_STAGES = ("check", "noise and misfit", "sets", "answer")
 
 
 def weigh(
@@ -37,7 +37,7 @@ def weigh(
     learnt: LearntSizes,
 ) -> Explained:
     """Return the causes of a mismatch with their probabilities."""
-    steps = track(_STEPS, "explaining the mismatch")
+    steps = track(_PROGRESS_STAGES, "explaining the mismatch")
     step = next(steps)  # what is broken or exactly wrong is repaired or taken out, and said
     try:
         prepared = prepare(tire, recording, choices)

@@ -36,7 +36,7 @@ CHANCE = 0.05
 _OUTLIERS = 0.005
 """Part of the samples at either end of a channel that may be outliers."""
 
-_SLOW_CHANNELS = ("pressure", "speed", "tread_temperature")
+_TAKEN_OVER_SMOOTH = ("pressure", "speed", "tread_temperature")
 """Those of which a part of a recording takes over the values without sensor noise."""
 
 
@@ -212,7 +212,7 @@ class RecordedChannels:
             present=self.present,
             whole=OfWhole(
                 varying={n for n in self.present if self.varies(n)},
-                slow={n: self.smooth(n)[rows] for n in _SLOW_CHANNELS if n in self.present},
+                slow={n: self.smooth(n)[rows] for n in _TAKEN_OVER_SMOOTH if n in self.present},
             ),
         )
 
