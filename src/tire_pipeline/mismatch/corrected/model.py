@@ -268,6 +268,9 @@ class CorrectedModel:
                 )
             own = plain_forces(self.tire, **{n: channels[n] for n in SLIP_AND_LOAD})
             beside = {o: recording[f"simulated_{o}"].to_numpy(dtype=float) - own[o] for o in self.outputs}
+        way = None
+        if self.rolled is not None and time is not None and "speed" in channels:
+            way = self.rolled.at(time, channels["speed"])
         recorded = RecordedChannels(
             channels=channels,
             recorded={o: np.zeros(n) for o in self.outputs},
@@ -281,14 +284,8 @@ class CorrectedModel:
             beside=beside,
             own_relaxation=own_relaxation(self.tire) if self._changed else None,
             reference=self.reference,
-            way=self._way(time, channels.get("speed")),
+            way=way,
         )
-
-    def _way(self, time: Array | None, speed: Array | None) -> Array | None:
-        """Return how far the wheel had rolled, m, if an effect follows it and the recording tells."""
-        if self.rolled is None or time is None or speed is None:
-            return None
-        return self.rolled.at(time, speed)
 
     def tire_model(self) -> tuple[Any, dict[str, dict[str, object]]]:
         """Return the tire model with all effects that its format has a place for, and the rest.
