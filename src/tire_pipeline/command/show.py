@@ -57,7 +57,8 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
     if missing:
         lines.append(f"Missing: {_missing(missing)}.")
     lines += _gaps(model, {figure.name: figure.value for figure in figures})
-    odd = [str(text) for text in model.metadata.get("warnings", ())]  # type: ignore[attr-defined]
+    found = model.metadata.get("warnings", ())
+    odd = [str(text) for text in found] if isinstance(found, (list, tuple)) else []
     key = Grid(
         ("quantity", "value", "unit"),
         [(f.name, f.value, f.unit) for f in figures if f.value == f.value or "peak" in f.name],

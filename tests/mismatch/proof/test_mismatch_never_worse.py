@@ -10,6 +10,7 @@ from tire_pipeline.mismatch import CorrectedModel, Explainer
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.linearised_set import linearised
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL
+from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.recording.prepare import prepare
@@ -76,7 +77,7 @@ def test_the_next_experiment_separates_what_is_open(tire, record):
         {each.names[0] for each in it.sets.sets if len(each.names) == 1} & {"time_delay", "low_pass"}
     )
     assert len(names) == 2
-    plain = CorrectedModel(tire, (), {"scales": it.analysis.data.scales}, it.analysis.data.outputs)
+    plain = CorrectedModel(tire, (), it.analysis.data.outputs, Reference(it.analysis.data.states.scales))
     both = replace(it.answer, sets=((tuple(names), 0.9),))
     assert next_experiment(it.analysis, both, plain).startswith("To separate ")
     one = replace(it.answer, sets=((("time_delay",), 0.9),))

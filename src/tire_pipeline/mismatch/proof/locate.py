@@ -97,7 +97,7 @@ def _axes(
     data: Data, output: str, rest: Array, noise: ForceNoise, block: Array, signs: Array, along: bool
 ) -> list[Located]:
     """Test all stretches of all axes; the largest statistic of each flip gives the p-values."""
-    plain = rest * _direction(data.base[output]) if along else rest
+    plain = rest * _direction(data.simulation.base[output]) if along else rest
     scaled = plain / noise.sigma
     tests: list[tuple[str, float, float, Array]] = []
     for axis in ("time", *OPERATING_CHANNELS):
@@ -128,7 +128,7 @@ def _axes(
         own = [i for i, t in enumerate(tests) if t[0] == axis]
         chance = {i: float((1 + (top[1:] >= statistics[0, i]).sum()) / signs.shape[0]) for i in own}
         sure = [i for i in own if chance[i] <= _LEVEL_OF_FLIPS]
-        sure = [i for i in sure if _along(rest, data.base[output], tests[i][3]) == along]
+        sure = [i for i in sure if _along(rest, data.simulation.base[output], tests[i][3]) == along]
         if not sure:
             continue
         best = max(sure, key=lambda i: abs(float(plain[tests[i][3]].mean())))
@@ -177,7 +177,7 @@ def _profile(values: Array, x: Array) -> Array:
 
 def _force(data: Data, output: str, rows: Array) -> float:
     """Mean size of the simulated force, N; NaN where it is too small for a share of it to mean something."""
-    size = np.abs(data.base[output])
+    size = np.abs(data.simulation.base[output])
     here = float(size[rows].mean())
     return here if here > _LEAST_FORCE * float(np.quantile(size, 0.99)) else float("nan")
 
@@ -217,7 +217,7 @@ def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -
     out = {}
     for o, r in residual.items():
         found = {f.along_force for f in located if f.output == o}
-        mean, force = float(r.mean()), data.base[o]
+        mean, force = float(r.mean()), data.simulation.base[o]
         rows = np.abs(force) > _LEAST_FORCE * float(np.quantile(np.abs(force), 0.99))
         ways = [(np.sum((r - mean) ** 2), Throughout(mean))] if False in found else []
         if True in found and rows.any():

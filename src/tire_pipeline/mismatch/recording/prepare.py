@@ -14,7 +14,8 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.parameters.assumed_radius import assumed_radius
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.effects.shared import relaxation_lengths
-from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.channels import RecordedChannels
+from tire_pipeline.mismatch.model.data import NO_CHOICES, Choices, Data
 from tire_pipeline.mismatch.recording.cleaning import Cleaning, clean
 from tire_pipeline.mismatch.recording.exact import open_axes, repair
 from tire_pipeline.mismatch.recording.given import check_tire, numeric
@@ -31,7 +32,7 @@ AS_GIVEN = "columns in ISO W axes and SI units, as they were given"
 _LEAST_RATE = 50.0
 
 
-@dataclass
+@dataclass(frozen=True)
 class Prepared:
     """The recording, cleaned.
 
@@ -110,7 +111,7 @@ def _cleaned(tire: Any, arrays: dict[str, Array], start: Array) -> tuple[dict[st
     return clean(tire, arrays, forces, start)
 
 
-def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
+def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -> Prepared:
     """Check a recording, repair what is exactly wrong, and bring it to arrays.
 
     Parameters
@@ -119,6 +120,8 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
         None if the recording has ``simulated_fy`` or ``simulated_fx``.
     recording : pandas.DataFrame
         Canonical columns, SI.
+    choices : Choices
+        What the user states in place of what the effects do.
 
     Raises
     ------
@@ -166,16 +169,14 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     if own and time is not None and "speed" not in present:
         notes.append("speed is not recorded, so the relaxation lengths that the file states are left out")
     beside = None if beside is None else {n: arrays.pop(f"_beside_{n}") for n in beside}
-    data = Data(
-        tire=tire,
+    recorded = RecordedChannels(
         channels={n: a for n, a in arrays.items() if n not in TANGENTIAL_FORCES},
         recorded={n: arrays[n] for n in TANGENTIAL_FORCES if n in arrays and (beside is None or n in beside)},
         time=time,
         start=start,
         present=present,
-        beside=beside,
-        fixed={"own_relaxation": own},
     )
+    data = Data.of(tire, recorded, beside=beside, own_relaxation=own, choices=choices)
     return Prepared(data, findings, notes, rows, factors, cleaned, assumed, [q for q in asked if q])
 
 

@@ -21,6 +21,7 @@ from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.channels import CHANCE, ENOUGH_ROWS, one_sided, span
 from tire_pipeline.mismatch.model.forces import Change
+from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.locate import everywhere, locate
@@ -31,9 +32,16 @@ from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.prepare import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.found_effects import from_factors, from_fit
-from tire_pipeline.mismatch.report.left_out import reasons, state_units, with_reasons
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
-from tire_pipeline.mismatch.report.remarks import on_expected, on_moments, on_several, on_withheld
+from tire_pipeline.mismatch.report.remarks import (
+    on_expected,
+    on_moments,
+    on_several,
+    on_withheld,
+    reasons,
+    state_units,
+    with_reasons,
+)
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import head, on_question
 from tire_pipeline.mismatch.report.words import not_looked_for
@@ -240,36 +248,36 @@ def _model(
     data, prepared = it.analysis.data, it.prepared
     outputs = tuple(prepared.data.outputs)
     load = data.get("normal_load")
-    reference: dict[str, Any] = {"scales": data.scales, "measured": tuple(sorted(data.present))}
-    reference["load_range"] = {"low": float(load.min()), "high": float(load.max())}
-    if "pressure" in data.present:
-        reference["pressure_nominal"] = data.pressure_nominal
-    if "speed" in data.present:
-        reference["speed_nominal"] = data.speed_nominal
+    reference = Reference(
+        scales=data.states.scales,
+        pressure_nominal=data.nominal.pressure if data.has("pressure") else None,
+        speed_nominal=data.nominal.speed if data.has("speed") else None,
+        load_range=(float(load.min()), float(load.max())),
+        measured=frozenset(data.present),
+    )
     every = [change for explanation in (changes, *(c for _, c in instead)) for change in explanation]
-    if any(catalogue()[n].quarter_turn(p) is not None for n, p in every):
-        reference["rolled"] = _rolled(it)
+    turning = any(catalogue()[n].quarter_turn(p) is not None for n, p in every)
     return CorrectedModel(
         data.tire,
         tuple(changes),
-        reference,
         outputs,
-        data.beside is not None,
-        recorded_moments(data),
+        reference,
+        stands_in=data.simulation.beside is not None,
+        moments=recorded_moments(data),
         factors=prepared.factors,
         limits=force_limits(prepared.findings, outputs),
         question=prepared.question,
         cleaned={c.channel: c.removed for c in prepared.cleaned if c.smoothed},
         instead=tuple(instead),
+        rolled=_rolled(it) if turning else None,
     ).cleaned_where_it_helps(it.recording)
 
 
 def _rolled(it: Explained) -> WheelWay:
     """Return where the wheel stood at each recorded sample."""
     data = it.prepared.data
-    assert data.time is not None  # what follows the wheel needs a time line
     speed = it.recording["speed"].to_numpy(dtype=float)[it.prepared.rows]
-    return WheelWay(data.time, speed * it.prepared.factors.get("speed", 1.0), data.wheel_way)
+    return WheelWay(data.time_line, speed * it.prepared.factors.get("speed", 1.0), data.wheel.way)
 
 
 def _unnamed(

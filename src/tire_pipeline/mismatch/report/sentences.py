@@ -12,9 +12,8 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.proof.locate import Located, Throughout
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.recording.open_questions import Question
-from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit
+from tire_pipeline.mismatch.report.contents import EffectReport, Head, HeldOutFit
 from tire_pipeline.mismatch.report.equation_words import of_equation, on_unnamed
-from tire_pipeline.mismatch.report.head import Head
 from tire_pipeline.mismatch.report.words import figure, in_words, listed, newtons, place
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 

@@ -118,7 +118,7 @@ def largest_force(data: Data, name: str) -> float:
 
     If this force is near zero, a fraction of the other one.
     """
-    sizes = {n: float(np.quantile(np.abs(data.base[n]), 0.995)) for n in data.outputs}
+    sizes = {n: float(np.quantile(np.abs(data.simulation.base[n]), 0.995)) for n in data.outputs}
     top = max(*sizes.values(), 1e-09)
     return sizes[name] if sizes[name] > 0.3 * top else 0.3 * top
 
@@ -131,7 +131,7 @@ def _grid(data: Data) -> dict[str, Array]:
     turned, rolled, lean = (_at_rest(data, n) for n in ("slip_angle", "slip_ratio", "camber"))
     rows = [(x, rolled, lean, f) for f in loads for x in a]
     rows += [(turned, x, lean, f) for f in loads for x in k]
-    if data.varies("camber") and data.knows_camber:
+    if data.varies("camber") and data.nominal.knows_camber:
         leans = np.delete(_range(data, "camber", 5), 2)
         rows += [(x, rolled, g, f) for f in loads for g in leans for x in a[::2]]
         rows += [(turned, x, g, f) for f in loads for g in leans for x in k[::2]]

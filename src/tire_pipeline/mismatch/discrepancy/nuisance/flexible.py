@@ -8,7 +8,7 @@ from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_OF_FORCE
 from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import ASYMMETRY_SHARE
 from tire_pipeline.mismatch.discrepancy.nuisance.transients import rate
 from tire_pipeline.mismatch.model.data import Data
-from tire_pipeline.mismatch.model.forces import plain_forces
+from tire_pipeline.mismatch.model.plain_forces import plain_forces
 
 Array = np.ndarray
 At = dict[str, Array]
@@ -86,7 +86,7 @@ def _coordinates(data: Data, at: dict[str, Array]) -> tuple[Array, Array]:
         load = (at["normal_load"] - 0.5 * (low + high)) / (0.5 * (high - low))
         parts.append(load / _LENGTHS_OF_INPUTS["normal_load"])
         mirror.append(1.0)
-    if data.varies("camber") and data.knows_camber:
+    if data.varies("camber") and data.nominal.knows_camber:
         parts.append(
             at["camber"] / np.quantile(np.abs(data.get("camber")), 0.99) / _LENGTHS_OF_INPUTS["camber"]
         )
@@ -102,7 +102,7 @@ def _slip_at_half(data: Data, force: str) -> float:
     zero = np.zeros(200)
     args = {**dict.fromkeys(FORCE_OF_SLIP, zero), SLIP_OF_FORCE[force]: slip}
     f = np.abs(
-        plain_forces(data.tire, camber=zero, normal_load=np.full(200, data.load_nominal), **args)[force]
+        plain_forces(data.tire, camber=zero, normal_load=np.full(200, data.nominal.load), **args)[force]
     )
     k = max(f[0] / slip[0], 1e-9)
     return float(np.clip(f.max() / k, 0.005, 0.3))
