@@ -9,10 +9,10 @@ import scipy
 
 from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.discrepancy.noise import ForceNoise
+from tire_pipeline.mismatch.model.channels import CHANCE, largest
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-_LEVEL_OF_FLIPS = 0.05
 _LEAST_FORCE = 0.1
 """A share of the force is given where the force is above this part of the largest one."""
 _EVEN = 0.7
@@ -109,9 +109,9 @@ def _axes(
             values = data.smooth(axis)
         else:
             continue
-        edges = np.quantile(values, np.linspace(0.0, 1.0, 17))
-        for width in (1, 2, 4, 8):
-            for k in range(0, 17 - width, max(1, width // 2)):
+        edges = np.quantile(values, np.linspace(0.0, 1.0, _BINS_OF_AXIS + 1))
+        for width in _widths():
+            for k in range(0, _BINS_OF_AXIS + 1 - width, max(1, width // 2)):
                 low, high = float(edges[k]), float(edges[k + width])
                 if high - low > 0.02 * (edges[-1] - edges[0]):
                     tests.append((axis, low, high, (values >= low) & (values <= high)))
@@ -127,7 +127,7 @@ def _axes(
     for axis in dict.fromkeys(t[0] for t in tests):
         own = [i for i, t in enumerate(tests) if t[0] == axis]
         chance = {i: float((1 + (top[1:] >= statistics[0, i]).sum()) / signs.shape[0]) for i in own}
-        sure = [i for i in own if chance[i] <= _LEVEL_OF_FLIPS]
+        sure = [i for i in own if chance[i] <= CHANCE]
         sure = [i for i in sure if _along(rest, data.simulation.base[output], tests[i][3]) == along]
         if not sure:
             continue
@@ -147,10 +147,14 @@ def _axes(
     ]
 
 
+def _widths() -> list[int]:
+    """Numbers of neighbouring bins that are looked at together: 1, 2, 4 ... up to half of them."""
+    return [2**k for k in range(_BINS_OF_AXIS.bit_length() - 1)]
+
+
 def _direction(force: Array) -> Array:
     """Sign of a force, fading to zero where the force does."""
-    largest = float(np.quantile(np.abs(force), 0.99))
-    return np.sign(force) * np.minimum(np.abs(force) / (0.05 * largest + 1e-12), 1.0)
+    return np.sign(force) * np.minimum(np.abs(force) / (0.5 * _LEAST_FORCE * largest(force) + 1e-12), 1.0)
 
 
 def _along(rest: Array, force: Array, rows: Array) -> bool:
@@ -179,7 +183,7 @@ def _force(data: Data, output: str, rows: Array) -> float:
     """Mean size of the simulated force, N; NaN where it is too small for a share of it to mean something."""
     size = np.abs(data.simulation.base[output])
     here = float(size[rows].mean())
-    return here if here > _LEAST_FORCE * float(np.quantile(size, 0.99)) else float("nan")
+    return here if here > _LEAST_FORCE * largest(size) else float("nan")
 
 
 @dataclass(frozen=True)
@@ -218,7 +222,7 @@ def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -
     for o, r in residual.items():
         found = {f.along_force for f in located if f.output == o}
         mean, force = float(r.mean()), data.simulation.base[o]
-        rows = np.abs(force) > _LEAST_FORCE * float(np.quantile(np.abs(force), 0.99))
+        rows = np.abs(force) > _LEAST_FORCE * largest(force)
         ways = [(np.sum((r - mean) ** 2), Throughout(mean))] if False in found else []
         if True in found and rows.any():
             share = float((r[rows] * np.sign(force[rows])).mean() / np.abs(force[rows]).mean())
@@ -260,7 +264,7 @@ def where(part: Array, data: Data) -> dict[str, tuple[float, float]]:
         values = data.get(axis)
         order = np.argsort(values, kind="stable")
         share = np.cumsum(energy[order]) / total
-        low, high = np.searchsorted(share, [0.05, 0.95])
+        low, high = np.searchsorted(share, [CHANCE, 1.0 - CHANCE])
         last = values.size - 1
         out[axis] = (float(values[order[min(low, last)]]), float(values[order[min(high, last)]]))
     return out
