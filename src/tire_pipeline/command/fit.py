@@ -29,7 +29,12 @@ if TYPE_CHECKING:
 )
 @click.option("--nominal-load", type=float, help="FNOMIN, N. Default: that of --start, or the median load.")
 @click.option(
-    "--radius", type=float, help="UNLOADED_RADIUS, m. Default: that of --start or of the recording."
+    "--unloaded-radius",
+    "--radius",
+    "radius",
+    type=click.FloatRange(0.0, min_open=True),
+    metavar="METRES",
+    help="Unloaded radius of the tire, m. Default: that of --start or of the recording.",
 )
 @click.option("--overwrite", is_flag=True, help="Replace a file of that name.")
 @reading_options
