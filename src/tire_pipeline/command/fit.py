@@ -169,7 +169,13 @@ def _page(result: FitResult, lines: list[str], residuals: Grid, notes: list[str]
     if notes:
         parts.append(Text(notes, heading="Notes"))
     frame = pd.DataFrame(residuals.rows, columns=list(residuals.header))
-    parts.append(Table(frame, f"{residuals.title}; loads and cambers in groups.", "Residuals"))
+    parts.append(
+        Table(
+            frame,
+            f"{residuals.title}; loads and cambers in groups. RMS (%): of the largest magnitude.",
+            "Residuals",
+        )
+    )
     said = "A dash: the coefficient ended at its bound."
     parts.append(Table(table, said, "Coefficients", digits=5, unlike=True, most_rows=400))
     return render_page(target.name, parts, footer=f"Made by tire fit, with {target.name}.")

@@ -123,8 +123,8 @@ def not_looked_for(absent: Mapping[str, str]) -> str:
     for name, why in absent.items():
         if type(catalogue()[name]).detect is Effect.detect:
             by_reason.setdefault(why, []).append(catalogue()[name].title)
-    reasons = [f"{', '.join(titles)}: {why}" for why, titles in by_reason.items()]
-    return f"effects that could not be tested are {'; '.join(reasons)}" if reasons else ""
+    reasons = [f"{', '.join(titles)} – {why}" for why, titles in by_reason.items()]
+    return f"effects that could not be tested: {'; '.join(reasons)}" if reasons else ""
 
 
 def place(axis: str, low: float, high: float, ranges: Mapping[str, tuple[float, float]]) -> str:
