@@ -151,7 +151,8 @@ def _explained(report: pd.DataFrame, parameters: TranslateParameters) -> list[st
         "Refused: the file cannot be read or is of version 6.x, no physical tire was found, or its tire is "
         "too far from those learned from.",
         "Unknown supplier: too few files of this folder were learned from to know its bias.",
-        f"Only translated files are written, none beyond {reach}. Errors are RMS.",
+        f"Only translated files are written, none beyond {reach}. Errors are RMS of side and longitudinal "
+        "force; the aligning torque is translated, but is not among them.",
         f"Method: {parameters.translator.replace('_', ' ')}. Tires that several organisations measured were "
         + ("used." if parameters.pairs else "not used."),
     ]
