@@ -13,7 +13,7 @@ from tire_pipeline.reporting.page_parts import Links, Picture, Text, render_page
 FRONT = "index.html"
 _MAIN = re.compile(r'<div class="main">(.*?)</div>', re.S)
 _PARAGRAPH = re.compile(r"<p[^>]*>(.*?)</p>", re.S)
-_CODE = re.compile(r"</?code>")
+_CODE_TAG = re.compile(r"</?code>")
 LEADS = (
     ("report.html", "How well the translation works"),
     ("translated_files.html", "Your files, translated"),
@@ -172,7 +172,7 @@ def main_message(page: str) -> list[str]:
     """
     box = _MAIN.search(page)
     paragraphs = _PARAGRAPH.findall(box[1]) if box else []
-    return [html.unescape(_CODE.sub("`", text)).strip() for text in paragraphs]
+    return [html.unescape(_CODE_TAG.sub("`", text)).strip() for text in paragraphs]
 
 
 def _items(
