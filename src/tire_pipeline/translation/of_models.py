@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -12,6 +13,7 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.translation.base import Translator, judging
+from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.decode.scores_to_coefficients import COEFFICIENTS
 from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE
 from tire_pipeline.translation.result import EDGE, TRANSLATED, TranslationResult, comment_lines
@@ -63,9 +65,36 @@ def translate_models(
     gated = judge.with_verdict(farthest=min(farthest, FARTHEST_DISTANCE), gate=True)  # agents never refuse
     own = from_models((file, category, model) for file, (category, model) in models.items())
     source = normalize_table(own, nominal_load).assign(category_probability=1.0)
-    result = gated.translation(source)
+    result = with_loads_said(gated.translation(source), own)
     translated, comments = at_own_load(result, {file: model for file, (_, model) in models.items()}, own)
     return result, translated, comments
+
+
+def with_loads_said(result: TranslationResult, own: pd.DataFrame) -> TranslationResult:
+    """Say of translated tires if they were judged at other loads than those that they carry.
+
+    Parameters
+    ----------
+    result : TranslationResult
+    own : DataFrame
+        Their tire table as it was read, row by row that of ``result``.
+
+    Returns
+    -------
+    TranslationResult
+        With another ``reason`` in its report.
+    """
+    load = own["FNOMIN"].to_numpy(dtype=float)
+    report = result.report.copy()
+    beyond = (report["verdict"] == TRANSLATED).to_numpy() & ((load < LOADS.min()) | (load > LOADS.max()))
+    for row in np.flatnonzero(beyond):
+        at = report.columns.get_loc("reason")
+        report.iloc[row, at] = (
+            f"{report.iloc[row, at]}, judged by side and longitudinal force at {LOADS.min() / 1e3:g} to "
+            f"{LOADS.max() / 1e3:g} kN; its nominal load is {load[row] / 1e3:.3g} kN: compare its curves "
+            "there before you use the file"
+        )
+    return replace(result, report=report)
 
 
 def at_own_load(

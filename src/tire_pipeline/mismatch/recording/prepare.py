@@ -24,6 +24,7 @@ from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
 from tire_pipeline.mismatch.recording.usable import judge, leave_out_no_pressure, leave_out_still_slip
 from tire_pipeline.recordings.check import BRIDGED, LEAST_POINTS, LEAST_SAMPLES, LEAST_WHOLE, LONG_STEP
+from tire_pipeline.recordings.conventions.channel_names import FURTHER
 
 Array = np.ndarray
 ASSUMED_ZERO = ("camber", "slip_ratio", "slip_angle")
@@ -183,9 +184,17 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
 def _assumed(recording: pd.DataFrame, factors: Mapping[str, float]) -> list[str]:
     """What is taken for given: by the reader, and by the repair of exact factors."""
     assumed = list(recording.attrs.get("assumed", [AS_GIVEN]))
-    assumed += [t.replace(" from ", " converted from ", 1) for t in recording.attrs.get("conversions", [])]
+    converted = [t for t in recording.attrs.get("conversions", []) if not _of_unused(t)]
+    assumed += [t.replace(" from ", " converted from ", 1) for t in converted]
     assumed += [f"{n} is taken as {f:.6g} times what was recorded" for n, f in factors.items() if f != 1.0]
     return assumed
+
+
+def _of_unused(conversion: str) -> bool:
+    """Whether a conversion is of a channel that no explanation uses, such as a loaded radius."""
+    name = conversion.partition(":")[0]
+    further = name in {channel.name for channel in FURTHER} and name not in INPUT_CHANNELS
+    return further and not name.startswith("simulated_")
 
 
 def _arrays(recording: pd.DataFrame) -> dict[str, Array]:

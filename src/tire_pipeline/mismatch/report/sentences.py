@@ -354,7 +354,8 @@ def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, Throug
     if best.along_force:
         word = "lower" if best.mean < 0.0 else "higher"
         return f"{where}, {name} is on average {newtons(abs(best.mean))} N ({much}) {word} than the model"
-    return f"{where}, {name} differs from the model by {best.mean:+,.3g} N on average ({much})"
+    sign = "-" if best.mean < 0.0 else "+"
+    return f"{where}, {name} differs from the model by {sign}{newtons(abs(best.mean))} N on average ({much})"
 
 
 def _of_the_force(share: float) -> str:

@@ -23,7 +23,12 @@ def shown(axis: str, value: float) -> str:
 def figure(axis: str, value: float, size: float | None = None) -> str:
     """Return a value of an axis without its unit, which is that for values of some size."""
     factor = shown_unit(axis, value if size is None else size)[0]
-    return "0" if abs(value) < _FINEST.get(axis, 0.0) else f"{value * factor:.3g}"
+    return "0" if abs(value) < _FINEST.get(axis, 0.0) else _three_digits(value * factor)
+
+
+def _three_digits(value: float) -> str:
+    """Return at least three digits, without an exponent for thousands."""
+    return f"{value:,.0f}" if abs(value) >= 999.5 else f"{value:.3g}"
 
 
 def label(axis: str) -> str:
@@ -129,8 +134,8 @@ def not_looked_for(absent: Mapping[str, str]) -> str:
     for name, why in absent.items():
         if type(catalogue()[name]).detect is Effect.detect:
             by_reason.setdefault(why, []).append(catalogue()[name].title)
-    reasons = [f"{', '.join(titles)}: {why}" for why, titles in by_reason.items()]
-    return f"effects that could not be tested are {'; '.join(reasons)}" if reasons else ""
+    reasons = [f"{', '.join(titles)} – {why}" for why, titles in by_reason.items()]
+    return f"effects that could not be tested: {'; '.join(reasons)}" if reasons else ""
 
 
 def place(axis: str, low: float, high: float, ranges: Mapping[str, tuple[float, float]]) -> str:
