@@ -53,6 +53,13 @@ def test_why_files_were_refused_and_which_are_the_targets_own_is_said():
     ]
 
 
+def test_where_no_file_was_refused_no_reason_is_given():
+    _, said = translate_page(
+        REPORT[REPORT["verdict"] == "translated"], {}, pd.DataFrame(), [], TranslateParameters(), "D"
+    )
+    assert not any("Refused" in line for line in said)
+
+
 def test_files_that_were_asked_for_are_not_called_all():
     own, demonstration, asked = outcome(only=["A", "mine"])[:3]
     assert "1 file asked for" in own

@@ -131,8 +131,8 @@ def _counted(report: pd.DataFrame, target: str) -> str:
 
 def _why_refused(report: pd.DataFrame) -> str:
     """The reasons without their details, the most frequent first, with how many files each holds for."""
-    refused = report[report["verdict"] == REFUSED]
-    counts = refused["reason"].astype(str).str.partition(": ")[0].value_counts()
+    reasons = report.loc[report["verdict"] == REFUSED, "reason"].astype(str)
+    counts = reasons.map(lambda reason: reason.partition(": ")[0]).value_counts()
     shown = [f"{visible(str(why))} ({count:,})" for why, count in counts.iloc[:_MOST_REASONS].items()]
     others = int(counts.iloc[_MOST_REASONS:].sum())
     return "; ".join([*shown, *([f"other reasons ({others:,})"] if others else [])])
