@@ -88,6 +88,14 @@ def test_the_next_experiment_separates_what_is_open(tire, record):
     assert next_experiment(it.analysis, neither, plain).startswith("To tell the explanations apart, record ")
 
 
+def test_a_choice_is_repeated_among_sets_with_mass_and_parts_of_the_named_one(softer):
+    assert [each.names for each in softer.sets.with_mass({(): 1.0}, ()).sets] == [()]
+    named = softer.answer.named.names
+    kept = {each.names for each in softer.sets.with_mass(softer.answer.probabilities, named).sets}
+    assert {(), named} <= kept
+    assert kept <= {each.names for each in softer.sets.sets}
+
+
 def test_what_may_be_unnamed_or_nothing_has_no_rivals(softer):
     answer = replace(softer.answer, sets=())
     assert answer.rivals

@@ -53,7 +53,8 @@ class Enumerated:
         named : collection of str
         """
         least = max(probabilities.values()) * np.exp(-NO_MASS)
-        kept = [s for s in self.sets if probabilities[s.names] > least or set(s.names) <= set(named)]
+        likely = {names for names, p in probabilities.items() if p > least}
+        kept = [s for s in self.sets if s.names in likely or set(s.names) <= set(named)]
         return replace(self, sets=tuple(kept))
 
 
