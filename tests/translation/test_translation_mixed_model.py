@@ -212,7 +212,7 @@ def test_a_file_that_lacks_something_is_told_what(paired, hidden):
     report = paired.translation(rows, bands=False).report
     assert (report["verdict"] == REFUSED).all()
     assert report["reason"].iloc[0] == "it does not state UNLOADED_RADIUS: add what is missing"
-    assert "fit_magic_formula" in report["reason"].iloc[1]
+    assert "fit 5.2 to its forces first, as docs/tutorials/your_supplier_files.md" in report["reason"].iloc[1]
 
 
 @pytest.mark.parametrize(

@@ -125,7 +125,8 @@ def test_state(protocols):
 
 
 def test_the_page_tells_of_a_change_and_only_then():
-    report = pd.DataFrame({"file": ["E/a.tir"], "verdict": ["refused"], "protocol": ["before 2015-06-01"]})
+    row = {"file": "E/a.tir", "source": "E", "verdict": "refused", "reason": "it cannot be read"}
+    report = pd.DataFrame([{**row, "protocol": "before 2015-06-01"}])
     changed = pd.DataFrame({"category": ["E"], "day": ["2015-06-01"], "probability": [0.999]})
     given = ([], TranslateParameters(), "D")
     page, _ = translate_page(report, {}, changed, *given)

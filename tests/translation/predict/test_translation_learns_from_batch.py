@@ -250,10 +250,13 @@ def test_no_file_of_the_training_tires_or_the_target_teaches_who_leaves_one_out(
     pd.testing.assert_frame_equal(left_out(more), left_out(batch))
 
 
+REFUSED_FILE = {"file": "E/a.tir", "source": "E", "verdict": "refused", "reason": "it cannot be read"}
+
+
 def test_the_page_says_that_the_files_taught():
     parameters = TranslateParameters(learn_from_batch=True)
     for taught, said in ((40, True), (0, False)):  # a file alone learns from no other
-        report = pd.DataFrame({"file": ["E/a.tir"], "verdict": ["refused"], "taught": taught})
+        report = pd.DataFrame([{**REFUSED_FILE, "taught": taught}])
         page, _ = translate_page(report, {}, pd.DataFrame(), [], parameters, "D")
         assert ("Among other files the result would differ a little" in page) is said
 
