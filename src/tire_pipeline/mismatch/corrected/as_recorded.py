@@ -29,7 +29,7 @@ def as_recorded(
     corrected: CorrectedModel,
     recording: pd.DataFrame,
     used: Array,
-    spoiled: bool = False,
+    spoiled: bool,
 ) -> dict[str, OutputFit]:
     """Return the errors on the recorded rows.
 

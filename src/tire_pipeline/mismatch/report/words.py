@@ -90,7 +90,7 @@ def in_words(text: str) -> str:
     return re.sub(rf"\b({'|'.join(n for n in names if '_' in n)})\b", lambda m: catalogue()[m[1]].title, text)
 
 
-def listed(texts: Sequence[str], word: str = "or") -> str:
+def listed(texts: Sequence[str]) -> str:
     """Return ``a``, ``a or b``, ``a, b, or c``.
 
     Examples
@@ -98,7 +98,7 @@ def listed(texts: Sequence[str], word: str = "or") -> str:
     >>> listed(["wear", "temperature", "drift"])
     'wear, temperature, or drift'
     """
-    return ", ".join([*texts[:-1], f"{word} {texts[-1]}"]) if len(texts) > 2 else f" {word} ".join(texts)
+    return ", ".join([*texts[:-1], f"or {texts[-1]}"]) if len(texts) > 2 else " or ".join(texts)
 
 
 def shortened(text: str) -> str:

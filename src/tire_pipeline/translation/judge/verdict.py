@@ -9,7 +9,7 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
-from tire_pipeline.translation.curves.features import encode
+from tire_pipeline.translation.curves.features import LOADS, encode
 from tire_pipeline.translation.decode.physics import violations
 from tire_pipeline.translation.judge.bias_band import (
     CERTAINTY,
@@ -19,11 +19,11 @@ from tire_pipeline.translation.judge.bias_band import (
     measured_by_both,
 )
 from tire_pipeline.translation.judge.gain import MOST_HARM, expected_gain, pooled_harm
-from tire_pipeline.translation.judge.reach import TrainingReach
+from tire_pipeline.translation.judge.reach import OWN_LOAD, TrainingReach, beyond_judged_loads
 from tire_pipeline.translation.judge.words import describe_bias
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.shrinkage import shortened
-from tire_pipeline.translation.result import LEFT_ALONE, REFUSED, TRANSLATED, UNBIASED, UNKNOWN
+from tire_pipeline.translation.result import EDGE, LEFT_ALONE, REFUSED, TRANSLATED, UNBIASED, UNKNOWN
 
 FARTHEST_DISTANCE = 3.0
 """Files farther than this from the training data are refused; 1 is the edge of the training data. On tuning
@@ -187,6 +187,7 @@ class VerdictRules:
             elif self.gate and (uncertain[i] or ratio[i] > 1.0 - LEAST_RELATIVE_GAIN):
                 verdict[i] = UNBIASED if band.negligible[i] else LEFT_ALONE
                 reason[i] = _why_alone(organisations[i], self.target, bool(uncertain[i]), band, i, ratio[i])
+        reason += _on_other_loads(rows, verdict, distance)
         before, after = measured_by_both(model, rows, found)
         said = np.array(describe_bias(before, after, organisations, self.target), dtype=object)
         said[verdict != TRANSLATED] = ""
@@ -225,6 +226,25 @@ class VerdictRules:
             bool(state["option_gate"]),
             float(state.get("option_farthest", FARTHEST_DISTANCE)),
         )
+
+
+def _on_other_loads(rows: pd.DataFrame, verdict: np.ndarray, distance: np.ndarray) -> np.ndarray:
+    """Say of tires that carry other loads than those at which forces are judged that they do; else ""."""
+    out = np.full(len(rows), "", dtype=object)
+    if OWN_LOAD not in rows:
+        return out
+    load = rows[OWN_LOAD].to_numpy(dtype=float)
+    judged = f"{LOADS.min() / 1e3:g} to {LOADS.max() / 1e3:g} kN"
+    for i in np.flatnonzero(beyond_judged_loads(load) > 1.0):
+        said = f"its nominal load is {load[i] / 1e3:.3g} kN"
+        if verdict[i] == TRANSLATED:
+            out[i] = (
+                f", judged by side and longitudinal force at {judged}; {said}: compare its curves there "
+                "before you use the file"
+            )
+        elif verdict[i] == REFUSED and distance[i] > EDGE:
+            out[i] = f" ({said}, and forces are judged at {judged})"
+    return out
 
 
 def _too_far(target: str, distance: float) -> str:
