@@ -49,7 +49,10 @@ def sentences(text):
     return re.split(r"(?<=\.) (?=[A-Z])", text)
 
 
+NOT_ADDED = head("explained", [EFFECT], FIT, [PLACE], NONE, "", added=False)
+
 HEADS = {
+    "explained, and nothing added": NOT_ADDED,
     "agrees": said("agrees"),
     "undecided": said("undecided", left=replace(NONE, unusual={"fy": 0.05}, usual=(0.01, 0.02))),
     "explained": said("explained", [EFFECT]),
@@ -78,6 +81,12 @@ def test_an_equation_is_in_the_middle_and_its_drivers_beside_it():
         "removes 60% of the remaining RMS error of Fy" in r
         for r in HEADS["partly explained, with an equation"].remarks
     )
+
+
+def test_where_nothing_is_added_no_error_after_it_is_told():
+    assert "the model stays as it is, with an RMS error of Fy 300 N (noise 20 N)" in NOT_ADDED.text
+    assert "corrected model" not in NOT_ADDED.text
+    assert "120 N" not in NOT_ADDED.text
 
 
 def test_explanations_of_which_none_stands_out_are_listed():

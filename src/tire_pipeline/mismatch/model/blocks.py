@@ -13,6 +13,8 @@ from tire_pipeline.mismatch.model.data import Data
 Array = np.ndarray
 _LEAST_SECONDS = 1.0
 _MOST_BLOCKS = 100
+_FEWEST_TO_PAIR = 4
+"""Two whole sweeps: of fewer no spread can be told."""
 
 
 def sweeps(data: Data) -> Array:
@@ -51,6 +53,25 @@ def sweeps(data: Data) -> Array:
             number, begin = number + 1, times[i]
         block[i:] = number
     return _split_long(block, elapsed, most)
+
+
+def whole_sweeps(block: Array) -> Array:
+    """Return the number of the whole sweep, to both sides, that each sample belongs to.
+
+    The two sides of one sweep are no two samples of what a correction gains: the formula's misfit differs
+    between the sides, so what helps on one side often harms on the other.
+
+    Parameters
+    ----------
+    block : ndarray of int, shape (n,)
+        Of :func:`sweeps`, each to one side.
+
+    Returns
+    -------
+    ndarray of int, shape (n,)
+        Neighbours in twos; as they came if there are fewer than four.
+    """
+    return block // 2 if int(block.max()) >= _FEWEST_TO_PAIR - 1 else block
 
 
 def _changes(side: Array) -> Array:

@@ -13,6 +13,7 @@ import scipy
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
+from tire_pipeline.mismatch.model.blocks import whole_sweeps
 from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
@@ -48,7 +49,7 @@ def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, d
     if not fit.names:
         return fit, before
     repeated = RepeatedChoice(sets, analysis.block, level)
-    sweep = None if analysis.data.time is None else analysis.block
+    sweep = None if analysis.data.time is None else whole_sweeps(analysis.block)
 
     def size(left: Mapping[str, Array]) -> float:
         return size_over_largest(left, analysis.largest)

@@ -111,9 +111,10 @@ def assembled(it: Explained) -> MismatchReport:
     following = _following(it, verdict, plain)
     ranges, all_over = _ranges(analysis), everywhere(data, before, located)
     rivals = [each.names for each in answer.rivals]
-    told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed, rivals)
+    added = bool(put_in.names or prepared.findings or not effects)
+    told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed, rivals, added)
     told = told.beside(
-        on_withheld(withheld),
+        on_withheld(withheld) if added else "",
         on_several(effects if model.instead else []),
         on_moments(fit),
         on_expected(_unseen(it, effects)),

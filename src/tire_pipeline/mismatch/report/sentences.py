@@ -29,6 +29,7 @@ _HARDLY = 0.2
 anything of it."""
 
 _TRY_IT = "Next, test the corrected model on another recording before you use it."
+_RECORD_MORE = "Next, record more sweeps where it shows: then it can be proved, and corrected."
 _RECORD_AGAIN = "Next, correct the recording at its source and explain it again."
 _SAID_IF_UNDECIDED = (
     "undecided: no cause stands out, and I can't tell a coarse fit or rig from a cause that this recording "
@@ -51,6 +52,7 @@ def head(
     even: Mapping[str, Throughout] | None = None,
     unnamed: UnnamedReport | None = None,
     rivals: Sequence[Sequence[str]] = (),
+    added: bool = True,
 ) -> Head:
     """Return the head of a report.
 
@@ -64,6 +66,8 @@ def head(
         Output -> how it is off throughout.
     rivals : sequence of sequence of str
         Sets of effects of which one is the answer, where no name stands out.
+    added : bool
+        Whether anything of what is named is in the corrected model.
     """
     fit = _forces(fit)
     if verdict == "agrees":
@@ -73,12 +77,12 @@ def head(
         causes, size = _SAID_IF_UNDECIDED, _undecided(fit, remainder)
     else:
         causes = _causes(verdict, effects, remainder, ranges, rivals)
-        size = _size(effects, fit) or of_equation(unnamed)
+        size = (_size(effects, fit) if added else _as_it_is(fit)) or of_equation(unnamed)
     return Head(
         causes=causes,
         spot=_spot(effects, fit, located, remainder, ranges, even or {}),
         size=size,
-        todo=_next(effects, next_experiment),
+        todo=_next(effects, next_experiment, added),
         notes=tuple(filter(None, [_more_left(remainder) if effects else ""])),
         equation=on_unnamed(unnamed, verdict, rivals),
     )
@@ -302,11 +306,25 @@ def _size(effects: Sequence[EffectReport], fit: dict[str, OutputFit]) -> str:
     return f"{lead}, the RMS difference is {sizes}"
 
 
-def _next(effects: Sequence[EffectReport], experiment: str) -> str:
+def _as_it_is(fit: Mapping[str, OutputFit]) -> str:
+    """Say that nothing was added, with the error that stays."""
+    sizes = ", ".join(
+        f"{o.capitalize()} {newtons(f.rms_before)} N (noise {newtons(f.noise_floor)} N)"
+        for o, f in fit.items()
+    )
+    return (
+        "no correction surely helps on held-out sweeps, so the model stays as it is, with an RMS error of "
+        f"{sizes}"
+    )
+
+
+def _next(effects: Sequence[EffectReport], experiment: str, added: bool) -> str:
     if experiment:
         return f"Next, {in_words(f'{experiment[:1].lower()}{experiment[1:]}')}"
     if not effects:
         return ""
+    if not added:
+        return _RECORD_MORE
     return _RECORD_AGAIN if all(_kinds(e) == {"artefact"} for e in effects) else _TRY_IT
 
 
