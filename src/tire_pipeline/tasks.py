@@ -24,7 +24,7 @@ _LOG = logging.getLogger(__name__)
 _LABELS_SHOWN = 4
 _LABEL_LENGTH = 60
 _DIED = "the process that did it died three times"
-_CURE = "take it out, or run where there is more memory"
+_TODO_FOR_LOST_TASK = "take it out, or run where there is more memory"
 DEATHS = 3
 """How often the process of a task may die before the task is set aside."""
 _WAITING: set[int] = set()
@@ -293,8 +293,8 @@ def done_alone(
     only = next(iter(parts), name)
     _LOG.warning("%s: %s is set aside: %s", what, only, _DIED)
     if hasattr(task, "lost"):
-        return Done(name, task.lost(f"{_DIED} -> {_CURE}"))
-    return Done(name, error=LostTaskError(_DIED, where=only, todo=_CURE))
+        return Done(name, task.lost(f"{_DIED} -> {_TODO_FOR_LOST_TASK}"))
+    return Done(name, error=LostTaskError(_DIED, where=only, todo=_TODO_FOR_LOST_TASK))
 
 
 def end_processes() -> None:

@@ -25,8 +25,8 @@ LEAST_POINTS = 12
 """Least rows of a recording in time and of steady points: fewer cannot tell an effect from noise."""
 LEAST_WHOLE = 0.1
 """Part of the rows that must have a number in all channels."""
-BRIDGED = 3
-"""Holes of up to this many samples in time are interpolated linearly."""
+LONGEST_HOLE = 3
+"""Samples: holes of up to so many are interpolated linearly in time."""
 LONG_STEP = 1.0
 """From sample to sample, s: runs are recorded faster. In a file without units this is often a time in ms."""
 _USED = {*INPUT_CHANNELS, *TANGENTIAL_FORCES, "time"}
@@ -170,7 +170,7 @@ def _whole_rows(frame: pd.DataFrame, held: set[str]) -> list[Issue]:
         bad = ~np.isfinite(frame[name].to_numpy(dtype=float))
         if "time" in held and name != "time":
             for first, last in _runs(bad, most=None):
-                if last - first < BRIDGED and first > 0 and last < len(frame) - 1:
+                if last - first < LONGEST_HOLE and first > 0 and last < len(frame) - 1:
                     bad[first : last + 1] = False
         lost |= bad
     whole = int((~lost).sum())

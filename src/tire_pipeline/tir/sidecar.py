@@ -28,7 +28,7 @@ SUFFIX = ".sidecar.json"
 SIDECAR_FORMAT = "tire-pipeline sidecar"
 FORMAT_VERSION = 1
 MOST_SIDECAR_BYTES = 1_000_000
-_CURE_OF_SIDECAR = "write it again, or move it away to read the .tir alone"
+_TODO_FOR_SIDECAR = "write it again, or move it away to read the .tir alone"
 
 
 def sidecar_path(path: str | os.PathLike[str]) -> Path:
@@ -87,7 +87,7 @@ def read_sidecar(path: str | os.PathLike[str]) -> dict[str, dict[str, object]] |
         raise TirError(
             f"the sidecar cannot be read: {getattr(error, 'strerror', None) or error}",
             path=str(file),
-            todo=_CURE_OF_SIDECAR,
+            todo=_TODO_FOR_SIDECAR,
         ) from error
     if len(data) > MOST_SIDECAR_BYTES:
         raise _wrong(file, "is larger than 1 MB")
@@ -162,4 +162,4 @@ def _no_constant(name: str) -> object:
 
 
 def _wrong(file: Path, what: str) -> TirSyntaxError:
-    return TirSyntaxError(f"the sidecar {what}", path=str(file), todo=_CURE_OF_SIDECAR)
+    return TirSyntaxError(f"the sidecar {what}", path=str(file), todo=_TODO_FOR_SIDECAR)

@@ -116,13 +116,13 @@ HIDEABLE: dict[str, tuple[tuple[str, ...], ...]] = {
     "tydex": (("camber",),),
 }
 
-LAG = ("relaxation_length", "time_delay", "low_pass")
+LAGGING_EFFECTS = ("relaxation_length", "time_delay", "low_pass")
 SLOW_EFFECTS = ("wear", "surface_change", "temperature", "sensor_drift")
-SIDE = ("force_offset", "plysteer_conicity", "crosstalk", "slip_angle_offset", "camber_offset")
+SIDE_FORCE_EFFECTS = ("force_offset", "plysteer_conicity", "crosstalk", "slip_angle_offset", "camber_offset")
 ALIKE: dict[str, tuple[str, ...]] = (
-    dict.fromkeys(LAG, LAG)
+    dict.fromkeys(LAGGING_EFFECTS, LAGGING_EFFECTS)
     | dict.fromkeys(("wear", "surface_change"), SLOW_EFFECTS)
-    | dict.fromkeys(("force_offset", "crosstalk", "camber_offset"), SIDE)
+    | dict.fromkeys(("force_offset", "crosstalk", "camber_offset"), SIDE_FORCE_EFFECTS)
 )
 """Effect of an ambiguous case -> names that its recording cannot separate from it."""
 

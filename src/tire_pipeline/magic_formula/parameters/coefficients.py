@@ -19,7 +19,7 @@ def _numbered(prefix: str, *numbers: int) -> list[str]:
 
 
 GENERAL = ["FNOMIN", "UNLOADED_RADIUS", "LONGVL"]
-NOMINAL_PRESSURE = ["NOMPRES", "INFLPRES"]
+PRESSURE_COEFFICIENTS = ["NOMPRES", "INFLPRES"]
 
 _SCALE_BOTH = [
     "LFZO",
@@ -119,7 +119,7 @@ EXTENSIONS_6 = ("PHY3", "QYZ1")
 """Not of MF 6.1: what a model converted from 5.2 carries so that nothing changes (:mod:`.convert`)."""
 
 COEFFICIENT_NAMES: tuple[str, ...] = tuple(
-    [*GENERAL, *NOMINAL_PRESSURE, *SCALE_FACTORS, *_BOTH, *_ONLY_5, *_ONLY_6, *_TURN_SLIP, "QYZ1"]
+    [*GENERAL, *PRESSURE_COEFFICIENTS, *SCALE_FACTORS, *_BOTH, *_ONLY_5, *_ONLY_6, *_TURN_SLIP, "QYZ1"]
 )
 """The order of a packed coefficient vector: one order for all versions."""
 
@@ -128,7 +128,7 @@ INDEX: dict[str, int] = {name: i for i, name in enumerate(COEFFICIENT_NAMES)}
 
 NAMES_BY_FAMILY: dict[int, tuple[str, ...]] = {
     5: (*GENERAL, *_SCALE_BOTH, *_SCALE_5, *_BOTH, *_ONLY_5),
-    6: (*GENERAL, *NOMINAL_PRESSURE, *_SCALE_BOTH, *_SCALE_6, *_BOTH, *_ONLY_6, *_TURN_SLIP),
+    6: (*GENERAL, *PRESSURE_COEFFICIENTS, *_SCALE_BOTH, *_SCALE_6, *_BOTH, *_ONLY_6, *_TURN_SLIP),
 }
 """The coefficients that the equations of a family use."""
 

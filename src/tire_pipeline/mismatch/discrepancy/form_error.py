@@ -19,8 +19,8 @@ _USUAL_FORM_ERROR = 0.15
 _IMAGINED = 4.0
 """Times as wrong as usual where an effect's driver was not recorded and is simulated: friction power behind
 the best single lag (5 s) explains 0.40 of the variance of calspan's recorded tread temperature."""
-_WANDER = 2.0
-"""The wheel's angle is integrated from a speed with noise, and wanders: by so many radians times
+_WHEEL_ANGLE_DRIFT = 2.0
+"""The wheel's angle is integrated from a speed with noise, and drifts: by so many radians times
 ``_USUAL_FORM_ERROR`` (standard deviation) about each of so many moments."""
 
 
@@ -54,7 +54,7 @@ def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str
             columns += [shift * _change(data, whole[o]), shift * _change(data, part)]
         columns += [other[o] - whole[o] for other in others]
         if ahead is not None:
-            columns += [_WANDER * (ahead[o] - without[o]) * hat for hat in hats]
+            columns += [_WHEEL_ANGLE_DRIFT * (ahead[o] - without[o]) * hat for hat in hats]
         out[o] = np.column_stack(columns)
     return out
 

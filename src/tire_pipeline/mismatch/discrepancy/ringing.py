@@ -15,7 +15,7 @@ from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 
 Array = np.ndarray
-_SLOWEST = 3.0
+_LOWEST_FREQUENCY = 3.0
 """Of the first bending of rigs and their load cells, Hz; the next are half an octave apart, as wide as the
 damping."""
 _DAMPING = 0.1
@@ -28,7 +28,7 @@ def ringing_forms(data: Data, changes: list[Change]) -> Iterator[dict[str, Array
     step = float(np.median(data.step))
     firsts = np.flatnonzero(data.start)[1:]
     pieces = {o: np.split(force, firsts) for o, force in simulate(data, changes).items() if o in data.outputs}
-    frequency = _SLOWEST
+    frequency = _LOWEST_FREQUENCY
     while _SAMPLES_A_CYCLE * frequency * step <= 1.0:
         added = {o: np.concatenate([rung(piece, frequency, step) for piece in pieces[o]]) for o in pieces}
         if any(np.any(a) for a in added.values()):

@@ -23,7 +23,7 @@ from tire_pipeline.mismatch.recording.identity import another_tire
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
 from tire_pipeline.mismatch.recording.usable import judge, leave_out_no_pressure, leave_out_still_slip
-from tire_pipeline.recordings.check import BRIDGED, LEAST_POINTS, LEAST_SAMPLES, LEAST_WHOLE, LONG_STEP
+from tire_pipeline.recordings.check import LEAST_POINTS, LEAST_SAMPLES, LEAST_WHOLE, LONG_STEP, LONGEST_HOLE
 from tire_pipeline.recordings.conventions.channel_names import FURTHER
 
 Array = np.ndarray
@@ -257,13 +257,15 @@ def _bridge(arrays: dict[str, Array], notes: list[str]) -> None:
         edges = np.flatnonzero(np.diff(np.r_[0, missing.astype(np.int8), 0]))
         known = np.flatnonzero(~missing)
         for first, last in zip(edges[::2], edges[1::2], strict=True):
-            if last - first <= BRIDGED and first > 0 and last < x.size:
+            if last - first <= LONGEST_HOLE and first > 0 and last < x.size:
                 filled[first:last] = True
         holes = np.flatnonzero(filled & missing)
         arrays[name] = x.copy()
         arrays[name][holes] = np.interp(holes, known, x[known])
     if filled.any():
-        notes.append(f"{int(filled.sum())} samples in holes of up to {BRIDGED} were put on straight lines")
+        notes.append(
+            f"{int(filled.sum())} samples in holes of up to {LONGEST_HOLE} were put on straight lines"
+        )
 
 
 def _time(arrays: Mapping[str, Array]) -> Array | None:

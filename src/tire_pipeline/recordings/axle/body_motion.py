@@ -19,8 +19,8 @@ from tire_pipeline.recordings.axle.smoothing import (
 from tire_pipeline.recordings.axle.vehicle import Vehicle
 
 Array = NDArray[np.float64]
-# Missing samples in a row that are bridged by a straight line; longer ones are cut out.
-BRIDGED_SAMPLES = 2
+# Missing samples in a row that a straight line fills; longer ones are cut out.
+FILLED_SAMPLES = 2
 
 
 @dataclass(frozen=True)
@@ -155,7 +155,7 @@ def even_drive(drive: pd.DataFrame, needed: Sequence[str], bandwidth: float) -> 
         raise RecordingError(
             f"the drive holds no finite sample of {', '.join(needed)}", todo="check these columns"
         )
-    good = ~reached_by_gap(missing, smoother.reach, BRIDGED_SAMPLES)
+    good = ~reached_by_gap(missing, smoother.reach, FILLED_SAMPLES)
     # Window ends extrapolate: cut them.
     good[: smoother.reach] = good[-smoother.reach :] = False
     return EvenDrive(table, smoother, missing, good, notes)
@@ -175,7 +175,7 @@ def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMo
     """
     even = even_drive(drive, ("x", "y", "yaw"), bandwidth)
     smoother, good = even.smoother, even.good
-    x, y, yaw = _bridged(even.table, even.missing)
+    x, y, yaw = _gaps_filled(even.table, even.missing)
     yaw = yaw + vehicle.yaw_offset
     ahead, left, turning = _seen_from_the_vehicle(x, y, yaw, smoother, vehicle)
     vx, vy, rate = (smoother.smooth(s) for s in (ahead, left, turning))
@@ -263,7 +263,7 @@ def _seen_from_the_vehicle(
     return ahead, left, turning
 
 
-def _bridged(table: pd.DataFrame, missing: NDArray[np.bool_]) -> tuple[Array, Array, Array]:
+def _gaps_filled(table: pd.DataFrame, missing: NDArray[np.bool_]) -> tuple[Array, Array, Array]:
     """Position and unwrapped yaw with straight lines over what is missing."""
     index, here = np.arange(len(table)), np.flatnonzero(~missing)
     x, y, yaw = (table[c].to_numpy(dtype=float)[here] for c in ("x", "y", "yaw"))

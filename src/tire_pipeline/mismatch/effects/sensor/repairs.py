@@ -15,10 +15,10 @@ FAR = 0.15
 """The model's force is far from zero beyond this part of its largest one (of either force)."""
 
 FEW = 12
-"""So many samples far from zero are heard in any case."""
+"""So many samples far from zero count in any case."""
 
-LEAST_HEARD = FEW * float(np.log(5.0))
-"""Fewer are heard if they say as much for the repair as these do at a fifth of the squares: in twice the log
+LEAST_REPAIR_EVIDENCE = FEW * float(np.log(5.0))
+"""Fewer count if they say as much for the repair as these do at a fifth of the squares: in twice the log
 likelihood, samples times the logarithm of the squares' ratio."""
 
 _ASKED = {"fx": ("fx",), "fy": ("fy",), "slip_angle": ("fy",), "camber": ("fy",), "slip_ratio": ("fx",)}
@@ -81,7 +81,7 @@ def unexplained(
                 max(float(np.nanmean((recorded - each) ** 2)) / size, 1e-12)
                 for each in (plain[name][far], model)
             )
-            if far.sum() >= FEW or far.sum() * np.log(first / then) >= LEAST_HEARD:
+            if far.sum() >= FEW or far.sum() * np.log(first / then) >= LEAST_REPAIR_EVIDENCE:
                 before.append(first)
                 after.append(then)
                 continue
