@@ -90,6 +90,11 @@ def mixed(training, made):
 
 
 @pytest.fixture(scope="session")
-def paired(training, space):
-    made = prepare(training, pairs=True, space_and_cells=space)
-    return MixedModel(pairs=True).fit(training, target="D", seed=0, made=made)
+def made_of_pairs(training, space):
+    """What all translators with pairs begin with."""
+    return prepare(training, pairs=True, space_and_cells=space)
+
+
+@pytest.fixture(scope="session")
+def paired(training, made_of_pairs):
+    return MixedModel(pairs=True).fit(training, target="D", seed=0, made=made_of_pairs)

@@ -29,25 +29,32 @@ def _table(files):
 
 
 @pytest.fixture(scope="module")
-def fleet():
+def large_fleet():
+    """Tires enough to tell whether a batch makes translations better."""
     return make_fleet(FleetSettings(seed=78, files=450, tuning_tires=1, hidden_tires=40))
 
 
 @pytest.fixture(scope="module")
-def training(fleet):
-    return dedupe_and_filter(_table(fleet.files), features=LATERAL_WITHOUT_CAMBER)[0].reset_index(drop=True)
+def large_training(large_fleet):
+    table = _table(large_fleet.files)
+    return dedupe_and_filter(table, features=LATERAL_WITHOUT_CAMBER)[0].reset_index(drop=True)
 
 
 @pytest.fixture(scope="module")
-def batch(fleet):
-    return _table({k: v for k, v in fleet.evaluation.items() if k.startswith("hidden")})
+def large_batch(large_fleet):
+    return _table({k: v for k, v in large_fleet.evaluation.items() if k.startswith("hidden")})
 
 
 @pytest.fixture(scope="module")
-def truth(fleet, batch):
-    table = _table({k: v for k, v in fleet.truth.first.items() if k.startswith("hidden/D")})
-    names = batch["file"].str.split("/").str[-1]
+def large_truth(large_fleet, large_batch):
+    table = _table({k: v for k, v in large_fleet.truth.first.items() if k.startswith("hidden/D")})
+    names = large_batch["file"].str.split("/").str[-1]
     return table.set_index(table["file"].str.split("/").str[-1]).loc[names].reset_index(drop=True)
+
+
+@pytest.fixture(scope="module")
+def batch(hidden):
+    return hidden
 
 
 @pytest.fixture(scope="module")
@@ -57,19 +64,9 @@ def few(batch):
 
 
 @pytest.fixture(scope="module")
-def made(training):
-    return prepare(training, pairs=True)
-
-
-@pytest.fixture(scope="module")
-def paired(training, made):
-    return MixedModel(pairs=True, learn_from_batch=True).fit(training, target="D", seed=0, made=made)
-
-
-@pytest.fixture(scope="module")
-def plain(training, made):
-    """The paired one, as it is without a batch."""
-    return MixedModel(pairs=True).fit(training, target="D", made=made)
+def learning(training, made_of_pairs):
+    """The paired one, but it learns from a batch."""
+    return MixedModel(pairs=True, learn_from_batch=True).fit(training, target="D", seed=0, made=made_of_pairs)
 
 
 @pytest.fixture(scope="module")
@@ -87,13 +84,13 @@ def alone(prepared_alone):
 
 
 @pytest.fixture(scope="module")
-def found(paired, few):
-    return paired.predict(few)
+def found(learning, few):
+    return learning.predict(few)
 
 
 @pytest.fixture(scope="module")
-def translated(paired, few):
-    return paired.translation(few, bands=False)
+def translated(learning, few):
+    return learning.translation(few, bands=False)
 
 
 def _error(translator, scores, truth):
@@ -105,32 +102,39 @@ def _error(translator, scores, truth):
     return (((scores - measured) / model.scale)[:, kept] ** 2).mean()
 
 
-def test_what_the_batch_teaches_makes_translations_better(paired, plain, batch, truth):
-    by_file, by_batch = (_error(paired, one.predict(batch).target, truth) for one in (plain, paired))
+def _errors(training, batch, truth, pairs):
+    """Errors without a batch and with it."""
+    made = prepare(training, pairs=pairs)
+    plain, taught = (
+        MixedModel(pairs=pairs, learn_from_batch=learns).fit(training, target="D", made=made)
+        for learns in (False, True)
+    )
+    return (_error(plain, one.predict(batch).target, truth) for one in (plain, taught))
+
+
+def test_what_the_batch_teaches_makes_translations_better(large_training, large_batch, large_truth):
+    by_file, by_batch = _errors(large_training, large_batch, large_truth, pairs=True)
     assert by_batch < 0.97 * by_file
 
 
 @pytest.mark.long
-def test_what_the_batch_teaches_makes_translations_without_pairs_better(training, batch, truth):
-    made = prepare(training, pairs=False)
-    plain, taught = (
-        MixedModel(pairs=False, learn_from_batch=learns).fit(training, target="D", made=made)
-        for learns in (False, True)
-    )
-    by_file, by_batch = (_error(plain, one.predict(batch).target, truth) for one in (plain, taught))
+def test_what_the_batch_teaches_makes_translations_without_pairs_better(
+    large_training, large_batch, large_truth
+):
+    by_file, by_batch = _errors(large_training, large_batch, large_truth, pairs=False)
     assert by_batch < 0.97 * by_file
 
 
-def test_a_file_alone_is_translated_as_without_a_batch(paired, plain, batch):
+def test_a_file_alone_is_translated_as_without_a_batch(learning, paired, batch):
     rows = batch.iloc[[3]]
-    pd.testing.assert_frame_equal(paired.translate(rows), plain.translate(rows), check_exact=True)
+    pd.testing.assert_frame_equal(learning.translate(rows), paired.translate(rows), check_exact=True)
 
 
-def test_no_file_of_its_own_tire_has_a_say_and_others_have(paired, few, found):
+def test_no_file_of_its_own_tire_has_a_say_and_others_have(learning, few, found):
     own = (few["tire_id"] == few["tire_id"].iloc[0]).to_numpy()
     changed = few.copy()
     changed.loc[own & (np.arange(len(few)) != 0), "PKY1"] *= 1.1
-    again = paired.predict(changed)
+    again = learning.predict(changed)
     np.testing.assert_array_equal(again.target[0], found.target[0])
     assert np.abs(again.target - found.target)[~own].max() > 0.0
 
@@ -143,20 +147,22 @@ def _with_what_the_target_measured(translator, rows, truth):
     return result.table.iloc[: len(rows)][list(COEFFICIENTS)].to_numpy()
 
 
-def test_what_the_target_measured_of_the_batch_never_teaches(paired, batch, few, translated, truth):
+def test_what_the_target_measured_of_the_batch_never_teaches(learning, batch, few, translated, truth):
     """Not even if it lies among the files: what is left is bit for bit what it was without it."""
     own = truth[batch["tire_id"].isin(few["tire_id"]).to_numpy()]
     without = translated.table[list(COEFFICIENTS)].to_numpy()
-    assert _with_what_the_target_measured(paired, few, own).tobytes() == without.tobytes()
+    assert _with_what_the_target_measured(learning, few, own).tobytes() == without.tobytes()
 
 
 @pytest.mark.long
-def test_what_the_target_measured_of_a_large_batch_never_teaches(paired, batch, truth):
-    without = paired.translation(batch, bands=False).table[list(COEFFICIENTS)].to_numpy()
-    assert _with_what_the_target_measured(paired, batch, truth).tobytes() == without.tobytes()
+def test_what_the_target_measured_of_a_large_batch_never_teaches(large_training, large_batch, large_truth):
+    learning = MixedModel(pairs=True, learn_from_batch=True).fit(large_training, target="D")
+    without = learning.translation(large_batch, bands=False).table[list(COEFFICIENTS)].to_numpy()
+    found = _with_what_the_target_measured(learning, large_batch, large_truth)
+    assert found.tobytes() == without.tobytes()
 
 
-def test_who_teaches(paired, training, batch, few):
+def test_who_teaches(learning, training, batch, few):
     rows = few.copy()
     rows["category_probability"] = 1.0
     rows.loc[0, "category_probability"] = 0.9
@@ -165,19 +171,19 @@ def test_who_teaches(paired, training, batch, few):
     alone = batch.iloc[[-1]].assign(tire_id="another tire", category_probability=1.0)
     for i in range(3):  # beside it lies one file only, which may not teach
         beside = pd.concat([rows.iloc[[i]], alone], ignore_index=True)
-        assert paired.predict(beside).taught[-1] == 0
+        assert learning.predict(beside).taught[-1] == 0
     teaches = np.arange(len(rows)) > 2
     others = [(teaches & (rows["tire_id"] != tire)).sum() for tire in rows["tire_id"]]
-    np.testing.assert_array_equal(paired.predict(rows).taught, others)
+    np.testing.assert_array_equal(learning.predict(rows).taught, others)
 
 
-def test_files_of_one_tire_in_one_category_are_one_cell(alone, paired, batch):
+def test_files_of_one_tire_in_one_category_are_one_cell(alone, learning, batch):
     rows = pd.concat([batch.head(8), batch.head(3)], ignore_index=True)
-    cells = TaughtCells.of_files(paired.model, rows)
-    once = TaughtCells.of_files(paired.model, batch.head(8))
+    cells = TaughtCells.of_files(learning.model, rows)
+    once = TaughtCells.of_files(learning.model, batch.head(8))
     np.testing.assert_array_equal(cells.files, [2, 2, 2, 1, 1, 1, 1, 1])
     np.testing.assert_allclose(cells.scores, once.scores)
-    linked = TaughtCells.of_files(paired.model, batch)
+    linked = TaughtCells.of_files(learning.model, batch)
     assert linked.shared().sum(axis=0).max() == 5  # of five categories
     assert TaughtCells.of_files(alone.model, batch).shared().size == 0  # pairs may not be used
 
@@ -212,16 +218,16 @@ def test_learning_is_what_a_fit_to_all_cells_gives(alone, prepared_alone, batch)
     np.testing.assert_allclose(learnt.covariance, at_once.covariance, atol=1e-7)
 
 
-def test_nothing_is_learnt_from_nothing(paired, batch):
-    none = TaughtCells.of_files(paired.model, batch.head(2)).part(np.arange(0))
+def test_nothing_is_learnt_from_nothing(learning, batch):
+    none = TaughtCells.of_files(learning.model, batch.head(2)).part(np.arange(0))
     assert (
-        learn_from(paired.model, none, paired.parts.batch.training, paired.parts.batch.repeats)
-        is paired.model
+        learn_from(learning.model, none, learning.parts.batch.training, learning.parts.batch.repeats)
+        is learning.model
     )
 
 
-def test_the_same_after_a_round_trip_and_the_file_says_what_taught(paired, few, translated):
-    back = translator_from_state(paired.to_state()).translation(few, bands=False)
+def test_the_same_after_a_round_trip_and_the_file_says_what_taught(learning, few, translated):
+    back = translator_from_state(learning.to_state()).translation(few, bands=False)
     pd.testing.assert_frame_equal(translated.table, back.table, check_exact=True)
     taught = translated.report["taught"].iloc[0]
     assert 0 < taught < len(few)
@@ -231,9 +237,9 @@ def test_the_same_after_a_round_trip_and_the_file_says_what_taught(paired, few, 
 
 
 @pytest.fixture(scope="module")
-def left_out(training, made, paired, batch):
+def left_out(training, made_of_pairs, learning, batch):
     """Leaves one training tire out after the other, beside a batch or alone."""
-    options = {"pairs": True, "model": paired.model, "made": made}
+    options = {"pairs": True, "model": learning.model, "made": made_of_pairs}
     return lambda beside: leave_one_tire_out(training, "D", batch=beside, **options)
 
 
