@@ -170,7 +170,9 @@ def test_few_points_without_noise_are_met_exactly():
 @pytest.mark.parametrize("outliers", [0.0, 0.05])
 @pytest.mark.parametrize("tire", [tire_52(), tire_61()], ids=["5.2", "6.1"])
 def test_a_known_tire_is_found_again_below_its_noise(tire, outliers):
-    fit = fit_magic_formula(rig(tire, count=4000 if outliers else 1500, outliers=outliers), tire.version, unloaded_radius=0.32)
+    fit = fit_magic_formula(
+        rig(tire, count=4000 if outliers else 1500, outliers=outliers), tire.version, unloaded_radius=0.32
+    )
     for name in ("fx", "fy", "mz"):
         assert misfit(fit, tire, name) < 0.004, name
     assert set(fit.residuals["output"]) == set(FORCES)

@@ -53,6 +53,8 @@ def _blocks(monkeypatch, size, translator, files, training):
 
 
 def _translated(blocks, translator):
+    """What a run makes of the blocks, each done once and stored."""
+    blocks = {name: partial(bytes, block()) for name, block in blocks.items()}
     files, report, *tables, _ = join_translated(blocks, translator.to_state(), TranslateParameters())
     frames = {"report": report}
     for name, loads in zip(("sources", "coefficients", "bands"), tables, strict=True):

@@ -77,7 +77,7 @@ _SCALES = ("LFZO LCX LMUX LEX LKX LHX LVX LGAX LCY LMUY LEY LKY LHY LVY LGAY LTR
 
 def _output(name: str, p: Columns, points: Points, slip: str = "slip_angle") -> np.ndarray:
     """One output of :func:`forces_batch`, shape (n, m), where the other slip is zero."""
-    rows = max(len(np.atleast_2d(x)) for x in (*p.values(), points.slip, points.normal_load))
+    rows = max(len(x) if np.ndim(x) == 2 else 1 for x in (*p.values(), points.slip, points.normal_load))
     matrix = np.tile(_NEUTRAL_ROW, (rows, 1))
     for coefficient, column in p.items():
         matrix[:, INDEX[coefficient]] = column[:, 0]
