@@ -108,10 +108,7 @@ def packed_jacobian(
     for output in outputs:
         if output not in module.OVER:
             raise TirValueError(f"{output!r} has no derivatives", todo=f"use some of {list(module.OVER)}")
-        over = module.OVER[output]
-        place = {name: i for i, name in enumerate(names)}
-        rows = np.array([place.get(name, -1) for name in over])
-        absent = [i for name, i in place.items() if name not in over]
+        rows, absent = _places(tuple(module.OVER[output]), tuple(names))
         out = np.empty((len(names), len(fz))) if given is None else given[output]
         out[absent] = 0.0
         _fill(family, output, np.asarray(vector), p, state, rows, out)
@@ -119,6 +116,14 @@ def packed_jacobian(
             out[:, ~loaded] = 0.0
         found[output] = out
     return found
+
+
+@lru_cache(maxsize=1000)
+def _places(over: tuple[str, ...], names: tuple[str, ...]) -> tuple[np.ndarray, list[int]]:
+    """Return in which row the derivative over each coefficient goes, -1 if in none, and rows of no such."""
+    place = {name: i for i, name in enumerate(names)}
+    rows = np.array([place.get(name, -1) for name in over])
+    return rows, [i for name, i in place.items() if name not in over]
 
 
 def _fill(

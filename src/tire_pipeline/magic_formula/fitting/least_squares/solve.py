@@ -169,25 +169,32 @@ def quick(
 
     def both(angles: np.ndarray) -> np.ndarray:
         values = middle + half * np.sin(angles)
-        found = np.append(problem.residuals(values), problem.pull.residuals(values))
-        return np.nan_to_num(found, copy=False, nan=most, posinf=most, neginf=-most)
+        return _finite(np.append(problem.residuals(values), problem.pull.residuals(values)), most)
 
     def slopes(angles: np.ndarray) -> np.ndarray:
         found = np.vstack([problem.jacobian(middle + half * np.sin(angles)), pulled])
         found *= half * np.cos(angles)
-        return np.nan_to_num(found, copy=False, nan=0.0, posinf=0.0, neginf=0.0)
+        return _finite(found, 0.0)
 
-    found = scipy.optimize.least_squares(
+    begin = np.arcsin(np.clip((start - middle) / half, -_WITHIN, _WITHIN))
+    angles, *_ = scipy.optimize.leastsq(
         both,
-        np.arcsin(np.clip((start - middle) / half, -_WITHIN, _WITHIN)),
-        slopes,
-        method="lm",
-        x_scale="jac",
-        max_nfev=steps,
+        begin,
+        Dfun=slopes,
+        full_output=True,
+        maxfev=steps,
         ftol=tolerance,
         xtol=tolerance,
+        gtol=1e-8,
     )
-    return np.asarray(middle + half * np.sin(found.x))
+    return np.asarray(middle + half * np.sin(angles))
+
+
+def _finite(x: np.ndarray, instead: float) -> np.ndarray:
+    """Return the array, with what is no number or infinite replaced in place."""
+    if not np.isfinite(x).all():
+        np.nan_to_num(x, copy=False, nan=instead, posinf=instead, neginf=-instead)
+    return x
 
 
 def _loss(name: str, rows: int) -> Any:
