@@ -12,7 +12,7 @@ import sys
 import time
 
 import pandas as pd
-from flat_belt_hidden import CHANNELS, LEFT_OUT, model, rms, sweeps
+from flat_belt_hidden import CHANNELS, LEFT_OUT, forces, model, rms, sweeps
 
 from tire_pipeline.mismatch import MismatchReport, explain_mismatch
 
@@ -46,7 +46,7 @@ def compare(rate: int, hidden: str) -> None:
     """Explain with the whole catalogue and without the effect, and print both."""
     tire = model(rate)
     given, left = recordings(rate, hidden)
-    before = rms(left["fy"] - left.pipe(tire_forces, tire))
+    before = rms(left["fy"] - forces(tire, left))
     for label, without in (("named", ()), ("unnamed", (TAKEN_OUT[hidden],))):
         begin = time.process_time()
         report = explain_mismatch(tire, given, without=without)
@@ -56,13 +56,6 @@ def compare(rate: int, hidden: str) -> None:
             f"{hidden:9} {rate:4} {label:8} {before:6.1f} {after:6.1f} {seconds:5.1f} s  {said(report)}",
             flush=True,
         )
-
-
-def tire_forces(table: pd.DataFrame, tire: object) -> pd.Series:
-    """The model's side force as it came, N."""
-    from flat_belt_hidden import forces
-
-    return pd.Series(forces(tire, table), index=table.index)  # type: ignore[arg-type]
 
 
 if __name__ == "__main__":

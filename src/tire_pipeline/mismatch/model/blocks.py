@@ -13,8 +13,6 @@ from tire_pipeline.mismatch.model.data import Data
 Array = np.ndarray
 _LEAST_SECONDS = 1.0
 _MOST_BLOCKS = 100
-_FEWEST_TO_PAIR = 4
-"""Two whole sweeps: of fewer no spread can be told."""
 
 
 def sweeps(data: Data) -> Array:
@@ -69,9 +67,10 @@ def whole_sweeps(block: Array) -> Array:
     Returns
     -------
     ndarray of int, shape (n,)
-        Neighbours in twos; as they came if there are fewer than four.
+        Neighbours in twos; as they came if there is only one whole sweep, which has no spread.
     """
-    return block // 2 if int(block.max()) >= _FEWEST_TO_PAIR - 1 else block
+    complete = (int(block.max()) + 1) // 2
+    return block // 2 if complete > 1 else block
 
 
 def _changes(side: Array) -> Array:

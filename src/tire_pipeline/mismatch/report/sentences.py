@@ -170,15 +170,20 @@ def _on_held_out(fit: HeldOutFit) -> str:
     return f"in {fit.recording}, which was held out, the RMS error of {', that of '.join(parts)}"
 
 
-def _agreement(fit: Mapping[str, OutputFit]) -> Head:
-    sizes = ", ".join(
-        f"{o.capitalize()} {newtons(f.rms_before)} N (noise {newtons(f.noise_floor)} N)"
+def _beside_noise(fit: Mapping[str, OutputFit], *, after: bool = False) -> str:
+    """RMS errors of all forces, before or after the correction, each beside its noise."""
+    return ", ".join(
+        f"{o.capitalize()} {newtons(f.rms_after if after else f.rms_before)} N "
+        f"(noise {newtons(f.noise_floor)} N)"
         for o, f in fit.items()
     )
+
+
+def _agreement(fit: Mapping[str, OutputFit]) -> Head:
     return Head(
         "simulation and recording agree: what differs is no larger than noise and the misfit that a fitted "
         "tire model always has",
-        size=f"the RMS difference is {sizes}",
+        size=f"the RMS difference is {_beside_noise(fit)}",
         todo=_NOTHING_TO_DO,
     )
 
@@ -299,22 +304,14 @@ def _size(effects: Sequence[EffectReport], fit: dict[str, OutputFit]) -> str:
             f"{lead}, the RMS error of {o.capitalize()} over all held-out sweeps {goes} from "
             f"{newtons(f.rms_before)} N to {newtons(f.rms_after)} N (noise {newtons(f.noise_floor)} N)"
         )
-    sizes = ", ".join(
-        f"{o.capitalize()} {newtons(f.rms_after)} N (noise {newtons(f.noise_floor)} N)"
-        for o, f in fit.items()
-    )
-    return f"{lead}, the RMS difference is {sizes}"
+    return f"{lead}, the RMS difference is {_beside_noise(fit, after=True)}"
 
 
 def _as_it_is(fit: Mapping[str, OutputFit]) -> str:
     """Say that nothing was added, with the error that stays."""
-    sizes = ", ".join(
-        f"{o.capitalize()} {newtons(f.rms_before)} N (noise {newtons(f.noise_floor)} N)"
-        for o, f in fit.items()
-    )
     return (
         "no correction surely helps on held-out sweeps, so the model stays as it is, with an RMS error of "
-        f"{sizes}"
+        f"{_beside_noise(fit)}"
     )
 
 
