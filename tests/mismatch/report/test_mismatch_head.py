@@ -182,6 +182,29 @@ def test_what_differs_to_both_sides_is_not_said_by_a_small_mean(when, mean):
     assert ("is on average" in text) != said
 
 
+def test_the_place_is_on_the_axis_of_what_is_named():
+    """Hidden pressure was placed at the temperature of the tread, which each sweep warms up."""
+    ranges = {"pressure": (7e4, 8.4e4), "tread_temperature": (30.0, 75.0)}
+    where = {"pressure": (7e4, 7.1e4), "tread_temperature": (50.0, 70.0)}
+    warm = replace(PLACE, axis="tread_temperature", low=56.0, high=58.0, mean=80.0)
+    low = replace(PLACE, axis="pressure", low=7e4, high=7.1e4, mean=57.0)
+    named, unnamed = (
+        head("explained", effects, FIT, [warm, low], NONE, "", ranges).text
+        for effects in ([replace(EFFECT, where=where)], [EFFECT])
+    )
+    assert "At pressure below 71 kPa, Fy is on average 57 N" in named
+    assert "tread temperature" not in named
+    assert "At tread temperature between 56 and 58 degC" in unnamed
+
+
+def test_what_differs_to_both_sides_is_at_the_channel_that_holds_the_effect():
+    effect = replace(EFFECT, share=0.9, where={"camber": (0.03, 0.035)})
+    text = head(
+        "explained", [effect], FIT, [replace(PLACE, mean=30.0)], NONE, "", {"camber": (0.0, 0.035)}
+    ).text
+    assert "Fy differs most at camber above 1.72 deg, to both sides" in text
+
+
 @pytest.mark.parametrize(
     ("after", "ratio", "said", "todo"),
     [

@@ -14,19 +14,12 @@ from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, Head, HeldOutFit
 from tire_pipeline.mismatch.report.equation_words import of_equation, on_unnamed
-from tire_pipeline.mismatch.report.words import figure, in_words, listed, newtons, place
+from tire_pipeline.mismatch.report.spots import Ranges, spot_of, stretches_of
+from tire_pipeline.mismatch.report.words import in_words, listed, newtons, place
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
-
-_FEW_STRETCHES = 3
-"""More stretches of time are not listed in the summary; the report has them all."""
 
 _RIVALS_LISTED = 3
 """So many explanations are named where each would do."""
-
-_HALF = 0.5
-_HARDLY = 0.2
-"""What is most of the time or of the mismatch, and below which part of its RMS a mean difference shows hardly
-anything of it."""
 
 _TRY_IT = "Next, test the corrected model on another recording before you use it."
 _RECORD_MORE = "Next, record more sweeps where it shows: then it can be proved, and corrected."
@@ -37,8 +30,6 @@ _SAID_IF_UNDECIDED = (
 )
 _EITHER = "a fault of the recording or something that the model leaves out"
 _NOTHING_TO_DO = "There is nothing to correct; the page lists the effects that this recording rules out."
-
-Ranges = Mapping[str, tuple[float, float]]
 
 
 def head(
@@ -80,7 +71,7 @@ def head(
         size = (_size(effects, fit) if added else _as_it_is(fit)) or of_equation(unnamed)
     return Head(
         causes=causes,
-        spot=_spot(effects, fit, located, remainder, ranges, even or {}),
+        spot=spot_of(effects, fit, located, remainder, ranges, even or {}),
         size=size,
         todo=_next(effects, next_experiment, added),
         notes=tuple(filter(None, [_more_left(remainder) if effects else ""])),
@@ -260,36 +251,12 @@ def _what_is_left(remainder: Remainder, ranges: Ranges) -> str:
 def _cause(effect: EffectReport, ranges: Ranges) -> str:
     """The effect, what cannot be excluded instead of it, and when it shows if that is part of the time."""
     names = [effect.title, *(catalogue()[a].title for a in effect.alternatives)]
-    stretches = _stretches(effect, ranges)
+    stretches = stretches_of(effect, ranges)
     apart = "this recording cannot tell them apart" if effect.alternatives else ""
     seen = f"seen {stretches}" if stretches else ""
     said = "; ".join(filter(None, [seen, apart]))
     together = listed(names)
     return f"{together} ({said})" if said else together
-
-
-def _stretches(effect: EffectReport, ranges: Ranges) -> str:
-    """Return ``between 25 and 65 s``, or nothing where that is most of the time or many stretches."""
-    first, last = ranges.get("time", (0.0, 0.0))
-    shows = sum(b - a for a, b in effect.when)
-    if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > _HALF * (last - first):
-        return ""
-    return "between " + ", ".join(f"{figure('time', a)} and {figure('time', b)} s" for a, b in effect.when)
-
-
-def _spot(
-    effects: Sequence[EffectReport],
-    fit: dict[str, OutputFit],
-    located: Sequence[Located],
-    remainder: Remainder,
-    ranges: Ranges,
-    even: Mapping[str, Throughout],
-) -> str:
-    """Where they differ; nothing if an exact fault of the recording is all there is."""
-    exact = bool(effects) and not any(np.isfinite(e.share) for e in effects)
-    if not located or (exact and not remainder.significant):
-        return ""
-    return _to_both_sides(effects, fit, located, ranges) or _where(located, ranges, even)
 
 
 def _size(effects: Sequence[EffectReport], fit: dict[str, OutputFit]) -> str:
@@ -323,59 +290,3 @@ def _next(effects: Sequence[EffectReport], experiment: str, added: bool) -> str:
     if not added:
         return _RECORD_MORE
     return _RECORD_AGAIN if all(_kinds(e) == {"artefact"} for e in effects) else _TRY_IT
-
-
-def _to_both_sides(
-    effects: Sequence[EffectReport], fit: dict[str, OutputFit], located: Sequence[Located], ranges: Ranges
-) -> str:
-    """Say when the force differs, if one effect makes most of it and no mean of a stretch shows it.
-
-    A camber to both sides adds to the force and takes from it: what is then clearest is next to nothing.
-    """
-    main = max(effects, key=lambda e: e.share if np.isfinite(e.share) else 0.0, default=None)
-    if main is None or not main.share > _HALF or main.output not in fit:
-        return ""
-    means = [abs(f.mean) for f in located if f.output == main.output]
-    stretches = _stretches(main, ranges)
-    if not stretches or max(means, default=0.0) > _HARDLY * fit[main.output].rms_before:
-        return ""
-    return f"{main.output.capitalize()} differs most {stretches}, to both sides"
-
-
-def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, Throughout]) -> str:
-    """Where recorded and simulated force differ most."""
-    top = max(located, key=lambda f: abs(f.mean))
-    output = top.output
-    own = [f for f in located if f.output == output and f.along_force == top.along_force]
-    own = [f for f in own if f.mean * top.mean > 0.0 and min(f.own, 1.0) * abs(f.mean) > 0.4 * abs(top.mean)]
-    own = sorted(own, key=lambda f: -abs(f.mean))[:2]
-    spots = [place(f.axis, f.low, f.high, ranges) for f in own]
-    spots = [
-        s.removeprefix("at ") if i and spots[i - 1].startswith("at ") else s for i, s in enumerate(spots)
-    ]
-    times = spots[0] + ", " if own[0].axis == "time" and len(spots) > 1 else ""
-    rest = spots[1:] if times else spots
-    where = times + " and ".join(rest)
-    best = max(own, key=lambda f: abs(f.mean))
-    name = output.capitalize()
-    if output in even:
-        share = even[output].share
-        if not np.isfinite(share):
-            return f"{name} differs from the model by {even[output].mean:+,.3g} N throughout"
-        word = "lower" if share < 0.0 else "higher"
-        most = f"most in newtons {where}: {newtons(abs(best.mean))} N"
-        return f"{name} is {abs(share) * 100:.2g}% {word} than the model throughout ({most})"
-    much = _of_the_force(best.share)
-    if best.along_force:
-        word = "lower" if best.mean < 0.0 else "higher"
-        return f"{where}, {name} is on average {newtons(abs(best.mean))} N ({much}) {word} than the model"
-    sign = "-" if best.mean < 0.0 else "+"
-    return f"{where}, {name} differs from the model by {sign}{newtons(abs(best.mean))} N on average ({much})"
-
-
-def _of_the_force(share: float) -> str:
-    """A mean difference as a part of the force there, in words."""
-    if not np.isfinite(share):
-        return "where the force is small"
-    size = abs(share) * 100
-    return f"{size:.2g}% of the force there" if size < 99.5 else "more than the force there"

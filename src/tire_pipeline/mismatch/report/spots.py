@@ -1,0 +1,132 @@
+"""Where recording and model differ, in a clause of the report's head."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from tire_pipeline.mismatch.proof.locate import Located, Throughout
+from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
+from tire_pipeline.mismatch.report.contents import EffectReport
+from tire_pipeline.mismatch.report.words import figure, newtons, place
+
+_FEW_STRETCHES = 3
+"""More stretches of time are not listed in the summary; the report has them all."""
+
+_HALF = 0.5
+_HARDLY = 0.2
+"""What is most of the time or of the mismatch, and below which part of its RMS a mean difference shows hardly
+anything of it."""
+
+Ranges = Mapping[str, tuple[float, float]]
+"""Axis -> lowest and highest recorded value, SI."""
+
+
+def stretches_of(effect: EffectReport, ranges: Ranges) -> str:
+    """Return ``between 25 and 65 s``, or nothing where that is most of the time or many stretches."""
+    first, last = ranges.get("time", (0.0, 0.0))
+    shows = sum(b - a for a, b in effect.when)
+    if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > _HALF * (last - first):
+        return ""
+    return "between " + ", ".join(f"{figure('time', a)} and {figure('time', b)} s" for a, b in effect.when)
+
+
+def spot_of(
+    effects: Sequence[EffectReport],
+    fit: dict[str, OutputFit],
+    located: Sequence[Located],
+    remainder: Remainder,
+    ranges: Ranges,
+    even: Mapping[str, Throughout],
+) -> str:
+    """Where they differ; nothing if an exact fault of the recording is all there is."""
+    exact = bool(effects) and not any(np.isfinite(e.share) for e in effects)
+    if not located or (exact and not remainder.significant):
+        return ""
+    own = _of_the_effects(effects, located, ranges)
+    return _to_both_sides(effects, fit, located, ranges) or _where(own or located, ranges, even)
+
+
+def _of_the_effects(
+    effects: Sequence[EffectReport], located: Sequence[Located], ranges: Ranges
+) -> Sequence[Located]:
+    """Return the places on axes of which a named effect takes a part only; another axis merely came along.
+
+    A tread warms up in each sweep: what a camber does is also found at some tread temperature.
+    """
+    axes = {axis for effect in effects for axis in _narrow_axes(effect, ranges)}
+    return [f for f in located if f.axis in axes] if axes else located
+
+
+def _narrow_axes(effect: EffectReport, ranges: Ranges) -> list[str]:
+    """Return the time, if an effect is seen in a part of it, and the channel of which it takes the least."""
+    parts = {
+        axis: (high - low) / (ranges[axis][1] - ranges[axis][0])
+        for axis, (low, high) in effect.where.items()
+        if axis in ranges and ranges[axis][1] > ranges[axis][0]
+    }
+    narrow = [axis for axis, part in parts.items() if part < _HALF and part == min(parts.values())]
+    return (["time"] if stretches_of(effect, ranges) else []) + narrow[:1]
+
+
+def _to_both_sides(
+    effects: Sequence[EffectReport], fit: dict[str, OutputFit], located: Sequence[Located], ranges: Ranges
+) -> str:
+    """Say where the force differs, if one effect makes most of it and no mean of a stretch shows it.
+
+    A camber to both sides adds to the force and takes from it: what is then clearest is next to nothing.
+    """
+    main = max(effects, key=lambda e: e.share if np.isfinite(e.share) else 0.0, default=None)
+    if main is None or not main.share > _HALF or main.output not in fit:
+        return ""
+    means = [abs(f.mean) for f in located if f.output == main.output]
+    axes = _narrow_axes(main, ranges)
+    if not axes or max(means, default=0.0) > _HARDLY * fit[main.output].rms_before:
+        return ""
+    spots = [stretches_of(main, ranges) if a == "time" else place(a, *main.where[a], ranges) for a in axes]
+    return f"{main.output.capitalize()} differs most {', '.join(spots)}, to both sides"
+
+
+def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, Throughout]) -> str:
+    """Where recorded and simulated force differ most."""
+    top = max(located, key=lambda f: abs(f.mean))
+    output = top.output
+    own = [f for f in located if f.output == output and f.along_force == top.along_force]
+    own = [f for f in own if f is top or _as_well(f, top)]
+    own = sorted(own, key=lambda f: -abs(f.mean))[:2]
+    spots = [place(f.axis, f.low, f.high, ranges) for f in own]
+    spots = [
+        s.removeprefix("at ") if i and spots[i - 1].startswith("at ") else s for i, s in enumerate(spots)
+    ]
+    times = spots[0] + ", " if own[0].axis == "time" and len(spots) > 1 else ""
+    rest = spots[1:] if times else spots
+    where = times + " and ".join(rest)
+    best = max(own, key=lambda f: abs(f.mean))
+    name = output.capitalize()
+    if output in even:
+        share = even[output].share
+        if not np.isfinite(share):
+            return f"{name} differs from the model by {even[output].mean:+,.3g} N throughout"
+        word = "lower" if share < 0.0 else "higher"
+        most = f"most in newtons {where}: {newtons(abs(best.mean))} N"
+        return f"{name} is {abs(share) * 100:.2g}% {word} than the model throughout ({most})"
+    much = _of_the_force(best.share)
+    if best.along_force:
+        word = "lower" if best.mean < 0.0 else "higher"
+        return f"{where}, {name} is on average {newtons(abs(best.mean))} N ({much}) {word} than the model"
+    sign = "-" if best.mean < 0.0 else "+"
+    return f"{where}, {name} differs from the model by {sign}{newtons(abs(best.mean))} N on average ({much})"
+
+
+def _as_well(place: Located, top: Located) -> bool:
+    """Whether a stretch of another axis says more of the same difference than that it came along."""
+    return place.mean * top.mean > 0.0 and min(place.own, 1.0) * abs(place.mean) > 0.4 * abs(top.mean)
+
+
+def _of_the_force(share: float) -> str:
+    """A mean difference as a part of the force there, in words."""
+    if not np.isfinite(share):
+        return "where the force is small"
+    size = abs(share) * 100
+    return f"{size:.2g}% of the force there" if size < 99.5 else "more than the force there"
