@@ -56,11 +56,16 @@ def as_recorded(
     before = _errors(corrected.as_it_came, recording, fit)
     same = not (corrected.changes or corrected.factors or corrected.limits)
     after = before if same else _errors(corrected, recording, fit)
-    here = residual(analysis.data, analysis.fit.changes)
+    here = _partly(residual(analysis.data, []), residual(analysis.data, analysis.fit.changes), corrected.part)
     moments = [o for o in fit if o not in here]
     if moments:
-        there = simulate_moments(analysis.data, analysis.fit.changes, moments)
-        here |= {o: analysis.data.channels[o] - there[o] for o in moments}
+        first, last = (
+            {o: analysis.data.channels[o] - m for o, m in each.items()}
+            for each in (
+                simulate_moments(analysis.data, changes, moments) for changes in ([], analysis.fit.changes)
+            )
+        )
+        here |= _partly(first, last, corrected.part)
     inside = {o: rms(r) for o, r in here.items()}
     good = np.isin(np.arange(len(recording)), used) if spoiled else np.ones(len(recording), bool)
     moved = {o: _moved(f, before[o], after[o], inside[o], recording, same, good) for o, f in fit.items()}
@@ -70,6 +75,11 @@ def as_recorded(
         o: replace(m, noise_floor=_noise(fit[o].noise_floor, of_fit[o][used], inside[o]))
         for o, m in moved.items()
     }
+
+
+def _partly(before: dict[str, Array], after: dict[str, Array], part: float) -> dict[str, Array]:
+    """Return what is left if a part of a change is added."""
+    return {o: start - part * (start - after[o]) for o, start in before.items()}
 
 
 def _noise(floor: float, after: Array, inside: float) -> float:

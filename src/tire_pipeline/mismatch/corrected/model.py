@@ -67,6 +67,9 @@ class CorrectedModel:
     instead : tuple of (odds, changes)
         Other explanations that the recording cannot tell from ``changes``, and how likely they are beside
         these: ``predict`` adds what they agree on (:func:`.agreed`).
+    part : float
+        Of what the effects change, which is added: what unseen sweeps confirm
+        (:func:`.proof.never_worse.confirmed_part`).
     rolled : WheelWay, optional
         Where the wheel stood, if an effect follows it.
 
@@ -106,6 +109,7 @@ class CorrectedModel:
     cleaned: Mapping[str, float] = field(default_factory=dict)
     unnamed: UnnamedPhysics | None = None
     instead: tuple[tuple[float, tuple[Change, ...]], ...] = ()
+    part: float = 1.0
     rolled: WheelWay | None = None
 
     def __repr__(self) -> str:
@@ -121,7 +125,9 @@ class CorrectedModel:
     @property
     def as_it_came(self) -> CorrectedModel:
         """The model with nothing added and nothing repaired: ``predict`` gives ``tire.forces``."""
-        return replace(self, changes=(), factors={}, limits={}, cleaned={}, unnamed=None, instead=())
+        return replace(
+            self, changes=(), factors={}, limits={}, cleaned={}, unnamed=None, instead=(), part=1.0
+        )
 
     def predict(self, recording: pd.DataFrame) -> pd.DataFrame:
         """Return the corrected forces at the samples of a recording.
@@ -160,9 +166,11 @@ class CorrectedModel:
             if not any(catalogue()[name].lacking(data) for name, _ in changes)
         ]
         forces = self._simulated(data, self.changes)
-        if others:
+        if others or self.part < 1.0:
+            plain = self._simulated(data, ())
             each = [forces, *(self._simulated(data, changes) for _, changes in others)]
-            forces = agreed(self._simulated(data, ()), each, [1.0, *(odds for odds, _ in others)])
+            whole = agreed(plain, each, [1.0, *(odds for odds, _ in others)]) if others else forces
+            forces = {name: start + self.part * (whole[name] - start) for name, start in plain.items()}
         notes = [*self._of_unknown_phase(data), *self._put_unnamed(data, forces)]
         if len(others) < len(self.instead):
             notes.append("explanations that need a channel which is not recorded here are not counted")
@@ -294,7 +302,8 @@ class CorrectedModel:
         -------
         tire : TireModel
         sidecar : dict
-            Effect -> equation, parameters and reference values, for what a ``.tir`` cannot hold.
+            Effect -> equation, parameters and reference values, for what a ``.tir`` cannot hold; and
+            ``part``, by which its change of a force is multiplied, if that is not 1.
             Artefacts belong to the recording, not to the tire, and are in neither.
         """
         tire: Any = self.tire
@@ -305,13 +314,15 @@ class CorrectedModel:
                 continue
             coefficients = effect.coefficients(tire, p)
             if coefficients:
-                tire = tire.replace(**coefficients)
+                without = effect.coefficients(tire, dict.fromkeys(p, 0.0))
+                tire = tire.replace(**_partly(without, coefficients, self.part))
             else:
                 sidecar[name] = {
                     "equation": effect.equation,
                     "source": effect.source,
                     "parameters": {k: float(v) for k, v in p.items()},
                     "reference": self.reference.to_sidecar(),
+                    **({"part": self.part} if self.part < 1.0 else {}),
                 }
         if self.unnamed is not None:
             sidecar["unnamed"] = self.unnamed.to_sidecar()
@@ -327,6 +338,8 @@ class CorrectedModel:
         said += [f"physics in these coefficients: {', '.join(inside) or 'none'}"]
         beside = [name for name in sidecar if name != "unnamed"]
         said += [f"physics in the sidecar beside this file: {', '.join(beside)}"] if beside else []
+        if self.part < 1.0:
+            said.append(f"added: {self.part:.0%} of what was found, as much as unseen sweeps confirm")
         if self.instead:
             others = [" and ".join(name for name, _ in changes) for _, changes in self.instead]
             said.append(f"the recording does not tell {' and '.join(names)} from: {'; '.join(others)}")
@@ -367,6 +380,13 @@ class CorrectedModel:
         if sidecar:
             write_sidecar(written, sidecar)
         return written
+
+
+def _partly(without: Mapping[str, float], full: Mapping[str, float], part: float) -> dict[str, float]:
+    """Return coefficients between those without an effect and those with all of it."""
+    if part == 1.0:
+        return dict(full)
+    return {n: without.get(n, v) + part * (v - without.get(n, v)) for n, v in full.items()}
 
 
 def _without_noise(x: Array, start: Array, noise: float) -> Array:

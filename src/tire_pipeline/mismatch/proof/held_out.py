@@ -22,6 +22,7 @@ def prove(
     analysis: Analysis,
     after: dict[str, Array],
     noise: Mapping[str, float],
+    part: float = 1.0,
 ) -> dict[str, OutputFit]:
     """Return for each output the error on sweeps that neither the choice of effects nor its fit has seen.
 
@@ -33,6 +34,8 @@ def prove(
         held-out condition the effects are locked, and the parameters are fitted to the sweeps outside of it.
     noise : mapping of float
         Output -> RMS of the recording's noise, N (:func:`.proof.remainder.noise_floors`).
+    part : float
+        Of what the effects change, which is added.
     """
     data = analysis.data
     before = {o: data.recorded[o] - data.simulation.base[o] for o in data.outputs}
@@ -49,7 +52,9 @@ def prove(
             rms_after_high=high,
             held_out_condition=name,
             rms_condition_before=float("nan") if rows is None else rms(before[o][rows]),
-            rms_condition_after=float("nan") if condition is None else rms(condition[o]),
+            rms_condition_after=float("nan")
+            if condition is None or rows is None
+            else rms(before[o][rows] - part * (before[o][rows] - condition[o])),
         )
     return out
 
@@ -60,9 +65,10 @@ def _interval(analysis: Analysis, after: Array) -> tuple[float, float]:
     return root_ratio_interval(sums, np.bincount(analysis.block, minlength=analysis.system.count))
 
 
-def prove_moments(analysis: Analysis) -> dict[str, OutputFit]:
+def prove_moments(analysis: Analysis, part: float = 1.0) -> dict[str, OutputFit]:
     """Return the errors of the recorded moments, N m, which no fit has seen: only fx and fy were fitted.
 
+    ``part`` is added of what the effects change.
     Moments that the model does not give (no coefficients, or another simulator's output in its place) are
     left out.
     """
@@ -75,7 +81,8 @@ def prove_moments(analysis: Analysis) -> dict[str, OutputFit]:
     out = {}
     for name in names:
         recorded = data.channels[name]
-        before, after = recorded - plain[name], recorded - corrected[name]
+        before = recorded - plain[name]
+        after = before - part * (corrected[name] - plain[name])
         low, high = _interval(analysis, after)
         out[name] = OutputFit(
             noise_floor=white_noise(after) if data.time is not None else float("nan"),

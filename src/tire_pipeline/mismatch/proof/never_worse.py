@@ -1,20 +1,19 @@
-"""The one guard beside the posterior: what does not surely help on unseen sweeps is not added.
+"""The one guard beside the posterior: of a correction, no more is added than unseen sweeps confirm.
 
-It can withhold a correction, never choose a name.
+It can withhold a correction or a part of it, never choose a name.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.blocks import whole_sweeps
-from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
 from tire_pipeline.mismatch.proof.nested import RepeatedChoice
@@ -22,11 +21,31 @@ from tire_pipeline.mismatch.proof.nested import RepeatedChoice
 Array = np.ndarray
 
 
-def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, dict[str, Array]]:
-    """Return the named set without those effects whose correction does not surely help on unseen sweeps.
+@dataclass(frozen=True)
+class Guarded:
+    """What may be added to the model.
 
-    Both have to help there: the whole choice, made again without them, and the very effects that are added,
-    fitted without them. Each of these has to help on average beside the others. The effect goes first
+    Parameters
+    ----------
+    fit : Fit
+        The effects.
+    part : float
+        The part of what they change that unseen sweeps confirm, 0 to 1: so much of it is added.
+    left : dict of ndarray, shape (n,)
+        Output -> the residual, N, of sweeps that neither the choice of what is added nor its fit has seen;
+        by what is added, fitted without them, if that leaves more: a repeated choice can be another one.
+    """
+
+    fit: Fit
+    part: float
+    left: dict[str, Array]
+
+
+def guarded(analysis: Analysis, sets: Enumerated, level: float) -> Guarded:
+    """Return the named set without those effects whose correction does not help on unseen sweeps.
+
+    Both have to be confirmed there: the whole choice, made again without them, and the very effects that are
+    added, fitted without them. Each of these has to help on average beside the others. The effect goes first
     without which the others leave least.
 
     Parameters
@@ -36,18 +55,10 @@ def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, d
     sets : Enumerated
     level : float
         Probability from which a name is said.
-
-    Returns
-    -------
-    Fit
-        What is added.
-    dict of ndarray, shape (n,)
-        Output -> the residual, N, of sweeps that neither the choice of what is added nor its fit has seen;
-        by what is added, fitted without them, if that leaves more: a repeated choice can be another one.
     """
     fit, before = analysis.fit, residual(analysis.data, [])
     if not fit.names:
-        return fit, before
+        return Guarded(fit, 0.0, before)
     repeated = RepeatedChoice(sets, analysis.block, level)
     sweep = None if analysis.data.time is None else whole_sweeps(analysis.block)
 
@@ -62,37 +73,54 @@ def harmless(analysis: Analysis, sets: Enumerated, level: float) -> tuple[Fit, d
         numbers = range(len(fit.names))
         fewer = [fit.part([j for j in numbers if j != i], analysis.system) for i in numbers]
         without = [each_left_out(analysis, each, refitted=True) for each in fewer]
-        surely = all(surely_less(before, left, analysis.largest, sweep) for left in both)
-        if surely and all(size(both[1]) < size(left) for left in without):
-            return fit, max(both, key=size)
+        part = min(confirmed_part(before, left, analysis.largest, sweep) for left in both)
+        if part > 0.0 and all(size(both[1]) < size(left) for left in without):
+            left = max(both, key=size)
+            return Guarded(fit, part, {o: before[o] - part * (before[o] - left[o]) for o in before})
         fit = fewer[min(numbers, key=lambda i: size(without[i]))]
-    return fit, before
+    return Guarded(fit, 0.0, before)
 
 
-def surely_less(
+def confirmed_part(
     before: Mapping[str, Array], after: Mapping[str, Array], largest: Mapping[str, float], sweep: Array | None
-) -> bool:
-    """Whether all forces together surely have a smaller error on sweeps that are predicted without them.
+) -> float:
+    """Return the part of a change that sweeps confirm which it was predicted without, 0 to 1.
 
-    Surely: the mean gain of a sweep is above zero by a one-sided t test over the sweeps. A gain that a few
-    sweeps make and others lose is no gain elsewhere.
+    Each force of each sweep says by how much the change should be multiplied: its product with the residual
+    over its square. The mean over the sweeps, each weighed by that square, has a standard error from how they
+    differ. One standard error below the mean lies what the true multiple exceeds with 84%, as for
+    explanations that are open (:mod:`.corrected.agreed`). A change of less than twice the true one
+    leaves less error than none.
 
     Parameters
     ----------
     before, after : mapping of ndarray, shape (n,)
-        Output -> residual, N.
+        Output -> residual without and with the change, N.
     largest : mapping of float
         Output -> largest force, N: each force counts over its largest.
     sweep : ndarray of int, shape (n,), optional
         Sweep of each sample. Without it each sample counts by itself: a recording without a time line.
+
+    Returns
+    -------
+    float
+        0 where one sweep has all of the change: then nothing says how much sweeps differ.
     """
-    gain = np.asarray(sum((before[o] ** 2 - after[o] ** 2) / largest[o] ** 2 for o in after))
+    change = {o: (before[o] - after[o]) / largest[o] for o in after}
+    product = np.asarray(sum(change[o] * before[o] / largest[o] for o in after))
+    square = np.asarray(sum(change[o] ** 2 for o in after))
     if sweep is not None:
-        gain = np.bincount(sweep, gain)
-    if gain.size < 2:
-        return bool(gain.sum() > 0.0)
-    error = float(gain.std(ddof=1)) / np.sqrt(gain.size)
-    return bool(gain.mean() > float(scipy.special.stdtrit(gain.size - 1, 1.0 - CHANCE)) * error)
+        product, square = np.bincount(sweep, product), np.bincount(sweep, square)
+    total = float(square.sum())
+    if total <= 0.0:
+        return 0.0
+    count = total**2 / float(square @ square)  # of sweeps, as if all had the same weight
+    if count <= 1.0 + 1e-9:
+        return 0.0
+    mean = float(product.sum()) / total
+    off = product - mean * square
+    error = float(np.sqrt((off @ off) * count / (count - 1.0))) / total
+    return float(np.clip(mean - error, 0.0, 1.0))
 
 
 def size_over_largest(left: Mapping[str, Array], largest: Mapping[str, float]) -> float:

@@ -26,7 +26,7 @@ from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.locate import everywhere, locate
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
-from tire_pipeline.mismatch.proof.never_worse import harmless
+from tire_pipeline.mismatch.proof.never_worse import Guarded, guarded
 from tire_pipeline.mismatch.proof.remainder import remainder
 from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.prepare import Prepared
@@ -36,6 +36,7 @@ from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.remarks import (
     on_expected,
     on_moments,
+    on_part,
     on_several,
     on_withheld,
     reasons,
@@ -96,10 +97,11 @@ def assembled(it: Explained) -> MismatchReport:
     effects += [from_fit(analysis, answer, name, noise) for name in answer.names]
     verdict = prepared.stopped or _verdict(effects, left)
     plain = _model(it, [])
-    model, put_in, unseen = _corrected(it, plain)
+    model, allowed = _corrected(it, plain)
+    put_in = allowed.fit
     withheld = tuple(n for n in analysis.fit.names if n not in put_in.names)
     inside = replace(analysis, fit=put_in)
-    proved = {**prove(inside, unseen, noise), **prove_moments(inside)}
+    proved = {**prove(inside, allowed.left, noise, allowed.part), **prove_moments(inside, allowed.part)}
     spoiled = any(finding.bad is not None for finding in prepared.findings)
     fit = as_recorded(proved, inside, model, it.recording, prepared.rows, spoiled)
     unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit, equation)
@@ -115,6 +117,7 @@ def assembled(it: Explained) -> MismatchReport:
     told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed, rivals, added)
     told = told.beside(
         on_withheld(withheld) if added else "",
+        on_part(put_in.names, model.part),
         on_several(effects if model.instead else []),
         on_moments(fit),
         on_expected(_unseen(it, effects)),
@@ -207,17 +210,15 @@ def _to_one_side(it: Explained, put_in: Fit) -> str:
     )
 
 
-def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Fit, dict[str, Array]]:
-    """Put the named effects into the model, without those that make sweeps worse.
-
-    What was added, and the residual of unseen sweeps, come second and third.
-    """
+def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Guarded]:
+    """Put the named effects into the model, as far as sweeps confirm them that their fit has not seen."""
     likely = it.sets.with_mass(it.answer.probabilities, it.answer.named.names)
-    fit, left = harmless(it.analysis, likely, it.level)
-    model = _model(it, fit.changes, _instead(it, fit))
-    if fit.names and not _no_worse(it, model, plain):
-        return plain, it.analysis.fit.part([], it.analysis.system), residual(it.analysis.data, [])
-    return model, fit, left
+    allowed = guarded(it.analysis, likely, it.level)
+    model = _model(it, allowed.fit.changes, _instead(it, allowed.fit), allowed.part)
+    if allowed.fit.names and not _no_worse(it, model, plain):
+        nothing = it.analysis.fit.part([], it.analysis.system)
+        return plain, Guarded(nothing, 0.0, residual(it.analysis.data, []))
+    return model, allowed
 
 
 def _instead(it: Explained, put_in: Fit) -> list[tuple[float, tuple[Change, ...]]]:
@@ -244,7 +245,10 @@ def _no_worse(it: Explained, model: CorrectedModel, plain: CorrectedModel) -> bo
 
 
 def _model(
-    it: Explained, changes: Sequence[Change], instead: Sequence[tuple[float, tuple[Change, ...]]] = ()
+    it: Explained,
+    changes: Sequence[Change],
+    instead: Sequence[tuple[float, tuple[Change, ...]]] = (),
+    part: float = 1.0,
 ) -> CorrectedModel:
     data, prepared = it.analysis.data, it.prepared
     outputs = tuple(prepared.data.outputs)
@@ -270,6 +274,7 @@ def _model(
         question=prepared.question,
         cleaned={c.channel: c.removed for c in prepared.cleaned if c.smoothed},
         instead=tuple(instead),
+        part=part if changes else 1.0,
         rolled=_rolled(it) if turning else None,
     ).cleaned_where_it_helps(it.recording)
 

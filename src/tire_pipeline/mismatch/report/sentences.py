@@ -277,7 +277,7 @@ def _size(effects: Sequence[EffectReport], fit: dict[str, OutputFit]) -> str:
 def _as_it_is(fit: Mapping[str, OutputFit]) -> str:
     """Say that nothing was added, with the error that stays."""
     return (
-        "no correction surely helps on held-out sweeps, so the model stays as it is, with an RMS error of "
+        "no correction helps on held-out sweeps, so the model stays as it is, with an RMS error of "
         f"{_beside_noise(fit)}"
     )
 

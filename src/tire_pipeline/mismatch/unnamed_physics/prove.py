@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
+from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import MOST_TERMS, coefficients, drivers_of
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
@@ -126,6 +127,31 @@ def judged(columns: Columns, predicted: Mapping[str, Array], choices: int) -> Pr
     p_value = float(scipy.stats.wilcoxon(gain, alternative="greater").pvalue) if sweeps > 5 else 1.0
     share = float(np.mean([gone[o] for o in good]))
     return Proven(predicted, choices, int(np.sum(gain > 0.0)), sweeps, p_value, share, good)
+
+
+def surely_less(
+    before: Mapping[str, Array], after: Mapping[str, Array], largest: Mapping[str, float], sweep: Array
+) -> bool:
+    """Whether all forces together surely have a smaller error on sweeps that are predicted without them.
+
+    Surely: the mean gain of a sweep is above zero by a one-sided t test over the sweeps. A gain that a few
+    sweeps make and others lose is no gain elsewhere.
+
+    Parameters
+    ----------
+    before, after : mapping of ndarray, shape (n,)
+        Output -> residual, N.
+    largest : mapping of float
+        Output -> largest force, N: each force counts over its largest.
+    sweep : ndarray of int, shape (n,)
+        Sweep of each sample.
+    """
+    gain = np.asarray(sum((before[o] ** 2 - after[o] ** 2) / largest[o] ** 2 for o in after))
+    gain = np.bincount(sweep, gain)
+    if gain.size < 2:
+        return bool(gain.sum() > 0.0)
+    error = float(gain.std(ddof=1)) / np.sqrt(gain.size)
+    return bool(gain.mean() > float(scipy.special.stdtrit(gain.size - 1, 1.0 - CHANCE)) * error)
 
 
 def forces_of(columns: Columns, choice: ChosenModels, terms: tuple[int, ...]) -> dict[str, Array]:

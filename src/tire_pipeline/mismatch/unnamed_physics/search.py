@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.model.channels import least_spread, one_sided, white_noise
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.left_out import each_left_out
-from tire_pipeline.mismatch.proof.never_worse import size_over_largest, surely_less
+from tire_pipeline.mismatch.proof.never_worse import size_over_largest
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
     MOST_TERMS,
@@ -41,6 +41,7 @@ from tire_pipeline.mismatch.unnamed_physics.prove import (
     fitted,
     forces_of,
     proven,
+    surely_less,
 )
 from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL
 
