@@ -7,6 +7,7 @@ import pytest
 from tire_pipeline.mismatch import CorrectedModel
 from tire_pipeline.mismatch.corrected.agreed import agreed
 from tire_pipeline.mismatch.model.nominal import Reference
+from tire_pipeline.tir import read_tir
 
 GAIN = (("force_gain", {"fy": 0.1, "fx": 0.0}),)
 OFFSET = (("force_offset", {"fy": 200.0, "fx": 0.0}),)
@@ -66,3 +67,23 @@ def test_the_file_says_what_else_it_could_be(tire, tmp_path):
     model = CorrectedModel(tire, scale, ("fy",), instead=((0.5, OFFSET),))
     text = model.to_tir(tmp_path / "c.tir").read_text()
     assert "the recording does not tell stiffness_scale from: force_offset" in text
+
+
+def test_a_part_of_a_change_is_that_part_in_forces_file_and_sidecar(tire, run, tmp_path):
+    """What unseen sweeps confirm is in what predicts, and in what is written."""
+    slower = {"friction": -0.1, "stiffness": 0.0, "sliding": 0.0, "linear": 0.0}
+    changes = (("friction_scale", {"friction": -0.2}), ("speed_dependence", slower))
+    whole = CorrectedModel(tire, changes[:1], ("fy",))
+    partly = CorrectedModel(tire, changes[:1], ("fy",), part=0.6)
+    plain = partly.as_it_came.predict(run)["fy"]
+    np.testing.assert_allclose(
+        partly.predict(run)["fy"] - plain, 0.6 * (whole.predict(run)["fy"] - plain), rtol=1e-9, atol=1e-9
+    )
+    written = read_tir(partly.to_tir(tmp_path / "partly.tir"))
+    at = {name: run[name].to_numpy() for name in run}
+    steady = written.forces(**at, outputs=("fy",), limits="ignore").fy
+    np.testing.assert_allclose(steady, partly.predict(run)["fy"], rtol=0.02)
+    assert "60% of what was found" in (tmp_path / "partly.tir").read_text(encoding="utf-8")
+    _, sidecar = CorrectedModel(tire, changes[1:], ("fy",), part=0.6).tire_model()
+    assert sidecar["speed_dependence"]["part"] == 0.6
+    assert "part" not in CorrectedModel(tire, changes[1:], ("fy",)).tire_model()[1]["speed_dependence"]
