@@ -7,7 +7,7 @@ from tire_pipeline.mismatch.model.blocks import sweeps
 from tire_pipeline.mismatch.proof.locate import everywhere, locate
 from tire_pipeline.mismatch.proof.measured import Remainder
 from tire_pipeline.mismatch.recording.prepare import prepare
-from tire_pipeline.mismatch.report.sentences import head
+from tire_pipeline.mismatch.report.headline.sentences import head
 
 
 def located(tire, recording):

@@ -17,8 +17,8 @@ from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.explainer import Explainer
 from tire_pipeline.mismatch.model.residual import rms, root_ratio_interval
 from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError
+from tire_pipeline.mismatch.report.headline.sentences import with_held_out, without_equation
 from tire_pipeline.mismatch.report.result import MismatchReport
-from tire_pipeline.mismatch.report.sentences import with_held_out, without_equation
 from tire_pipeline.recordings.conventions.canonical import notes_beside_assumed
 from tire_pipeline.recordings.join import join_recordings
 

@@ -10,7 +10,7 @@ import pytest
 
 from tire_pipeline.mismatch.proof.measured import Remainder
 from tire_pipeline.mismatch.report.figures import drawings, time_line
-from tire_pipeline.mismatch.report.sentences import head
+from tire_pipeline.mismatch.report.headline.sentences import head
 
 
 def report(changes: list[str], *, gap: float) -> SimpleNamespace:

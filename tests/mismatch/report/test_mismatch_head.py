@@ -14,14 +14,14 @@ from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.recording.cleaning import Cleaning
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit, PredictionError
-from tire_pipeline.mismatch.report.remarks import on_moments
-from tire_pipeline.mismatch.report.report_page import percent
-from tire_pipeline.mismatch.report.sentences import (
+from tire_pipeline.mismatch.report.headline.sentences import (
     head,
     on_question,
     with_held_out,
     without_equation,
 )
+from tire_pipeline.mismatch.report.remarks import on_moments
+from tire_pipeline.mismatch.report.report_page import percent
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.symbols import NominalValues
 

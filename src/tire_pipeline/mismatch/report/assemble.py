@@ -32,6 +32,7 @@ from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.prepare import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.found_effects import from_factors, from_fit
+from tire_pipeline.mismatch.report.headline.sentences import head, on_question
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
 from tire_pipeline.mismatch.report.remarks import (
     on_expected,
@@ -44,7 +45,6 @@ from tire_pipeline.mismatch.report.remarks import (
     with_reasons,
 )
 from tire_pipeline.mismatch.report.result import MismatchReport
-from tire_pipeline.mismatch.report.sentences import head, on_question
 from tire_pipeline.mismatch.report.words import not_looked_for
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 from tire_pipeline.mismatch.unnamed_physics.search import instead_of_names, more_than_usual, unnamed_physics

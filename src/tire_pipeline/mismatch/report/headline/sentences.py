@@ -13,8 +13,8 @@ from tire_pipeline.mismatch.proof.locate import Located, Throughout
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, Head, HeldOutFit
-from tire_pipeline.mismatch.report.equation_words import of_equation, on_unnamed
-from tire_pipeline.mismatch.report.spots import Ranges, spot_of, stretches_of
+from tire_pipeline.mismatch.report.headline.equation_words import of_equation, on_unnamed
+from tire_pipeline.mismatch.report.headline.spots import Ranges, spot_of, stretches_of
 from tire_pipeline.mismatch.report.words import in_words, listed, newtons, place
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
