@@ -64,14 +64,9 @@ docs: install
 	@echo "Open site/index.html"
 
 # Known vulnerabilities of the pinned versions, by a database on this machine: docs/how-to/audit.md
-# make audit ADVISORIES=all.zip; without it by the package safety-db, which is of 2021 and so ends as stale.
+# make audit ADVISORIES=all.zip; make ends every failure with code 2, tools/audit.sh all.zip tells them apart.
 audit:
-	@test -x $(VENV)/audit/bin/python || $(PYTHON) -m venv $(VENV)/audit
-	@$(VENV)/audit/bin/python -m pip install --quiet --disable-pip-version-check packaging==26.3 || \
-		{ echo "not run: packaging cannot be installed into $(VENV)/audit"; exit 2; }
-	@test -n "$(ADVISORIES)" || $(VENV)/audit/bin/python -m pip install --quiet --disable-pip-version-check \
-		safety-db==2021.7.17 || true
-	@$(VENV)/audit/bin/python tools/audit.py $(if $(ADVISORIES),--advisories "$(ADVISORIES)")
+	@VENV=$(VENV) PYTHON=$(PYTHON) tools/audit.sh $(if $(ADVISORIES),"$(ADVISORIES)")
 
 # The wheel, and the list of components that it was tested with, beside it.
 build: install sbom

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from tire_pipeline.datasets.users_files.tir_folder import TirLoader
 from tire_pipeline.errors import TirError
 
 
@@ -62,6 +63,16 @@ class DiesUntil:
         from tire_pipeline.tir import read_tir
 
         return read_tir(self.path)
+
+
+@dataclass(frozen=True)
+class NotedLoader(TirLoader):
+    """Reads a file as a run does; each reading leaves a letter beside it."""
+
+    def __call__(self) -> Any:
+        with Path(f"{self.path}.read").open("a") as file:
+            file.write("x")
+        return super().__call__()
 
 
 @dataclass(frozen=True)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import shutil
-import subprocess
 import sys
 import threading
 from functools import partial
@@ -15,6 +13,9 @@ import cluster_tasks as tasks
 import pandas as pd
 import pytest
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "retraining"))
+from retraining_files import put, tir_text
+
 from tire_pipeline.cluster import ClusterHooks, work_map
 from tire_pipeline.command.stored import translator_state
 from tire_pipeline.datasets import ComputedFolderDataset, RecordingFolderDataset, TirFolderDataset
@@ -24,6 +25,7 @@ from tire_pipeline.reporting.mismatch.explained_recordings import (
     explain_each,
 )
 from tire_pipeline.tire_table.one_nominal_load import NormalizeParameters
+from tire_pipeline.tire_table.read_blocks import divided
 from tire_pipeline.tire_table.read_files import IngestParameters, join_files, read_files
 from tire_pipeline.translation import translated_folder
 from tire_pipeline.translation.parameters import TranslateParameters
@@ -51,9 +53,6 @@ def chosen(cluster):
 @pytest.fixture
 def raw(tmp_path):
     """Some tires, three that are none, a recording, and one that is none."""
-    sys.path.insert(0, str(ROOT / "tests" / "retraining"))
-    from retraining_files import put, tir_text
-
     for number in range(12):
         put(tmp_path / "tir", f"{'AB'[number % 2]}/{number}.tir", tir_text(number))
     for number in range(3):
@@ -110,35 +109,26 @@ def test_results_are_the_same_to_the_last_bit(raw, request, monkeypatch):
     assert len(alone) >= 5
 
 
-@pytest.mark.long
-def test_a_run_of_the_environment_cluster(raw, cluster):
-    conf = raw / "conf"
-    shutil.copytree(ROOT / "conf", conf)
-    (conf / "cluster" / "globals.yml").write_text(f"data: {raw}/data\ntir_folder: {raw}/tir\n")
-    command = [sys.executable, "-m", "kedro", "run", "--env", "cluster", "--conf-source", str(conf)]
-    here = {**os.environ, "OMP_NUM_THREADS": "1", "TIRE_PIPELINE_SCHEDULER": cluster.address}
-    arguments = ["--pipeline", "ingest_tir", "--params", "cluster.wait_seconds=120"]
-    done = subprocess.run(
-        [*command, *arguments], cwd=ROOT, env=here, capture_output=True, text=True, check=False, timeout=500
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert "Dask workers at" in done.stdout + done.stderr
-    assert "A/bad0.tir is set aside" in " ".join((done.stdout + done.stderr).split())
-
-
-def test_a_killed_scheduler_costs_what_was_under_way_only(tmp_path, chosen, cluster, caplog):
+def test_a_killed_scheduler_costs_what_was_under_way_only(tmp_path, cluster, caplog, monkeypatch):
+    """With real files: the next run opens none whose rows are stored."""
     from dask_processes import Processes
 
+    monkeypatch.setattr(divided, "__defaults__", (2,))
+    places = [put(tmp_path / "tir", f"A/{n}.tir", tir_text(n, "A")) for n in range(300)]
+    files = {f"A/{path.name}": tasks.NotedLoader(str(path)) for path in places}
+    blocks = read_files(files)
     own = Processes(tmp_path)
     _choose(scheduler=own.address, wait_seconds=120)
     dataset = ComputedFolderDataset(path=str(tmp_path / "out"))
-    work = {f"{n:02d}": partial(tasks.slow_bytes, tmp_path / f"calls{n:02d}", n) for n in range(20)}
+
+    def stored() -> set[str]:
+        return {name for name in blocks if (tmp_path / "out" / name).exists()}
 
     over = threading.Event()
 
     def kill() -> None:
-        while not (tmp_path / "out" / "05").exists():
-            if over.wait(0.02):
+        while len(stored()) < 5:
+            if over.wait(0.005):
                 return
         own.kill_scheduler()
 
@@ -146,7 +136,7 @@ def test_a_killed_scheduler_costs_what_was_under_way_only(tmp_path, chosen, clus
     killer.start()
     try:
         with pytest.raises(Exception, match="the Dask scheduler does not answer any more") as found:
-            dataset.save(work)
+            dataset.save(blocks)
     finally:
         over.set()
         killer.join()
@@ -154,13 +144,19 @@ def test_a_killed_scheduler_costs_what_was_under_way_only(tmp_path, chosen, clus
     assert "run again" in str(found.value)
     ClusterHooks().on_pipeline_error()
     assert [each for each in caplog.records if each.name.startswith("distributed")] == []
-    done = {path.name for path in (tmp_path / "out").glob("??")}
-    assert 0 < len(done) < 20
+    done = stored()
+    assert 5 <= len(done) < len(blocks)
     assert not dataset.exists()
     _choose(scheduler=cluster.address, wait_seconds=120)
-    dataset.save(work)
-    assert [read() for read in dataset.load().values()] == [str(n).encode() for n in range(20)]
-    assert all((tmp_path / f"calls{name}").read_text() == "x" for name in done)
+    dataset.save(read_files(files))
+    ClusterHooks().after_pipeline_run()
+    _choose()
+    table, _, _ = join_files(dataset.load(), IngestParameters())
+    assert list(table.frame()["file"]) == sorted(files)
+    for name, block in blocks.items():
+        for loader in block.files.values():
+            opened = len(Path(f"{loader.path}.read").read_text())
+            assert opened == 1 if name in done else opened >= 1
 
 
 @pytest.mark.long

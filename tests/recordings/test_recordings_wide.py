@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
@@ -62,3 +63,34 @@ def test_two_thousand_columns_of_one_name_are_told_apart(tmp_path):
 def test_a_header_longer_than_the_first_look_is_found(tmp_path):
     names = [f"Tyre Surface Temperature Sensor {i} of the left wheel" for i in range(2000)]
     assert _csv(tmp_path / "wide.csv", names).shape == (1, 2004)
+
+
+def _read_and_checked(path):
+    return check_recording(read_recording(path))
+
+
+def _calls(work, *arguments) -> int:
+    """How many functions are called, those that are written in C, too."""
+    calls = 0
+
+    def count(_, event, __):
+        nonlocal calls
+        calls += event in ("call", "c_call")
+
+    sys.setprofile(count)
+    try:
+        work(*arguments)
+    finally:
+        sys.setprofile(None)
+    return calls
+
+
+def test_the_work_grows_with_the_columns(tmp_path):
+    """Twice the further columns, twice the calls: what is left over is less than one call a column."""
+    paths = [tmp_path / f"{count}.csv" for count in (50, 100, 200)]
+    for count, path in zip((50, 100, 200), paths, strict=True):
+        _csv(path, [f"c{i}" for i in range(count)])
+    _read_and_checked(paths[-1])  # what is imported or found once counts for none
+    few, more, many = (_calls(_read_and_checked, path) for path in paths)
+    assert few < more < many
+    assert abs((many - more) - 2 * (more - few)) < 200

@@ -5,6 +5,7 @@ from __future__ import annotations
 import datetime
 import importlib.util
 import json
+import os
 import subprocess
 import sys
 import zipfile
@@ -162,13 +163,44 @@ def test_the_project_s_own_lock_is_read_and_the_exit_code_is_that_of_the_process
     assert done.stdout.startswith(f"stale: nothing found in {count} versions, 1 advisories")
 
 
-def test_where_nothing_can_be_installed_make_says_that_it_did_not_run(tmp_path):
-    """The code of pip is that of a vulnerable version."""
-    python = tmp_path / "audit" / "bin" / "python"
+def environment(folder: Path, pip: int) -> Path:
+    """An environment of the audit whose pip installs nothing and ends with this code."""
+    python = folder / "audit" / "bin" / "python"
     python.parent.mkdir(parents=True)
-    python.write_text("#!/bin/sh\nexit 1\n")
+    python.write_text(f'#!/bin/sh\n[ "$1" = -m ] && exit {pip}\nexec {sys.executable} "$@"\n')
     python.chmod(0o755)
-    command = ["make", "--no-print-directory", "audit", f"VENV={tmp_path}", "ADVISORIES=all.zip"]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-    assert done.stdout.startswith("not run: ")
-    assert "Error 2" in done.stderr
+    return folder
+
+
+def ended(*command: str, **variables: str) -> subprocess.CompletedProcess[str]:
+    here = {**os.environ, **variables}
+    return subprocess.run(command, cwd=ROOT, env=here, capture_output=True, text=True, check=False)
+
+
+NONE_HIT, ALL_HIT = between({"introduced": "0"}, {"fixed": "2"}), between({"introduced": "0"})
+
+
+@pytest.mark.parametrize(
+    ("affected", "old", "pip", "code", "outcome"),
+    [
+        (NONE_HIT, False, 0, 0, "clean"),
+        (ALL_HIT, False, 0, 1, "vulnerable"),
+        (NONE_HIT, False, 1, 2, "not run"),
+        (None, False, 0, 2, "not run"),
+        (NONE_HIT, True, 0, 3, "stale"),
+    ],
+)
+def test_a_user_can_tell_the_outcomes_apart(tmp_path, affected, old, pip, code, outcome):
+    """By the code of tools/audit.sh; by the last line, and the code that make prints, of make audit."""
+    given = tmp_path / "given.json"
+    modified = "2020-01-01T00:00:00Z" if old else datetime.datetime.now(datetime.UTC).isoformat()
+    if affected is not None:
+        given.write_text(json.dumps({**record("jinja2", **affected), "modified": modified}))
+    here = {"VENV": str(environment(tmp_path, pip))}
+    done = ended("tools/audit.sh", str(given), **here)
+    assert done.returncode == code, done.stderr
+    made = ended("make", "--no-print-directory", "audit", f"VENV={here['VENV']}", f"ADVISORIES={given}")
+    for said in (done.stdout, made.stdout):
+        assert said.splitlines()[-1].startswith(f"{outcome}: ")
+    assert made.returncode == (2 if code else 0)
+    assert f"Error {code}" in made.stderr or code == 0

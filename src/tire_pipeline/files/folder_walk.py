@@ -180,6 +180,9 @@ class _Search:
             self.found.again[link.name] = self.entered[real] or "./"
         elif real in self.above:
             self.found.aside[link.name] = "a link to a folder above this one"
+        elif own := self._unlisted(real):
+            self.found.again[link.name] = own + "/"
+            self.go_into(_WalkedEntry(own + "/", real, real))
         else:
             self.go_into(_WalkedEntry(link.name + "/", link.path, real))
 
@@ -187,11 +190,24 @@ class _Search:
         """Take files that are reached by a link alone."""
         for name in sorted(self.file_links):
             path = self.file_links[name]
-            other = self.real_files.setdefault(os.path.realpath(path), name)
+            real = os.path.realpath(path)
+            own = self._unlisted(real)
+            other = self.real_files.setdefault(real, own or name)
             if other == name:
                 self.found.files[name] = path
             else:
                 self.found.again[name] = other
+                if own:
+                    self.found.files[own] = real
+
+    def _unlisted(self, real: str) -> str:
+        """The name without links of what lies below in a folder that could not be listed; else none.
+
+        It was found by that name when the folder could be, and is no other file now.
+        """
+        above = self.root.real.rstrip(os.sep) + os.sep
+        name = shown_name(real.removeprefix(above))
+        return name if real.startswith(above) and self.found.may_be_there(name) else ""
 
     def _not_regular(self, inner: _WalkedEntry, mode: int) -> None:
         kind = _KINDS_OF_FILE.get(stat.S_IFMT(mode), "of an unknown kind")

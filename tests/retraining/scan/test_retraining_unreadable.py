@@ -6,6 +6,7 @@ import os
 from functools import partial
 
 import pytest
+from no_rights_of_root import rights
 from retraining_files import put, tir_text, update_store
 
 from tire_pipeline.classifiers.suppliers import KnownSuppliers
@@ -132,6 +133,28 @@ def test_a_folder_that_may_be_listed_but_not_entered_is_told(folder, readable):
         assert reason["A/1.tir"] == "cannot be looked at (Permission denied)"
 
     _as_nobody(look)
+
+
+def test_what_links_reach_in_a_folder_that_may_only_be_entered_is_no_other_file(folder):
+    put(folder, "B/inner/3.tir", tir_text(3, "B"))
+    put(folder, "B/inner/deep/4.tir", tir_text(4, "B"))
+    store, _, _ = update_store(folder)
+    names = ["A/1.tir", "B/2.tir", "B/inner/3.tir", "B/inner/deep/4.tir"]
+    (folder / "A/link.tir").symlink_to(folder / "B/inner/3.tir")
+    (folder / "A/link").symlink_to(folder / "B/inner/deep")
+    (folder / "B/inner").chmod(0o111)
+    put(folder, "B/inner/3.tir", tir_text(5, "B"))
+    with rights(of_root=False):
+        after, status, reason = update_store(folder, store)
+    (folder / "B/inner").chmod(0o755)
+    assert after.table["file"].tolist() == names
+    assert status["B/inner/3.tir"] == "read"  # as it is now
+    assert reason["A/link.tir"] == "a link to B/inner/3.tir"
+    assert reason["A/link"] == "a link to B/inner/deep/"
+    assert reason["B/inner/"] == "this folder may not be read (Permission denied)"
+    again, status, _ = update_store(folder, after)
+    assert again.table["file"].tolist() == names
+    assert "read" not in status.values()
 
 
 @root
