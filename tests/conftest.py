@@ -1,7 +1,8 @@
 """The tiers of tests, and those that are known to fail (``known_misses.txt``).
 
-`make quick` leaves out what is slow, `make test` only what stands in ``ci_only.txt``. `make checks` runs just
-that. What is marked long is for `make long`. CI runs `make test-and-checks`, which is both in one go.
+`make quick` leaves out what is slow, `make test` only what stands in ``ci_only.txt`` and those cases of a
+test that are marked ci where they are listed. `make checks` runs just that. What is marked long is for
+`make long`. CI runs `make test-and-checks`, which is both in one go.
 """
 
 from __future__ import annotations

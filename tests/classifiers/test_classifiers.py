@@ -11,6 +11,8 @@ from tire_pipeline.classifiers.methods.oversampling import oversample
 from tire_pipeline.classifiers.reliability import expected_calibration_error, reliability_curve
 from tire_pipeline.errors import DomainError
 
+pytestmark = pytest.mark.slow
+
 OPTIONS = {"ann": {"epochs": 30}, "gradient_boosting": {"n_rounds": 20}}
 
 

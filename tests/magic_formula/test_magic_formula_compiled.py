@@ -17,6 +17,8 @@ from tire_pipeline.magic_formula.equations import numpy_form
 from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA
 from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 
+pytestmark = pytest.mark.slow
+
 TIRES = {"5.2": tire_52(), "6.1": tire_61()}
 RNG = np.random.default_rng(1)
 COUNT = 1500
@@ -98,7 +100,6 @@ def test_a_tire_that_goes_to_numpy_leaves_those_beside_it_as_they_are():
         np.testing.assert_array_equal(together[row], alone[0])
 
 
-@pytest.mark.slow
 def test_without_numba_the_results_are_the_same():
     code = (
         "import json; from magic_formula_tires import tire_52, tire_61; "
@@ -119,7 +120,6 @@ def test_without_numba_the_results_are_the_same():
             np.testing.assert_allclose(ours, theirs, rtol=1e-12)
 
 
-@pytest.mark.slow
 @each_tire
 @pytest.mark.parametrize("output", ["fx", "fy", "mx", "my", "mz"])
 def test_derivatives_are_the_slopes(tire, output):
@@ -142,7 +142,6 @@ def test_derivatives_are_the_slopes(tire, output):
         assert off.sum() <= 2, name
 
 
-@pytest.mark.slow
 def test_a_converted_model_has_the_derivatives_of_the_first():
     tire = TIRES["5.2"].replace(LGAX=1.0, LGAY=1.0, LGAZ=1.0)
     names = ["PDY1", "PKY1", "PHY3", "PVY1", "PDX1", "QDZ1"]

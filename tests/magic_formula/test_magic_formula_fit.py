@@ -167,8 +167,15 @@ def test_few_points_without_noise_are_met_exactly():
     assert fit_magic_formula(few_points(tire, 40, 1, 0.0)).relative_rms["fy"] < 1e-3
 
 
-@pytest.mark.parametrize("outliers", [0.0, 0.05])
-@pytest.mark.parametrize("tire", [tire_52(), tire_61()], ids=["5.2", "6.1"])
+@pytest.mark.parametrize(
+    ("tire", "outliers"),
+    [
+        pytest.param(tire_52(), 0.05, id="5.2-0.05"),
+        pytest.param(tire_61(), 0.0, id="6.1-0.0"),
+        pytest.param(tire_52(), 0.0, id="5.2-0.0", marks=pytest.mark.long),
+        pytest.param(tire_61(), 0.05, id="6.1-0.05", marks=pytest.mark.long),
+    ],
+)
 def test_a_known_tire_is_found_again_below_its_noise(tire, outliers):
     fit = fit_magic_formula(
         rig(tire, count=4000 if outliers else 1500, outliers=outliers), tire.version, unloaded_radius=0.32

@@ -8,6 +8,8 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula import PoorFitWarning, TireModel
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 
+pytestmark = pytest.mark.slow
+
 TIRE = TireModel.from_coefficients(
     {"FNOMIN": 4000, "PCY1": 1.3, "PDY1": 1.0, "PKY1": -20, "PKY2": 2, "UNLOADED_RADIUS": 0.3}
 )

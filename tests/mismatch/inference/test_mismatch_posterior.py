@@ -218,8 +218,9 @@ def test_hypotheses_without_mass_change_no_score(cases, tuning):
 @pytest.mark.parametrize("seed", range(2, 5))
 def test_a_prior_of_the_user_takes_the_place_of_the_stated_one(tire, record, seed):
     recording, alone = record(seed, friction=0.88), ("friction_scale",)
-    stated = Explainer().weigh(tire, recording).answer
-    narrow = Explainer(priors={"friction_scale": {"friction": 1e-4}}).weigh(tire, recording).answer
+    stated = Explainer(without=OTHERS).weigh(tire, recording).answer
+    priors = {"friction_scale": {"friction": 1e-4}}
+    narrow = Explainer(without=OTHERS, priors=priors).weigh(tire, recording).answer
     assert stated.probabilities[alone] > 0.9
     assert narrow.probabilities.get(alone, 0.0) < 1e-3
 

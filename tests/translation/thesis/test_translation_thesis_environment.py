@@ -7,6 +7,8 @@ from tire_pipeline.translation.thesis.batch_environment import BatchEnv
 from tire_pipeline.translation.thesis.environment import TranslationEnv
 from tire_pipeline.translation.thesis.rules import REWARDS, Rules
 
+pytestmark = pytest.mark.slow
+
 FEATURES, BINS = 11, 10
 
 

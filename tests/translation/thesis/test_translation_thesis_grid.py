@@ -16,6 +16,8 @@ from tire_pipeline.translation.thesis.tables import (
     thesis_table,
 )
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def splits(table):
