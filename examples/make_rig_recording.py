@@ -20,6 +20,7 @@ from tire_pipeline.concealed.brush_rig.recorded_run import BrushRig, add_noise, 
 from tire_pipeline.concealed.brush_rig.schedule import CHANNELS, CasePlan
 from tire_pipeline.concealed.cases.clean_run import fit_clean
 from tire_pipeline.tir import write_tir
+from tire_pipeline.tir.format.values import COMPUTED_DIGITS
 
 HERE = Path(__file__).resolve().parent
 SEED = 7
@@ -85,7 +86,7 @@ def main(folder: Path = HERE) -> None:
     rig = BrushRig(constants, rng.random(4), ISO, {}, {"fx": 0.0, "fy": 0.0}, 24)
     largest = float(rig.run(sweeps(plan, (1.0,), RUN["loads"]), {})["fy"].abs().max())
     tire, _ = fit_clean(rig, plan, noise=0.002 * largest, rng=rng)
-    write_tir(tire, folder / "tire.tir", overwrite=True)
+    write_tir(tire, folder / "tire.tir", overwrite=True, digits=COMPUTED_DIGITS)
     noise = draw_noise(rng, constants, largest)
     for name, levels in (("rig_run", RUN), ("rig_check", CHECK)):
         frame = rig.run(sweeps(plan, levels["pressures"], levels["loads"]), {"inflation_pressure": 1.0})

@@ -106,10 +106,10 @@ def test_a_subcommand_that_lasts_shows_that_it_works(folder, monkeypatch, call):
     under_way, shown = [], []
 
     @contextmanager
-    def watched(what, now_at):
+    def watched(what, now_at=lambda: ""):
         under_way.append(lambda: f"{what} ({now_at()})")
         yield
-        under_way.clear()
+        under_way.pop()
 
     def reads(*arguments, **options):
         shown.extend(label() for label in under_way)
@@ -209,6 +209,7 @@ def test_convert_keeps_the_forces_and_says_what_it_cannot_keep(folder):
     result = told("convert", "a.tir", "--to", "6.1")
     assert read_tir("a_6.1.tir").version == "6.1"
     assert result["differences"]["fy"]["share"] < 1e-12
+    assert not re.search(r"[+-]0\.0%", page(folder / "a_6.1_convert.html"))
     assert any("PHY3" in note for note in result["notes"])
     assert "PHY3 has no exact place in 6.1" in (folder / "a_6.1.tir").read_text()
     assert "there is a file of that name" in run("convert", "a.tir", "--to", "6.1", code=2).stderr
@@ -319,6 +320,20 @@ def test_check_lists_channels_and_fails_on_what_cannot_be_explained(folder):
     assert own["channels"]["slip_angle"]["highest"] == pytest.approx(0.16, abs=1e-3)
 
 
+def test_check_shows_no_digits_below_those_of_the_channel(folder):
+    table = pd.DataFrame({"time": np.arange(50) / 50.0, "slip_angle": np.linspace(-0.2, 0.2, 50) + 3e-9})
+    table.assign(normal_load=4000.0, fy=-1e4 * table["slip_angle"]).to_csv("run.csv", index=False)
+    row = next(line for line in run("check", "run.csv").stdout.splitlines() if line.startswith("slip_angle"))
+    assert row.split()[3:] == ["-0.2", "0", "0.2", "0"]
+    assert told("check", "run.csv")["channels"]["slip_angle"]["median"] == pytest.approx(3e-9)
+
+
+def test_check_says_what_to_do_about_a_file_of_another_format_or_unit(folder):
+    record("run.csv", seconds=1.0)
+    assert "-> save it again" in run("check", "run.csv", "--format", "MAT", code=2).stderr
+    assert "--unit 'fy=N'" in run("check", "run.csv", "--unit", "fy=deg", code=2).stderr
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -329,7 +344,9 @@ def test_check_lists_channels_and_fails_on_what_cannot_be_explained(folder):
         (("compare", "a.tir", "a.tir"), "this file is given twice"),
         (("convert", "a.tir", "--to", "7.0"), "Magic Formula version '7.0' is not known"),
         (("convert", "a.tir", "--to", "6.1", "-o", "a.tir", "--overwrite"), "never changed"),
-        (("convert", "a.tir", "--to", "6.1", "-o", "no/such/folder.tir"), "no/such"),
+        (("convert", "a.tir", "--to", "6.1", "-o", "no/such/folder.tir"), "no/such: there is no such folder"),
+        (("explain", "a.tir", "none.csv", "-o", "no/such/page.html"), "no/such: there is no such folder"),
+        (("explain", "a.tir", "none.csv", "--corrected", "a.tir"), "choose another --corrected"),
         (("check", "none.csv"), "no such file"),
         (("check", "a.tir", "--name", "x"), "'x' is not COLUMN=CHANNEL, such as Querkraft=fy"),
         (("check", "a.tir", "--unit", "SA"), "'SA' is not COLUMN=UNIT, such as SA=deg"),

@@ -26,8 +26,9 @@ def test_folders_above_are_made_only_if_asked(tmp_path):
     with replaced_file(tmp_path / "deep/er/a") as temporary:
         temporary.write_bytes(b"x")
     assert content(tmp_path) == {"deep/er/a": b"x"}
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(FileNotFoundError) as raised:
         write_bytes(tmp_path / "absent/a", b"x")
+    assert raised.value.filename == str(tmp_path / "absent/a")  # not the temporary file's
     assert not (tmp_path / "absent").exists()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import runpy
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 from tire_pipeline.tir import read_tir
+from tire_pipeline.tir.format.values import COMPUTED_DIGITS
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 SHARE = 0.002
@@ -48,3 +50,10 @@ def test_comments_of_the_tire_file_are_those_that_are_written_today(made):
         return [line.partition("$")[2] for line in text.splitlines()]
 
     assert words(made) == words(EXAMPLES)
+
+
+def test_the_tire_file_has_the_digits_that_matter():
+    text = (EXAMPLES / "tire.tir").read_text(encoding="ascii")
+    numbers = re.findall(r"(?m)^\w+ += (-?\d\S*)", text)
+    assert len(numbers) > 100
+    assert [each for each in numbers if float(f"{float(each):.{COMPUTED_DIGITS}g}") != float(each)] == []

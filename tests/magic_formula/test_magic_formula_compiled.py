@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from contextlib import contextmanager
 from functools import partial
 
 import numpy as np
@@ -14,7 +15,7 @@ from tire_pipeline.errors import TirValueError
 from tire_pipeline.magic_formula.compiled import engine
 from tire_pipeline.magic_formula.derivatives.gradients import gradients_of
 from tire_pipeline.magic_formula.equations import numpy_form
-from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA
+from tire_pipeline.magic_formula.equations.jit import HAVE_NUMBA, compiled
 from tire_pipeline.magic_formula.equations.numpy_form import OUTPUTS
 
 pytestmark = pytest.mark.slow
@@ -162,3 +163,17 @@ def test_derivatives_know_their_names():
         tire.jacobian(["NOSUCH"], normal_load=3000.0)
     with pytest.raises(TirValueError, match="trail"):
         tire.jacobian(["PKY1"], normal_load=3000.0, outputs=("trail",))
+
+
+@needs_numba
+def test_compiling_says_that_it_is_under_way(monkeypatch):
+    said = []
+
+    @contextmanager
+    def watched(what):
+        said.append(what)
+        yield
+
+    monkeypatch.setattr("tire_pipeline.progress.under_way", watched)
+    assert compiled(lambda x: 2.0 * x, "float64(float64)")(1.5) == 3.0
+    assert said == ["compiling the equations, once and for all later calls"]

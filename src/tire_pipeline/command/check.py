@@ -67,9 +67,10 @@ def outcome(run: Path, recording: pd.DataFrame, issues: list[Issue], axes: str |
     verdict = "It cannot be explained as it is" if errors else "It can be explained"
     counts = [_count(errors, "error"), _count(len(issues) - errors, "warning")]
     lines = [f"{verdict}: {' and '.join(counts)}.", _size(recording), _axes(recording, axes)]
+    rows = _channels(recording)
     channels = Grid(
         ("channel", "in the file", "unit", "lowest", "median", "highest", "missing"),
-        _channels(recording),
+        [(*row[:3], *_alike(row[3:6]), row[6]) for row in rows],
         "Channels, in SI units",
     )
     found = Grid(
@@ -87,7 +88,7 @@ def outcome(run: Path, recording: pd.DataFrame, issues: list[Issue], axes: str |
             {"name": i.name, "severity": i.severity, "where": i.where, "advice": i.advice, "rows": i.rows}
             for i in issues
         ],
-        "channels": {row[0]: dict(zip(_KEYS, row[1:], strict=True)) for row in channels.rows},
+        "channels": {row[0]: dict(zip(_KEYS, row[1:], strict=True)) for row in rows},
         "conversions": attrs.get("conversions", []),
         "notes": attrs.get("notes", []),
     }
@@ -150,6 +151,15 @@ def _channels(recording: pd.DataFrame) -> list[tuple[Any, ...]]:
     return rows
 
 
+def _alike(span: tuple[float, ...]) -> list[float]:
+    """Round to the digits that matter beside the largest: a median of 1e-9 among angles of 0.2 is 0."""
+    most = max(map(abs, span))
+    if not np.isfinite(most) or most == 0.0:
+        return list(span)
+    places = 3 - int(np.floor(np.log10(most)))
+    return [round(value, places) + 0.0 for value in span]
+
+
 def _page(
     run: Path,
     recording: pd.DataFrame,
@@ -194,5 +204,5 @@ def _figure(recording: pd.DataFrame) -> tuple[Any, str]:
         panel.plot(x, values, color=colour_of(0), **look)
         panel.set_ylabel(f"{name.replace('_', ' ')}\n({unit})", fontsize=8)
     axes.ravel()[-1].set_xlabel("time (s)" if timed else "point")
-    thinned = f" Every {step}. sample is drawn." if step > 1 else ""
+    thinned = f" One sample in {step} is drawn." if step > 1 else ""
     return figure, f"The channels that are known, as read: ISO W axes; angles in degrees.{thinned}"

@@ -144,7 +144,8 @@ def _percent(share: float) -> str:
 def _change(before: float, after: float) -> str:
     if not (math.isfinite(before) and math.isfinite(after)) or before == 0.0:
         return "–"
-    return f"{100 * (after / before - 1):+.1f}%"
+    change = after / before - 1.0
+    return f"{100 * change:+.1f}%" if abs(change) > _ROUNDING_SHARE else "0%"
 
 
 def _page(

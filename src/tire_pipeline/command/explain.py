@@ -75,7 +75,7 @@ def command(
     if corrected is not None:
         if str(file) == NO_TIRE:
             raise RecordingError("without a .tir file there is none to correct", todo="leave --corrected out")
-        check_target(corrected, overwrite, file)
+        check_target(corrected, overwrite, file, option="--corrected")
     check_effects(without, "--without")
     tire = None if str(file) == NO_TIRE else read_tir(file, unloaded_radius=radius)
     paths = list(dict.fromkeys([*runs, *([_among(hold_out, runs)] if hold_out else [])]))

@@ -28,6 +28,7 @@ def output_options(*names: str) -> Callable[[F], F]:
                 *names,
                 "--page",
                 type=FILE,
+                callback=_page_that_can_be_written,
                 help="The page to write. Default: named after file and command, in the current folder.",
             ),
         ):
@@ -35,6 +36,27 @@ def output_options(*names: str) -> Callable[[F], F]:
         return function
 
     return add
+
+
+def _page_that_can_be_written(_: click.Context, option: click.Parameter, page: Path | None) -> Path | None:
+    """Refuse a page that cannot be written, before anything long is computed."""
+    if page is not None:
+        check_page(page)
+        _check_folder(page, " or ".join(option.opts))
+    return page
+
+
+def check_page(page: Path) -> None:
+    """Refuse anything but HTML, so that no input is overwritten."""
+    if page.suffix.lower() not in (".html", ".htm"):
+        raise DomainError("the page is HTML", where=str(page), todo="choose a name that ends in .html")
+
+
+def _check_folder(path: Path, option: str) -> None:
+    if not path.parent.is_dir():
+        raise DomainError(
+            "there is no such folder", where=str(path.parent), todo=f"make it, or choose another {option}"
+        )
 
 
 def radius_option(function: F) -> F:
@@ -128,17 +150,24 @@ def _pairs(texts: Sequence[str], option: str, form: str) -> dict[str, str]:
     return pairs
 
 
-def check_target(path: Path, overwrite: bool, *sources: Path) -> None:
-    """Refuse to write over a file, before anything long is computed.
+def check_target(path: Path, overwrite: bool, *sources: Path, option: str = "-o") -> None:
+    """Refuse a file that cannot or must not be written, before anything long is computed.
 
     Raises
     ------
     TirError
         The file is there and ``overwrite`` is False, or it is one of the files that are read.
+    DomainError
+        Its folder does not exist.
     """
+    _check_folder(path, option)
     if any(path.exists() and source.exists() and path.samefile(source) for source in sources):
-        raise TirError("this is the input, which is never changed", path=str(path), todo="choose another -o")
+        raise TirError(
+            "this is the input, which is never changed", path=str(path), todo=f"choose another {option}"
+        )
     if path.exists() and not overwrite:
         raise TirError(
-            "there is a file of that name", path=str(path), todo="choose another -o, or add --overwrite"
+            "there is a file of that name",
+            path=str(path),
+            todo=f"choose another {option}, or add --overwrite",
         )

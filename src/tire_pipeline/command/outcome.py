@@ -12,7 +12,6 @@ from typing import Any
 import click
 import numpy as np
 
-from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import write_bytes
 from tire_pipeline.pages.percentage import is_percentage
 from tire_pipeline.pages.visible_text import visible
@@ -75,29 +74,16 @@ def finish(outcome: CommandOutcome, name: str, *, page: Path | None, no_page: bo
         Name of the page, without its suffix, if ``page`` does not give it.
     page : Path, optional
     no_page, as_json : bool
-
-    Raises
-    ------
-    DomainError
-        The page's name does not end in ``.html``.
     """
     written = [str(path) for path in outcome.written]
     if not no_page:
-        target = page_path(page, name)
+        target = page or Path(f"{name}.html")
         write_bytes(target, outcome.page().encode())
         written.append(str(target))
     if as_json:
         click.echo(json.dumps(plain({**outcome.data, "written": written}), ensure_ascii=False, indent=1))
         return
     _print(outcome, written)
-
-
-def page_path(page: Path | None, name: str) -> Path:
-    """Where the page goes; anything but HTML is refused, so that no input is overwritten."""
-    path = Path(f"{name}.html") if page is None else page
-    if path.suffix.lower() not in (".html", ".htm"):
-        raise DomainError("the page is HTML", where=str(path), todo="choose a name that ends in .html")
-    return path
 
 
 def _print(outcome: CommandOutcome, written: Sequence[str]) -> None:

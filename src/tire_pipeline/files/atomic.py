@@ -101,7 +101,12 @@ def replaced_file(path: str | os.PathLike[str], *, parents: bool = True) -> Iter
     check_now()
     if parents:
         path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{_OURS_PREFIX}{_owner()}", suffix=_NEW_SUFFIX, dir=path.parent)
+    try:
+        handle, name = tempfile.mkstemp(
+            prefix=f".{_OURS_PREFIX}{_owner()}", suffix=_NEW_SUFFIX, dir=path.parent
+        )
+    except OSError as error:  # the user knows the file, not the temporary one
+        raise OSError(error.errno, error.strerror, str(path)) from error
     os.close(handle)
     temporary = Path(name)
     try:

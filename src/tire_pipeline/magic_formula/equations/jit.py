@@ -64,8 +64,11 @@ def compiled(function: Callable[..., Any], signature: Any) -> Callable[..., Any]
     """Return a loop over points, compiled for a signature and kept on disk if there is a place for it."""
     from numba import njit
 
+    from tire_pipeline.progress import under_way
+
     options: Any = {"nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
-    try:
-        return njit(signature, cache=True, **options)(function)
-    except RuntimeError:  # there is no folder that can be written: this process compiles for itself
-        return njit(signature, **options)(function)
+    with under_way("compiling the equations, once and for all later calls"):
+        try:
+            return njit(signature, cache=True, **options)(function)
+        except RuntimeError:  # there is no folder that can be written: this process compiles for itself
+            return njit(signature, **options)(function)

@@ -258,7 +258,8 @@ def _to_si(
         raise RecordingError(
             f"channel {name} has unit {unit!r}, which is no {channel.dimension}",
             where=source,
-            todo=f"say what holds: units={{{name!r}: {channel.unit!r}}}",
+            todo=f"say what holds: units={{{name!r}: {channel.unit!r}}}, on the command line "
+            f"--unit '{name}={channel.unit}'; if it is another quantity, name its channel",
         )
     if known.factor == 1 and known.offset == 0:
         return values, []

@@ -98,6 +98,8 @@ def _loaded(path: Path) -> tuple[dict[str, Any], list[tuple[str, tuple[int, ...]
         raise
     except Exception as error:  # scipy raises whatever its parser trips over
         raise RecordingError(
-            f"cannot be read as a .mat file ({type(error).__name__}: {error})", where=str(path)
+            f"cannot be read as a .mat file ({type(error).__name__}: {error})",
+            where=str(path),
+            todo="save it again with save('name.mat', ..., '-v7'); if it is no MATLAB file, state no format",
         ) from error
     return {k: v for k, v in content.items() if not k.startswith("__")}, listed
