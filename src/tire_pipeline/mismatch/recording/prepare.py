@@ -23,7 +23,15 @@ from tire_pipeline.mismatch.recording.identity import another_tire
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
 from tire_pipeline.mismatch.recording.usable import judge, leave_out_no_pressure, leave_out_still_slip
-from tire_pipeline.recordings.check import LEAST_POINTS, LEAST_SAMPLES, LEAST_WHOLE, LONG_STEP, LONGEST_HOLE
+from tire_pipeline.recordings.check import (
+    GAP,
+    LEAST_POINTS,
+    LEAST_SAMPLES,
+    LEAST_WHOLE,
+    LONG_GAP,
+    LONG_STEP,
+    LONGEST_HOLE,
+)
 from tire_pipeline.recordings.conventions.channel_names import FURTHER
 
 Array = np.ndarray
@@ -324,12 +332,13 @@ def _overlap(tire: Any, arrays: Mapping[str, Array]) -> None:
     """Raise if the recording lies where the model says nothing."""
     load = arrays["normal_load"]
     c = tire.coefficients
-    low, high = 0.02 * c.get("FNOMIN", 4000.0), 8.0 * c.get("FNOMIN", 4000.0)
+    nominal = c.get("FNOMIN", float(np.median(load)))
+    low, high = 0.02 * nominal, 8.0 * nominal
     if c.get("FZMAX", 0.0) > 0.0:
         low = min(low, c.get("FZMIN", low)) if c.get("FZMIN", 0.0) > 0.0 else low
         high = max(high, 1.5 * c["FZMAX"])
     inside = (load > low) & (load < high)
-    if inside.mean() < 0.1:
+    if inside.mean() < LEAST_WHOLE:
         raise RecordingError(
             f"no overlap between model and recording: the loads are {np.min(load):.4g} to "
             f"{np.max(load):.4g} N, "
@@ -347,9 +356,9 @@ def _pieces(time: Array | None, rows: Array, notes: list[str]) -> Array:
         return start
     steps = np.diff(time)
     typical = float(np.median(steps))
-    gaps = np.flatnonzero((steps > 3.5 * typical) | (np.diff(rows) > 3))
+    gaps = np.flatnonzero((steps > GAP * typical) | (np.diff(rows) > LONGEST_HOLE))
     start[gaps + 1] = True
-    long = steps[gaps] > 10.0 * typical
+    long = steps[gaps] > LONG_GAP * typical
     if long.any():
         count, longest = int(long.sum()), float(steps[gaps].max())
         said = f"{count} gaps in the time line, the longest" if count > 1 else "a gap in the time line of"

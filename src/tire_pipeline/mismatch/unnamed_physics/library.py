@@ -7,20 +7,22 @@ that breaks this costs more (conicity and ply steer do).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.unnamed_physics.grammar import number, parse
+from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL
 
 LAGS = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0)
 """s; between them the search goes on from the best."""
 WAYS = (0.1, 0.3, 1.0, 3.0)
 """m."""
 PLAYS = {"s": (0.0015, 0.004, 0.01), "fy/(F0*L)": (0.05, 0.15, 0.4)}
-EACH_NODE = 0.7
-"""Log evidence that a node costs: a shorter equation comes first."""
+EACH_NODE = math.log(2.0)
+"""Log evidence that a node costs: a shorter equation comes first. One bit."""
 BREAKS_MIRROR = 3.0
 """Log evidence that a term costs which breaks the mirror symmetry."""
 
@@ -204,10 +206,10 @@ def memory_factors(moves: frozenset[str]) -> Iterator[Factor]:
         drivers = [c if c == "speed" else f"memory of {c}" for c in live]
         for value in LAGS:
             yield _one(f"lag({text}, {{}}) - {text}", *drivers, odd=odd, value=value, kind="memory")
-            if value > 0.2 and len(text) > 4:
+            if value > 0.2 and text not in CHANNEL:
                 yield _one(f"lag({text}, {{}})", *drivers, odd=odd, value=value, kind="memory")
         if "way" in moves and ("speed" in moves or text in ("s", "k", "L", "g")):
-            for value in WAYS if len(text) < 4 else ():
+            for value in WAYS if text in CHANNEL else ():
                 yield _one(f"lagway({text}, {{}}) - {text}", *drivers, odd=odd, value=value, kind="memory")
         if text.startswith("abs("):
             yield _one(f"highest({text})", *drivers, odd=odd, kind="memory")
