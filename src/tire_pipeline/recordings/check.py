@@ -27,12 +27,15 @@ LEAST_WHOLE = 0.1
 """Part of the rows that must have a number in all channels."""
 LONGEST_HOLE = 3
 """Samples: holes of up to so many are interpolated linearly in time."""
+GAP = LONGEST_HOLE + 0.5
+"""Usual steps in one, over which a run is interrupted: more than ``LONGEST_HOLE`` to the nearest whole."""
 LONG_STEP = 1.0
 """From sample to sample, s: runs are recorded faster. In a file without units this is often a time in ms."""
 _USED = {*INPUT_CHANNELS, *TANGENTIAL_FORCES, "time"}
 """Channels that a row must have to be used."""
 _UNIT_OF_CHANNEL = {c.name: c.unit for c in CANONICAL}
-_GAP_FACTOR = 5.0
+LONG_GAP = 5.0
+"""Usual steps in one, over which a gap is said: states are unknown after it."""
 _WRITTEN_OUT = 1e3
 _NAN_BLOCK = 10
 
@@ -222,7 +225,7 @@ def _repeated(bad: np.ndarray) -> list[Issue]:
 def _gaps(step: np.ndarray) -> list[Issue]:
     ahead = step[step > 0]
     usual = float(np.median(ahead)) if ahead.size else np.inf
-    bad = np.concatenate([[False], step > _GAP_FACTOR * usual])
+    bad = np.concatenate([[False], step > LONG_GAP * usual])
     if not bad.any():
         return []
     where = (

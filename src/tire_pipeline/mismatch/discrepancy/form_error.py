@@ -14,14 +14,14 @@ from tire_pipeline.mismatch.model.forces import Change, simulate
 
 Array = np.ndarray
 _TIME_KNOTS = 12
-_USUAL_FORM_ERROR = 0.15
+USUAL_FORM_ERROR = 0.15
 """How wrong a form usually is, as a share of it: what half a sample of shift is measured by."""
 _IMAGINED = 4.0
 """Times as wrong as usual where an effect's driver was not recorded and is simulated: friction power behind
 the best single lag (5 s) explains 0.40 of the variance of calspan's recorded tread temperature."""
 _WHEEL_ANGLE_DRIFT = 2.0
 """The wheel's angle is integrated from a speed with noise, and drifts: by so many radians times
-``_USUAL_FORM_ERROR`` (standard deviation) about each of so many moments."""
+``USUAL_FORM_ERROR`` (standard deviation) about each of so many moments."""
 
 
 def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str, Array]:
@@ -50,7 +50,7 @@ def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str
         columns = [part * use, part * load, part * (2.0 * use**2 - 1.0), part * use * load, part]
         columns = [_IMAGINED * column for column in columns] if effect.blind(data) else columns
         if effect.dynamic:
-            shift = 0.5 / _USUAL_FORM_ERROR
+            shift = 0.5 / USUAL_FORM_ERROR
             columns += [shift * _change(data, whole[o]), shift * _change(data, part)]
         columns += [other[o] - whole[o] for other in others]
         if ahead is not None:

@@ -13,11 +13,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD
+from tire_pipeline.mismatch.discrepancy.nuisance.transients import BANDS, MEMORY_SECONDS
 from tire_pipeline.mismatch.discrepancy.repeating import repeating_forms
 from tire_pipeline.mismatch.discrepancy.ringing import ringing_forms
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import first_order, play
-from tire_pipeline.mismatch.model.channels import used
+from tire_pipeline.mismatch.model.channels import high, used
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
@@ -25,12 +26,10 @@ from tire_pipeline.mismatch.model.simulated import DIFFERENCE
 
 Array = np.ndarray
 Columns = dict[str, Array]
-_LAGS_OF_MEMORY = (1.0, 4.0)
 _PLAYS_BY_SLIP = {"slip_angle": (0.001, 0.003, 0.008), "slip_ratio": (0.008,)}
 """Half widths that are tried, rad and 1: well above the noise of the channels."""
 _SIZE_CLASSES = 16
 """Sizes of slip, and of load, within which a rate is compared with itself."""
-_SMOOTH = 0.1
 
 
 def constant_form(data: Data, changes: list[Change]) -> Columns:
@@ -92,7 +91,7 @@ def _drivers(data: Data) -> Iterator[Array]:
         else:
             yield _unit(rate)
             level = x
-        for lag in _LAGS_OF_MEMORY:
+        for lag in MEMORY_SECONDS:
             gain = 1.0 - np.exp(-data.step / lag)
             memory = _unit(first_order(level, gain, data.start) - level)
             yield memory
@@ -126,7 +125,7 @@ def _from_rest(level: Array, gain: Array) -> Array:
 
 def _rate(data: Data, x: Array) -> Array:
     """Rate of change over a tenth of a second, bounded where steps are faster than sampling shows."""
-    smooth = data.running_mean(x, _SMOOTH)
+    smooth = data.running_mean(x, BANDS[1])
     d = np.zeros_like(x)
     d[1:-1] = smooth[2:] - smooth[:-2]
     d[data.start] = 0.0
@@ -135,7 +134,7 @@ def _rate(data: Data, x: Array) -> Array:
 
 
 def _unit(x: Array) -> Array:
-    """Scale by the 95% quantile of the size, and saturate softly beyond it."""
+    """Scale by the size that one in ten exceeds, and saturate softly beyond it."""
     size = np.abs(x)
-    top = float(np.quantile(size[size > 1e-3 * size.max(initial=0.0)], 0.9)) if np.any(size > 0.0) else 1.0
+    top = high(size[size > 1e-3 * size.max(initial=0.0)]) if np.any(size > 0.0) else 1.0
     return np.tanh(x / max(top, 1e-12))

@@ -33,7 +33,7 @@ ENOUGH_ROWS = 4000
 CHANCE = 0.05
 """Level of every test, and what an interval or a list leaves out: one in twenty."""
 
-_OUTLIERS = 0.005
+OUTLIERS = 0.005
 """Part of the samples at either end of a channel that may be outliers."""
 
 _TAKEN_OVER_SMOOTH = ("pressure", "speed", "tread_temperature")
@@ -42,19 +42,24 @@ _TAKEN_OVER_SMOOTH = ("pressure", "speed", "tread_temperature")
 
 def span(x: Array) -> tuple[float, float]:
     """Return the range of a channel but for outliers: the central 99%."""
-    low, high = np.quantile(x, [_OUTLIERS, 1.0 - _OUTLIERS])
+    low, high = np.quantile(x, [OUTLIERS, 1.0 - OUTLIERS])
     return float(low), float(high)
 
 
 def largest(x: Array) -> float:
     """Return the largest size of a channel but for outliers: 99% are no larger."""
-    return float(np.quantile(np.abs(x), 1.0 - 2.0 * _OUTLIERS))
+    return float(np.quantile(np.abs(x), 1.0 - 2.0 * OUTLIERS))
+
+
+def high(x: Array) -> float:
+    """Return the size that one in ten samples of a channel exceeds."""
+    return float(np.quantile(np.abs(x), 0.9))
 
 
 def used(slip: Array) -> Array:
     """Return how much of the grip a slip uses, about: three quarters where one in ten is larger."""
     size = np.abs(slip)
-    return size / (size + max(float(np.quantile(size, 0.9)) / 3.0, 1e-6))
+    return size / (size + max(high(slip) / 3.0, 1e-6))
 
 
 def white_noise(x: Array) -> float:

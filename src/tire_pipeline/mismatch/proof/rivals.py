@@ -134,11 +134,12 @@ class Rivals:
         expected = self.beside.likelihood.unknown.expected
         before = len(set(self.beside.named.names) - expected)
         # nothing more, one effect more, an expected one, an unnamed form
+        forms = np.array([0, 0, 0, self.names.count("")])
         nothing, effect, sure, form = self.beside.likelihood.learnt.log_prior(
             np.array([before, before + 1, before, before]),
             np.array([0, 0, 1, 0]),
-            unnamed=np.zeros(4, bool),
-            forms=np.array([0, 0, 0, self.names.count("")]),
+            unnamed=np.zeros(forms.size, bool),
+            forms=forms,
         )
         odds = {name: float((sure if name in expected else effect) - nothing) for name in self.names if name}
         return {**odds, "": float(form - nothing)}

@@ -24,6 +24,7 @@ from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.inference.sets.screen import screened_forms
 from tire_pipeline.mismatch.model.candidates import Variant
+from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.proof.beside import Beside
@@ -31,8 +32,8 @@ from tire_pipeline.mismatch.proof.measured import Visible
 from tire_pipeline.mismatch.proof.rivals import Rivals
 
 Array = np.ndarray
-_SEEN = NormalDist().inv_cdf(0.95)
-_RULED_OUT = NormalDist().inv_cdf(0.975)
+_SEEN = NormalDist().inv_cdf(1.0 - CHANCE)
+_RULED_OUT = NormalDist().inv_cdf(1.0 - 0.5 * CHANCE)
 _ROUNDS_OF_HALVING = 7
 _SIZE_FACTOR = 1.2
 """Factor between the sizes that are tried beside an effect's rivals."""

@@ -23,7 +23,15 @@ from tire_pipeline.mismatch.recording.identity import another_tire
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
 from tire_pipeline.mismatch.recording.usable import judge, leave_out_no_pressure, leave_out_still_slip
-from tire_pipeline.recordings.check import LEAST_POINTS, LEAST_SAMPLES, LEAST_WHOLE, LONG_STEP, LONGEST_HOLE
+from tire_pipeline.recordings.check import (
+    GAP,
+    LEAST_POINTS,
+    LEAST_SAMPLES,
+    LEAST_WHOLE,
+    LONG_GAP,
+    LONG_STEP,
+    LONGEST_HOLE,
+)
 from tire_pipeline.recordings.conventions.channel_names import FURTHER
 
 Array = np.ndarray
@@ -347,9 +355,9 @@ def _pieces(time: Array | None, rows: Array, notes: list[str]) -> Array:
         return start
     steps = np.diff(time)
     typical = float(np.median(steps))
-    gaps = np.flatnonzero((steps > 3.5 * typical) | (np.diff(rows) > 3))
+    gaps = np.flatnonzero((steps > GAP * typical) | (np.diff(rows) > LONGEST_HOLE))
     start[gaps + 1] = True
-    long = steps[gaps] > 10.0 * typical
+    long = steps[gaps] > LONG_GAP * typical
     if long.any():
         count, longest = int(long.sum()), float(steps[gaps].max())
         said = f"{count} gaps in the time line, the longest" if count > 1 else "a gap in the time line of"

@@ -14,6 +14,10 @@ import scipy
 Array = np.ndarray
 _FILTER_WINDOWS = ((9, 4), (15, 4), (25, 4), (35, 4), (61, 2), (121, 2), (241, 2))
 _INTERVAL_WIDTH = 1.7
+_STRETCH = 50
+"""Samples within which a signal is calm or not."""
+_MOST_ALIKE = 0.95
+"""Largest correlation from one sample to the next that noise may have: what is more alike moves."""
 _NOISE_ONLY = 1.5
 """A channel that spreads no wider than so many times its noise stands still."""
 
@@ -51,18 +55,22 @@ def _noise(x: Array, start: Array) -> tuple[float, float]:
     """Size of the noise and its correlation from one sample to the next; zero for a set point."""
     d = x[2:] - 2.0 * x[1:-1] + x[:-2]
     d = d[~(start[2:] | start[1:-1])]
-    if d.size < 50 or np.mean(d == 0.0) > 0.3:
+    if d.size < _STRETCH or np.mean(d == 0.0) > 0.3:
         return 0.0, 0.0
     rho = _colour(x, start)
-    return float(_quiet(np.abs(d)) / 0.6745 / np.sqrt(6.0 - 8.0 * rho + 2.0 * rho**2)), rho
+    return float(_quiet(np.abs(d)) / scipy.stats.halfnorm.median() / np.sqrt(_bent(rho, 1))), rho
+
+
+def _bent(rho: float, lag: int) -> float:
+    """Variance of second differences at a lag, for noise of unit variance."""
+    weights, apart = np.array([1.0, -2.0, 1.0]), lag * scipy.linalg.toeplitz(np.arange(3))
+    return float(weights @ rho**apart @ weights)
 
 
 def _quiet(size: Array) -> float:
-    """Lower quartile over blocks of 50 samples of the median: where the signal itself is calm."""
-    count = size.size // 50
-    if count < 4:
-        return float(np.median(size))
-    return float(np.quantile(np.median(size[: 50 * count].reshape(count, 50), axis=1), 0.25))
+    """Lower quartile over stretches of the median: where the signal itself is calm."""
+    whole = size[: size.size // _STRETCH * _STRETCH].reshape(-1, _STRETCH)
+    return float(np.quantile(np.median(whole if whole.size else size[None], axis=1), 0.25))
 
 
 def _piece(x: Array, sigma: float, rho: float) -> Array:
@@ -114,8 +122,9 @@ def correlation_from_ratio(ratio: float) -> float:
     """Correlation of neighbours from the ratio of squared second differences at lags 2 and 1."""
 
     def excess(rho: float) -> float:
-        return (6.0 - 8.0 * rho**2 + 2.0 * rho**4) / (6.0 - 8.0 * rho + 2.0 * rho**2) - ratio
+        return _bent(rho, 2) / _bent(rho, 1) - ratio
 
     if ratio <= 1.0:
         return 0.0
-    return 0.95 if excess(0.95) < 0.0 else float(scipy.optimize.brentq(excess, 0.0, 0.95))
+    most = _MOST_ALIKE
+    return most if excess(most) < 0.0 else float(scipy.optimize.brentq(excess, 0.0, most))

@@ -10,17 +10,14 @@ from itertools import combinations
 
 import numpy as np
 
+from tire_pipeline.mismatch.discrepancy.form_error import USUAL_FORM_ERROR
 from tire_pipeline.mismatch.unnamed_physics.library import Term
+from tire_pipeline.mismatch.unnamed_physics.problem import PRIOR_SIZE
 from tire_pipeline.mismatch.unnamed_physics.products import Reduced
 
 Array = np.ndarray
-PRIOR_SIZE = 0.05
-"""Standard deviation of what a term does, root mean square over the largest force."""
 EACH_DRIVER = 2.0
 """Log evidence that a driver costs."""
-WRONG_FORM = 0.15
-"""How wrong the form of a term may be, as a share of it: differences of evidence below the square of it, of
-all the evidence, say nothing."""
 MOST_TERMS = 3
 
 
@@ -116,9 +113,12 @@ def _judged(terms: Sequence[Term], reduced: Sequence[Reduced], sets: Array) -> l
 
 
 def tolerance(models: Sequence[Model]) -> float:
-    """Log evidence by which models have to differ to be told apart: forms are never quite right."""
+    """Log evidence by which models have to differ to be told apart: forms are never quite right.
+
+    Differences below the square of their usual error, of all the evidence, say nothing.
+    """
     most = max((m.evidence for m in models), default=0.0)
-    return max(1.0, WRONG_FORM**2 * most)
+    return max(1.0, USUAL_FORM_ERROR**2 * most)
 
 
 def shortest(models: Sequence[Model], terms: Sequence[Term], most_terms: int = MOST_TERMS) -> Model | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
@@ -10,7 +9,13 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
-from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, SymbolTable, evaluate, parse
+from tire_pipeline.mismatch.unnamed_physics.grammar import (
+    LONGEST,
+    EquationError,
+    SymbolTable,
+    evaluate,
+    parse,
+)
 from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, MEANING, NominalValues
 
 Array = np.ndarray
@@ -18,7 +23,6 @@ FORMAT = "unnamed physics 1"
 FADE = 0.25
 """Outside of its range an equation goes to nothing over this part of the range's width; in time at once,
 since what turns with the way has another phase in another recording."""
-_LONGEST_SIDECAR = 20_000
 
 
 @dataclass(frozen=True)
@@ -108,8 +112,8 @@ def from_sidecar(content: object) -> UnnamedPhysics:
         It is not of the format; nothing in it is run.
     """
     try:
-        if not isinstance(content, Mapping) or len(json.dumps(content)) > _LONGEST_SIDECAR:
-            raise ValueError("it is no short mapping")
+        if not isinstance(content, Mapping):
+            raise ValueError("it is no mapping")
         if content.get("format") != FORMAT:
             raise ValueError(f"its format is not {FORMAT!r}")
         equations = {str(o): str(text) for o, text in content["equation"].items()}
@@ -129,8 +133,10 @@ def from_sidecar(content: object) -> UnnamedPhysics:
         nominal = NominalValues(**{k: float(v) for k, v in content["nominal"].items()})
         if not all(np.isfinite(v) for v in asdict(nominal).values()) or min(nominal.F0, nominal.V0) <= 0.0:
             raise ValueError("its nominal values are not numbers above zero")
-        depends_on = tuple(str(d)[:60] for d in content["depends_on"])[:9]
-        return UnnamedPhysics(equations, depends_on, str(content["acts_on"])[:200], ranges, nominal)
+        depends_on, acts_on = tuple(map(str, content["depends_on"])), str(content["acts_on"])
+        if len("".join([*depends_on, acts_on])) > LONGEST:
+            raise ValueError(f"its words are over {LONGEST} characters long")
+        return UnnamedPhysics(equations, depends_on, acts_on, ranges, nominal)
     except EquationError:
         raise
     except (ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError) as error:

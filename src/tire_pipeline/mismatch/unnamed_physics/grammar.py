@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 import re
+import reprlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -31,11 +32,7 @@ Array = np.ndarray
 FUNCTIONS = ("abs", "sqrt", "sin", "cos", "exp", "tanh", "highest")
 MEMORIES = ("lag", "lagway", "play")
 LONGEST = 2000
-"""Characters of an equation."""
-DEEPEST = 40
-"""Brackets within brackets."""
-LARGEST = 1e12
-"""Size of a number."""
+"""Characters of an equation, and of the words that a sidecar has beside it."""
 _TOKEN = re.compile(r"\s*(?:(\d+(?:\.\d*)?(?:[eE][+-]?\d{1,3})?)|([A-Za-z_][A-Za-z_0-9]{0,31})|([-+*/^(),]))")
 
 
@@ -75,7 +72,7 @@ class Node:
         return own.union(*(part.symbols for part in self.parts))
 
 
-@lru_cache(maxsize=2000)
+@lru_cache
 def parse(text: str) -> Node:
     """Read an equation.
 
@@ -86,9 +83,13 @@ def parse(text: str) -> Node:
     """
     if not isinstance(text, str) or len(text) > LONGEST:
         raise EquationError(
-            "an equation is text of at most 2000 characters", todo="shorten or leave out the equation"
+            f"an equation is text of at most {LONGEST} characters", todo="shorten or leave out the equation"
         )
-    return _Reader(text).equation()
+    reader = _Reader(text)
+    try:
+        return reader.equation()
+    except RecursionError as error:
+        raise reader.error("too many brackets") from error
 
 
 class _Reader:
@@ -101,21 +102,22 @@ class _Reader:
         while at < len(text.rstrip()):
             found = _TOKEN.match(text, at)
             if found is None:
-                raise self._error(f"{text[at : at + 8]!r} is not of the grammar")
+                raise self.error(f"{text[at]!r} is not of the grammar")
             number, name, sign = found.groups()
             self.tokens.append(("number", number) if number else ("name", name) if name else ("sign", sign))
             at = found.end()
         self.at = 0
 
     def equation(self) -> Node:
-        tree = self._sum(0)
+        tree = self._sum()
         if self.at < len(self.tokens):
-            raise self._error(f"{self.tokens[self.at][1]!r} was not expected")
+            raise self.error(f"{self.tokens[self.at][1]!r} was not expected")
         return tree
 
-    def _error(self, what: str) -> EquationError:
+    def error(self, what: str) -> EquationError:
         return EquationError(
-            f"{what} in the equation {self.text[:80]!r}", todo="write it in the grammar of unnamed physics"
+            f"{what} in the equation {reprlib.repr(self.text)}",
+            todo="write it in the grammar of unnamed physics",
         )
 
     def _next(self, *signs: str) -> str:
@@ -129,25 +131,23 @@ class _Reader:
 
     def _need(self, sign: str) -> None:
         if not self._next(sign):
-            raise self._error(f"{sign!r} is missing")
+            raise self.error(f"{sign!r} is missing")
 
-    def _sum(self, depth: int) -> Node:
-        if depth > DEEPEST:
-            raise self._error("too many brackets")
-        left = self._product(depth)
+    def _sum(self) -> Node:
+        left = self._product()
         while sign := self._next("+", "-"):
-            left = Node(sign, parts=(left, self._product(depth)))
+            left = Node(sign, parts=(left, self._product()))
         return left
 
-    def _product(self, depth: int) -> Node:
-        left = self._power(depth)
+    def _product(self) -> Node:
+        left = self._power()
         while sign := self._next("*", "/"):
-            left = Node(sign, parts=(left, self._power(depth)))
+            left = Node(sign, parts=(left, self._power()))
         return left
 
-    def _power(self, depth: int) -> Node:
+    def _power(self) -> Node:
         negative = bool(self._next("-"))
-        part = self._part(depth)
+        part = self._part()
         if self._next("^"):
             minus = -1.0 if self._next("-") else 1.0
             part = Node("^", value=minus * self._number(), parts=(part,))
@@ -155,38 +155,38 @@ class _Reader:
 
     def _number(self) -> float:
         if self.at >= len(self.tokens) or self.tokens[self.at][0] != "number":
-            raise self._error("a number is missing")
+            raise self.error("a number is missing")
         value = float(self.tokens[self.at][1])
         self.at += 1
-        if not value <= LARGEST:
-            raise self._error("a number is too large")
+        if not math.isfinite(value):
+            raise self.error("a number is too large")
         return value
 
-    def _part(self, depth: int) -> Node:
+    def _part(self) -> Node:
         if self.at >= len(self.tokens):
-            raise self._error("something is missing at the end")
+            raise self.error("something is missing at the end")
         kind, text = self.tokens[self.at]
         if kind == "number":
             return Node("number", value=self._number())
         self.at += 1
         if kind == "name" and text in FUNCTIONS + MEMORIES:
-            return self._function(text, depth)
+            return self._function(text)
         if kind == "name":
             return Node("symbol", name=text)
         if text != "(":
-            raise self._error(f"{text!r} was not expected")
-        inside = self._sum(depth + 1)
+            raise self.error(f"{text!r} was not expected")
+        inside = self._sum()
         self._need(")")
         return inside
 
-    def _function(self, name: str, depth: int) -> Node:
+    def _function(self, name: str) -> Node:
         self._need("(")
-        inside, value = self._sum(depth + 1), 0.0
+        inside, value = self._sum(), 0.0
         if name in MEMORIES:
             self._need(",")
             value = self._number()
             if not value > 0.0:
-                raise self._error(f"the number in {name} has to be positive")
+                raise self.error(f"the number in {name} has to be positive")
         self._need(")")
         return Node(name, value=value, parts=(inside,))
 

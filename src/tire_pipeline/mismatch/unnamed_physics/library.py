@@ -13,6 +13,7 @@ from functools import cache, cached_property
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.unnamed_physics.grammar import number, parse
+from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL
 
 LAGS = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0)
 """s; between them the search goes on from the best."""
@@ -204,10 +205,10 @@ def memory_factors(moves: frozenset[str]) -> Iterator[Factor]:
         drivers = [c if c == "speed" else f"memory of {c}" for c in live]
         for value in LAGS:
             yield _one(f"lag({text}, {{}}) - {text}", *drivers, odd=odd, value=value, kind="memory")
-            if value > 0.2 and len(text) > 4:
+            if value > 0.2 and text not in CHANNEL:
                 yield _one(f"lag({text}, {{}})", *drivers, odd=odd, value=value, kind="memory")
         if "way" in moves and ("speed" in moves or text in ("s", "k", "L", "g")):
-            for value in WAYS if len(text) < 4 else ():
+            for value in WAYS if text in CHANNEL else ():
                 yield _one(f"lagway({text}, {{}}) - {text}", *drivers, odd=odd, value=value, kind="memory")
         if text.startswith("abs("):
             yield _one(f"highest({text})", *drivers, odd=odd, kind="memory")

@@ -21,6 +21,8 @@ _OTHER_SIZES = ((0.002, 0.0002), (0.006, 0.01), (0.013, 0.002))
 that the engine has learnt: a part that has no name must not have to pass for misfit."""
 
 
+PRIOR_SIZE = 0.05
+"""Standard deviation of what a term does, root mean square over the largest force."""
 USUAL_MISFIT = 0.01
 """What a formula fitted to a clean tire leaves at most, RMS over largest force: the tuning tires 0.4 to 0.9%,
 calspan 2%, DART 3%."""

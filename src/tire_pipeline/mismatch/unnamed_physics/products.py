@@ -16,7 +16,7 @@ import scipy
 from tire_pipeline.mismatch.inference.analysis import inflation_of
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
-from tire_pipeline.mismatch.unnamed_physics.problem import Unexplained
+from tire_pipeline.mismatch.unnamed_physics.problem import PRIOR_SIZE, Unexplained
 
 Array = np.ndarray
 FOLDS = 5
@@ -201,8 +201,8 @@ class Columns:
             found = [self.of(term) for term in terms]
             columns = np.column_stack([f[o] for f in found if f is not None])
             size = np.sqrt(np.mean(columns**2, axis=0))
-            live = size > 1e-9 * p.largest[o]
-            columns = columns[:, live] * (0.05 * p.largest[o] / size[live])
+            live = size > _LEAST_SIZE * p.largest[o]
+            columns = columns[:, live] * (PRIOR_SIZE * p.largest[o] / size[live])
             white = np.hstack([p.nuisance[o] * p.sizes[0][o], p.whiten(o, columns)])
             rest = p.whiten(o, p.rest[o][:, None])[:, 0]
             c = np.linalg.solve(white.T @ white + np.eye(white.shape[1]), white.T @ rest)

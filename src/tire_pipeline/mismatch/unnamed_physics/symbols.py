@@ -121,7 +121,7 @@ def _nominal(data: Data) -> NominalValues:
     return NominalValues(
         F0=data.nominal.load,
         R0=data.nominal.radius,
-        V0=max(float(data.nominal.speed), 1e-3) if "speed" in data.present else 1.0,
+        V0=abs(float(data.nominal.speed)) or 1.0 if "speed" in data.present else 1.0,
         P0=float(data.nominal.pressure) if "pressure" in data.present else 1.0,
         T0=round(middle("tread_temperature", 0.0), 1),
     )

@@ -18,7 +18,7 @@ from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import directions, jacobian, shifts
 from tire_pipeline.mismatch.discrepancy.nuisance.flexible import flexible_form
 from tire_pipeline.mismatch.discrepancy.nuisance.transients import fast_load, memory
-from tire_pipeline.mismatch.model.channels import least_spread, span
+from tire_pipeline.mismatch.model.channels import OUTLIERS, least_spread, span
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
@@ -118,9 +118,8 @@ def largest_force(data: Data, name: str) -> float:
 
     If this force is near zero, a fraction of the other one.
     """
-    sizes = {n: float(np.quantile(np.abs(data.simulation.base[n]), 0.995)) for n in data.outputs}
-    top = max(*sizes.values(), 1e-09)
-    return sizes[name] if sizes[name] > 0.3 * top else 0.3 * top
+    sizes = {n: float(np.quantile(np.abs(data.simulation.base[n]), 1.0 - OUTLIERS)) for n in data.outputs}
+    return max(sizes[name], 0.3 * max(*sizes.values(), 1e-09))
 
 
 def _grid(data: Data) -> dict[str, Array]:

@@ -6,13 +6,14 @@ import numpy as np
 
 from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects.shared import first_order
+from tire_pipeline.mismatch.model.channels import high
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.residual import rms
 
 Array = np.ndarray
-_BANDS = (0.0, 0.1, 0.2)
+BANDS = (0.0, 0.1, 0.2)
 """Seconds over which the load is averaged before its rate is taken: the answer differs from band to band."""
-_MEMORY_SECONDS = (1.0, 4.0)
+MEMORY_SECONDS = (1.0, 4.0)
 """Seconds over which a tread remembers."""
 
 
@@ -26,8 +27,8 @@ def memory(data: Data, name: str) -> Array:
         return np.zeros((data.size, 0))
     speed = np.abs(data.get("speed")) if data.has("speed") else np.ones(data.size)
     power = np.abs(data.simulation.base[name] * data.get(slip)) * speed
-    power = power / max(float(np.quantile(power, 0.9)), 1e-12)
-    lags = [first_order(power, 1.0 - np.exp(-data.step / lag), data.start) - power for lag in _MEMORY_SECONDS]
+    power = power / max(high(power), 1e-12)
+    lags = [first_order(power, 1.0 - np.exp(-data.step / lag), data.start) - power for lag in MEMORY_SECONDS]
     ways = (data.simulation.base[name], data.simulation.slope(slip)[name] * data.get(slip))
     return np.column_stack([way * lag for way in ways for lag in lags])
 
@@ -44,7 +45,7 @@ def fast_load(data: Data, name: str) -> Array:
     change = (load - data.smooth("normal_load")) / np.maximum(load, 0.02 * data.nominal.load)
     if not np.any(change):
         return np.zeros((data.size, 0))
-    rates = [rate(data, data.running_mean(change, seconds)) for seconds in _BANDS]
+    rates = [rate(data, data.running_mean(change, seconds)) for seconds in BANDS]
     drivers = [change, *(each * (rms(change) / max(rms(each), 1e-12)) for each in rates)]
     slip = SLIP_OF_FORCE[name]
     steeper = data.simulation.slope(slip)[name] * data.get(slip)
