@@ -18,7 +18,7 @@ from tire_pipeline.mismatch.discrepancy.repeating import repeating_forms
 from tire_pipeline.mismatch.discrepancy.ringing import ringing_forms
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import first_order, play
-from tire_pipeline.mismatch.model.channels import high, used
+from tire_pipeline.mismatch.model.channels import CLASSES, NOTHING, high, used
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
@@ -28,8 +28,6 @@ Array = np.ndarray
 Columns = dict[str, Array]
 _PLAYS_BY_SLIP = {"slip_angle": (0.001, 0.003, 0.008), "slip_ratio": (0.008,)}
 """Half widths that are tried, rad and 1: well above the noise of the channels."""
-_SIZE_CLASSES = 16
-"""Sizes of slip, and of load, within which a rate is compared with itself."""
 
 
 def constant_form(data: Data, changes: list[Change]) -> Columns:
@@ -107,10 +105,10 @@ def _beyond_place(data: Data, driver: Array, name: str) -> Array:
     """
     cell = np.zeros(data.size, np.intp)
     for x in (np.abs(data.get(name)), data.get("normal_load")):
-        edges = np.quantile(x, np.linspace(0.0, 1.0, _SIZE_CLASSES + 1)[1:-1])
-        cell = cell * _SIZE_CLASSES + np.searchsorted(edges, x)
-    count = np.bincount(cell, minlength=_SIZE_CLASSES**2)
-    mean = np.bincount(cell, driver, _SIZE_CLASSES**2) / np.maximum(count, 1)
+        edges = np.quantile(x, np.linspace(0.0, 1.0, CLASSES + 1)[1:-1])
+        cell = cell * CLASSES + np.searchsorted(edges, x)
+    count = np.bincount(cell, minlength=CLASSES**2)
+    mean = np.bincount(cell, driver, CLASSES**2) / np.maximum(count, 1)
     return driver - mean[cell]
 
 
@@ -136,5 +134,5 @@ def _rate(data: Data, x: Array) -> Array:
 def _unit(x: Array) -> Array:
     """Scale by the size that one in ten exceeds, and saturate softly beyond it."""
     size = np.abs(x)
-    top = high(size[size > 1e-3 * size.max(initial=0.0)]) if np.any(size > 0.0) else 1.0
+    top = high(size[size > NOTHING * size.max(initial=0.0)]) if np.any(size > 0.0) else 1.0
     return np.tanh(x / max(top, 1e-12))

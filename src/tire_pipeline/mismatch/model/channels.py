@@ -33,6 +33,12 @@ ENOUGH_ROWS = 4000
 CHANCE = 0.05
 """Level of every test, and what an interval or a list leaves out: one in twenty."""
 
+NOTHING = 1e-3
+"""What does less than so much of what the largest of its kind does, does nothing."""
+
+CLASSES = 16
+"""Of about equal size, within which values of a channel count as the same."""
+
 OUTLIERS = 0.005
 """Part of the samples at either end of a channel that may be outliers."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.channels import SLIP_OF_FORCE
+from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, NOTHING
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.nominal import OF_CAMBER
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
@@ -21,9 +22,6 @@ _COEFFICIENTS_OF_FORCE = {
         "REX1 REX2 RHX1"
     ).split(),
 }
-_LEAST_OF_ALL = 1e-4
-"""Columns smaller than so much of the largest one do nothing here, and are not made larger: the coefficients
-of camber in a recording without camber would become a constant force."""
 _SHIFT_OF_FX = 2.5
 """Braking and driving are no mirror images: a fit makes up for their difference by a shift at zero slip."""
 ONE_LOAD = 6.0
@@ -43,23 +41,33 @@ def directions(data: Data, name: str, at: At) -> Array:
 
 
 def jacobian(data: Data, name: str, at: At) -> Array:
-    """d force / d coefficient for the coefficients that the file has and that matter here."""
+    """What the force changes by if a coefficient changes by all of itself, to first order, shape (n, k).
+
+    For the coefficients that the file has and that matter here: where camber stands still its own would be a
+    constant force of any size.
+    """
     c = data.tire.coefficients
     missing = getattr(data.tire, "defaulted", {})
-    columns = []
-    for key in _COEFFICIENTS_OF_FORCE[name]:
-        value = float(c.get(key, 0.0))
-        if value == 0.0 or key in missing or (key in OF_CAMBER[name] and not data.varies("camber")):
-            continue  # where camber stands still its coefficients would be a constant force of any size
-        h = 1e-4 * max(abs(value), 0.05)
-        up, down = (plain_forces(data.tire.replace(**{key: value + s * h}), **at)[name] for s in (1.0, -1.0))
-        columns.append((up - down) / (2.0 * h) * max(abs(value), 0.05))
-    return np.column_stack(columns) if columns else np.zeros((at["normal_load"].size, 0))
+    keys = [
+        key
+        for key in _COEFFICIENTS_OF_FORCE[name]
+        if c.get(key, 0.0) and key not in missing and (key not in OF_CAMBER[name] or data.varies("camber"))
+    ]
+    slopes = data.tire.jacobian(
+        keys,
+        outputs=(name,),
+        slip_angle=at["slip_angle"],
+        slip_ratio=at["slip_ratio"],
+        camber=at["camber"],
+        normal_load=at["normal_load"],
+    )[name]
+    return np.asarray(slopes * np.array([c[key] for key in keys]))
 
 
 def shifts(data: Data, name: str, at: At) -> Array:
     """Constant, load and slope: a fit would have found a shift of the curve even if the file has none."""
-    slip, h = SLIP_OF_FORCE[name], 2e-3
+    slip = SLIP_OF_FORCE[name]
+    h = ABSOLUTE_SPREAD[slip]
     up, down = (plain_forces(data.tire, **{**at, slip: at[slip] + s * h})[name] for s in (1.0, -1.0))
     load = at["normal_load"]
     return np.column_stack([np.full(load.size, data.nominal.load), load, up - down])
@@ -78,10 +86,14 @@ def _halves(data: Data, name: str, here: At, slopes: Array) -> Array:
 
 
 def _orthonormal(columns: Array) -> Array:
-    """Return columns of RMS 1 that span what is well determined of the given ones."""
+    """Return columns of RMS 1 that span what is well determined of the given ones.
+
+    Those that do nothing here are not made larger: the coefficients of camber in a recording without camber
+    would become a constant force.
+    """
     n = columns.shape[0]
     size = np.sqrt(np.mean(columns**2, axis=0)) if columns.size else np.zeros(0)
-    keep = size > _LEAST_OF_ALL * max(float(size.max(initial=0.0)), 1e-30)
+    keep = size > NOTHING * max(float(size.max(initial=0.0)), 1e-30)
     if not keep.any():
         return np.zeros((n, 0))
     gram = (columns[:, keep] / size[keep]).T @ (columns[:, keep] / size[keep]) / n

@@ -18,13 +18,12 @@ from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import directions, jacobian, shifts
 from tire_pipeline.mismatch.discrepancy.nuisance.flexible import flexible_form
 from tire_pipeline.mismatch.discrepancy.nuisance.transients import fast_load, memory
-from tire_pipeline.mismatch.model.channels import OUTLIERS, least_spread, span
+from tire_pipeline.mismatch.model.channels import CLASSES, NOTHING, OUTLIERS, largest, least_spread, span
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-_LEAST_DIRECTION = 1e-3
-"""A direction in which coefficients change by as much as they are, and do less than so much of what the
-strongest direction does, is none that a fit would use."""
+_ACROSS = 5
+"""Loads, slip angles and cambers at which another input is swept."""
 
 
 class Sizes(NamedTuple):
@@ -95,22 +94,26 @@ def make_nuisance(data: Data) -> Nuisance:
     grid = _grid(data)
     parts: tuple[dict[str, Array], ...] = ({}, {}, {}, {}, {})
     for name in data.outputs:
-        largest = largest_force(data, name)
+        size = largest_force(data, name)
         here = {n: data.get(n) for n in SLIP_AND_LOAD}
         flexible, path = _misfit(data, name, grid)
-        own = (directions(data, name, here) * largest, flexible * largest, path * largest)
+        own = (directions(data, name, here) * size, flexible * size, path * size)
         for part, columns in zip(parts, (*own, memory(data, name), fast_load(data, name)), strict=True):
             part[name] = columns
     return Nuisance(*parts)
 
 
 def _misfit(data: Data, name: str, grid: dict[str, Array]) -> tuple[Array, Array]:
-    """Return the flexible form without what the coefficients can do on the grid, and its part for the way."""
+    """Return the flexible form without what the coefficients can do on the grid, and its part for the way.
+
+    A direction in which coefficients change by as much as they are, and do next to nothing, is none that a
+    fit would use.
+    """
     here = {n: data.get(n) if data.varies(n) else _still(data, n) for n in SLIP_AND_LOAD}
     b, b_grid, ways = flexible_form(data, name, here, grid)
     c = np.hstack([jacobian(data, name, here), shifts(data, name, here)])
     c_grid = np.hstack([jacobian(data, name, grid), shifts(data, name, grid)])
-    return b - c @ np.linalg.lstsq(c_grid, b_grid, rcond=_LEAST_DIRECTION)[0], ways
+    return b - c @ np.linalg.lstsq(c_grid, b_grid, rcond=NOTHING)[0], ways
 
 
 def largest_force(data: Data, name: str) -> float:
@@ -123,19 +126,20 @@ def largest_force(data: Data, name: str) -> float:
 
 
 def _grid(data: Data) -> dict[str, Array]:
-    """Even points over the recorded ranges: pure slip, slip with camber, combined slip, at five loads."""
+    """Even points over the recorded ranges: pure slip, slip with camber, combined slip, at several loads."""
     low, high = span(data.get("normal_load"))
-    loads = np.linspace(low, high, 5) if data.varies("normal_load") else [_at_rest(data, "normal_load")]
-    a, k = _range(data, "slip_angle", 31), _range(data, "slip_ratio", 21)
+    loads = np.linspace(low, high, _ACROSS) if data.varies("normal_load") else [_at_rest(data, "normal_load")]
+    a, k = (_range(data, n, 2 * CLASSES + 1) for n in ("slip_angle", "slip_ratio"))
     turned, rolled, lean = (_at_rest(data, n) for n in ("slip_angle", "slip_ratio", "camber"))
     rows = [(x, rolled, lean, f) for f in loads for x in a]
     rows += [(turned, x, lean, f) for f in loads for x in k]
     if data.varies("camber") and data.nominal.knows_camber:
-        leans = np.delete(_range(data, "camber", 5), 2)
+        leans = np.delete(_range(data, "camber", _ACROSS), _ACROSS // 2)
         rows += [(x, rolled, g, f) for f in loads for g in leans for x in a[::2]]
         rows += [(turned, x, g, f) for f in loads for g in leans for x in k[::2]]
     if data.has_combined:
-        rows += [(s, x, lean, f) for f in loads for s in (-0.08, -0.04, 0.04, 0.08) for x in k[::2]]
+        sides = np.delete(_range(data, "slip_angle", _ACROSS), _ACROSS // 2)
+        rows += [(s, x, lean, f) for f in loads for s in sides for x in k[::2]]
     points = np.array(rows)
     return dict(zip(SLIP_AND_LOAD, points.T, strict=True))
 
@@ -143,7 +147,7 @@ def _grid(data: Data) -> dict[str, Array]:
 def _range(data: Data, name: str, count: int) -> Array:
     if not data.varies(name):
         return np.array([_at_rest(data, name)])
-    top = float(np.quantile(np.abs(data.get(name)), 0.999))
+    top = largest(data.get(name))
     return np.linspace(-top, top, count)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_OF_FORCE
 from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import ASYMMETRY_SHARE
 from tire_pipeline.mismatch.discrepancy.nuisance.transients import rate
-from tire_pipeline.mismatch.model.channels import largest, span
+from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, ENOUGH_ROWS, NOTHING, high, largest, span
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
 
@@ -15,6 +15,8 @@ Array = np.ndarray
 At = dict[str, Array]
 _LENGTHS_OF_INPUTS = {"slip": 0.25, "normal_load": 0.8, "camber": 0.9}
 _MOST_CENTRES = 130
+_UNLOADED = 0.25
+"""Size of the misfit without load, over that at the largest load."""
 _SYMMETRIC_LENGTH, _ASYMMETRIC_LENGTH = 0.85, 1.3
 
 
@@ -33,7 +35,7 @@ def flexible_form(
     times the direction of the sweep. Its mirror image has the opposite direction.
     """
     (x, mirror), (y, _) = _coordinates(data, here), _coordinates(data, grid)
-    pick = np.random.default_rng(0).permutation(data.size)[:3000]
+    pick = np.random.default_rng(0).permutation(data.size)[:ENOUGH_ROWS]
     points = np.vstack([x[pick], y])
     sign = -1.0 if name == "fy" else 1.0
     kernels = [_Mirrored(points, mirror, sign, _SYMMETRIC_LENGTH, 1.0)]
@@ -41,10 +43,10 @@ def flexible_form(
         kernels.append(_Mirrored(points, mirror, -sign, _ASYMMETRIC_LENGTH, ASYMMETRY_SHARE))
     top = largest(data.get("normal_load"))
     slip, half = SLIP_OF_FORCE[name], _slip_at_half(data, name)
-    lean = max(largest(data.get("camber")), 0.01)
+    lean = max(largest(data.get("camber")), ABSOLUTE_SPREAD["camber"])
 
     def amplitude(point: dict[str, Array]) -> Array:
-        size = 0.25 + 0.75 * np.clip(point["normal_load"] / top, 0.0, 1.2)
+        size = _UNLOADED + (1.0 - _UNLOADED) * np.maximum(point["normal_load"] / top, 0.0)
         used = np.abs(point[slip]) / (np.abs(point[slip]) + 0.5 * half)
         if name == "fy":
             used = np.minimum(used + 0.3 * np.abs(point["camber"]) / lean * data.varies("camber"), 1.0)
@@ -67,7 +69,7 @@ def _direction(data: Data, slip: str) -> Array | None:
     if not data.varies(slip):
         return None
     changes = rate(data, data.smooth(slip)) / (1.0 if data.time is None else np.maximum(data.step, 1e-12))
-    typical = max(float(np.quantile(np.abs(changes), 0.75)), 1e-12)
+    typical = max(high(changes), 1e-12)
     return np.tanh(2.0 * changes / typical)
 
 
@@ -98,11 +100,9 @@ def _coordinates(data: Data, at: dict[str, Array]) -> tuple[Array, Array]:
 def _slip_at_half(data: Data, force: str) -> float:
     """Slip at which the linear force would be the largest force: where the curve bends."""
     slip = np.linspace(1e-3, 0.35, 200)
-    zero = np.zeros(200)
+    zero = np.zeros_like(slip)
     args = {**dict.fromkeys(FORCE_OF_SLIP, zero), SLIP_OF_FORCE[force]: slip}
-    f = np.abs(
-        plain_forces(data.tire, camber=zero, normal_load=np.full(200, data.nominal.load), **args)[force]
-    )
+    f = np.abs(plain_forces(data.tire, camber=zero, normal_load=zero + data.nominal.load, **args)[force])
     k = max(f[0] / slip[0], 1e-9)
     return float(np.clip(f.max() / k, 0.005, 0.3))
 
@@ -131,7 +131,7 @@ class _Mirrored:
         self.centres = _spread(points, apart, _MOST_CENTRES)
         kernel = self._kernel(self.centres) + 1e-6 * np.eye(len(self.centres))
         values, vectors = np.linalg.eigh(kernel)
-        good = values > 1e-3 * values.max()
+        good = values > NOTHING * values.max()
         self.to_features = size * vectors[:, good] / np.sqrt(values[good])
 
     def _kernel(self, x: Array) -> Array:
