@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
     MOST_TERMS,
@@ -26,17 +27,14 @@ from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns, Prod
 
 Array = np.ndarray
 EVERYTHING = np.ones(FOLDS, bool)
-_GROWN = 8
-"""Terms of the screen that are multiplied by a second factor, and of those a third one."""
+BREADTH = 8
+"""How many of the best go on: terms that are multiplied by a second factor, and of those by a third one,
+terms whose numbers are refined, and pairs to which a third term is added."""
 _SUMMED_TERMS = 90
 """Terms of which all sums are kept."""
-_REFINED = 4
 _STEPS_OF_NUMBERS = (1.8, 1.35, 1.15)
 _RADII = (0.1, 2.5)
 """Radii of what may roll along, m."""
-_SHORTEST_WAY = 10.0
-_PER_TURN = 8.0
-_MOST_EVEN_POINTS = 16384
 
 Ranked = list[tuple[float, Term]]
 
@@ -85,14 +83,14 @@ def choose(columns: Columns, kept: Array = EVERYTHING, *, refine: bool = True) -
     found = [ranked]
     factors = now_factors(problem.moves)
     for _ in range(2):
-        grown = products(_distinct(found[-1][:40])[:_GROWN], factors)
+        grown = products(_distinct(found[-1])[:BREADTH], factors)
         found.append(_screened(columns, grown, inflation, kept))
     terms = _best_of(found, _SUMMED_TERMS)
     if refine:
         terms = list(dict.fromkeys([*_refined(columns, terms, inflation, kept), *terms]))
     terms, sums = columns.products(terms)
     reduced = columns.reduced(sums, inflation, kept)
-    return ChosenModels(terms, sums, reduced, enumerate_models(terms, reduced))
+    return ChosenModels(terms, sums, reduced, enumerate_models(terms, reduced, BREADTH))
 
 
 def _screened(columns: Columns, terms: Sequence[Term], inflation: float, kept: Array) -> Ranked:
@@ -110,7 +108,7 @@ def _inflation_beside_the_best(columns: Columns, ranked: Ranked) -> float:
     problem = columns.problem
     if problem.settled:
         return problem.inflation
-    best = _distinct(ranked[:60])[:_GROWN]
+    best = _distinct(ranked)[:BREADTH]
     return min(problem.inflation, columns.inflation_beside(best)) if best else problem.inflation
 
 
@@ -138,7 +136,7 @@ def _refined(columns: Columns, terms: Sequence[Term], inflation: float, kept: Ar
     """Move the numbers in the best terms with a memory between those of the grid."""
     out: list[Term] = []
     with_number = [t for t in terms if any("{}" in f.text and f.kind == "memory" for f in t.factors)]
-    for begun in with_number[:_REFINED]:
+    for begun in with_number[:BREADTH]:
         term = begun
         for step in _STEPS_OF_NUMBERS:
             trials = [_moved(term, power) for power in (1.0 / step, 1.0, step)]
@@ -161,7 +159,11 @@ def _rolling(columns: Columns, kept: Array) -> list[Term]:
     """Terms that repeat along the road, at the radius at which most power is."""
     p = columns.problem
     way = p.table.columns.get("way")
-    if way is None or way[-1] - way[0] < _SHORTEST_WAY or "slip_angle" not in p.moves | {"slip_ratio"}:
+    if (
+        way is None
+        or way[-1] - way[0] < 2.0 * np.pi * _RADII[1]
+        or "slip_angle" not in p.moves | {"slip_ratio"}
+    ):
         return []
     seen = kept[columns.folds]
     out: list[Term] = []
@@ -185,10 +187,9 @@ def _rolling(columns: Columns, kept: Array) -> list[Term]:
 def _strongest_radius(signal: Array, way: Array) -> float | None:
     """Radius (m) at whose turns a signal has most power: on an even grid of the way, then nearby.
 
-    None if the way is too long for an even grid that resolves the turns.
+    None if the samples are too far apart for any of the turns.
     """
-    span = float(way[-1] - way[0])
-    count = int(np.clip(_PER_TURN * span / (2.0 * np.pi * _RADII[0]), 256, _MOST_EVEN_POINTS))
+    span, count = float(way[-1] - way[0]), way.size
     even = np.interp(np.linspace(way[0], way[-1], count), way, signal)
     power = np.abs(np.fft.rfft(even, 2 * count))
     rates = np.arange(power.size) * np.pi * (count - 1) / (span * count)
@@ -196,11 +197,10 @@ def _strongest_radius(signal: Array, way: Array) -> float | None:
     if not inside.any():
         return None
     best, width = float(rates[inside][int(np.argmax(power[inside]))]), float(rates[1])
-    for _ in range(3):
-        near = np.linspace(best - width, best + width, 9)
-        best = float(near[int(np.argmax([abs(signal @ np.exp(1j * rate * way)) for rate in near]))])
-        width /= 4.0
-    return 1.0 / best
+    near = scipy.optimize.minimize_scalar(
+        lambda rate: -abs(signal @ np.exp(1j * rate * way)), bounds=(best - width, best + width)
+    )
+    return 1.0 / float(near.x)
 
 
 __all__ = ["EVERYTHING", "ChosenModels", "choose"]

@@ -83,16 +83,21 @@ def coefficients(reduced: Sequence[Reduced], terms: Sequence[int]) -> tuple[Arra
     return found
 
 
-def enumerate_models(
-    terms: Sequence[Term], reduced: Sequence[Reduced], *, pairs_of: int = 60, triples_of: int = 12
-) -> list[Model]:
+def enumerate_models(terms: Sequence[Term], reduced: Sequence[Reduced], triples_of: int) -> list[Model]:
     """Return single terms, pairs and triples, the likeliest first.
 
-    All singles, all pairs of the likeliest singles, and the likeliest pairs with each third term.
+    All singles, all pairs, and the likeliest pairs with each third term.
+
+    Parameters
+    ----------
+    terms : sequence of Term
+    reduced : sequence of Reduced
+    triples_of : int
+        Pairs to which a third term is added.
     """
     singles = np.arange(len(terms))[:, None]
     models = _judged(terms, reduced, singles)
-    best = [m.terms[0] for m in models[:pairs_of]]
+    best = [m.terms[0] for m in models]
     pairs = np.array(list(combinations(best, 2)), int).reshape(-1, 2)
     models += _judged(terms, reduced, pairs) if len(pairs) else []
     two = sorted((m for m in models if len(m.terms) == 2), key=lambda m: -m.score)[:triples_of]

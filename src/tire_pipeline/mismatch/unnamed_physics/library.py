@@ -7,6 +7,7 @@ that breaks this costs more (conicity and ply steer do).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
@@ -20,8 +21,8 @@ LAGS = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0)
 WAYS = (0.1, 0.3, 1.0, 3.0)
 """m."""
 PLAYS = {"s": (0.0015, 0.004, 0.01), "fy/(F0*L)": (0.05, 0.15, 0.4)}
-EACH_NODE = 0.7
-"""Log evidence that a node costs: a shorter equation comes first."""
+EACH_NODE = math.log(2.0)
+"""Log evidence that a node costs: a shorter equation comes first. One bit."""
 BREAKS_MIRROR = 3.0
 """Log evidence that a term costs which breaks the mirror symmetry."""
 

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.discrepancy.nuisance.sizes import nuisance_scale
 from tire_pipeline.mismatch.inference.analysis import Analysis
+from tire_pipeline.mismatch.inference.evidence.likelihood import MISFITS, PATHS
+from tire_pipeline.mismatch.model.channels import least_spread
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.unnamed_physics.grammar import SymbolTable
 from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, NominalValues, table_of
 
 Array = np.ndarray
 Outputs = Mapping[str, Array]
-_OTHER_SIZES = ((0.002, 0.0002), (0.006, 0.01), (0.013, 0.002))
-"""Sizes of the formula's misfit and of its dependence on the way, over the largest force, beside the sizes
-that the engine has learnt: a part that has no name must not have to pass for misfit."""
 
 
 PRIOR_SIZE = 0.05
@@ -28,8 +28,6 @@ USUAL_MISFIT = 0.01
 calspan 2%, DART 3%."""
 _HELD_CHANNELS = "gLvp"
 """Symbols of the channels that a schedule holds while it sweeps a slip."""
-_SAME_LEVEL = 0.3
-"""Difference, in standard deviations of a channel, below which two sweeps are at the same level of it."""
 _A_SWEEP = 8.0
 """Independent values of the formula's misfit along one sweep, about: it bends as the slip does."""
 
@@ -93,7 +91,7 @@ def problem_of(analysis: Analysis) -> Unexplained:
     system, known = _beside_effects(analysis)
     order = np.argsort(analysis.block, kind="stable")
     sizes = [system.scale]
-    for share, path in _OTHER_SIZES:
+    for share, path in product(MISFITS, PATHS):  # what has no name must not have to pass for misfit
         scale = nuisance_scale(analysis.sizes, share, path)
         sizes.append({o: np.concatenate([s, known[o]]) for o, s in scale.items()})
     table, nominal = table_of(data, fit.changes)
@@ -153,12 +151,12 @@ def by_condition(problem: Unexplained, least: int) -> Unexplained:
     level = np.zeros((count, len(_HELD_CHANNELS)))
     for j, symbol in enumerate(_HELD_CHANNELS):
         if CHANNEL[symbol] in problem.moves:
-            x = problem.table.columns[symbol] / np.std(problem.table.columns[symbol])
+            x = problem.table.columns[symbol] / least_spread(CHANNEL[symbol], problem.table.columns[symbol])
             level[:, j] = [np.median(x[problem.block == b]) for b in range(count)]
     first: list[int] = []
     condition = np.zeros(count, int)
     for b in range(count):
-        near = [k for k, a in enumerate(first) if np.max(np.abs(level[b] - level[a])) < _SAME_LEVEL]
+        near = [k for k, a in enumerate(first) if np.max(np.abs(level[b] - level[a])) < 1.0]
         condition[b] = near[0] if near else len(first)
         first += [] if near else [b]
     return replace(problem, together=condition[problem.block]) if len(first) >= least else problem

@@ -14,18 +14,15 @@ import numpy as np
 import scipy
 
 from tire_pipeline.mismatch.inference.analysis import inflation_of
+from tire_pipeline.mismatch.model.channels import ENOUGH_ROWS
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
 from tire_pipeline.mismatch.unnamed_physics.problem import PRIOR_SIZE, Unexplained
 
 Array = np.ndarray
 FOLDS = 5
-_ROWS_SCREENED = 5000
-"""Rows from which on a screen looks at every second, every third ..."""
 _LEAST_SIZE = 1e-9
 """Root mean square over the largest force below which a term does nothing."""
-_KEPT_PARTS = 400
-"""Values of expressions that are kept."""
 
 
 @dataclass(frozen=True)
@@ -95,13 +92,11 @@ class Columns:
         self._residual: dict[int, Products] = {}
         self._full: dict[Term, _Full | None] = {}
         self._white_rest: dict[str, Array] = {}
-        self.stride = max(1, round(problem.table.size / _ROWS_SCREENED))
+        self.stride = max(1, round(problem.table.size / ENOUGH_ROWS))
 
     def part(self, text: str) -> Array | None:
         """Return the value of an expression at each sample; None where it is not finite."""
         if text not in self._parts:
-            if len(self._parts) > _KEPT_PARTS:
-                self._parts.clear()
             try:
                 self._parts[text] = evaluate(parse(text), self.problem.table)
             except EquationError:

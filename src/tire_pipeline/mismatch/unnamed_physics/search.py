@@ -10,7 +10,7 @@ import numpy as np
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.inference.analysis import Analysis, with_fit
 from tire_pipeline.mismatch.inference.linearised_set import Fit
-from tire_pipeline.mismatch.model.channels import least_spread, one_sided, white_noise
+from tire_pipeline.mismatch.model.channels import CLASSES, least_spread, one_sided, span, white_noise
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.left_out import each_left_out
 from tire_pipeline.mismatch.proof.never_worse import size_over_largest
@@ -48,8 +48,6 @@ from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL
 Array = np.ndarray
 _Looked = tuple[Columns, ChosenModels, list[Proven]]
 _SHOWN = 3
-_BINS_OF_CURVE = 30
-_ABOVE_NOISE = 1.5
 _ONE_SIDED = "the recording turns to one side, and no equation from it can be trusted on the other"
 _NOT_PROVED = "no equation makes sweeps better that neither its choice nor its fit has seen"
 
@@ -132,10 +130,10 @@ def more_than_usual(analysis: Analysis) -> bool:
     """Whether more is left than a fitted formula usually leaves, though nothing is significant.
 
     What repeats or changes slowly may pass for coloured noise, and what follows a channel for the formula's
-    misfit. The noise here is that of neighbouring samples alone.
+    misfit. The noise here is that of neighbouring samples alone, and has to be left as much again.
     """
     for o, rest in residual(analysis.data, analysis.fit.changes).items():
-        least = max(USUAL_MISFIT * analysis.largest[o], _ABOVE_NOISE * white_noise(rest))
+        least = max(USUAL_MISFIT * analysis.largest[o], np.sqrt(2.0) * white_noise(rest))
         if float(np.sqrt(np.mean(rest**2))) > least:
             return True
     return False
@@ -171,7 +169,7 @@ def _reported(
         columns, choice, _ = next((each for each in looked if each[1].models), looked[0])
     best, proof = choice.best(which % MOST_TERMS + 1), proofs[which]
     sets, each = driver_posterior(choice.models, choice.terms)
-    shown = [(tuple(sorted(k)), p) for k, p in list(sets.items())[:5]]
+    shown = [(tuple(sorted(k)), p) for k, p in list(sets.items())[:_SHOWN]]
     if best is None:
         return UnnamedReport(None, "nothing in the library is worth its length", drivers=each, sets=shown)
     terms = [choice.terms[i] for i in best.terms]
@@ -243,7 +241,7 @@ def _ranges(problem: Unexplained, texts: Mapping[str, str]) -> dict[str, tuple[f
     seen = used | of_forces | ({"t"} if "way" in used else set())
     for symbol in sorted(s for s in seen if s in CHANNEL):
         x = problem.table.columns[symbol]
-        low, high = (x.min(), x.max()) if symbol == "t" else np.quantile(x, [0.001, 0.999])
+        low, high = (x.min(), x.max()) if symbol == "t" else span(x)
         short = 0.5 * max(least_spread(CHANNEL[symbol], x) - (high - low), 0.0) if symbol == "L" else 0.0
         found[symbol] = (float(low - short), float(high + short))
     return found
@@ -301,7 +299,7 @@ def _curve(columns: Columns, choice: ChosenModels, model: Model) -> dict[str, ob
     if x is None or base is None:
         return {}
     sign = np.sign(base)
-    edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, _BINS_OF_CURVE + 1)))
+    edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, CLASSES + 1)))
     if edges.size < 3:
         return {}
     at = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, edges.size - 2)
