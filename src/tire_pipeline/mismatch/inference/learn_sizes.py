@@ -26,14 +26,13 @@ from tire_pipeline.mismatch.inference.evidence.hypotheses import (
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
+from tire_pipeline.mismatch.model.simulated import DIFFERENCE
 
 Array = np.ndarray
 Names = tuple[str, ...]
 Map = Callable[[Callable[["Tuning"], Array], Iterable["Tuning"]], Iterable[Array]]
 _TRUSTED = (2.0, 1.0, 0.5)
 """Steps from a centre within which the parabolas are trusted; fewer where they promise too much."""
-_CURVATURE_STEP = 0.1
-"""Half the distance between the derivatives whose difference is the curvature."""
 _SCALED_SIZES = ("independent", "form_error", "prior", "error", "spread", "wide")
 _ODDS = ("effect", "further", "unnamed")
 _SURPRISES = 0.01
@@ -271,10 +270,10 @@ class _Parabolas:
         """Return :attr:`Learnt.curvature` at the best sizes near the centre."""
         x, shares, out = self._place(sizes), _shares(self.cases), {}
         for k, name in enumerate([*self.names, *_ODDS]):
-            unit = np.eye(x.size)[k] * _CURVATURE_STEP
+            unit = np.eye(x.size)[k] * DIFFERENCE
             slopes = [self._score(x + sign * unit, shares)[1][k] for sign in (1.0, -1.0)]
             per = np.log(self.step) if k < len(self.names) else 1.0
-            out[name] = float((slopes[1] - slopes[0]) / (2.0 * _CURVATURE_STEP * per**2))
+            out[name] = float((slopes[1] - slopes[0]) / (2.0 * DIFFERENCE * per**2))
         return out
 
     def _place(self, sizes: LearntSizes) -> Array:

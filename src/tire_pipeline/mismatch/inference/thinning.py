@@ -10,6 +10,7 @@ from tire_pipeline.mismatch.discrepancy.gram import System
 from tire_pipeline.mismatch.discrepancy.noise import estimate_noise
 from tire_pipeline.mismatch.discrepancy.nuisance.columns import make_nuisance
 from tire_pipeline.mismatch.discrepancy.nuisance.sizes import nuisance_scale
+from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.linearised_set import LOCKED, Fit, inverse, linearised, moved
 from tire_pipeline.mismatch.model.candidates import derivatives
@@ -19,13 +20,13 @@ from tire_pipeline.progress import track
 
 Array = np.ndarray
 MOST_SAMPLES = 18_000
-_STRETCH = 40.0
+_STRETCH = MOST_SAMPLES // INDEPENDENT_STRETCHES
 _MOST_ERRORS_MOVED = 6.0
 _RCOND = 1e-8
 
 
 def thinned(data: Data) -> Data:
-    """Return the recording, or stretches of 40 s evenly spread over it if it is long.
+    """Return the recording, or stretches evenly spread over it if it is long.
 
     States (temperature, wear, distance) are integrated over the whole recording before.
     """
@@ -35,17 +36,11 @@ def thinned(data: Data) -> Data:
         rows = np.zeros(data.size, bool)
         rows[np.linspace(0, data.size - 1, MOST_SAMPLES).astype(int)] = True
         return data.part(rows)
-    stretch = _stretch(data)
-    count = max(MOST_SAMPLES // stretch, 2)
-    firsts = np.linspace(0, data.size - stretch, count).astype(int)
+    firsts = np.linspace(0, data.size - _STRETCH, INDEPENDENT_STRETCHES).astype(int)
     rows = np.zeros(data.size, bool)
     for first in firsts:
-        rows[first : first + stretch] = True
+        rows[first : first + _STRETCH] = True
     return data.part(rows)
-
-
-def _stretch(data: Data) -> int:
-    return max(int(_STRETCH / max(float(np.median(data.step)), 1e-9)), 1)
 
 
 def portions(data: Data) -> Iterator[Data]:
@@ -54,7 +49,7 @@ def portions(data: Data) -> Iterator[Data]:
     Each portion is made of stretches spread over the whole recording, and so has its operating space.
     """
     count = -(-data.size // MOST_SAMPLES)
-    length = 1 if data.time is None else _stretch(data)
+    length = 1 if data.time is None else _STRETCH
     owner = (np.arange(data.size) // length) % count
     for k in range(count):
         rows = owner == k

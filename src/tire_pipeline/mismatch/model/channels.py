@@ -31,7 +31,8 @@ ENOUGH_ROWS = 4000
 """Of a long recording, as many rows spread over it say the same of a few numbers as all of them."""
 
 CHANCE = 0.05
-"""Level of every test, and what an interval or a list leaves out: one in twenty."""
+"""Level of every test, and what an interval or a list leaves out: one in twenty. What changes odds, a count
+or a share by less has not changed it."""
 
 NOTHING = 1e-3
 """What does less than so much of what the largest of its kind does, does nothing."""

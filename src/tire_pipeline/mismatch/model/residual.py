@@ -8,12 +8,11 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike
 
+from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 
 Array = np.ndarray
-_TO_TELL = 0.05
-"""Least squared error above the noise floor, over the floor's square, of which a share is told."""
 
 
 def residual(data: Data, changes: Sequence[Change]) -> dict[str, Array]:
@@ -58,4 +57,4 @@ def share_above_noise(before: float, after: float, floor: float) -> float:
         RMS of the noise, N.
     """
     above = before - floor**2
-    return min(max((before - after) / above, -1.0), 1.0) if above > _TO_TELL * floor**2 else float("nan")
+    return min(max((before - after) / above, -1.0), 1.0) if above > CHANCE * floor**2 else float("nan")

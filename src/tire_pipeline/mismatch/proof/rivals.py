@@ -14,7 +14,7 @@ import numpy as np
 import scipy
 
 from tire_pipeline.mismatch.inference.analysis import Analysis
-from tire_pipeline.mismatch.inference.evidence.hypotheses import plain
+from tire_pipeline.mismatch.inference.evidence.hypotheses import NO_MASS, plain
 from tire_pipeline.mismatch.inference.evidence.likelihood import Evidence, Projected
 from tire_pipeline.mismatch.inference.evidence.products import RecordingProducts
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL, MOST_ALTERNATIVES, OPEN
@@ -24,8 +24,6 @@ from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.proof.beside import Beside
 
 Array = np.ndarray
-_NO_RIVAL = 8.0
-"""Log evidence by which a rival may stay behind without a part in the answer."""
 
 
 class Rivals:
@@ -112,7 +110,7 @@ class Rivals:
         best = [max(alike, key=most.__getitem__) for alike in forms.values()]
         for k in sorted(best, key=lambda k: -most[k] - self.odds[self.names[k]]):
             pick, name, odds = self.picks[k], self.names[k], self.odds[self.names[k]]
-            if nothing + most[k] + odds < own - _NO_RIVAL:
+            if nothing + most[k] + odds < own - NO_MASS:
                 break
             if name == name_of_truth:
                 continue

@@ -34,7 +34,6 @@ from tire_pipeline.mismatch.proof.rivals import Rivals
 Array = np.ndarray
 _SEEN = NormalDist().inv_cdf(1.0 - CHANCE)
 _RULED_OUT = NormalDist().inv_cdf(1.0 - 0.5 * CHANCE)
-_ROUNDS_OF_HALVING = 7
 _SIZE_FACTOR = 1.2
 """Factor between the sizes that are tried beside an effect's rivals."""
 _MOST_FORMS = 3
@@ -151,7 +150,7 @@ class _Recorded:
         before = self._simulated(out, 0.0)
         column = self._column(out, size, before)
         while not any(np.any(c) for c in column.values()) and size < most:
-            size = min(4.0 * size, most)  # a lag of less than a sample does nothing
+            size = min(2.0 * size, most)  # a lag of less than a sample does nothing
             column = self._column(out, size, before)
         if not any(np.any(c) for c in column.values()):
             return None
@@ -193,15 +192,11 @@ class _Recorded:
             return with_it.value - without.value
 
         low, high = 0.0, 3.0 * error
-        for _ in range(_ROUNDS_OF_HALVING):
-            if gain(high) > odds or high > most:
-                break
+        while gain(high) <= odds:
+            if not 0.0 < high <= most:
+                return value, error, np.inf
             low, high = high, 2.0 * high
-        else:
-            return value, error, np.inf
-        if gain(high) <= odds:
-            return value, error, np.inf
-        for _ in range(_ROUNDS_OF_HALVING):
+        while high - low > CHANCE * high:
             middle = 0.5 * (low + high)
             low, high = (low, middle) if gain(middle) > odds else (middle, high)
         return value, error, high + _SEEN * error

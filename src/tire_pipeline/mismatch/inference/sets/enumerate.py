@@ -16,16 +16,13 @@ from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet, RecordingProducts
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 from tire_pipeline.mismatch.inference.sets.fitting import fitted
-from tire_pipeline.mismatch.inference.sets.screen import Screened, screen, screened_forms
+from tire_pipeline.mismatch.inference.sets.screen import EFFECTS_KEPT, Screened, screen, screened_forms
 from tire_pipeline.mismatch.model.candidates import Variant
 
 Names = tuple[str, ...]
-PAIRS = 20
-TRIPLES = 6
-ASKED_FOR_FORMS = 8
+PAIRS = 2 * EFFECTS_KEPT
+TRIPLES = EFFECTS_KEPT // 2
 """Sets that are fitted by their own equations; the screen has scored all singles and pairs."""
-_FIT_STEPS = 12
-"""Steps of a fit at most; most end after fewer."""
 _INDEPENDENT = 100.0
 """Independent samples, to begin with: how many there are is known only beside the effects."""
 
@@ -74,12 +71,12 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
     fits: dict[Names, OfSet] = {(): products.of_set([], [])}
     singles, pairs = sets_to_fit(found, likelihood.unknown.expected, beside)
     for name in singles:
-        choices = [fitted(products, likelihood, [form], _FIT_STEPS) for form in found.forms[name]]
+        choices = [fitted(products, likelihood, [form]) for form in found.forms[name]]
         fits[(name,)] = max(choices, key=lambda each: plain_evidence(likelihood, each))
     for pair in pairs:
-        fits[pair] = fitted(products, likelihood, _from_singles(fits, pair), _FIT_STEPS)
+        fits[pair] = fitted(products, likelihood, _from_singles(fits, pair))
     for triple in _triples(likelihood, list(fits.values()), found):
-        fits[triple] = fitted(products, likelihood, _from_singles(fits, triple), _FIT_STEPS)
+        fits[triple] = fitted(products, likelihood, _from_singles(fits, triple))
     return Enumerated(products, likelihood, _with_forms(products, likelihood, fits))
 
 
@@ -130,7 +127,7 @@ def _with_forms(
 ) -> tuple[OfSet, ...]:
     """Return all sets, the empty one and the likeliest with unnamed forms beside them."""
     order = sorted(fits, key=lambda names: -plain_evidence(likelihood, fits[names]))
-    asked = {(), *order[:ASKED_FOR_FORMS]}
+    asked = {(), *order[:EFFECTS_KEPT]}
     return tuple(products.with_forms(e) if names in asked else e for names, e in fits.items())
 
 

@@ -13,21 +13,17 @@ from tire_pipeline.mismatch.inference.linearised_set import columns_of, moved
 from tire_pipeline.mismatch.inference.priors import Labels, prior
 from tire_pipeline.mismatch.inference.tails import cost, widening
 from tire_pipeline.mismatch.model.candidates import Variant
+from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
-_DAMPINGS = (1e-6, 0.1, 3.0)
-_PARTS_OF_TIME = 50.0
-"""Of the whole: so far a moment moves first, half of the way between those that are begun from."""
-_ENOUGH = 0.05
-"""Log evidence below which a step is the last one."""
+_DAMPINGS = (0.0, 1.0, 3.0)
+"""A whole step, about half of it, about a quarter."""
 
 
-def fitted(
-    products: RecordingProducts, likelihood: Likelihood, variants: Sequence[Variant], steps: int
-) -> OfSet:
+def fitted(products: RecordingProducts, likelihood: Likelihood, variants: Sequence[Variant]) -> OfSet:
     """Find the likeliest parameters of a set and return its products.
 
     Parameters
@@ -35,20 +31,16 @@ def fitted(
     products : RecordingProducts
     likelihood : Likelihood
     variants : sequence of Variant
-        The effects, each where the fit begins.
-    steps : int
-        Most steps.
+        The effects, each where the fit begins. It ends where a step changes the odds by next to nothing.
     """
     changes: list[Change] = [(v.name, dict(v.start)) for v in variants]
     free = [tuple(v.free) for v in variants]
     smooth = [tuple(p for p in v.free if p not in v.effect.scanned) for v in variants]
-    for step in range(steps):
-        changes, gain, near = _step(products, likelihood, changes, smooth)
-        if step == 0:
-            changes, more = _scan(products, near, changes, smooth)
-            gain += more
-        if gain < _ENOUGH:
-            break
+    changes, gain, near = _step(products, likelihood, changes, smooth)
+    changes, more = _scan(products, near, changes, smooth)
+    gain += more
+    while gain >= CHANCE:
+        changes, gain, _ = _step(products, likelihood, changes, smooth)
     return products.of_set(changes, free)
 
 
@@ -129,7 +121,8 @@ def _scan(
     assert time is not None  # the effect needs a time line
     first = best = _cost(products, likelihood, changes, free)
     for i, moment in moments:
-        width = float(time[-1] - time[0]) / _PARTS_OF_TIME
+        begun_from = {float(start[moment]) for start in catalogue()[changes[i][0]].starts(products.data)}
+        width = 0.5 * float(np.min(np.diff(sorted(begun_from))))
         while width > products.data.sampling:
             for sign in (1.0, -1.0):
                 trial: list[Change] = [(n, dict(p)) for n, p in changes]

@@ -11,6 +11,7 @@ import numpy as np
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import RecordingProducts
 from tire_pipeline.mismatch.model.candidates import Variant, screening_columns
+from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.model.residual import residual
@@ -20,8 +21,6 @@ Names = tuple[str, ...]
 EFFECTS_KEPT = 12
 """Effects that go on to be fitted."""
 _ROUNDS_OF_COUNTING = 8
-_COUNT_TOLERANCE = 0.05
-"""Change of a count, as a part of it, below which it stays."""
 
 
 @dataclass(frozen=True)
@@ -156,7 +155,7 @@ def _independent(columns: _FormColumns, guess: Likelihood, best: Mapping[str, in
         here = guess.counting({o: n / guess.part for o, n in before.items()})
         found = here.evidence(every, np.ones(chosen.size), wide=True)
         count = columns.recording.independent(looked_for, found)
-        if all(abs(np.log(count[o] / before[o])) < _COUNT_TOLERANCE for o in count):
+        if all(abs(np.log(count[o] / before[o])) < CHANCE for o in count):
             break
     return count
 
