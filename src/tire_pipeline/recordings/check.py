@@ -24,7 +24,7 @@ LEAST_SAMPLES = 30
 LEAST_POINTS = 12
 """Least rows of a recording in time and of steady points: fewer cannot tell an effect from noise."""
 LEAST_WHOLE = 0.1
-"""Part of the rows that must have a number in all channels."""
+"""Part of the rows that must have a number in all channels, and a load that the tire model is for."""
 LONGEST_HOLE = 3
 """Samples: holes of up to so many are interpolated linearly in time."""
 GAP = LONGEST_HOLE + 0.5

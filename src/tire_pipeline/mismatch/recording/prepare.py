@@ -332,12 +332,13 @@ def _overlap(tire: Any, arrays: Mapping[str, Array]) -> None:
     """Raise if the recording lies where the model says nothing."""
     load = arrays["normal_load"]
     c = tire.coefficients
-    low, high = 0.02 * c.get("FNOMIN", 4000.0), 8.0 * c.get("FNOMIN", 4000.0)
+    nominal = c.get("FNOMIN", float(np.median(load)))
+    low, high = 0.02 * nominal, 8.0 * nominal
     if c.get("FZMAX", 0.0) > 0.0:
         low = min(low, c.get("FZMIN", low)) if c.get("FZMIN", 0.0) > 0.0 else low
         high = max(high, 1.5 * c["FZMAX"])
     inside = (load > low) & (load < high)
-    if inside.mean() < 0.1:
+    if inside.mean() < LEAST_WHOLE:
         raise RecordingError(
             f"no overlap between model and recording: the loads are {np.min(load):.4g} to "
             f"{np.max(load):.4g} N, "
