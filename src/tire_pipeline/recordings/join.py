@@ -9,7 +9,6 @@ import pandas as pd
 
 from tire_pipeline.channels import FORCE_CHANNELS, FORCE_OF_SLIP, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.recordings.check import GAP
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHER
 
 LEAST_GAP = 1.0
@@ -182,7 +181,7 @@ def _averaged(frame: pd.DataFrame, step: float, count: int) -> pd.DataFrame:
     time = frame["time"].to_numpy(dtype=float)
     frame = frame[np.isfinite(time)]
     time = time[np.isfinite(time)]
-    piece = np.cumsum(np.diff(time, prepend=time[0]) > GAP * step)
+    piece = np.cumsum(np.diff(time, prepend=time[0]) > 3.5 * step)
     within = np.arange(time.size) - np.searchsorted(piece, piece)
     numbers = frame.select_dtypes("number")
     groups = numbers.groupby([piece, within // count])
