@@ -176,4 +176,4 @@ def test_compiling_says_that_it_is_under_way(monkeypatch):
 
     monkeypatch.setattr("tire_pipeline.progress.under_way", watched)
     assert compiled(lambda x: 2.0 * x, "float64(float64)")(1.5) == 3.0
-    assert said == ["compiling the equations, once and for all later calls"]
+    assert said == ["compiling the equations (first use only)"]

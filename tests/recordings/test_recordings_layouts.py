@@ -133,7 +133,7 @@ def test_long_names_in_plain_english(tmp_path):
     recording = read_recording(file)
     np.testing.assert_allclose(recording[["slip_angle", "camber"]], np.c_[SA, SA] * DEG)
     np.testing.assert_allclose(recording[["normal_load", "fy"]], VALUES[:, 2:])
-    assert "no known channels, so not used: Lamp" in recording.attrs["notes"]
+    assert "not used, because their names are not known: Lamp" in recording.attrs["notes"]
 
 
 def test_mdf_names_with_a_device_behind_them(tmp_path):

@@ -141,7 +141,7 @@ def test_a_category_whose_bias_may_be_chance_is_left_alone(paired, hidden):
     result = uncertain.translation(rows, bands=False)
     own = (rows["category"].astype(str) == first).to_numpy()
     assert result.report.loc[own, "verdict"].isin([LEFT_ALONE, UNBIASED]).all()
-    assert result.report.loc[own, "reason"].str.contains("told from chance|contains zero").all()
+    assert result.report.loc[own, "reason"].str.contains("distinguished from chance|contains zero").all()
     pd.testing.assert_frame_equal(result.table[own], rows[own])
     usual = paired.translation(rows, bands=False).report["verdict"]
     assert (usual[own] == TRANSLATED).any()

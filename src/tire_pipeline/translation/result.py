@@ -22,7 +22,7 @@ TRANSLATED = "translated"
 UNBIASED = "already unbiased"
 """The target's own file, or one for whose tire the 90% band of the supplier's bias contains zero."""
 LEFT_ALONE = "left alone"
-"""There may be a bias, but too little would be gained, or it cannot be told from chance."""
+"""There may be a bias, but too little would be gained, or it cannot be distinguished from chance."""
 REFUSED = "refused"
 UNKNOWN = "unknown supplier"
 

@@ -67,7 +67,7 @@ def compiled(function: Callable[..., Any], signature: Any) -> Callable[..., Any]
     from tire_pipeline.progress import under_way
 
     options: Any = {"nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
-    with under_way("compiling the equations, once and for all later calls"):
+    with under_way("compiling the equations (first use only)"):
         try:
             return njit(signature, cache=True, **options)(function)
         except RuntimeError:  # there is no folder that can be written: this process compiles for itself

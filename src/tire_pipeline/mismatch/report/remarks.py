@@ -67,7 +67,7 @@ def on_expected(names: Sequence[str]) -> str:
     )
     return (
         f"{titles[:1].upper()}{titles[1:]} {acts} on every tire, and the tire model has no coefficient for "
-        f"{it}: in this recording {is_} too small to be told from the misfit of the formula."
+        f"{it}: in this recording {is_} too small to be distinguished from the misfit of the formula."
     )
 
 

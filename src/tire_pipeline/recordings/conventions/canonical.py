@@ -81,7 +81,7 @@ def canonical_frame(
         assumed.append(f"SI units of {', '.join(unsaid)}, for which the file gives none")
     strange = [column for item, channel, column in chosen if channel is None and not find_channel(item.name)]
     if strange:
-        notes.append(f"no known channels, so not used: {', '.join(strange)}")
+        notes.append(f"not used, because their names are not known: {', '.join(strange)}")
     wheels = of_a_wheel(strange)
     if not any(name in _SI for name in columns):
         raise RecordingError(

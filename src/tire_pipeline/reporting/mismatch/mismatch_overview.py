@@ -158,7 +158,7 @@ def _in_one_table(rows: list[dict[str, str]]) -> Table:
     return Table(
         table.rename(columns=_HEADS),
         "Run: when the report was made, for earlier runs. Effects: what the model left out, or the fault of "
-        "the recording. Alternatives cannot be told from them by these recordings.",
+        "the recording. These recordings cannot distinguish them from their alternatives.",
         heading="In one table",
         most_rows=1000,
     )

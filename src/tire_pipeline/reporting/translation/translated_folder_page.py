@@ -146,8 +146,8 @@ def _explained(report: pd.DataFrame, parameters: TranslateParameters) -> list[st
         "Translated: the error is expected to shrink.",
         "Already unbiased: the target measured it, or the 90% bands of the supplier's bias contain zero and "
         "nothing beyond 5%.",
-        "Left alone: too little would be gained, or the bias cannot be told from chance, as with few "
-        "training files.",
+        "Left alone: too little would be gained, or the bias cannot be distinguished from chance, "
+        "as with few training files.",
         "Refused: the file cannot be read or is of version 6.x, no physical tire was found, or its tire is "
         "too far from those learned from.",
         "Unknown supplier: too few files of this folder were learned from to know its bias.",
@@ -161,7 +161,7 @@ def _explained(report: pd.DataFrame, parameters: TranslateParameters) -> list[st
             "Files of unknown suppliers were classified, as asked for: a file is assigned to a category if "
             f"its calibrated probability is at least {LEAST_PROBABILITY:g} and at least "
             f"{LEAST_TYPICALITY:.0%} of the category's own files lie as far from its mean. A laboratory that "
-            "copies the rig, the ranges and the fits of a known one cannot be told from it."
+            "copies the rig, the ranges and the fits of a known one cannot be distinguished from it."
         )
     if "taught" in report and report["taught"].max() > 0:
         lines.append(

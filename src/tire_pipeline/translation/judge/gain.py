@@ -10,7 +10,7 @@ from tire_pipeline.translation.curves.space import PARTS
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 
 MOST_HARM = 0.2
-"""Probability of harm beyond which a category's bias is not told from chance and its files are left alone,
+"""Probability of harm beyond which a category's bias counts as chance and its files are left alone,
 see :func:`pooled_harm`. On ten tuning fleets without any bias the least of a category was 0.22; at 0.15 of
 the calibrated bias the largest was 0.19, at 0.3 it was 0.17."""
 

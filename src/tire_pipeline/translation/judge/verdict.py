@@ -273,7 +273,7 @@ def _why_alone(
             f"whether there is one; give more training files of {organisation}"
         )
     if uncertain:
-        return f"{organisation}'s bias against {target} cannot be told from chance"
+        return f"{organisation}'s bias against {target} cannot be distinguished from chance"
     return (
         f"too little to gain for such a tire: expected RMS error {np.sqrt(ratio):.0%} of the unchanged file's"
     )
