@@ -17,10 +17,8 @@ from tire_pipeline.concealed.proof.simulated import (
     ProveConcealedParameters,
     cases_to_make,
     explain_by_baselines,
-    explain_cases,
     part_cases,
 )
-from tire_pipeline.files.packed import as_parquet, from_parquet, pack, unpack
 from tire_pipeline.files.state_files import pack_state, unpack_state
 from tire_pipeline.tasks import Map, all_done, in_turn
 from tire_pipeline.thesis.experiments import experiment_files, files
@@ -82,18 +80,6 @@ def test_concealed_cases_are_made_the_same(work):
 )
 def test_concealed_cases_are_explained_the_same_by_baselines(work, shown, baselines):
     wanted = explain_by_baselines(shown, ProveConcealedParameters(seed=10_000, baselines=baselines))
-    assert _done(work, wanted) == _done(in_turn, wanted)
-
-
-def _every_tenth_sample(read: Callable[[], bytes]) -> bytes:
-    case = unpack(read())
-    rows = from_parquet(case["recording.parquet"]).iloc[::10].reset_index(drop=True)
-    return pack({**case, "recording.parquet": as_parquet(rows)})
-
-
-@pytest.mark.long
-def test_concealed_cases_are_explained_the_same(work, shown):
-    wanted = explain_cases(_stored({name: _every_tenth_sample(read) for name, read in shown.items()}))
     assert _done(work, wanted) == _done(in_turn, wanted)
 
 
