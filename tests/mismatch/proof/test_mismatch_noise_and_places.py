@@ -19,7 +19,7 @@ from tire_pipeline.tir import read_tir
 EXAMPLES = Path(__file__).parents[3] / "examples"
 AXLE = ["slip_angle", "normal_load", "fy"]
 FEW = {"without": all_but("friction_scale", "stiffness_scale", "force_offset", "force_gain")}
-"""Of a rig's recordings sets of a few effects are weighed: none of them says what noise is."""
+"""Sets of a few effects are weighed where none of the others says what noise is."""
 
 
 def axle(folder, number=0):
@@ -46,9 +46,7 @@ def test_the_error_of_a_force_in_kilonewtons_is_in_newtons():
     """It fell to 7.6 N where the same recording in N leaves 58 N."""
     tire = read_tir(EXAMPLES / "tire.tir")
     run = read_recording(EXAMPLES / "rig_run.csv", axes="ISO").iloc[::4]
-    right, wrong = (
-        explain_mismatch(tire, run.assign(fy=run["fy"] / unit), **FEW).fit["fy"] for unit in (1.0, 1e3)
-    )
+    right, wrong = (explain_mismatch(tire, run.assign(fy=run["fy"] / unit)).fit["fy"] for unit in (1.0, 1e3))
     for name in ("noise_floor", "rms_after", "rms_after_low", "rms_after_high"):
         assert getattr(wrong, name) == pytest.approx(getattr(right, name), rel=1e-6)
 
