@@ -304,6 +304,16 @@ def test_what_was_found_is_told_though_no_corrected_file_may_be_written(folder):
     assert not (folder / "corrected.tir").exists()
 
 
+def test_a_file_or_a_pipe_gets_whole_names(folder):
+    """Tables were 80 columns wide there, and broke the names of channels."""
+    record("run.csv")
+    rows = pd.read_csv("run.csv").assign(tread_temperature=60.0, simulated_forces_of_the_other_program=1.0)
+    rows.to_csv("run.csv", index=False)
+    assert "simulated_forces_of_the_other_program" in run("check", "run.csv", "--no-page").stdout
+    (line,) = (e for e in run("check", "run.csv").stdout.splitlines() if e.startswith("tread_temperature "))
+    assert len(line) < 200
+
+
 def test_check_lists_channels_and_fails_on_what_cannot_be_explained(folder):
     record("run.csv")
     found = told("check", "run.csv")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,6 +16,8 @@ import numpy as np
 from tire_pipeline.files.atomic import write_bytes
 from tire_pipeline.pages.percentage import is_percentage
 from tire_pipeline.pages.visible_text import visible
+
+_LONGEST_LINE = 1000
 
 
 @dataclass(frozen=True)
@@ -92,6 +95,8 @@ def _print(outcome: CommandOutcome, written: Sequence[str]) -> None:
     from rich.text import Text
 
     console = Console(highlight=False)
+    if not console.is_terminal and "COLUMNS" not in os.environ:
+        console.width = _LONGEST_LINE  # a file or a pipe: what reads it wraps lines itself
     console.print(Text(visible(outcome.title), style="bold"))
     for line in outcome.lines:
         console.print(Text(visible(line)))
