@@ -139,7 +139,7 @@ def assembled(it: Explained) -> MismatchReport:
             *filter(None, [_searched(it), _to_one_side(it, put_in), not_looked_for(analysis.absent)]),
         ],
         candidates=_candidates(analysis, answer),
-        series=_series(analysis, noise),
+        series=_series(analysis, noise, model.part),
         assumed=prepared.assumed,
         find_visible=list
         if prepared.stopped
@@ -358,7 +358,7 @@ def _probabilities(answer: SetAnswer) -> list[tuple[tuple[str, ...], float]]:
     return out
 
 
-def _series(analysis: Analysis, noise: Mapping[str, float]) -> dict[str, Any]:
+def _series(analysis: Analysis, noise: Mapping[str, float], part: float) -> dict[str, Any]:
     """Arrays for the page's figures."""
     data = analysis.data
     step = max(1, data.size // ENOUGH_ROWS)
@@ -371,6 +371,6 @@ def _series(analysis: Analysis, noise: Mapping[str, float]) -> dict[str, Any]:
     }
     for o in data.outputs:
         out[f"before_{o}"] = before[o][::step]
-        out[f"after_{o}"] = after[o][::step]
+        out[f"after_{o}"] = (before[o] - part * (before[o] - after[o]))[::step]
         out[f"floor_{o}"] = noise[o]
     return out
