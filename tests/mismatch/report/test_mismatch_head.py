@@ -175,7 +175,7 @@ def test_the_summary_says_when_an_effect_is_seen(when, said):
 )
 def test_what_differs_to_both_sides_is_not_said_by_a_small_mean(when, mean):
     effect = replace(EFFECT, when=when, share=0.9)
-    at = replace(PLACE, low=0.05, high=0.1, mean=mean * FIT["fy"].rms_before, share=0.01)
+    at = replace(PLACE, axis="time", low=10.0, high=20.0, mean=mean * FIT["fy"].rms_before, share=0.01)
     text = head("explained", [effect], FIT, [at], NONE, "", {"time": (0.0, 100.0)}).text
     said = "Fy differs most between 10 and 20 s, to both sides" in text
     assert said == (when == [(10.0, 20.0)] and mean < 0.2)
@@ -195,6 +195,14 @@ def test_the_place_is_on_the_axis_of_what_is_named():
     assert "At pressure below 71 kPa, Fy is on average 57 N" in named
     assert "tread temperature" not in named
     assert "At tread temperature between 56 and 58 degC" in unnamed
+
+
+def test_an_effect_that_no_sure_mean_shows_is_said_to_be_where_it_acts():
+    effect = replace(EFFECT, title="camber", where={"camber": (0.03, 0.035)}, share=0.1)
+    warm = replace(PLACE, axis="tread_temperature", low=56.0, high=58.0, mean=80.0)
+    text = head("explained", [effect], FIT, [warm], NONE, "", {"camber": (0.0, 0.035)}).text
+    assert "Camber changes Fy at camber above 1.72 deg; with that corrected" in text
+    assert "tread temperature" not in text
 
 
 def test_what_differs_to_both_sides_is_at_the_channel_that_holds_the_effect():

@@ -45,7 +45,8 @@ def spot_of(
     if not located or (exact and not remainder.significant):
         return ""
     own = _of_the_effects(effects, located, ranges)
-    return _to_both_sides(effects, fit, located, ranges) or _where(own or located, ranges, even)
+    both = _to_both_sides(effects, fit, located, ranges)
+    return both or (_where(own, ranges, even) if own else _where_the_effects_are(effects, ranges))
 
 
 def _of_the_effects(
@@ -81,11 +82,28 @@ def _to_both_sides(
     if main is None or not main.share > _HALF or main.output not in fit:
         return ""
     means = [abs(f.mean) for f in located if f.output == main.output]
-    axes = _narrow_axes(main, ranges)
-    if not axes or max(means, default=0.0) > _HARDLY * fit[main.output].rms_before:
+    spots = _where_it_is(main, ranges)
+    if not spots or max(means, default=0.0) > _HARDLY * fit[main.output].rms_before:
         return ""
-    spots = [stretches_of(main, ranges) if a == "time" else place(a, *main.where[a], ranges) for a in axes]
-    return f"{main.output.capitalize()} differs most {', '.join(spots)}, to both sides"
+    return f"{main.output.capitalize()} differs most {spots}, to both sides"
+
+
+def _where_the_effects_are(effects: Sequence[EffectReport], ranges: Ranges) -> str:
+    """Say where the named effects change a force, if no sure mean shows them."""
+    said = [
+        f"{effect.title} changes {effect.output.capitalize()} {spots}"
+        for effect in effects
+        if (spots := _where_it_is(effect, ranges))
+    ]
+    return " and ".join(said)
+
+
+def _where_it_is(effect: EffectReport, ranges: Ranges) -> str:
+    """The stretches of time and of the channel that hold an effect; empty if it is everywhere."""
+    return ", ".join(
+        stretches_of(effect, ranges) if axis == "time" else place(axis, *effect.where[axis], ranges)
+        for axis in _narrow_axes(effect, ranges)
+    )
 
 
 def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, Throughout]) -> str:
