@@ -9,7 +9,7 @@ import pytest
 
 from tire_pipeline.mismatch.corrected.as_recorded import with_unnamed, without_unnamed
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.proof.locate import Located
+from tire_pipeline.mismatch.proof.locate import Located, Throughout
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.recording.cleaning import Cleaning
 from tire_pipeline.mismatch.recording.open_questions import Question
@@ -195,6 +195,16 @@ def test_the_place_is_on_the_axis_of_what_is_named():
     assert "At pressure below 71 kPa, Fy is on average 57 N" in named
     assert "tread temperature" not in named
     assert "At tread temperature between 56 and 58 degC" in unnamed
+
+
+def test_what_is_off_throughout_is_at_no_place_of_an_effect():
+    """A gain does most at large loads, and is everywhere."""
+    ranges = {"normal_load": (1000.0, 6000.0)}
+    effect = replace(EFFECT, where={"normal_load": (4000.0, 6000.0)})
+    even = {"fy": Throughout(-90.0, -0.1)}
+    text = head("explained", [effect], FIT, [replace(PLACE, mean=-90.0)], NONE, "", ranges, even).text
+    assert "Fy is 10% lower than the model throughout" in text
+    assert "changes Fy" not in text
 
 
 def test_an_effect_that_no_sure_mean_shows_is_said_to_be_where_it_acts():

@@ -44,7 +44,8 @@ def spot_of(
     exact = bool(effects) and not any(np.isfinite(e.share) for e in effects)
     if not located or (exact and not remainder.significant):
         return ""
-    own = _of_the_effects(effects, located, ranges)
+    throughout = max(located, key=lambda f: abs(f.mean)).output in even
+    own = located if throughout else _of_the_effects(effects, located, ranges)
     both = _to_both_sides(effects, fit, located, ranges)
     return both or (_where(own, ranges, even) if own else _where_the_effects_are(effects, ranges))
 
