@@ -17,7 +17,7 @@ from tire_pipeline.files.atomic import write_bytes
 from tire_pipeline.pages.percentage import is_percentage
 from tire_pipeline.pages.visible_text import visible
 
-_LONGEST_LINE = 1000
+_WIDTH_OF_A_FILE = 1000
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ def _print(outcome: CommandOutcome, written: Sequence[str]) -> None:
 
     console = Console(highlight=False)
     if not console.is_terminal and "COLUMNS" not in os.environ:
-        console.width = _LONGEST_LINE  # a file or a pipe: what reads it wraps lines itself
+        console.width = _WIDTH_OF_A_FILE  # a file or a pipe: what reads it wraps lines itself
     console.print(Text(visible(outcome.title), style="bold"))
     for line in outcome.lines:
         console.print(Text(visible(line)))

@@ -27,7 +27,7 @@ LEAST_WHOLE = 0.1
 """Part of the rows that must have a number in all channels, and a load that the tire model is for."""
 LONGEST_HOLE = 3
 """Samples: holes of up to so many are interpolated linearly in time."""
-GAP = LONGEST_HOLE + 0.5
+BREAK_OF_TIME_LINE = LONGEST_HOLE + 0.5
 """Usual steps in one, over which a run is interrupted: more than ``LONGEST_HOLE`` to the nearest whole."""
 LONG_STEP = 1.0
 """From sample to sample, s: runs are recorded faster. In a file without units this is often a time in ms."""

@@ -28,7 +28,7 @@ from tire_pipeline.mismatch.recording.prepare import ASSUMED_ZERO, own_relaxatio
 from tire_pipeline.mismatch.recording.smoothing import denoise
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
 from tire_pipeline.mismatch.unnamed_physics.symbols import table_of
-from tire_pipeline.recordings.check import GAP
+from tire_pipeline.recordings.check import BREAK_OF_TIME_LINE
 
 Array = np.ndarray
 _SAME_NOISE = 3.0
@@ -405,7 +405,7 @@ def _pieces(time: Array | None, n: int) -> Array:
     start[:1] = True
     if time is not None and n > 1:
         steps = np.diff(time)
-        start[1:] = (steps > GAP * np.median(steps)) | (steps <= 0.0)
+        start[1:] = (steps > BREAK_OF_TIME_LINE * np.median(steps)) | (steps <= 0.0)
     return start
 
 

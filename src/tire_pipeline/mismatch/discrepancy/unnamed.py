@@ -18,7 +18,7 @@ from tire_pipeline.mismatch.discrepancy.repeating import repeating_forms
 from tire_pipeline.mismatch.discrepancy.ringing import ringing_forms
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import first_order, play
-from tire_pipeline.mismatch.model.channels import CLASSES, NOTHING, high, used
+from tire_pipeline.mismatch.model.channels import CLASSES, DOES_NOTHING, high, used
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
@@ -134,5 +134,5 @@ def _rate(data: Data, x: Array) -> Array:
 def _unit(x: Array) -> Array:
     """Scale by the size that one in ten exceeds, and saturate softly beyond it."""
     size = np.abs(x)
-    top = high(size[size > NOTHING * size.max(initial=0.0)]) if np.any(size > 0.0) else 1.0
+    top = high(size[size > DOES_NOTHING * size.max(initial=0.0)]) if np.any(size > 0.0) else 1.0
     return np.tanh(x / max(top, 1e-12))

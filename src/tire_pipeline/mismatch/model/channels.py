@@ -34,7 +34,7 @@ CHANCE = 0.05
 """Level of every test, and what an interval or a list leaves out: one in twenty. What changes odds, a count
 or a share by less has not changed it."""
 
-NOTHING = 1e-3
+DOES_NOTHING = 1e-3
 """What does less than so much of what the largest of its kind does, does nothing."""
 
 CLASSES = 16

@@ -24,7 +24,7 @@ from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
 from tire_pipeline.mismatch.recording.usable import judge, leave_out_no_pressure, leave_out_still_slip
 from tire_pipeline.recordings.check import (
-    GAP,
+    BREAK_OF_TIME_LINE,
     LEAST_POINTS,
     LEAST_SAMPLES,
     LEAST_WHOLE,
@@ -356,7 +356,7 @@ def _pieces(time: Array | None, rows: Array, notes: list[str]) -> Array:
         return start
     steps = np.diff(time)
     typical = float(np.median(steps))
-    gaps = np.flatnonzero((steps > GAP * typical) | (np.diff(rows) > LONGEST_HOLE))
+    gaps = np.flatnonzero((steps > BREAK_OF_TIME_LINE * typical) | (np.diff(rows) > LONGEST_HOLE))
     start[gaps + 1] = True
     long = steps[gaps] > LONG_GAP * typical
     if long.any():

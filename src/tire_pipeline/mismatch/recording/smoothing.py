@@ -14,7 +14,7 @@ import scipy
 Array = np.ndarray
 _FILTER_WINDOWS = ((9, 4), (15, 4), (25, 4), (35, 4), (61, 2), (121, 2), (241, 2))
 _INTERVAL_WIDTH = 1.7
-_STRETCH = 50
+_CALM_STRETCH = 50
 """Samples within which a signal is calm or not."""
 _MOST_ALIKE = 0.95
 """Largest correlation from one sample to the next that noise may have: what is more alike moves."""
@@ -55,7 +55,7 @@ def _noise(x: Array, start: Array) -> tuple[float, float]:
     """Size of the noise and its correlation from one sample to the next; zero for a set point."""
     d = x[2:] - 2.0 * x[1:-1] + x[:-2]
     d = d[~(start[2:] | start[1:-1])]
-    if d.size < _STRETCH or np.mean(d == 0.0) > 0.3:
+    if d.size < _CALM_STRETCH or np.mean(d == 0.0) > 0.3:
         return 0.0, 0.0
     rho = _colour(x, start)
     return float(_quiet(np.abs(d)) / scipy.stats.halfnorm.median() / np.sqrt(_bent(rho, 1))), rho
@@ -69,7 +69,7 @@ def _bent(rho: float, lag: int) -> float:
 
 def _quiet(size: Array) -> float:
     """Lower quartile over stretches of the median: where the signal itself is calm."""
-    whole = size[: size.size // _STRETCH * _STRETCH].reshape(-1, _STRETCH)
+    whole = size[: size.size // _CALM_STRETCH * _CALM_STRETCH].reshape(-1, _CALM_STRETCH)
     return float(np.quantile(np.median(whole if whole.size else size[None], axis=1), 0.25))
 
 

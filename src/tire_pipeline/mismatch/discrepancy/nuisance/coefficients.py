@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.channels import SLIP_OF_FORCE
-from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, NOTHING
+from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, DOES_NOTHING
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.nominal import OF_CAMBER
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
@@ -93,7 +93,7 @@ def _orthonormal(columns: Array) -> Array:
     """
     n = columns.shape[0]
     size = np.sqrt(np.mean(columns**2, axis=0)) if columns.size else np.zeros(0)
-    keep = size > NOTHING * max(float(size.max(initial=0.0)), 1e-30)
+    keep = size > DOES_NOTHING * max(float(size.max(initial=0.0)), 1e-30)
     if not keep.any():
         return np.zeros((n, 0))
     gram = (columns[:, keep] / size[keep]).T @ (columns[:, keep] / size[keep]) / n

@@ -18,7 +18,7 @@ from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import directions, jacobian, shifts
 from tire_pipeline.mismatch.discrepancy.nuisance.flexible import flexible_form
 from tire_pipeline.mismatch.discrepancy.nuisance.transients import fast_load, memory
-from tire_pipeline.mismatch.model.channels import CLASSES, NOTHING, OUTLIERS, largest, least_spread, span
+from tire_pipeline.mismatch.model.channels import CLASSES, DOES_NOTHING, OUTLIERS, largest, least_spread, span
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
@@ -113,7 +113,7 @@ def _misfit(data: Data, name: str, grid: dict[str, Array]) -> tuple[Array, Array
     b, b_grid, ways = flexible_form(data, name, here, grid)
     c = np.hstack([jacobian(data, name, here), shifts(data, name, here)])
     c_grid = np.hstack([jacobian(data, name, grid), shifts(data, name, grid)])
-    return b - c @ np.linalg.lstsq(c_grid, b_grid, rcond=NOTHING)[0], ways
+    return b - c @ np.linalg.lstsq(c_grid, b_grid, rcond=DOES_NOTHING)[0], ways
 
 
 def largest_force(data: Data, name: str) -> float:

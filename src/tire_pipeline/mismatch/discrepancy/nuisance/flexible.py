@@ -7,7 +7,14 @@ import numpy as np
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_OF_FORCE
 from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import ASYMMETRY_SHARE
 from tire_pipeline.mismatch.discrepancy.nuisance.transients import rate
-from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, ENOUGH_ROWS, NOTHING, high, largest, span
+from tire_pipeline.mismatch.model.channels import (
+    ABSOLUTE_SPREAD,
+    DOES_NOTHING,
+    ENOUGH_ROWS,
+    high,
+    largest,
+    span,
+)
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
 
@@ -131,7 +138,7 @@ class _Mirrored:
         self.centres = _spread(points, apart, _MOST_CENTRES)
         kernel = self._kernel(self.centres) + 1e-6 * np.eye(len(self.centres))
         values, vectors = np.linalg.eigh(kernel)
-        good = values > NOTHING * values.max()
+        good = values > DOES_NOTHING * values.max()
         self.to_features = size * vectors[:, good] / np.sqrt(values[good])
 
     def _kernel(self, x: Array) -> Array:
