@@ -1,5 +1,6 @@
 """What is computed once is not computed again, and nothing half-written is ever taken for done."""
 
+import time
 from functools import partial
 from pathlib import Path
 
@@ -10,12 +11,19 @@ from tire_pipeline.code_hash import code_hash
 from tire_pipeline.datasets import ComputedFolderDataset, RecordingFolderDataset
 
 
-def _count(folder: Path, name: str, fails: bool = False) -> bytes:
+def _count(folder: Path, name: str) -> bytes:
     with (folder / f"{name}.calls").open("a") as calls:
         calls.write("x")
-    if fails:
-        raise ValueError("stopped on purpose")
     return name.encode()
+
+
+def _fails_once_stored(folder: Path, other: str) -> bytes:
+    """Fail when another part is stored: two processes end in any order."""
+    for _ in range(6000):
+        if (folder / "out" / other).exists():
+            raise ValueError("stopped on purpose")
+        time.sleep(0.01)
+    raise ValueError(f"{other} was not stored while this part was under way")
 
 
 def _dataset(tmp_path: Path) -> ComputedFolderDataset:
@@ -31,7 +39,7 @@ def test_what_is_there_is_not_computed_again(tmp_path):
 
 
 def test_an_interrupted_computation_goes_on_where_it_stopped(tmp_path):
-    first = {"a": partial(_count, tmp_path, "a"), "b": partial(_count, tmp_path, "b", True)}
+    first = {"a": partial(_count, tmp_path, "a"), "b": partial(_fails_once_stored, tmp_path, "a")}
     with pytest.raises(DatasetError, match="on purpose"):
         _dataset(tmp_path).save(first)
     assert not _dataset(tmp_path).exists()
