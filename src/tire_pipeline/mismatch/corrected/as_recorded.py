@@ -7,6 +7,7 @@ the noise that this takes off, and must not stand beside those of the user's own
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -15,8 +16,9 @@ import pandas as pd
 
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.inference.analysis import Analysis
-from tire_pipeline.mismatch.model.forces import simulate_moments
-from tire_pipeline.mismatch.model.residual import residual, rms
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.forces import Change, simulate_moments
+from tire_pipeline.mismatch.model.residual import partly, residual, rms
 from tire_pipeline.mismatch.proof.measured import OutputFit
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
@@ -56,17 +58,8 @@ def as_recorded(
     before = _errors(corrected.as_it_came, recording, fit)
     same = not (corrected.changes or corrected.factors or corrected.limits)
     after = before if same else _errors(corrected, recording, fit)
-    here = _partly(residual(analysis.data, []), residual(analysis.data, analysis.fit.changes), corrected.part)
-    moments = [o for o in fit if o not in here]
-    if moments:
-        first, last = (
-            {o: analysis.data.channels[o] - m for o, m in each.items()}
-            for each in (
-                simulate_moments(analysis.data, changes, moments) for changes in ([], analysis.fit.changes)
-            )
-        )
-        here |= _partly(first, last, corrected.part)
-    inside = {o: rms(r) for o, r in here.items()}
+    first, last = (_left(analysis.data, changes, fit) for changes in ([], analysis.fit.changes))
+    inside = {o: rms(partly(first[o], last[o], corrected.part)) for o in first}
     good = np.isin(np.arange(len(recording)), used) if spoiled else np.ones(len(recording), bool)
     moved = {o: _moved(f, before[o], after[o], inside[o], recording, same, good) for o, f in fit.items()}
     alone = replace(corrected, instead=())
@@ -77,9 +70,12 @@ def as_recorded(
     }
 
 
-def _partly(before: dict[str, Array], after: dict[str, Array], part: float) -> dict[str, Array]:
-    """Return what is left if a part of a change is added."""
-    return {o: start - part * (start - after[o]) for o, start in before.items()}
+def _left(data: Data, changes: Sequence[Change], outputs: Iterable[str]) -> dict[str, Array]:
+    """What changes leave of the forces that were weighed, N, and of recorded moments, N m."""
+    left = residual(data, changes)
+    moments = [o for o in outputs if o not in left]
+    simulated = simulate_moments(data, changes, moments) if moments else {}
+    return left | {o: data.channels[o] - simulated[o] for o in moments}
 
 
 def _noise(floor: float, after: Array, inside: float) -> float:

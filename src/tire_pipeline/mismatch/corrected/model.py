@@ -21,7 +21,7 @@ from tire_pipeline.mismatch.model.data import NO_REFERENCE, Data
 from tire_pipeline.mismatch.model.forces import Change, simulate, simulate_moments
 from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.model.plain_forces import plain_forces
-from tire_pipeline.mismatch.model.residual import rms
+from tire_pipeline.mismatch.model.residual import partly, rms
 from tire_pipeline.mismatch.recording.given import numeric
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.prepare import ASSUMED_ZERO, own_relaxation
@@ -171,7 +171,7 @@ class CorrectedModel:
             plain = self._simulated(data, ())
             each = [forces, *(self._simulated(data, changes) for _, changes in others)]
             whole = agreed(plain, each, [1.0, *(odds for odds, _ in others)]) if others else forces
-            forces = {name: start + self.part * (whole[name] - start) for name, start in plain.items()}
+            forces = {name: partly(start, whole[name], self.part) for name, start in plain.items()}
         notes = [*self._of_unknown_phase(data), *self._put_unnamed(data, forces)]
         if len(others) < len(self.instead):
             notes.append("explanations that need a channel which is not recorded here are not counted")
@@ -316,7 +316,7 @@ class CorrectedModel:
             coefficients = effect.coefficients(tire, p)
             if coefficients:
                 without = effect.coefficients(tire, dict.fromkeys(p, 0.0))
-                tire = tire.replace(**_partly(without, coefficients, self.part))
+                tire = tire.replace(**_between(without, coefficients, self.part))
             else:
                 sidecar[name] = {
                     "equation": effect.equation,
@@ -383,11 +383,11 @@ class CorrectedModel:
         return written
 
 
-def _partly(without: Mapping[str, float], full: Mapping[str, float], part: float) -> dict[str, float]:
+def _between(without: Mapping[str, float], full: Mapping[str, float], part: float) -> dict[str, float]:
     """Return coefficients between those without an effect and those with all of it."""
     if part == 1.0:
         return dict(full)
-    return {n: without.get(n, v) + part * (v - without.get(n, v)) for n, v in full.items()}
+    return {n: partly(without.get(n, v), v, part) for n, v in full.items()}
 
 
 def _without_noise(x: Array, start: Array, noise: float) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeVar
 
 import numpy as np
 import scipy
@@ -13,12 +14,25 @@ from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 
 Array = np.ndarray
+T = TypeVar("T", float, np.ndarray)
 
 
 def residual(data: Data, changes: Sequence[Change]) -> dict[str, Array]:
     """Recorded minus simulated, N."""
     f = simulate(data, changes)
     return {o: data.recorded[o] - f[o] for o in data.outputs}
+
+
+def partly(before: T, after: T, part: float) -> T:
+    """Return a value, a force or what is left of one with a part of a change, 0 to 1.
+
+    Parameters
+    ----------
+    before, after : float or ndarray
+        Without the change, and with all of it.
+    part : float
+    """
+    return before - part * (before - after)
 
 
 def rms(x: ArrayLike) -> float:

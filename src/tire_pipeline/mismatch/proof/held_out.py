@@ -11,7 +11,7 @@ from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.model.channels import span, white_noise
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import simulate_moments
-from tire_pipeline.mismatch.model.residual import residual, rms, root_ratio_interval
+from tire_pipeline.mismatch.model.residual import partly, residual, rms, root_ratio_interval
 from tire_pipeline.mismatch.proof.left_out import step_without
 from tire_pipeline.mismatch.proof.measured import OutputFit
 
@@ -54,7 +54,7 @@ def prove(
             rms_condition_before=float("nan") if rows is None else rms(before[o][rows]),
             rms_condition_after=float("nan")
             if condition is None or rows is None
-            else rms(before[o][rows] - part * (before[o][rows] - condition[o])),
+            else rms(partly(before[o][rows], condition[o], part)),
         )
     return out
 
@@ -68,9 +68,8 @@ def _interval(analysis: Analysis, after: Array) -> tuple[float, float]:
 def prove_moments(analysis: Analysis, part: float = 1.0) -> dict[str, OutputFit]:
     """Return the errors of the recorded moments, N m, which no fit has seen: only fx and fy were fitted.
 
-    ``part`` is added of what the effects change.
-    Moments that the model does not give (no coefficients, or another simulator's output in its place) are
-    left out.
+    ``part`` is added of what the effects change. Moments that the model does not give (no coefficients, or
+    another simulator's output in its place) are left out.
     """
     data = analysis.data
     names = recorded_moments(data)
@@ -82,7 +81,7 @@ def prove_moments(analysis: Analysis, part: float = 1.0) -> dict[str, OutputFit]
     for name in names:
         recorded = data.channels[name]
         before = recorded - plain[name]
-        after = before - part * (corrected[name] - plain[name])
+        after = partly(before, recorded - corrected[name], part)
         low, high = _interval(analysis, after)
         out[name] = OutputFit(
             noise_floor=white_noise(after) if data.time is not None else float("nan"),

@@ -14,7 +14,7 @@ from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.blocks import whole_sweeps
-from tire_pipeline.mismatch.model.residual import residual
+from tire_pipeline.mismatch.model.residual import partly, residual
 from tire_pipeline.mismatch.proof.left_out import each_left_out
 from tire_pipeline.mismatch.proof.nested import RepeatedChoice
 
@@ -30,7 +30,8 @@ class Guarded:
     fit : Fit
         The effects.
     part : float
-        The part of what they change that unseen sweeps confirm, 0 to 1: so much of it is added.
+        The part of what they change that unseen sweeps confirm, above 0 to 1: so much of it is added. 1 where
+        there are no effects.
     left : dict of ndarray, shape (n,)
         Output -> the residual, N, of sweeps that neither the choice of what is added nor its fit has seen;
         by what is added, fitted without them, if that leaves more: a repeated choice can be another one.
@@ -58,7 +59,7 @@ def guarded(analysis: Analysis, sets: Enumerated, level: float) -> Guarded:
     """
     fit, before = analysis.fit, residual(analysis.data, [])
     if not fit.names:
-        return Guarded(fit, 0.0, before)
+        return Guarded(fit, 1.0, before)
     repeated = RepeatedChoice(sets, analysis.block, level)
     sweep = None if analysis.data.time is None else whole_sweeps(analysis.block)
 
@@ -76,9 +77,9 @@ def guarded(analysis: Analysis, sets: Enumerated, level: float) -> Guarded:
         part = min(confirmed_part(before, left, analysis.largest, sweep) for left in both)
         if part > 0.0 and all(size(both[1]) < size(left) for left in without):
             left = max(both, key=size)
-            return Guarded(fit, part, {o: before[o] - part * (before[o] - left[o]) for o in before})
+            return Guarded(fit, part, {o: partly(before[o], left[o], part) for o in before})
         fit = fewer[min(numbers, key=lambda i: size(without[i]))]
-    return Guarded(fit, 0.0, before)
+    return Guarded(fit, 1.0, before)
 
 
 def confirmed_part(

@@ -22,7 +22,7 @@ from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.channels import CHANCE, ENOUGH_ROWS, one_sided, span
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.nominal import Reference
-from tire_pipeline.mismatch.model.residual import residual, rms
+from tire_pipeline.mismatch.model.residual import partly, residual, rms
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.locate import everywhere, locate
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
@@ -217,7 +217,7 @@ def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Gu
     model = _model(it, allowed.fit.changes, _instead(it, allowed.fit), allowed.part)
     if allowed.fit.names and not _no_worse(it, model, plain):
         nothing = it.analysis.fit.part([], it.analysis.system)
-        return plain, Guarded(nothing, 0.0, residual(it.analysis.data, []))
+        return plain, Guarded(nothing, 1.0, residual(it.analysis.data, []))
     return model, allowed
 
 
@@ -274,7 +274,7 @@ def _model(
         question=prepared.question,
         cleaned={c.channel: c.removed for c in prepared.cleaned if c.smoothed},
         instead=tuple(instead),
-        part=part if changes else 1.0,
+        part=part,
         rolled=_rolled(it) if turning else None,
     ).cleaned_where_it_helps(it.recording)
 
@@ -371,6 +371,6 @@ def _series(analysis: Analysis, noise: Mapping[str, float], part: float) -> dict
     }
     for o in data.outputs:
         out[f"before_{o}"] = before[o][::step]
-        out[f"after_{o}"] = (before[o] - part * (before[o] - after[o]))[::step]
+        out[f"after_{o}"] = partly(before[o], after[o], part)[::step]
         out[f"floor_{o}"] = noise[o]
     return out

@@ -146,8 +146,7 @@ def surely_less(
     sweep : ndarray of int, shape (n,)
         Sweep of each sample.
     """
-    gain = np.asarray(sum((before[o] ** 2 - after[o] ** 2) / largest[o] ** 2 for o in after))
-    gain = np.bincount(sweep, gain)
+    gain = np.bincount(sweep, sum((before[o] ** 2 - after[o] ** 2) / largest[o] ** 2 for o in after))
     if gain.size < 2:
         return bool(gain.sum() > 0.0)
     error = float(gain.std(ddof=1)) / np.sqrt(gain.size)
