@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from unnamed_problem import NOMINAL, by_memory, by_speed, nothing, problem, swinging, table
+from unnamed_problem import NOMINAL, by_memory, by_speed, jolt, nothing, problem, swinging, table
 from weighed import all_but, without_visible
 
 from tire_pipeline.errors import RecordingError
@@ -21,8 +21,9 @@ from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics, from_si
 from tire_pipeline.mismatch.unnamed_physics.grammar import EquationError, evaluate, parse
 from tire_pipeline.mismatch.unnamed_physics.library import memory_factors
 from tire_pipeline.mismatch.unnamed_physics.problem import by_condition
-from tire_pipeline.mismatch.unnamed_physics.products import Columns
-from tire_pipeline.mismatch.unnamed_physics.search import find, find_better
+from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
+from tire_pipeline.mismatch.unnamed_physics.prove import judged
+from tire_pipeline.mismatch.unnamed_physics.search import _ranges, find, find_better
 from tire_pipeline.tir import read_tir
 
 READER = Path(__file__).parents[3] / "examples" / "read_unnamed.py"
@@ -151,6 +152,42 @@ def test_an_equation_beats_names_that_take_up_a_part_and_not_those_that_take_up_
     assert (found is not None) is beaten
     if found is not None:
         assert found.physics.depends_on == ("speed",)
+
+
+def test_a_force_is_kept_only_if_it_is_itself_surely_better():
+    """What makes the sum of both better may make one of them worse elsewhere."""
+    seen = problem(by_speed, noise=NOISE)
+    rest = {**seen.rest, "fx": seen.rest["fx"] + jolt(seen.table)}
+    seen = replace(seen, rest=rest)
+    predicted = {"fx": jolt(seen.table), "fy": by_speed(seen.table)}
+    proof = judged(Columns(seen), predicted, FOLDS)
+    assert np.mean((rest["fx"] - predicted["fx"]) ** 2) < 0.5 * np.mean(rest["fx"] ** 2)
+    assert proof.outputs == ("fy",)
+    assert proof.holds
+
+
+def test_a_force_has_its_own_equation_where_another_force_takes_up_all_terms():
+    """Three strong causes act on fx; one equation of three terms would leave out what acts on fy."""
+    seen = problem(by_speed, noise=NOISE)
+    x = seen.table.columns
+    strong = 0.3 * x["fx"] * (x["g"] / 0.04) + 0.3 * x["F0"] * x["h"] + 0.3 * x["fx"] * x["L"]
+    seen = replace(seen, rest={**seen.rest, "fx": seen.rest["fx"] + strong})
+    physics = find(seen).physics
+    assert "v" in physics.equations["fy"]
+    before = np.mean(seen.rest["fy"] ** 2)
+    assert np.mean((seen.rest["fy"] - physics.change(seen.table)["fy"]) ** 2) < 0.3 * before
+
+
+def test_a_channel_that_was_held_may_differ_by_what_counts_as_held():
+    """A slip ratio that is zero but for the encoder's steps is a range without a width."""
+    seen = problem(by_speed, noise=NOISE)
+    still = {**seen.table.columns, "k": np.zeros(seen.table.size)}
+    physics = replace(
+        find(seen).physics,
+        ranges=_ranges(replace(seen, table=replace(seen.table, columns=still)), {"fy": "fy*v*k"}),
+    )
+    moved = replace(seen.table, columns={**still, "k": np.full(seen.table.size, 1e-4)})
+    assert np.mean(physics.weight(moved)) > 0.9
 
 
 def test_at_a_load_that_was_not_recorded_an_equation_adds_nothing():

@@ -90,8 +90,23 @@ def surely_less(
         gain = np.bincount(sweep, gain)
     if gain.size < 2:
         return bool(gain.sum() > 0.0)
+    return chance_of_no_gain(gain) < CHANCE
+
+
+def chance_of_no_gain(gain: Array) -> float:
+    """Return the chance of a mean gain as large where there is none: one-sided t test over sweeps.
+
+    Parameters
+    ----------
+    gain : ndarray, shape (sweeps,)
+        What goes of the squared error, sweep by sweep; one sweep alone proves nothing.
+    """
+    if gain.size < 2:
+        return 1.0
     error = float(gain.std(ddof=1)) / np.sqrt(gain.size)
-    return bool(gain.mean() > float(scipy.special.stdtrit(gain.size - 1, 1.0 - CHANCE)) * error)
+    if error == 0.0:
+        return 0.0 if gain.mean() > 0.0 else 1.0
+    return float(scipy.special.stdtr(gain.size - 1, -gain.mean() / error))
 
 
 def size_over_largest(left: Mapping[str, Array], largest: Mapping[str, float]) -> float:

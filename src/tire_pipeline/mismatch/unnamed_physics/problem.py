@@ -162,6 +162,16 @@ def by_condition(problem: Unexplained, least: int) -> Unexplained:
     return replace(problem, together=condition[problem.block]) if len(first) >= least else problem
 
 
+def of_force(problem: Unexplained, output: str) -> Unexplained:
+    """Return the same of one force alone."""
+    return replace(
+        problem,
+        rest={output: problem.rest[output]},
+        nuisance={output: problem.nuisance[output]},
+        sizes=[{output: size[output]} for size in problem.sizes],
+    )
+
+
 def _beside_effects(analysis: Analysis) -> tuple[System, dict[str, Array]]:
     """The system with the effects' columns as far as their parameters are uncertain, and those sizes."""
     fit, outputs = analysis.fit, analysis.data.outputs

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -31,6 +31,7 @@ from tire_pipeline.mismatch.unnamed_physics.problem import (
     Unexplained,
     by_condition,
     coarsely,
+    of_force,
     problem_of,
 )
 from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
@@ -42,7 +43,7 @@ from tire_pipeline.mismatch.unnamed_physics.prove import (
     forces_of,
     proven,
 )
-from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL
+from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, SPAN
 
 Array = np.ndarray
 _Looked = tuple[Columns, ChosenModels, list[Proven]]
@@ -69,7 +70,7 @@ def unnamed_physics(analysis: Analysis, *, plainly: bool = False) -> UnnamedRepo
         analysis = with_fit(analysis, analysis.fit)
     problem = problem_of(analysis)
     if plainly:
-        return find(by_condition(problem, FOLDS), plainly=True)
+        return find(by_condition(problem, FOLDS))
     return find(problem, coarsely(problem, analysis))
 
 
@@ -96,7 +97,8 @@ def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
 
 def _size_alone(problem: Unexplained, found: UnnamedReport) -> float:
     """Squared error that an equation leaves on unseen sweeps, each force over its largest."""
-    left = {o: found.unseen[o][1] if o in found.unseen else rms(rest) for o, rest in problem.rest.items()}
+    added = {} if found.physics is None else found.physics.equations
+    left = {o: found.unseen[o][1] if o in added else rms(rest) for o, rest in problem.rest.items()}
     return sum((error / problem.largest[o]) ** 2 for o, error in left.items())
 
 
@@ -115,7 +117,7 @@ def find_better(problem: Unexplained, rival: Mapping[str, Array]) -> UnnamedRepo
     models = [m for k in range(MOST_TERMS) if (m := choice.best(k + 1)) is not None]
     if not any(_leaves_less(problem, forces_of(columns, choice, m.terms), rival) for m in models):
         return None  # not even where it was fitted
-    found = _reported([(columns, choice, proven(columns))], plainly=True, rival=rival)
+    found = _reported([(columns, choice, proven(columns))], rival)
     if found.physics is None or "t" in found.physics.ranges:
         return None  # an equation in time, or in the way rolled, ends with its recording; a name does not
     return found
@@ -123,7 +125,7 @@ def find_better(problem: Unexplained, rival: Mapping[str, Array]) -> UnnamedRepo
 
 def _leaves_less(problem: Unexplained, added: Mapping[str, Array], rival: Mapping[str, Array]) -> bool:
     """Whether forces that are added, N, surely leave less than a rival does."""
-    left = {o: rest - added[o] for o, rest in problem.rest.items()}
+    left = {o: rest - added.get(o, 0.0) for o, rest in problem.rest.items()}
     return surely_less(rival, left, problem.largest, problem.block)
 
 
@@ -145,7 +147,7 @@ def _one_sided(problem: Unexplained) -> bool:
     return "slip_angle" in problem.moves and one_sided(problem.table.columns["s"])
 
 
-def find(*views: Unexplained, plainly: bool = False) -> UnnamedReport:
+def find(*views: Unexplained) -> UnnamedReport:
     """The same from what any engine leaves.
 
     Parameters
@@ -153,49 +155,92 @@ def find(*views: Unexplained, plainly: bool = False) -> UnnamedReport:
     views : Unexplained
         One recording, weighed in one way or in several. The one is taken whose choice does best on sweeps
         that it has not seen.
-    plainly : bool
     """
-    return _reported([_look(problem) for problem in views], plainly=plainly)
+    return _reported([_look(problem) for problem in views])
 
 
-def _reported(
-    looked: Sequence[_Looked], *, plainly: bool, rival: Mapping[str, Array] | None = None
-) -> UnnamedReport:
-    """Return the best of what was found, with its equation if it is proved."""
-    problem = looked[0][0].problem
+def _reported(looked: Sequence[_Looked], rival: Mapping[str, Array] | None = None) -> UnnamedReport:
+    """Return the best of what was found, with its equations if they are proved."""
+    problem, parts = looked[0][0].problem, _parts(looked)
+    first = parts[0]
+    sets, each = driver_posterior(first.choice.models, first.choice.terms)
+    shown = [(tuple(sorted(k)), p) for k, p in list(sets.items())[:5]]
+    if first.model is None:
+        return UnnamedReport(None, "nothing in the library is worth its length", drivers=each, sets=shown)
+    one_sided = _one_sided(problem)
+    added = {o: p.proof.predicted[o] for p in parts for o in p.proof.outputs}
+    kept = first.proof.holds and not one_sided
+    kept = kept and (rival is None or _leaves_less(problem, added, rival))
+    physics = _physics(problem, parts) if kept else None
+    terms = [t for p in parts for t in p.terms]
+    return UnnamedReport(
+        physics=physics,
+        why_not="" if physics is not None else _ONE_SIDED if one_sided else _NOT_PROVED,
+        drivers=each | {d: 1.0 for p in parts[1:] for d in p.drivers},
+        sets=shown,
+        where=_where(terms),
+        coefficients=[pair for p in parts for pair in p.coefficients],
+        evidence=sum(p.model.evidence for p in parts if p.model is not None),
+        alternatives=_alternatives(first.choice, first.model),
+        unseen={o: error for p in parts for o, error in _unseen(p).items()},
+        better=min(p.proof.better for p in parts),
+        sweeps=first.proof.sweeps,
+        p_value=max(p.proof.p_value for p in parts),
+        ideas=matching(frozenset[str]().union(*(p.drivers for p in parts)), terms),
+        curve=_curve(first.columns, first.choice, first.model),
+    )
+
+
+@dataclass(frozen=True)
+class _Part:
+    """What was chosen for some forces, and how it does on sweeps that it has not seen."""
+
+    columns: Columns
+    choice: ChosenModels
+    model: Model | None
+    proof: Proven
+
+    @property
+    def terms(self) -> list[Term]:
+        """Terms of the equation."""
+        return [] if self.model is None else [self.choice.terms[i] for i in self.model.terms]
+
+    @property
+    def drivers(self) -> frozenset[str]:
+        """What it depends on."""
+        return frozenset[str]() if self.model is None else drivers_of(self.model, self.choice.terms)
+
+    @property
+    def coefficients(self) -> list[tuple[float, float]]:
+        """Values and standard errors."""
+        if self.model is None:
+            return []
+        values, errors = fitted(self.choice, self.model.terms)
+        return [(float(v), float(e)) for v, e in zip(values, errors, strict=True)]
+
+
+def _parts(looked: Sequence[_Looked]) -> list[_Part]:
+    """Look for one equation of all forces, then for an own one of each force that it does not make better.
+
+    What acts on one force alone must not give way to a form that another force asks for.
+    """
+    whole, problem = _best_part(looked), looked[0][0].problem
+    left = [o for o in problem.outputs if o not in whole.proof.outputs]
+    if len(problem.outputs) == 1 or not left:
+        return [whole]
+    own = [_best_part([_look(of_force(problem, o))]) for o in left]
+    kept = [part for part in (whole, *own) if part.model is not None and part.proof.holds]
+    return kept or [whole]
+
+
+def _best_part(looked: Sequence[_Looked]) -> _Part:
+    """Return the choice that does best on sweeps that it has not seen."""
     proofs = [proof for _, _, of_view in looked for proof in of_view]
     which = best_of(proofs)
     columns, choice, _ = looked[which // MOST_TERMS]
     if not proofs[which].holds:
         columns, choice, _ = next((each for each in looked if each[1].models), looked[0])
-    best, proof = choice.best(which % MOST_TERMS + 1), proofs[which]
-    sets, each = driver_posterior(choice.models, choice.terms)
-    shown = [(tuple(sorted(k)), p) for k, p in list(sets.items())[:5]]
-    if best is None:
-        return UnnamedReport(None, "nothing in the library is worth its length", drivers=each, sets=shown)
-    terms = [choice.terms[i] for i in best.terms]
-    values, errors = fitted(choice, best.terms)
-    drivers = drivers_of(best, choice.terms)
-    one_sided = _one_sided(problem)
-    kept = (proof.plain(drivers) if plainly else proof.holds) and not one_sided
-    kept = kept and (rival is None or _leaves_less(problem, proof.predicted, rival))
-    physics = _physics(columns, choice, best, proof.outputs) if kept else None
-    return UnnamedReport(
-        physics=physics,
-        why_not="" if physics is not None else _ONE_SIDED if one_sided else _NOT_PROVED,
-        drivers=each,
-        sets=shown,
-        where=_where(terms),
-        coefficients=[(float(v), float(e)) for v, e in zip(values, errors, strict=True)],
-        evidence=best.evidence,
-        alternatives=_alternatives(choice, best),
-        unseen=_unseen(columns, proof, drivers, terms),
-        better=proof.better,
-        sweeps=proof.sweeps,
-        p_value=proof.p_value,
-        ideas=matching(drivers, terms),
-        curve=_curve(columns, choice, best),
-    )
+    return _Part(columns, choice, choice.best(which % MOST_TERMS + 1), proofs[which])
 
 
 def _look(problem: Unexplained) -> _Looked:
@@ -219,16 +264,16 @@ def equations(choice: ChosenModels, model: Model, outputs: tuple[str, ...]) -> d
     return out
 
 
-def _physics(
-    columns: Columns, choice: ChosenModels, model: Model, outputs: tuple[str, ...]
-) -> UnnamedPhysics | None:
-    texts = equations(choice, model, outputs)
+def _physics(problem: Unexplained, parts: Sequence[_Part]) -> UnnamedPhysics | None:
+    texts: dict[str, str] = {}
+    for part in parts:
+        if part.model is not None:
+            texts |= equations(part.choice, part.model, part.proof.outputs)
     if not texts:
         return None
-    terms = [choice.terms[i] for i in model.terms]
-    acts = ", ".join(dict.fromkeys(WAY[t.way].acts_on for t in terms))
-    drivers = tuple(sorted(drivers_of(model, choice.terms)))
-    return UnnamedPhysics(texts, drivers, acts, _ranges(columns.problem, texts), columns.problem.nominal)
+    acts = ", ".join(dict.fromkeys(WAY[t.way].acts_on for p in parts for t in p.terms))
+    drivers = tuple(sorted(frozenset[str]().union(*(p.drivers for p in parts))))
+    return UnnamedPhysics(texts, drivers, acts, _ranges(problem, texts), problem.nominal)
 
 
 def _ranges(problem: Unexplained, texts: Mapping[str, str]) -> dict[str, tuple[float, float]]:
@@ -243,9 +288,14 @@ def _ranges(problem: Unexplained, texts: Mapping[str, str]) -> dict[str, tuple[f
     for symbol in sorted(s for s in seen if s in CHANNEL):
         x = problem.table.columns[symbol]
         low, high = (x.min(), x.max()) if symbol == "t" else np.quantile(x, [0.001, 0.999])
-        short = 0.5 * max(least_spread(CHANNEL[symbol], x) - (high - low), 0.0) if symbol == "L" else 0.0
+        short = 0.5 * max(_held_within(symbol, x) - (high - low), 0.0)
         found[symbol] = (float(low - short), float(high + short))
     return found
+
+
+def _held_within(symbol: str, x: Array) -> float:
+    """Spread, in the symbol's unit, within which its channel counts as held."""
+    return least_spread(CHANNEL[symbol], x) / (SPAN if symbol == "h" else 1.0)
 
 
 def _where(terms: list[Term]) -> str:
@@ -278,13 +328,11 @@ def _alternatives(choice: ChosenModels, best: Model) -> list[Alternative]:
     return out
 
 
-def _unseen(
-    columns: Columns, proof: Proven, drivers: frozenset[str], terms: list[Term]
-) -> dict[str, tuple[float, float, float]]:
-    problem = columns.problem
-    most = ceiling(columns, drivers, terms)
+def _unseen(part: _Part) -> dict[str, tuple[float, float, float]]:
+    problem, predicted = part.columns.problem, part.proof.predicted
+    most = ceiling(part.columns, part.terms)
     return {
-        o: (rms(problem.rest[o]), rms(problem.rest[o] - proof.predicted[o]), rms(problem.rest[o] - most[o]))
+        o: (rms(problem.rest[o]), rms(problem.rest[o] - predicted[o]), rms(problem.rest[o] - most[o]))
         for o in problem.outputs
     }
 
