@@ -55,6 +55,11 @@ class Proven:
     outputs: tuple[str, ...]
 
     @property
+    def added(self) -> dict[str, Array]:
+        """What is added to the forces that surely become better, N."""
+        return {o: self.predicted[o] for o in self.outputs} if self.holds else {}
+
+    @property
     def holds(self) -> bool:
         """Whether the equation is kept."""
         return bool(self.outputs and self.choices > FOLDS // 2)

@@ -78,9 +78,9 @@ def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
     """Return an equation that predicts unseen sweeps better than the named effects do, if there is one.
 
     An effect of the catalogue often resembles a part of what has no name, and then the posterior names it:
-    it weighs no equation. Here an equation alone, by the stricter proof, has to leave surely less than the
-    named effects fitted without each sweep, and no more than these together with an equation of their own
-    residual. So a true cause keeps its name where something unnamed acts, too.
+    it weighs no equation. Here an equation alone, chosen and fitted without each operating condition, has to
+    leave surely less than the named effects fitted without each sweep. The names stay if they leave less with
+    an equation of their own residual: so a true cause keeps its name where something unnamed acts, too.
 
     Parameters
     ----------
@@ -89,44 +89,53 @@ def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
     """
     problem = by_condition(problem_of(with_fit(analysis, Fit([], []))), FOLDS)
     names = each_left_out(analysis, analysis.fit)
-    found = find_better(problem, names)
-    if found is None or _size_beside(analysis, names) < _size_alone(problem, found):
+    found, left = _better(problem, names)
+    if found is None or _stay(analysis, names, left):
         return None
     return replace(found, instead_of=tuple(analysis.fit.names))
 
 
-def _size_alone(problem: Unexplained, found: UnnamedReport) -> float:
-    """Squared error that an equation leaves on unseen sweeps, each force over its largest."""
-    added = {} if found.physics is None else found.physics.equations
-    left = {o: found.unseen[o][1] if o in added else rms(rest) for o, rest in problem.rest.items()}
-    return sum((error / problem.largest[o]) ** 2 for o, error in left.items())
-
-
-def _size_beside(analysis: Analysis, names: Mapping[str, Array]) -> float:
-    """The same of named effects and an equation of what they leave."""
+def _stay(analysis: Analysis, names: Mapping[str, Array], alone: Mapping[str, Array]) -> bool:
+    """Whether named effects and an equation of what they leave, N, leave less than an equation alone."""
     problem = by_condition(problem_of(analysis), FOLDS)
     proofs = proven(Columns(problem))
-    added = proofs[best_of(proofs)].predicted
-    return size_over_largest({o: left - added[o] for o, left in names.items()}, problem.largest)
+    added = proofs[best_of(proofs)].added
+    beside = {o: left - added.get(o, 0.0) for o, left in names.items()}
+    return size_over_largest(beside, problem.largest) < size_over_largest(alone, problem.largest)
 
 
 def find_better(problem: Unexplained, rival: Mapping[str, Array]) -> UnnamedReport | None:
     """The same against any rival: output -> what it leaves on unseen sweeps, N, shape (n,)."""
+    return _better(problem, rival)[0]
+
+
+def _better(
+    problem: Unexplained, rival: Mapping[str, Array]
+) -> tuple[UnnamedReport | None, dict[str, Array]]:
+    """Return what is better than a rival, and what it leaves on unseen sweeps, N."""
     columns = Columns(problem)
     choice = choose(columns)
     models = [m for k in range(MOST_TERMS) if (m := choice.best(k + 1)) is not None]
-    if not any(_leaves_less(problem, forces_of(columns, choice, m.terms), rival) for m in models):
-        return None  # not even where it was fitted
-    found = _reported([(columns, choice, proven(columns))], rival)
+    if not any(
+        surely_less(
+            rival, _left(problem, forces_of(columns, choice, m.terms)), problem.largest, problem.block
+        )
+        for m in models
+    ):
+        return None, {}  # not even where it was fitted
+    parts = _parts([(columns, choice, proven(columns))])
+    left = _left(problem, _added(parts))
+    found = _reported(problem, parts)
+    if not surely_less(rival, left, problem.largest, problem.block):
+        return None, {}
     if found.physics is None or "t" in found.physics.ranges:
-        return None  # an equation in time, or in the way rolled, ends with its recording; a name does not
-    return found
+        return None, {}  # an equation in time, or the way rolled, ends with its recording; a name does not
+    return found, left
 
 
-def _leaves_less(problem: Unexplained, added: Mapping[str, Array], rival: Mapping[str, Array]) -> bool:
-    """Whether forces that are added, N, surely leave less than a rival does."""
-    left = {o: rest - added.get(o, 0.0) for o, rest in problem.rest.items()}
-    return surely_less(rival, left, problem.largest, problem.block)
+def _left(problem: Unexplained, added: Mapping[str, Array]) -> dict[str, Array]:
+    """What is left of the residual by forces that are added, N."""
+    return {o: rest - added.get(o, 0.0) for o, rest in problem.rest.items()}
 
 
 def more_than_usual(analysis: Analysis) -> bool:
@@ -156,22 +165,18 @@ def find(*views: Unexplained) -> UnnamedReport:
         One recording, weighed in one way or in several. The one is taken whose choice does best on sweeps
         that it has not seen.
     """
-    return _reported([_look(problem) for problem in views])
+    return _reported(views[0], _parts([_look(problem) for problem in views]))
 
 
-def _reported(looked: Sequence[_Looked], rival: Mapping[str, Array] | None = None) -> UnnamedReport:
-    """Return the best of what was found, with its equations if they are proved."""
-    problem, parts = looked[0][0].problem, _parts(looked)
+def _reported(problem: Unexplained, parts: Sequence[_Part]) -> UnnamedReport:
+    """Say what was found, with its equations if they are proved."""
     first = parts[0]
     sets, each = driver_posterior(first.choice.models, first.choice.terms)
     shown = [(tuple(sorted(k)), p) for k, p in list(sets.items())[:5]]
     if first.model is None:
         return UnnamedReport(None, "nothing in the library is worth its length", drivers=each, sets=shown)
     one_sided = _one_sided(problem)
-    added = {o: p.proof.predicted[o] for p in parts for o in p.proof.outputs}
-    kept = first.proof.holds and not one_sided
-    kept = kept and (rival is None or _leaves_less(problem, added, rival))
-    physics = _physics(problem, parts) if kept else None
+    physics = _physics(problem, parts) if first.proof.holds and not one_sided else None
     terms = [t for p in parts for t in p.terms]
     return UnnamedReport(
         physics=physics,
@@ -231,6 +236,11 @@ def _parts(looked: Sequence[_Looked]) -> list[_Part]:
     own = [_best_part([_look(of_force(problem, o))]) for o in left]
     kept = [part for part in (whole, *own) if part.model is not None and part.proof.holds]
     return kept or [whole]
+
+
+def _added(parts: Sequence[_Part]) -> dict[str, Array]:
+    """What is added to each force on unseen sweeps, N."""
+    return {o: force for part in parts for o, force in part.proof.added.items()}
 
 
 def _best_part(looked: Sequence[_Looked]) -> _Part:
