@@ -295,16 +295,18 @@ def levels(count):
     return replace(both, table=replace(both.table, columns=columns), moves=moves), load
 
 
-def test_whole_operating_conditions_are_held_out_where_there_are_enough():
+def test_whole_operating_conditions_are_held_out_where_there_is_more_than_one():
     recording, load = levels(6)
-    together = by_condition(recording, 5).together
+    together = by_condition(recording).together
     assert len(set(zip(together, load, strict=True))) == len(set(load)) == len(set(together)) == 6
-    assert by_condition(levels(4)[0], 5).together is None
+    assert len(set(by_condition(levels(2)[0]).together)) == 2
+    one = levels(1)[0]
+    assert by_condition(replace(one, moves=one.moves - {"normal_load"})).together is None
 
 
 def test_a_condition_is_in_one_fold_only():
     recording, load = levels(7)
-    folds = Columns(by_condition(recording, 5)).folds
+    folds = Columns(by_condition(recording)).folds
     assert all(len(set(folds[load == one])) == 1 for one in set(load))
     assert any(len(set(Columns(recording).folds[load == one])) > 1 for one in set(load))
 

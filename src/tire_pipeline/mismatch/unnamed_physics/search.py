@@ -34,7 +34,7 @@ from tire_pipeline.mismatch.unnamed_physics.problem import (
     of_force,
     problem_of,
 )
-from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
+from tire_pipeline.mismatch.unnamed_physics.products import Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import (
     Proven,
     best_of,
@@ -70,7 +70,7 @@ def unnamed_physics(analysis: Analysis, *, plainly: bool = False) -> UnnamedRepo
         analysis = with_fit(analysis, analysis.fit)
     problem = problem_of(analysis)
     if plainly:
-        return find(by_condition(problem, FOLDS))
+        return find(by_condition(problem))
     return find(problem, coarsely(problem, analysis))
 
 
@@ -87,7 +87,7 @@ def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
     analysis : Analysis
         With the set that is named.
     """
-    problem = by_condition(problem_of(with_fit(analysis, Fit([], []))), FOLDS)
+    problem = by_condition(problem_of(with_fit(analysis, Fit([], []))))
     names = each_left_out(analysis, analysis.fit)
     found, left = _better(problem, names)
     if found is None or _stay(analysis, names, left):
@@ -97,7 +97,7 @@ def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
 
 def _stay(analysis: Analysis, names: Mapping[str, Array], alone: Mapping[str, Array]) -> bool:
     """Whether named effects and an equation of what they leave, N, leave less than an equation alone."""
-    problem = by_condition(problem_of(analysis), FOLDS)
+    problem = by_condition(problem_of(analysis))
     proofs = proven(Columns(problem))
     added = proofs[best_of(proofs)].added
     beside = {o: left - added.get(o, 0.0) for o, left in names.items()}
