@@ -110,7 +110,6 @@ def test_no_two_constants_of_one_name():
 
 DIFFERENT_WORDS = {
     ("fit", "jit"),
-    ("head", "read"),
     ("pipeline", "pipelines"),
     ("read", "real"),
     ("recording", "recordings"),

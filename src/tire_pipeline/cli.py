@@ -27,7 +27,8 @@ def _run(**options: Any) -> Any:
     try:
         _check_names(options.get("pipelines") or ())
         click.echo("starting: loading the pipelines", err=True)
-        return kedro_run.callback(**options)  # type: ignore[misc]
+        run_of_kedro: Any = kedro_run.callback
+        return run_of_kedro(**options)
     except Exception as error:
         line = one_line(error)
         if line is None:

@@ -10,7 +10,7 @@ from concurrent.futures import BrokenExecutor
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, cast
+from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, cast, runtime_checkable
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.progress import silent, track, under_way
@@ -42,6 +42,19 @@ class Task(Protocol[_T_co]):
 
     def __call__(self) -> _T_co:
         """Do it."""
+        ...
+
+
+@runtime_checkable
+class Divided(Protocol[_T]):
+    """A task of several files, which can be done one by one."""
+
+    def split(self) -> Mapping[str, Task[_T]]:
+        """Return one task for each file."""
+        ...
+
+    def join(self, parts: list[_T]) -> _T:
+        """Return what all of it gives, from what its parts gave."""
         ...
 
 
@@ -268,10 +281,12 @@ def done_alone(
     what : str
         Is said of it.
     """
-    parts: Mapping[str, Task[_T]] = getattr(task, "split", dict)()
-    if len(parts) > 1:
-        done = [done_alone(each, part, try_it, what).result() for each, part in parts.items()]
-        return Done(name, task.join(done))  # type: ignore[attr-defined]
+    parts: Mapping[str, Task[_T]] = {}
+    if isinstance(task, Divided):
+        parts = task.split()
+        if len(parts) > 1:
+            done = [done_alone(each, part, try_it, what).result() for each, part in parts.items()]
+            return Done(name, task.join(done))
     outcome = try_it(name, task)
     if outcome is not None:
         return outcome

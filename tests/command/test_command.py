@@ -126,6 +126,7 @@ def test_show_says_version_ranges_and_what_is_missing(folder):
     model = read_tir("a.tir").replace(FZMIN=500.0, FZMAX=9000.0)
     write_tir(model, "b.tir")
     text = run("show", "b.tir").stdout
+    assert "At the nominal load: cornering stiffness 1,192 N/deg, largest lateral" in " ".join(text.split())
     assert "There is no combined slip" in text
     assert "There is no aligning moment" in text
     assert "No ranges are stated" not in text
@@ -217,8 +218,9 @@ def test_convert_keeps_the_forces_and_says_what_it_cannot_keep(folder):
 def test_fit_writes_what_was_measured(folder):
     record("run.csv")
     before = (folder / "run.csv").read_bytes()
-    found = told("fit", "run.csv", "-o", "out.tir")
+    found = told("fit", "run.csv", "-o", "out.tir", "--unloaded-radius", "0.305")
     fitted = read_tir("out.tir")
+    assert fitted.value("UNLOADED_RADIUS") == 0.305
     assert (folder / "run.csv").read_bytes() == before
     assert fitted.coefficients["PDY1"] == pytest.approx(found["coefficients"]["PDY1"])
     assert found["relative_rms"]["fy"] < 0.01
@@ -329,7 +331,9 @@ def test_check_lists_channels_and_fails_on_what_cannot_be_explained(folder):
         (("convert", "a.tir", "--to", "6.1", "-o", "a.tir", "--overwrite"), "never changed"),
         (("convert", "a.tir", "--to", "6.1", "-o", "no/such/folder.tir"), "no/such"),
         (("check", "none.csv"), "no such file"),
-        (("check", "a.tir", "--name", "x"), "is not CHANNEL=VALUE"),
+        (("check", "a.tir", "--name", "x"), "'x' is not COLUMN=CHANNEL, such as Querkraft=fy"),
+        (("check", "a.tir", "--unit", "SA"), "'SA' is not COLUMN=UNIT, such as SA=deg"),
+        (("show", "."), "this is a folder -> give one .tir file"),
         (("explain", "a.tir", "none.csv"), "no such file"),
         (("translate", "a.tir", "--model", "none"), "there is no such model"),
         (("shw", "a.tir"), "Did you mean 'show'?"),

@@ -95,6 +95,23 @@ def test_a_tire_beyond_the_training_data_is_written_only_if_asked_for(folder):
     assert "beyond its edge, 1; written because asked for" in Path("stiff_as_D.tir").read_text("latin-1")
 
 
+def test_a_tire_of_other_loads_than_those_compared_is_refused_unless_asked_for(folder):
+    """A bus tire of 35 kN was judged at 2 to 8 kN: at its own load its aligning torque rose to 2.6 times."""
+    tire = read_tir("A/tire.tir")
+    write_tir(tire.nominal_load_changed(20000.0), "A/bus.tir")
+    asked = ("translate", "A/bus.tir", "--model", "06_models/translator.npz", "--no-page", "--json")
+    refused = json.loads(run(*asked).stdout)
+    assert refused["verdict"] == "refused"
+    assert "(its nominal load is 20 kN, and forces are judged at 2 to 8 kN)" in refused["reason"]
+    assert not Path("bus_as_D.tir").exists()
+    reason = json.loads(run(*asked, "--farthest", "3").stdout)["reason"]
+    assert "at 2 to 8 kN; its nominal load is 20 kN" in reason
+    comments = " ".join(Path("bus_as_D.tir").read_text("latin-1").replace("\n! ", " ").split())
+    assert "its nominal load is 20 kN: compare its curves there" in comments
+    own = ("translate", "A/tire.tir", "--model", "06_models/translator.npz", "--no-page", "--json")
+    assert "nominal load" not in json.loads(run(*own).stdout)["reason"]
+
+
 def test_who_measured_it_is_told_by_the_option_or_the_folder(folder):
     Path("elsewhere.tir").write_bytes(Path("A/tire.tir").read_bytes())
     stored = ("--model", "06_models/translator.npz", "--no-page")

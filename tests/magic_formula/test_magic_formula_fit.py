@@ -101,11 +101,14 @@ def test_the_other_sign_gives_the_mirrored_model(tydex):
 
 
 def test_a_radius_that_nobody_states_is_the_one_that_an_explanation_takes_too(tydex):
-    bare = tydex.copy()
+    bare = tydex.assign(loaded_radius=0.196)
     bare.attrs = {}
     fit = fit_magic_formula(bare, "5.2", starts=1)
     assert fit.model.value("UNLOADED_RADIUS") == ASSUMED_RADIUS
-    assert any(note.startswith(f"UNLOADED_RADIUS = {ASSUMED_RADIUS} m is assumed") for note in fit.notes)
+    (note,) = (
+        note for note in fit.notes if note.startswith(f"UNLOADED_RADIUS = {ASSUMED_RADIUS} m is assumed")
+    )
+    assert "the median of the recorded loaded radius is 0.196 m" in note
     coefficients = dict(fit.model.coefficients)
     del coefficients["UNLOADED_RADIUS"]
     lacking = TireModel.from_coefficients({**coefficients, "PTY1": 1.0, "PTY2": 2.0}, version="5.2")

@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.report.sentences import head
 def located(tire, recording):
     """Places, what is off throughout, and what the report says of it."""
     data = prepare(tire, recording).data
-    rest = {o: data.recorded[o] - data.base[o] for o in data.outputs}
+    rest = {o: data.recorded[o] - data.simulation.base[o] for o in data.outputs}
     found = locate(data, rest, estimate_noise(data, rest), sweeps(data))
     even = everywhere(data, rest, found)
     nothing = Remainder(size={}, located=[], significant=False)

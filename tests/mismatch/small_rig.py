@@ -52,7 +52,9 @@ def schedule(seconds=150.0, rate=25.0):
 def out_of_round(tire, recording, force=200.0):
     """Return a recording whose side force swings by ``force`` (N) once a turn, at 0.97 of the radius."""
     data = prepare(tire, recording).data
-    return recording.assign(fy=recording["fy"] + force * np.cos(data.distance / (0.97 * data.radius)))
+    return recording.assign(
+        fy=recording["fy"] + force * np.cos(data.states.distance / (0.97 * data.nominal.radius))
+    )
 
 
 def with_pauses(recording):

@@ -270,7 +270,7 @@ def test_what_a_translation_takes_off_lies_within_the_band_of_the_bias(together)
 
 def test_the_page_says_which_error_and_how_far_files_are_written(together, asked):
     for page in (together.page.text, asked.page.text):
-        assert "Errors are RMS." in page
+        assert "Errors are RMS of side and longitudinal force" in page
         assert not re.search(r"squared|expected ratio", page)
     assert "none beyond distance 1, the edge of the training data" in together.page.text
     assert "none beyond distance 3, as asked for" in asked.page.text

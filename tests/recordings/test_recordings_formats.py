@@ -143,6 +143,12 @@ def test_names_given_by_the_user(tmp_path):
     np.testing.assert_allclose(recording["fy"], FY * 1e3)
     with pytest.raises(RecordingError, match="'Kanal_8', which the file does not have"):
         read_recording(file, names={"Kanal_8": "fy"})
+    with pytest.raises(
+        RecordingError, match=r"'Kanal_7' is said to be 'pressur', .* did you mean 'pressure'\?"
+    ):
+        read_recording(file, names={"Kanal_7": "pressur"})
+    with pytest.raises(RecordingError, match="the file's name stands first and the channel second"):
+        read_recording(file, names={"FZ": "Kanal_7"})
 
 
 def test_negative_load_is_mirrored_and_sae_is_asked_for(tmp_path):
@@ -276,7 +282,8 @@ def test_what_cannot_be_read_says_so(tmp_path):
     cases = {
         "empty.csv": (b"", "the file is empty"),
         "binary.csv": (bytes(range(256)) * 4, "no text file"),
-        "words.csv": (b"a,b\nc,d\n", "no row of numbers"),
+        "words.csv": (b"a,b\nc,d\n", "no row of numbers in the first 2 lines"),
+        "header.csv": (b"SA,FY\n", "there is one line, and no row of numbers"),
         "headless.csv": (b"1,2\n3,4\n", "no header"),
         "strange.xyz": (b"abc", "suffix '.xyz' is not known"),
         "names.csv": (b"foo,bar\n1,2\n3,4\n", "no channel is recognised"),

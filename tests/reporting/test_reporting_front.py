@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 from urllib.parse import unquote
 
-from tire_pipeline.reporting import front_page
+from tire_pipeline.reporting import Text, front_page, render_page
 
 TABLES = ("tables/ingest_report.csv", "tables/filter_report.csv")
 
@@ -75,6 +75,13 @@ def test_it_begins_with_the_first_sentence_of_each_report_and_its_pictures(tmp_p
     assert "no main message" not in page
     for name in ("force_curves.png", "confusion_matrix.png"):
         assert page.index(f'<img src="{name}/2026-01-02/{name}"') < page.index("Tables (CSV)")
+
+
+def test_a_command_in_the_first_sentence_of_a_report_is_set_as_code(tmp_path):
+    """It stood there as <code>kedro run</code>, with the angle brackets."""
+    text = Text(["`kedro run` translates <code> all."], emphasis=True)
+    (tmp_path / "report.html").write_text(render_page("Report", [text]))
+    assert "<code>kedro run</code> translates &lt;code&gt; all." in front_page(tmp_path)
 
 
 def test_a_table_is_listed_with_what_it_holds(tmp_path):

@@ -10,7 +10,9 @@ from tire_pipeline.translation.parameters import TranslateParameters
 REPORT = pd.DataFrame(
     {
         "file": ["A/a.tir", "A/b.tir", "mine/c.tir"],
+        "source": ["A", "A", "mine"],
         "verdict": ["translated", "refused", "translated"],
+        "reason": ["", "its version is not 5.x: fit 5.2", ""],
         "expected_rms_ratio": [0.1, float("nan"), 0.3],
     }
 )
@@ -28,6 +30,34 @@ def test_the_users_own_files_come_first():
         "Your own 1 file: 1 translated to D, 0 refused.",
         "The demonstration fleet's 2 files: 1 translated to D, 1 refused.",
     ]
+
+
+def test_why_files_were_refused_and_which_are_the_targets_own_is_said():
+    """Fifteen of thirty files were refused, and the page said why only where each was clicked."""
+    why = ["no physical tire found: shape", "no physical tire found: lateral friction", "cannot be read: x"]
+    report = pd.DataFrame(
+        {
+            "file": list("abcde"),
+            "source": ["A", "A", "A", "D", "A"],
+            "verdict": ["refused"] * 3 + ["already unbiased"] * 2,
+            "reason": [*why, "it is the target's own", "nothing beyond 5%"],
+            "expected_rms_ratio": float("nan"),
+        }
+    )
+    _, said = translate_page(report, {}, pd.DataFrame(), [], TranslateParameters(), "D")
+    counted = "0 translated to D, 3 refused, 1 already unbiased, 1 measured by D itself"
+    assert said == [
+        f"Your own 5 files: {counted}.",
+        "Refused: no physical tire found (2); cannot be read (1). "
+        "The page gives the whole reason for each file.",
+    ]
+
+
+def test_where_no_file_was_refused_no_reason_is_given():
+    _, said = translate_page(
+        REPORT[REPORT["verdict"] == "translated"], {}, pd.DataFrame(), [], TranslateParameters(), "D"
+    )
+    assert not any("Refused" in line for line in said)
 
 
 def test_files_that_were_asked_for_are_not_called_all():

@@ -121,7 +121,7 @@ def test_more_than_any_real_file_has_is_refused(line: str, what: str):
 def test_paths_that_cannot_be_read(tmp_path):
     with pytest.raises(TirError, match="cannot be read: No such file"):
         read_tir(tmp_path / "absent.tir")
-    with pytest.raises(TirError, match="cannot be read: Is a directory"):
+    with pytest.raises(TirError, match=r"this is a folder -> give one .tir file"):
         read_tir(tmp_path)
     with pytest.raises(TirError, match="cannot be read: embedded null"):
         read_tir("a\0b.tir")

@@ -9,7 +9,7 @@ import click
 import numpy as np
 
 from tire_pipeline.command.options import FILE, output_options, read_runs, reading_options
-from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
+from tire_pipeline.command.outcome import CommandOutcome, Grid, digits, finish
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 UNUSABLE = 1
 """Exit code if the recording cannot be explained."""
 _MOST_DRAWN = 4000
+_KEYS = ("channel", "unit", "lowest", "median", "highest", "missing")
+"""What JSON says of each channel; the first is its name in the file."""
 
 
 @click.command(
@@ -66,7 +68,7 @@ def outcome(run: Path, recording: pd.DataFrame, issues: list[Issue], axes: str |
     counts = [_count(errors, "error"), _count(len(issues) - errors, "warning")]
     lines = [f"{verdict}: {' and '.join(counts)}.", _size(recording), _axes(recording, axes)]
     channels = Grid(
-        ("column", "channel", "unit", "lowest", "median", "highest", "missing"),
+        ("channel", "in the file", "unit", "lowest", "median", "highest", "missing"),
         _channels(recording),
         "Channels, in SI units",
     )
@@ -85,7 +87,7 @@ def outcome(run: Path, recording: pd.DataFrame, issues: list[Issue], axes: str |
             {"name": i.name, "severity": i.severity, "where": i.where, "advice": i.advice, "rows": i.rows}
             for i in issues
         ],
-        "channels": {row[0]: dict(zip(channels.header[1:], row[1:], strict=True)) for row in channels.rows},
+        "channels": {row[0]: dict(zip(_KEYS, row[1:], strict=True)) for row in channels.rows},
         "conversions": attrs.get("conversions", []),
         "notes": attrs.get("notes", []),
     }
@@ -110,7 +112,7 @@ def _size(recording: pd.DataFrame) -> str:
         return f"{kind}, {len(recording):,} samples."
     step = float(np.median(np.diff(time)))
     rate = f" at {1.0 / step:.4g} Hz" if step > 0.0 else ""
-    return f"{kind}, {len(recording):,} samples over {np.ptp(time):,.0f} s{rate}."
+    return f"{kind}, {len(recording):,} samples over {digits(float(np.ptp(time)))} s{rate}."
 
 
 def _axes(recording: pd.DataFrame, axes: str | None) -> str:

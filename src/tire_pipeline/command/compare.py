@@ -79,7 +79,7 @@ def compared(
     figures = Grid(
         ("quantity", "A", "B", "change", "unit"),
         [(x.name, x.value, y.value, _change(x.value, y.value), x.unit) for x, y in held],
-        f"At {load:,.0f} N, no camber",
+        f"At {load:,.0f} N, no camber. A dash: no such force, or no peak within the range of the file",
     )
     forces = Grid(
         ("output", "RMS", "largest", "unit", "RMS / largest"),
@@ -108,8 +108,8 @@ def _lines(models: dict[str, TireModel], apart: list[Difference], changed: int) 
     known = [d for d in apart if math.isfinite(d.share)]
     sizes = ", ".join(f"{d.output.capitalize()} {_percent(d.share)}" for d in known)
     lines = [
-        f"A is {a} (version {first.version}), B is {b} (version {second.version}).",
         f"RMS difference of the forces, as a share of the largest: {sizes or 'no force is in the files'}.",
+        f"A is {a} (version {first.version}), B is {b} (version {second.version}).",
     ]
     opposite = [d.output.capitalize() for d in apart if d.opposite]
     if opposite:

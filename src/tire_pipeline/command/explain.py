@@ -122,7 +122,7 @@ def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Command
         grids.append(_held_out(report.held_out))
     lines = [report.summary, *report.head.remarks]
     if report.assumed:
-        lines.append(f"Assumed: {'; '.join(report.assumed)}.")
+        lines.append(f"How the recording was read: {'; '.join(report.assumed)}.")
     return CommandOutcome(
         f"{file} and {', '.join(report.recordings)}: {report.stated_verdict}",
         lines,

@@ -29,7 +29,12 @@ if TYPE_CHECKING:
 )
 @click.option("--nominal-load", type=float, help="FNOMIN, N. Default: that of --start, or the median load.")
 @click.option(
-    "--radius", type=float, help="UNLOADED_RADIUS, m. Default: that of --start or of the recording."
+    "--unloaded-radius",
+    "--radius",
+    "radius",
+    type=click.FloatRange(0.0, min_open=True),
+    metavar="METRES",
+    help="Unloaded radius of the tire, m. Default: that of --start or of the recording.",
 )
 @click.option("--overwrite", is_flag=True, help="Replace a file of that name.")
 @reading_options
@@ -164,7 +169,13 @@ def _page(result: FitResult, lines: list[str], residuals: Grid, notes: list[str]
     if notes:
         parts.append(Text(notes, heading="Notes"))
     frame = pd.DataFrame(residuals.rows, columns=list(residuals.header))
-    parts.append(Table(frame, f"{residuals.title}; loads and cambers in groups.", "Residuals"))
+    parts.append(
+        Table(
+            frame,
+            f"{residuals.title}; loads and cambers in groups. RMS (%): of the largest magnitude.",
+            "Residuals",
+        )
+    )
     said = "A dash: the coefficient ended at its bound."
     parts.append(Table(table, said, "Coefficients", digits=5, unlike=True, most_rows=400))
     return render_page(target.name, parts, footer=f"Made by tire fit, with {target.name}.")

@@ -60,15 +60,15 @@ def reading_options(function: F) -> F:
             "--name",
             "names",
             multiple=True,
-            metavar="CHANNEL=COLUMN",
-            help="What a channel is, such as --name Querkraft=fy; can be repeated.",
+            metavar="COLUMN=CHANNEL",
+            help="Which channel a column of the file is, such as --name Querkraft=fy; can be repeated.",
         ),
         click.option(
             "--unit",
             "units",
             multiple=True,
-            metavar="CHANNEL=UNIT",
-            help="The unit of a channel, such as --unit SA=deg; can be repeated.",
+            metavar="COLUMN=UNIT",
+            help="The unit of a column of the file, such as --unit SA=deg; can be repeated.",
         ),
         click.option(
             "--axes",
@@ -97,8 +97,8 @@ def read_runs(
             path,
             format=format_,
             axes=axes,
-            units=_pairs(units, "--unit"),
-            names=_pairs(names, "--name"),
+            units=_pairs(units, "--unit", "COLUMN=UNIT, such as SA=deg"),
+            names=_pairs(names, "--name", "COLUMN=CHANNEL, such as Querkraft=fy"),
         )
     return runs
 
@@ -118,13 +118,13 @@ def names_of(paths: Sequence[Path]) -> list[str]:
     return names if len(set(names)) == len(names) else [str(path) for path in paths]
 
 
-def _pairs(texts: Sequence[str], option: str) -> dict[str, str]:
+def _pairs(texts: Sequence[str], option: str, form: str) -> dict[str, str]:
     pairs = {}
     for text in texts:
-        channel, equals, value = text.rpartition("=")
-        if not equals or not channel or not value:
-            raise click.BadParameter(f"{text!r} is not CHANNEL=VALUE", param_hint=option)
-        pairs[channel] = value
+        column, equals, value = text.rpartition("=")
+        if not equals or not column or not value:
+            raise click.BadParameter(f"{text!r} is not {form}", param_hint=option)
+        pairs[column] = value
     return pairs
 
 

@@ -10,16 +10,24 @@ import click
 
 from tire_pipeline.channels import shown_unit
 from tire_pipeline.command.options import FILE, output_options, radius_option
-from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
+from tire_pipeline.command.outcome import CommandOutcome, Grid, digits, finish
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from tire_pipeline.magic_formula import TireModel
+    from tire_pipeline.magic_formula.key_figures import KeyFigure
 
 _NAMES_SHOWN = 12
 _SHAPE_AND_LEVEL = {"PCX1": "PDX1", "PCY1": "PDY1"}
 """The shape factor of a force, which means nothing without its level."""
+_FIRST = (
+    "cornering stiffness",
+    "largest lateral friction",
+    "slip stiffness",
+    "largest longitudinal friction",
+)
+"""The key figures that a reader asks for first."""
 _MOMENT = ("QDZ", "SSZ")
 """Beginnings of the coefficients without which there is no trail, residual moment or arm of Fx."""
 
@@ -53,11 +61,13 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
         f"Magic Formula {model.version}, nominal load {load * factor:g} {unit}, "
         f"{len(model.coefficients)} coefficients."
     ]
+    lines += _in_short(figures)
     missing = _replaced(model)
     if missing:
         lines.append(f"Missing: {_missing(missing)}.")
     lines += _gaps(model, {figure.name: figure.value for figure in figures})
-    odd = [str(text) for text in model.metadata.get("warnings", ())]  # type: ignore[attr-defined]
+    found = model.metadata.get("warnings", ())
+    odd = [str(text) for text in found] if isinstance(found, (list, tuple)) else []
     key = Grid(
         ("quantity", "value", "unit"),
         [(f.name, f.value, f.unit) for f in figures if f.value == f.value or "peak" in f.name],
@@ -79,6 +89,16 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
         return _page(model, file, lines, grids, odd, loads, camber)
 
     return CommandOutcome(file.name, lines, data, page, grids, odd)
+
+
+def _in_short(figures: list[KeyFigure]) -> list[str]:
+    """How stiff the tire is and how well it grips, in a sentence; nothing of what it does not give."""
+    known = [
+        f"{figure.name} {digits(figure.value)} {figure.unit}".strip()
+        for figure in figures
+        if figure.name in _FIRST and figure.value > 0.0
+    ]
+    return [f"At the nominal load: {', '.join(known)}."] if known else []
 
 
 def _gaps(model: TireModel, figures: dict[str, float]) -> list[str]:

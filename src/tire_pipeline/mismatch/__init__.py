@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from tire_pipeline.mismatch.corrected.model import CorrectedModel
-    from tire_pipeline.mismatch.explain import Explainer, explain_mismatch
+    from tire_pipeline.mismatch.explainer import Explainer, explain_mismatch
     from tire_pipeline.mismatch.proof.measured import OutputFit
     from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit
     from tire_pipeline.mismatch.report.result import MismatchReport
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 _MODULE_OF_NAME = {
     "CorrectedModel": "corrected.model",
     "EffectReport": "report.contents",
-    "Explainer": "explain",
+    "Explainer": "explainer",
     "HeldOutFit": "report.contents",
     "MismatchReport": "report.result",
     "OutputFit": "proof.measured",
-    "explain_mismatch": "explain",
+    "explain_mismatch": "explainer",
     "explain_recordings": "several",
 }
 

@@ -1,231 +1,80 @@
-"""From a tire model and a recording to a report."""
+"""How a mismatch is explained, step by step. Why each step is as it is: docs/explanation/mismatch.md."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Collection
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
-from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.analysis import Analysis, analyse
-from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes, learnt
+from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 from tire_pipeline.mismatch.inference.named import with_named
-from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer, answered, nothing
-from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated, enumerate_sets
+from tire_pipeline.mismatch.inference.sets.answer import SetAnswer, answered, nothing
+from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets
 from tire_pipeline.mismatch.inference.thinning import thinned
+from tire_pipeline.mismatch.model.data import Choices
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.left_out import shares_left
-from tire_pipeline.mismatch.proof.measured import OutputFit
-from tire_pipeline.mismatch.recording.given import numeric
 from tire_pipeline.mismatch.recording.prepare import Prepared, prepare
 from tire_pipeline.mismatch.report.assemble import Explained, assembled
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.progress import track, under_way
-from tire_pipeline.tasks import one_thread
 
 _PROGRESS_STAGES = ("check", "noise and misfit", "sets", "answer")
 
 
-@dataclass(frozen=True)
-class Explainer:
-    """Explains recordings, with what a user may want to change.
-
-    Parameters
-    ----------
-    without : collection of str
-        Effects that are not looked for, as if the catalogue lacked them: what they do then stays unexplained.
-        Faults that are found from exact factors are found all the same.
-    priors : mapping of str to mapping of str to float
-        Effect -> parameter -> standard deviation of its prior, in the parameter's unit, in place of the one
-        that the effect's file states.
-    level : float
-        Probability from which a name, with its alternatives, is said.
-    learnt : LearntSizes, optional
-        What the posterior has learnt; as it ships with the package if left out.
-
-    See Also
-    --------
-    explain_mismatch : The same with defaults.
-    explain_recordings : Several recordings of one tire together.
-
-    Notes
-    -----
-    The method is described in docs/explanation/mismatch.md; :meth:`explain` follows it step by step.
-
-    Examples
-    --------
-    What a catalogue without the right effect says:
-
-    >>> import numpy as np
-    >>> import pandas as pd
-    >>> from tire_pipeline.mismatch import Explainer
-    >>> from tire_pipeline.tir import read_tir
-    >>> tire = read_tir("tire.tir")
-    >>> slip_angle = np.tile(np.linspace(-0.15, 0.15, 100), 2)
-    >>> rig = pd.DataFrame({"slip_angle": slip_angle, "normal_load": np.repeat([3000.0, 5000.0], 100)})
-    >>> rig["fy"] = tire.replace(LKY=0.9).forces(slip_angle=slip_angle, normal_load=rig["normal_load"]).fy
-    >>> rig["fy"] += np.random.default_rng(0).normal(0.0, 20.0, len(rig))
-    >>> report = Explainer(without=["stiffness_scale"]).explain(tire, rig)
-    >>> "stiffness_scale" in [name for names, _ in report.sets for name in names]
-    False
-    """
-
-    without: Collection[str] = ()
-    priors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
-    level: float = LEVEL
-    learnt: LearntSizes = field(default_factory=learnt)
-
-    def explain(self, tire: Any, recording: pd.DataFrame) -> MismatchReport:
-        """Explain one recording.
-
-        Parameters
-        ----------
-        tire : TireModel or None
-            The model; None if the recording has a column ``simulated_fy`` or ``simulated_fx``.
-        recording : pandas.DataFrame
-            Canonical columns in SI, as for :func:`explain_mismatch`.
-
-        Returns
-        -------
-        MismatchReport
-            Verdict, effects with their probabilities, errors before and after, and the corrected model.
-
-        Raises
-        ------
-        RecordingError
-            If the recording cannot be used, or the catalogue lacks an effect of ``without`` or ``priors``.
-        """
-        with one_thread():
-            explained = self.weigh(tire, recording)
-            with under_way("proving the explanation on held-out sweeps"):
-                return assembled(explained)
-
-    def weigh(self, tire: Any, recording: pd.DataFrame) -> Explained:
-        """Return what a report is made of, without the proof on held-out sweeps.
-
-        Parameters
-        ----------
-        tire : TireModel or None
-            As for :meth:`explain`.
-        recording : pandas.DataFrame
-            As for :meth:`explain`.
-
-        Returns
-        -------
-        Explained
-            The prepared recording, its sets of effects, and what the posterior says of them.
-
-        Raises
-        ------
-        RecordingError
-            As :meth:`explain`.
-        """
-        self._check()
-        recording = numeric(recording)
-        steps = track(_PROGRESS_STAGES, "explaining the mismatch")
-        step = next(steps)
-        try:
-            prepared = prepare(tire, recording)
-            prepared.data.fixed["priors"] = self.priors
-            step = next(steps)
-            analysis = analyse(thinned(prepared.data), self.without)
-            step = next(steps)
-            sets = enumerate_sets(analysis, self.learnt)
-            step = next(steps)
-            answer = self._answer(prepared, analysis, sets)
-            analysis = with_named(analysis, sets, answer, prepared.data)
-        except np.linalg.LinAlgError as error:
-            raise RecordingError(
-                f"the equations of this recording cannot be solved ({error})",
-                where=f"explain_mismatch, step {step}",
-                todo="leave out channels that hold nothing but noise, and please report the recording",
-            ) from error
-        finally:
-            steps.close()
-        return Explained(prepared, analysis, sets, answer, recording, self.level)
-
-    def _check(self) -> None:
-        known = set(catalogue())
-        unknown = sorted({*self.without, *self.priors} - known)
-        if unknown:
-            raise RecordingError(
-                f"the catalogue has no {', '.join(unknown)}", todo="name effects of the catalogue"
-            )
-
-    def _answer(self, prepared: Prepared, analysis: Analysis, sets: Enumerated) -> SetAnswer:
-        """Return what the posterior says, if the recording carries an answer or sets of effects settle it."""
-        answer = answered(sets.case, self.learnt, self.level, sets.likelihood)
-        question = prepared.question
-        if not prepared.stopped or question is None:
-            return answer
-        before = residual(analysis.data, [])
-        removed = (
-            1.0 - max(shares_left(residual(analysis.data, each.changes), before).values())
-            for each in answer.likely
-        )
-        if answer.unnamed < self.level and any(question.answered(r) for r in removed):
-            prepared.questions.pop(0)
-            return answer
-        return nothing(sets.case)
+def weigh(
+    tire: Any,
+    recording: pd.DataFrame,
+    *,
+    without: Collection[str],
+    choices: Choices,
+    level: float,
+    learnt: LearntSizes,
+) -> Explained:
+    """Return the causes of a mismatch with their probabilities."""
+    steps = track(_PROGRESS_STAGES, "explaining the mismatch")
+    step = next(steps)  # what is broken or exactly wrong is repaired or taken out, and said
+    try:
+        prepared = prepare(tire, recording, choices)
+        step = next(steps)  # the noise, and how wrong a fitted formula usually is, by the residual
+        analysis = analyse(thinned(prepared.data), without)
+        step = next(steps)  # sets of effects are screened, fitted, and their evidence integrated
+        sets = enumerate_sets(analysis, learnt)
+        step = next(steps)  # evidence times learnt odds says which names are there, and how surely
+        answer = answered(sets.case, learnt, level, sets.likelihood)
+        prepared, answer = _settled(prepared, analysis, answer, level)
+        analysis = with_named(analysis, sets, answer, prepared.data)  # fitted to all samples
+    except np.linalg.LinAlgError as error:
+        raise RecordingError(
+            f"the equations of this recording cannot be solved ({error})",
+            where=f"explain_mismatch, step {step}",
+            todo="leave out channels that hold nothing but noise, and please report the recording",
+        ) from error
+    finally:
+        steps.close()
+    return Explained(prepared, analysis, sets, answer, recording, level)
 
 
-def explain_mismatch(tire: Any, recording: pd.DataFrame, *, without: Collection[str] = ()) -> MismatchReport:
-    """Say where a simulation and a recording differ, what the model left out, and prove it.
-
-    Parameters
-    ----------
-    tire : TireModel or None
-        The model. None if the recording has a column ``simulated_fy`` (or ``simulated_fx``), the
-        output of another simulator.
-    recording : pandas.DataFrame
-        Canonical columns in SI: ``time`` s, ``slip_angle`` rad, ``slip_ratio``, ``camber`` rad,
-        ``normal_load`` N, ``speed`` m/s, ``pressure`` Pa, ``tread_temperature`` degC, ``fx fy`` N.
-        Without ``time`` the rows are steady points.
-    without : collection of str
-        Effects that are not looked for, as if the catalogue lacked them: what they do then stays unexplained.
-        For proofs; faults that are found from exact factors are found all the same.
-
-    Returns
-    -------
-    MismatchReport
-        Verdict, effects with their probabilities, errors before and after, and the corrected model.
-
-    Raises
-    ------
-    RecordingError
-        If the recording cannot be used; the message says why and what to do.
-
-    See Also
-    --------
-    explain_recordings : Several recordings of one tire, one of them held out.
-    tire_pipeline.recordings.read_recording : Reads a file into such a table.
-
-    Notes
-    -----
-    Method and limits: ``docs/explanation/mismatch.md``. :class:`Explainer` has what can be changed.
-
-    Examples
-    --------
-    A rig on which the tire has 10% less cornering stiffness than its file says:
-
-    >>> import numpy as np
-    >>> import pandas as pd
-    >>> from tire_pipeline.tir import read_tir
-    >>> tire = read_tir("tire.tir")
-    >>> softer = tire.replace(LKY=0.9)
-    >>> slip_angle = np.tile(np.linspace(-0.15, 0.15, 100), 2)
-    >>> rig = pd.DataFrame({"slip_angle": slip_angle, "normal_load": np.repeat([3000.0, 5000.0], 100)})
-    >>> rig["fy"] = softer.forces(slip_angle=rig["slip_angle"], normal_load=rig["normal_load"]).fy
-    >>> rig["fy"] += np.random.default_rng(0).normal(0.0, 20.0, len(rig))
-    >>> report = explain_mismatch(tire, rig)
-    >>> "stiffness_scale" in report.sets[0][0], report.fit["fy"].rms_before > 5 * report.fit["fy"].rms_after
-    (True, True)
-    """
-    return Explainer(without=without).explain(tire, recording)
+def _settled(
+    prepared: Prepared, analysis: Analysis, answer: SetAnswer, level: float
+) -> tuple[Prepared, SetAnswer]:
+    """Drop an open question that sets of effects answer; where one stays open, nothing is explained."""
+    question = prepared.question
+    if not prepared.stopped or question is None:
+        return prepared, answer
+    before = residual(analysis.data, [])
+    left = (shares_left(residual(analysis.data, each.changes), before) for each in answer.likely)
+    if answer.unnamed < level and any(question.answered(1.0 - max(share.values())) for share in left):
+        return replace(prepared, questions=prepared.questions[1:]), answer
+    return prepared, nothing(answer.case)
 
 
-__all__ = ["Explainer", "OutputFit", "RecordingError", "explain_mismatch"]
+def prove(weighed: Explained) -> MismatchReport:
+    """Put into the model what makes no unseen sweep worse, and report what it leaves on these."""
+    with under_way("proving the explanation on held-out sweeps"):
+        return assembled(weighed)

@@ -14,7 +14,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.as_recorded import without_unnamed
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
-from tire_pipeline.mismatch.explain import Explainer
+from tire_pipeline.mismatch.explainer import Explainer
 from tire_pipeline.mismatch.model.residual import rms, root_ratio_interval
 from tire_pipeline.mismatch.report.contents import HeldOutFit, PredictionError
 from tire_pipeline.mismatch.report.result import MismatchReport
@@ -129,7 +129,7 @@ def _equation_held(report: MismatchReport, recording: pd.DataFrame, name: str) -
         corrected=named,
         fit=fit,
         unnamed=replace(found, physics=None, why_not=f"it predicts {name}, which was held out, no better"),
-        head=without_equation(report.head, found, report.verdict, report.effects, fit),
+        head=without_equation(report.head, report.verdict, report.effects, fit),
     )
 
 

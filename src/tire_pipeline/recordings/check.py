@@ -130,7 +130,8 @@ def _columns(frame: pd.DataFrame) -> list[Issue]:
                 "no_force_channel",
                 "error",
                 f"columns {', '.join(map(str, frame.columns[:12]))}",
-                "nothing to compare with: name the force, e.g. names={'their name': 'fy'}",
+                "nothing to compare with: say which column is the force: --name 'its name=fy', in Python "
+                "names={'its name': 'fy'}",
             )
         )
     if "normal_load" not in held:

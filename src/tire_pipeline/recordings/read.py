@@ -129,7 +129,7 @@ def _format(file: Path, format: str | None) -> str:
     except OSError as error:
         raise RecordingError(f"cannot be opened ({error})", where=str(file)) from error
     if not head:
-        raise RecordingError("the file is empty", where=str(file))
+        raise RecordingError("the file is empty", where=str(file), todo="export it again")
     if head[:4] == b"PAR1":
         return "Parquet"
     if head[:3] == b"MDF":

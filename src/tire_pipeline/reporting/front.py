@@ -13,6 +13,7 @@ from tire_pipeline.reporting.page_parts import Links, Picture, Text, render_page
 FRONT = "index.html"
 _MAIN = re.compile(r'<div class="main">(.*?)</div>', re.S)
 _PARAGRAPH = re.compile(r"<p[^>]*>(.*?)</p>", re.S)
+_CODE_TAG = re.compile(r"</?code>")
 LEADS = (
     ("report.html", "How well the translation works"),
     ("translated_files.html", "Your files, translated"),
@@ -86,9 +87,9 @@ REPORTS = (
 PICTURES = (
     (
         "force_curves.png",
-        "Lateral force over slip angle. Solid: measured by each source. Dashed: translated. If the target "
-        "measured the tires too, its curve is the thick one, and the second row shows the differences from "
-        "it: dashed lines should lie near zero.",
+        "Lateral force over slip angle. Solid: measured by each source. Dashed: translated; a file that was "
+        "not translated has its solid line only. If the target measured the tires too, its curve is the "
+        "thick one, and the second row shows the differences from it: dashed lines should lie near zero.",
     ),
     (
         "confusion_matrix.png",
@@ -166,11 +167,12 @@ def main_message(page: str) -> list[str]:
 
     Examples
     --------
-    >>> main_message(render_page("Tires", [Text(["One & all.", "<b> stays."], emphasis=True)]))
-    ['One & all.', '<b> stays.']
+    >>> main_message(render_page("Tires", [Text(["One & all: `run`.", "<b> stays."], emphasis=True)]))
+    ['One & all: `run`.', '<b> stays.']
     """
     box = _MAIN.search(page)
-    return [html.unescape(text).strip() for text in _PARAGRAPH.findall(box[1])] if box else []
+    paragraphs = _PARAGRAPH.findall(box[1]) if box else []
+    return [html.unescape(_CODE_TAG.sub("`", text)).strip() for text in paragraphs]
 
 
 def _items(

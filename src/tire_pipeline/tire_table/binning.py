@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -152,7 +152,7 @@ class Binning:
         finite = fits and all(np.isfinite(each).all() for each in (low, high, edges))
         if not finite or edges.shape[1] < 2 or kind not in ("equal_width", "equal_frequency"):
             raise DomainError("this is not the state of a binning", todo="fit it again")
-        return cls(names, low, high, edges, kind)  # type: ignore[arg-type]
+        return cls(names, low, high, edges, cast(Kind, kind))
 
 
 def _checked(values: npt.ArrayLike, features: int | None = None) -> np.ndarray:

@@ -6,6 +6,7 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
+from tire_pipeline.errors import TirError
 from tire_pipeline.files.objects import Objects
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tir import read_sidecar, read_tir
@@ -46,8 +47,7 @@ def model_of(content: bytes, sidecar: bytes | None, address: str) -> TireModel:
         Path(f"{place}{SUFFIX}").write_bytes(sidecar)
         try:
             corrections = read_sidecar(place)
-        except Exception as error:
-            where = str(getattr(error, "where", "") or "")
-            error.where = where.replace(str(place), address)  # type: ignore[attr-defined]
+        except TirError as error:
+            error.where = (error.where or "").replace(str(place), address)
             raise
     return replace(model, metadata={**model.metadata, "sidecar": corrections})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -12,9 +13,11 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.tire_table import from_models, normalize_table
 from tire_pipeline.translation.base import Translator, judging
+from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.decode.scores_to_coefficients import COEFFICIENTS
+from tire_pipeline.translation.judge.reach import OWN_LOAD, beyond_judged_loads
 from tire_pipeline.translation.judge.verdict import FARTHEST_DISTANCE
-from tire_pipeline.translation.result import EDGE, TRANSLATED, TranslationResult, comment_lines
+from tire_pipeline.translation.result import EDGE, REFUSED, TRANSLATED, TranslationResult, comment_lines
 
 
 def translate_models(
@@ -62,10 +65,46 @@ def translate_models(
             )
     gated = judge.with_verdict(farthest=min(farthest, FARTHEST_DISTANCE), gate=True)  # agents never refuse
     own = from_models((file, category, model) for file, (category, model) in models.items())
-    source = normalize_table(own, nominal_load).assign(category_probability=1.0)
-    result = gated.translation(source)
+    source = at_one_load(own, nominal_load).assign(category_probability=1.0)
+    result = with_loads_said(gated.translation(source), own)
     translated, comments = at_own_load(result, {file: model for file, (_, model) in models.items()}, own)
     return result, translated, comments
+
+
+def at_one_load(own: pd.DataFrame, nominal_load: float) -> pd.DataFrame:
+    """Return a tire table at one nominal load (N), with the one that each file states beside it."""
+    table = normalize_table(own, nominal_load)
+    return table.assign(**{OWN_LOAD: own["FNOMIN"].to_numpy(dtype=float)})
+
+
+def with_loads_said(result: TranslationResult, own: pd.DataFrame) -> TranslationResult:
+    """Say of tires that carry other loads than those at which forces are judged that they do.
+
+    Parameters
+    ----------
+    result : TranslationResult
+    own : DataFrame
+        Their tire table as it was read, row by row that of ``result``.
+
+    Returns
+    -------
+    TranslationResult
+        With another ``reason`` in its report where a tire is translated all the same, or too far for it.
+    """
+    load = own["FNOMIN"].to_numpy(dtype=float)
+    report = result.report.copy()
+    judged = f"{LOADS.min() / 1e3:g} to {LOADS.max() / 1e3:g} kN"
+    at = report.columns.get_loc("reason")
+    for row in np.flatnonzero(beyond_judged_loads(load) > 1.0):
+        said, verdict = f"its nominal load is {load[row] / 1e3:.3g} kN", report["verdict"].iloc[row]
+        if verdict == TRANSLATED:
+            report.iloc[row, at] += (
+                f", judged by side and longitudinal force at {judged}; {said}: compare its curves there "
+                "before you use the file"
+            )
+        elif verdict == REFUSED and report["distance"].iloc[row] > EDGE:
+            report.iloc[row, at] += f" ({said}, and forces are judged at {judged})"
+    return replace(result, report=report)
 
 
 def at_own_load(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -188,9 +189,9 @@ def without_estimate(
     return TranslationResult(table, report, coefficients=coefficients, method=name)
 
 
-def translation_hash(row: Mapping[str, object], names: tuple[str, ...]) -> str:
+def translation_hash(row: Mapping[str, Any], names: tuple[str, ...]) -> str:
     """Hash of a translated tire's coefficients: tells whether a file was changed after its translation."""
-    values = np.array([float(row.get(name, np.nan)) for name in names])  # type: ignore[arg-type]
+    values = np.array([float(row.get(name, np.nan)) for name in names])
     return hashlib.sha256(values.tobytes()).hexdigest()[:16]
 
 

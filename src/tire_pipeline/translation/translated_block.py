@@ -20,12 +20,12 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.progress import track
 from tire_pipeline.tir import tir_bytes
 from tire_pipeline.tir.format.values import COMPUTED_DIGITS
-from tire_pipeline.tire_table import from_models, normalize_table
+from tire_pipeline.tire_table import from_models
 from tire_pipeline.tire_table.from_models import KNOWN_COEFFICIENTS, as_in_whole
 from tire_pipeline.tire_table.read_blocks import Load
 from tire_pipeline.translation.base import JudgingTranslator
 from tire_pipeline.translation.curves.of_files import file_curves
-from tire_pipeline.translation.of_models import at_own_load
+from tire_pipeline.translation.of_models import at_one_load, at_own_load, with_loads_said
 from tire_pipeline.translation.result import REFUSED, UNKNOWN, TranslationResult
 
 TABLES = ("sources", "report", "coefficients", "bands")
@@ -132,7 +132,7 @@ class Sources:
                 unreadable.append(unreadable_row(file, given.suppliers, f"cannot be read: {cause}"))
         rows = ((file, given.suppliers.by_folder(file), model) for file, model in models.items())
         own = as_in_whole(from_models(rows), KNOWN_COEFFICIENTS)
-        table = given.suppliers.of(normalize_table(own, given.nominal_load))
+        table = given.suppliers.of(at_one_load(own, given.nominal_load))
         return cls(models, own, table, unreadable, passing)
 
 
@@ -170,7 +170,7 @@ class TranslateBlock:
         if not sources.models:
             return _packed({}, {}, sources.unreadable, {}, kept)
         result = self.given.translator.translation(sources.table, farthest=self.given.farthest)
-        result = _named_suppliers(result, sources.table)
+        result = with_loads_said(_named_suppliers(result, sources.table), sources.own)
         files = list(sources.own["file"])
         translated, comments = at_own_load(result, sources.models, sources.own)
         texts = {

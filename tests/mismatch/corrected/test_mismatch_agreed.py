@@ -6,6 +6,7 @@ import pytest
 
 from tire_pipeline.mismatch import CorrectedModel
 from tire_pipeline.mismatch.corrected.agreed import agreed
+from tire_pipeline.mismatch.model.nominal import Reference
 
 GAIN = (("force_gain", {"fy": 0.1, "fx": 0.0}),)
 OFFSET = (("force_offset", {"fy": 200.0, "fx": 0.0}),)
@@ -38,30 +39,30 @@ def test_several_unlikely_ones_count_together():
 
 def test_no_true_explanation_among_them_is_overshot(tire, run):
     """Whichever of them is true, no sample is predicted worse than by the model as it came."""
-    both = CorrectedModel(tire, GAIN, {}, ("fy",), instead=((0.5, OFFSET),)).predict(run)["fy"]
-    plain = CorrectedModel(tire, (), {}, ("fy",)).predict(run)["fy"]
+    both = CorrectedModel(tire, GAIN, ("fy",), instead=((0.5, OFFSET),)).predict(run)["fy"]
+    plain = CorrectedModel(tire, (), ("fy",)).predict(run)["fy"]
     assert float(np.abs(both - plain).max()) > 100.0
     for truth in (GAIN, OFFSET):
-        recorded = CorrectedModel(tire, truth, {}, ("fy",)).predict(run)["fy"]
+        recorded = CorrectedModel(tire, truth, ("fy",)).predict(run)["fy"]
         assert (np.abs(recorded - both) <= np.abs(recorded - plain) + 1e-9).all()
 
 
 def test_one_explanation_alone_is_added_whole(tire, run):
-    alone = CorrectedModel(tire, GAIN, {}, ("fy",))
-    twice = CorrectedModel(tire, GAIN, {}, ("fy",), instead=((0.5, GAIN),))
+    alone = CorrectedModel(tire, GAIN, ("fy",))
+    twice = CorrectedModel(tire, GAIN, ("fy",), instead=((0.5, GAIN),))
     assert np.allclose(alone.predict(run)["fy"], twice.predict(run)["fy"])
 
 
 def test_one_that_needs_a_channel_which_is_not_there_is_not_counted(tire, run):
     slower = (("speed_dependence", {"friction": -0.5, "stiffness": 0.0}),)
-    model = CorrectedModel(tire, GAIN, {"speed_nominal": 16.7}, ("fy",), instead=((0.5, slower),))
+    model = CorrectedModel(tire, GAIN, ("fy",), Reference(speed_nominal=16.7), instead=((0.5, slower),))
     found = model.predict(run)
-    assert np.allclose(found["fy"], CorrectedModel(tire, GAIN, {}, ("fy",)).predict(run)["fy"])
+    assert np.allclose(found["fy"], CorrectedModel(tire, GAIN, ("fy",)).predict(run)["fy"])
     assert any("need a channel" in note for note in found.attrs["notes"])
 
 
 def test_the_file_says_what_else_it_could_be(tire, tmp_path):
     scale = (("stiffness_scale", {"stiffness": -0.1, "lateral_stiffness": 0.0}),)
-    model = CorrectedModel(tire, scale, {}, ("fy",), instead=((0.5, OFFSET),))
+    model = CorrectedModel(tire, scale, ("fy",), instead=((0.5, OFFSET),))
     text = model.to_tir(tmp_path / "c.tir").read_text()
     assert "the recording does not tell stiffness_scale from: force_offset" in text

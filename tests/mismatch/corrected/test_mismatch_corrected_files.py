@@ -7,6 +7,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch import CorrectedModel
 from tire_pipeline.mismatch.corrected.model import force_limits
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.tir import read_tir
 
@@ -15,7 +16,7 @@ def corrected(tire, recording, name, **parameters):
     """The model with one effect put in."""
     data = prepare(tire, recording).data
     changes = ((name, {**catalogue()[name].zeros(data), **parameters}),)
-    return CorrectedModel(tire, changes, {"pressure_nominal": data.pressure_nominal}, ("fy",))
+    return CorrectedModel(tire, changes, ("fy",), Reference(pressure_nominal=data.nominal.pressure))
 
 
 def test_friction_goes_into_the_coefficients_of_the_file(tire, record, tmp_path):
@@ -33,7 +34,7 @@ def test_what_the_format_has_no_place_for_stands_in_the_sidecar(tire, record, tm
     again = read_tir(model.to_tir(tmp_path / "corrected.tir"))
     written = again.metadata["sidecar"]["inflation_pressure"]
     assert written["parameters"]["friction"] == pytest.approx(-0.35)
-    assert written["reference"]["pressure_nominal"] == model.reference["pressure_nominal"]
+    assert written["reference"]["pressure_nominal"] == model.reference.pressure_nominal
     as_it_was = {name: again.coefficients[name] for name in tire.coefficients}
     assert as_it_was == pytest.approx(dict(tire.coefficients))
 
@@ -48,6 +49,6 @@ def test_a_clipped_force_is_predicted_clipped(tire, record):
     wrong = record().assign(fy=lambda r: np.clip(r["fy"], -3500.0, 3400.0))
     findings = prepare(tire, wrong).findings
     assert [each.name for each in findings] == ["clipping"]
-    model = CorrectedModel(tire, (), {}, ("fy",), limits=force_limits(findings, ("fy",)))
+    model = CorrectedModel(tire, (), ("fy",), limits=force_limits(findings, ("fy",)))
     predicted = model.predict(wrong.drop(columns="fy"))["fy"]
     assert (predicted.min(), predicted.max()) == (-3500.0, 3400.0)

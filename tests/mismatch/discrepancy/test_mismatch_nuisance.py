@@ -29,5 +29,5 @@ def test_a_slip_that_is_noise_only_makes_no_huge_columns(tire, record):
     data = prepare(braked, recording).data
     assert not data.varies("slip_ratio")
     columns = make_nuisance(data).flexible["fx"]
-    largest = max(np.abs(data.base[o]).max() for o in data.outputs)
+    largest = max(np.abs(data.simulation.base[o]).max() for o in data.outputs)
     assert np.sqrt(np.mean(columns**2, axis=0)).max() < 10.0 * largest

@@ -9,6 +9,7 @@ from tire_pipeline.mismatch.effects.amounts import amount_with_error
 from tire_pipeline.mismatch.effects.shared import harmonic_power
 from tire_pipeline.mismatch.model.candidates import derivatives
 from tire_pipeline.mismatch.model.forces import simulate
+from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.recording.prepare import own_relaxation, prepare
 
 PHYSICS = (
@@ -71,7 +72,7 @@ def test_an_effect_at_zero_changes_nothing(name, every_channel):
     effect = catalogue()[name]
     assert effect.absent(every_channel) is None
     changed = simulate(every_channel, [(name, effect.zeros(every_channel))])
-    for output, base in every_channel.base.items():
+    for output, base in every_channel.simulation.base.items():
         np.testing.assert_allclose(changed[output], base, rtol=0, atol=1e-6)
 
 
@@ -115,7 +116,7 @@ def test_a_derivative_is_that_of_a_small_step_without_the_other_channels(name, t
 def test_friction_keeps_the_slope_and_moves_the_peak(tire, record):
     data = prepare(tire, record()).data
     fy = simulate(data, [("friction_scale", {"friction": 0.2})])["fy"]
-    ratio = fy / np.where(np.abs(data.base["fy"]) < 1.0, np.nan, data.base["fy"])
+    ratio = fy / np.where(np.abs(data.simulation.base["fy"]) < 1.0, np.nan, data.simulation.base["fy"])
     small, large = np.abs(data.get("slip_angle")) < 0.004, np.abs(data.get("slip_angle")) > 0.15
     assert np.nanmedian(ratio[small]) == pytest.approx(1.0, abs=0.02)
     assert np.nanmedian(ratio[large]) == pytest.approx(1.2, abs=0.03)
@@ -124,7 +125,7 @@ def test_friction_keeps_the_slope_and_moves_the_peak(tire, record):
 def test_a_delay_moves_the_force_by_its_time(tire, record):
     data = prepare(tire, record()).data
     late = simulate(data, [("time_delay", {"delay": 0.2})])["fy"]
-    np.testing.assert_allclose(late[20:200], data.base["fy"][15:195], atol=1e-6)
+    np.testing.assert_allclose(late[20:200], data.simulation.base["fy"][15:195], atol=1e-6)
 
 
 def test_compliance_is_solved_where_the_force_turns_the_wheel_as_much_as_it_was_set(tire, record):
@@ -132,7 +133,7 @@ def test_compliance_is_solved_where_the_force_turns_the_wheel_as_much_as_it_was_
     about_one_over_the_stiffness = 1.2e-5
     for steer, offset in ((2e-6, 0.0), (about_one_over_the_stiffness, 0.0), (8e-6, 0.03), (-4e-6, 0.03)):
         angle = data.get("slip_angle") + offset
-        turned = data.turned_by_force(angle, steer)
+        turned = data.simulation.turned_by_force(angle, steer)
         force = tire.forces(slip_angle=turned, normal_load=data.get("normal_load")).fy
         np.testing.assert_allclose(turned, angle - steer * force, atol=2e-4)
 
@@ -145,22 +146,22 @@ def test_a_brake_force_turns_a_compliant_wheel(tire, record):
     forces = braked.forces(slip_ratio=slip, **at)
     data = prepare(braked, recording.assign(slip_ratio=slip, fx=forces.fx, fy=forces.fy)).data
     pull = (
-        simulate(data, [("compliance", {"steer": 0.0, "steer_by_fx": 1e-6 * data.load_nominal})])["fy"]
-        - data.base["fy"]
+        simulate(data, [("compliance", {"steer": 0.0, "steer_by_fx": 1e-6 * data.nominal.load})])["fy"]
+        - data.simulation.base["fy"]
     )
     slope = braked.forces(
-        slip_angle=data.get("slip_angle") - 1e-6 * data.all_base["fx"],
+        slip_angle=data.get("slip_angle") - 1e-6 * data.simulation.both_forces["fx"],
         slip_ratio=data.get("slip_ratio"),
         normal_load=data.get("normal_load"),
     ).fy
-    np.testing.assert_allclose(pull, slope - data.base["fy"], atol=0.02 * np.abs(pull).max())
+    np.testing.assert_allclose(pull, slope - data.simulation.base["fy"], atol=0.02 * np.abs(pull).max())
     assert np.abs(pull).max() > 100.0
 
 
 def _conicity(data, **parameters):
     """What conicity adds to the side force, N."""
     values = {**catalogue()["plysteer_conicity"].zeros(data), **parameters}
-    return simulate(data, [("plysteer_conicity", values)])["fy"] - data.base["fy"]
+    return simulate(data, [("plysteer_conicity", values)])["fy"] - data.simulation.base["fy"]
 
 
 def test_a_thrust_is_a_side_force_that_fades_where_the_tire_slides(tire, record):
@@ -176,8 +177,8 @@ def test_a_thrust_is_a_side_force_that_fades_where_the_tire_slides(tire, record)
 def test_no_tire_has_a_relaxation_length_beyond_what_its_size_allows(tire, record, radii):
     data = prepare(tire, record()).data
     effect = catalogue()["relaxation_length"]
-    assert effect.outside(data, {**effect.zeros(data), "length": radii * data.radius})
-    assert not effect.outside(data, {**effect.zeros(data), "length": 1.2 * data.radius})
+    assert effect.outside(data, {**effect.zeros(data), "length": radii * data.nominal.radius})
+    assert not effect.outside(data, {**effect.zeros(data), "length": 1.2 * data.nominal.radius})
 
 
 SCALED = {"LSGAL": 1.3, "LSGKP": 0.8, "LFZO": 0.9}
@@ -210,7 +211,7 @@ def test_the_relaxation_that_a_file_states_is_the_engines(tire):
 
 def test_a_drift_that_settles_is_all_there_at_the_end(tire, record):
     data = prepare(tire, record()).data
-    added = simulate(data, [("sensor_drift", {"fy": 100.0, "lag": 20.0})])["fy"] - data.base["fy"]
+    added = simulate(data, [("sensor_drift", {"fy": 100.0, "lag": 20.0})])["fy"] - data.simulation.base["fy"]
     at = np.searchsorted(data.time, [20.0, 40.0])
     whole = 1.0 - np.exp(-(data.time[-1] - data.time[0]) / 20.0)
     np.testing.assert_allclose(added[at], 100.0 * (1.0 - np.exp([-1.0, -2.0])) / whole, atol=0.3)
@@ -219,7 +220,7 @@ def test_a_drift_that_settles_is_all_there_at_the_end(tire, record):
 
 def test_a_drift_goes_nowhere_outside_of_the_time_that_was_recorded(tire, record):
     recording = record()
-    plain = CorrectedModel(tire, (), {"scales": prepare(tire, recording).data.scales}, ("fy",))
+    plain = CorrectedModel(tire, (), ("fy",), Reference(prepare(tire, recording).data.states.scales))
     changes = (("sensor_drift", {"fy": 100.0, "fx": 0.0, "lag": 20.0}),)
     drifting = dataclasses.replace(plain, changes=changes)
     for later, there in ((1e4, 100.0), (-1e4, 0.0)):
@@ -234,8 +235,8 @@ def test_pressure_changes_the_stiffness_more_at_large_load(tire, record):
     now = simulate(data, [("inflation_pressure", {"stiffness_load": 0.5, "reference": 2.2e5})])["fy"]
     d = (data.smooth("pressure") - 2.2e5) / 2.2e5
     small = (np.abs(data.get("slip_angle")) < 0.01) & (np.abs(data.get("slip_angle")) > 0.004) & (d < -0.1)
-    ratio = now[small] / data.base["fy"][small]
-    expected = 1.0 + 0.5 * d[small] * data.load_excess(data.get("normal_load"))[small]
+    ratio = now[small] / data.simulation.base["fy"][small]
+    expected = 1.0 + 0.5 * d[small] * data.nominal.load_excess(data.get("normal_load"))[small]
     np.testing.assert_allclose(ratio, expected, atol=0.01)
 
 
@@ -243,7 +244,7 @@ def test_friction_by_sliding_speed_shows_at_large_slip_only(tire, record):
     recording = record()
     data = prepare(tire, recording.assign(speed=16.7 * (1.0 + 0.3 * np.sin(recording["time"] / 9.0)))).data
     values = {**catalogue()["speed_dependence"].zeros(data), "sliding": 1.0}
-    ratio = simulate(data, [("speed_dependence", values)])["fy"] / data.base["fy"]
+    ratio = simulate(data, [("speed_dependence", values)])["fy"] / data.simulation.base["fy"]
     small, large = (np.abs(data.get("slip_angle")) < a for a in (0.03, 0.15))
     assert np.abs(ratio[small & (np.abs(data.get("slip_angle")) > 0.005)] - 1.0).max() < 0.01
     assert np.abs(ratio[~large] - 1.0).max() > 0.03

@@ -35,10 +35,10 @@ def test_another_pressure_than_the_files_is_among_the_causes(stated, softer):
 
 def test_the_files_own_pressure_is_no_cause(stated, softer):
     data = prepare(stated, softer.assign(pressure=FILE)).data
-    assert not data.off_pressure
+    assert not data.nominal.off_pressure
 
 
 def test_a_file_without_a_pressure_says_nothing_of_another_one(tire, softer):
     data = prepare(tire, softer).data
-    assert data.pressure_of_file is None
-    assert not data.off_pressure
+    assert data.nominal.pressure_of_file is None
+    assert not data.nominal.off_pressure

@@ -11,8 +11,8 @@ from tire_pipeline.mismatch.recording.prepare import prepare
 def test_sums_over_sweeps_add_up(tire, record):
     analysis = analyse(prepare(tire, record(2)).data)
     data, system = analysis.data, analysis.system
-    rest = {o: data.recorded[o] - data.base[o] for o in data.outputs}
-    columns = {o: np.column_stack([data.base[o], data.get("normal_load")]) for o in data.outputs}
+    rest = {o: data.recorded[o] - data.simulation.base[o] for o in data.outputs}
+    columns = {o: np.column_stack([data.simulation.base[o], data.get("normal_load")]) for o in data.outputs}
     whole = system.sums(rest, columns)
     parts = system.by_sweep(rest, columns)
     np.testing.assert_allclose(parts.ne["fy"].sum(axis=0), whole.ne["fy"].sum(axis=0), rtol=1e-9)

@@ -14,9 +14,9 @@ from weighed import all_but
 
 from tire_pipeline.calibration.learning import CalibrateMismatchParameters, learn_sizes, weigh_cases
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.mismatch import Explainer
 from tire_pipeline.mismatch.discrepancy.background import principal
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.explain import Explainer
 from tire_pipeline.mismatch.inference.analysis import analyse
 from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_posterior, log_prior
 from tire_pipeline.mismatch.inference.evidence.likelihood import Weights

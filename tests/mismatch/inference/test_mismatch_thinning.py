@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tire_pipeline.mismatch.explain import Explainer
+from tire_pipeline.mismatch import Explainer
 from tire_pipeline.mismatch.inference.thinning import MOST_SAMPLES, portions, refit_on_all
 from tire_pipeline.mismatch.recording.prepare import prepare
 from tire_pipeline.mismatch.report.assemble import assembled

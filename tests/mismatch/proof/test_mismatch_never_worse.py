@@ -10,6 +10,7 @@ from tire_pipeline.mismatch import CorrectedModel, Explainer
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.linearised_set import linearised
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL
+from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.model.residual import residual
 from tire_pipeline.mismatch.proof.never_worse import harmless
 from tire_pipeline.mismatch.recording.prepare import prepare
@@ -76,11 +77,30 @@ def test_the_next_experiment_separates_what_is_open(tire, record):
         {each.names[0] for each in it.sets.sets if len(each.names) == 1} & {"time_delay", "low_pass"}
     )
     assert len(names) == 2
-    plain = CorrectedModel(tire, (), {"scales": it.analysis.data.scales}, it.analysis.data.outputs)
+    plain = CorrectedModel(tire, (), it.analysis.data.outputs, Reference(it.analysis.data.states.scales))
     both = replace(it.answer, sets=((tuple(names), 0.9),))
     assert next_experiment(it.analysis, both, plain).startswith("To separate ")
     one = replace(it.answer, sets=((("time_delay",), 0.9),))
     assert next_experiment(it.analysis, one, plain) == ""
+    shares = dict.fromkeys([(name,) for name in names], 0.5)
+    neither = replace(it.answer, sets=(), agreement=0.0, unnamed=0.0, probabilities=shares)
+    assert {each.names for each in neither.rivals} == set(shares)
+    assert next_experiment(it.analysis, neither, plain).startswith("To tell the explanations apart, record ")
+
+
+def test_a_choice_is_repeated_among_sets_with_mass_and_parts_of_the_named_one(softer):
+    assert [each.names for each in softer.sets.with_mass({(): 1.0}, ()).sets] == [()]
+    named = softer.answer.named.names
+    kept = {each.names for each in softer.sets.with_mass(softer.answer.probabilities, named).sets}
+    assert {(), named} <= kept
+    assert kept <= {each.names for each in softer.sets.sets}
+
+
+def test_what_may_be_unnamed_or_nothing_has_no_rivals(softer):
+    answer = replace(softer.answer, sets=())
+    assert answer.rivals
+    assert not replace(answer, agreement=0.3, unnamed=0.3).rivals
+    assert not softer.answer.rivals
 
 
 def test_probabilities_in_the_report_hold_95_percent_and_no_more_sets_than_that_takes(softer):

@@ -55,6 +55,8 @@ def test_samples_of_a_stuck_channel_are_no_noise(tire, record):
     recording.loc[2000:2300, "fy"] = recording["fy"].iloc[2000]
     report = explain_mismatch(tire, recording)
     assert [effect.name for effect in report.effects] == ["stuck_channel"]
+    errors = report.fit["fy"]
+    assert errors.rms_after < 0.5 * errors.rms_before  # what is left does not hold the stuck samples
     assert report.fit["fy"].noise_floor < 1.2 * whole.noise_floor < report.fit["fy"].rms_before
 
 

@@ -11,9 +11,20 @@ def test_a_gain_of_a_real_force_is_everywhere(gain):
     """It was "between 45 and 90 s, at load above 4.23 kN"."""
     tire, given, _ = flat_belt(20)
     _, even, said = located(tire, given.assign(fy=gain * given["fy"]))
-    assert even["fy"] == pytest.approx(gain - 1.0, abs=0.03)
+    assert even["fy"].share == pytest.approx(gain - 1.0, abs=0.03)
     assert "throughout" in said
     assert " s," not in said
+
+
+@pytest.mark.parametrize("offset", [-300.0, 150.0])
+def test_an_offset_of_a_real_force_is_everywhere(offset):
+    """It was "at slip angle between -4.97 and -3.72 deg"."""
+    tire, given, _ = flat_belt(20)
+    _, even, said = located(tire, given.assign(fy=given["fy"] + offset))
+    assert not np.isfinite(even["fy"].share)
+    assert even["fy"].mean == pytest.approx(offset, abs=30.0)
+    assert f"Fy differs from the model by {even['fy'].mean:+,.3g} N throughout" in said
+    assert "deg" not in said
 
 
 def test_what_is_in_one_stretch_is_not_everywhere():

@@ -20,7 +20,10 @@ from tire_pipeline.mismatch.recording.prepare import prepare
 def _with(tire, recording, name, **parameters):
     """The recording with an effect of the catalogue put in."""
     data = prepare(tire, recording).data
-    added = simulate(data, [(name, {**catalogue()[name].zeros(data), **parameters})])["fy"] - data.base["fy"]
+    added = (
+        simulate(data, [(name, {**catalogue()[name].zeros(data), **parameters})])["fy"]
+        - data.simulation.base["fy"]
+    )
     return recording.assign(fy=recording["fy"] + added)
 
 
@@ -43,7 +46,9 @@ def an_offset(tire, record, seed):
 def heat_that_nobody_measured(tire, record, seed):
     """It changes friction alone: no stiffness and no optimum are paid for, and every set holds it."""
     change = (-0.1, -0.06, 0.06)[seed % 3]
-    recording = record(seed, friction=1.0 + change * (prepare(tire, record(seed)).data.heat(60.0) - 0.5))
+    recording = record(
+        seed, friction=1.0 + change * (prepare(tire, record(seed)).data.states.heat(60.0) - 0.5)
+    )
     answer = Explainer().weigh(tire, recording).answer
     alone = next(each for each in answer.case.sets if each.names == ("temperature",))
     return (
@@ -70,7 +75,7 @@ def a_leak_of_the_load(tire, record, seed):
 def a_soft_rig(tire, record, seed):
     """Compliance costs more stiffness at large load; the flexible form must not make up for that."""
     recording = record(seed)
-    steer = 2.5e-6 * prepare(tire, recording).data.load_nominal
+    steer = 2.5e-6 * prepare(tire, recording).data.nominal.load
     answer = Explainer().weigh(tire, _with(tire, recording, "compliance", steer=steer)).answer
     found = dict(answer.named.changes).get("compliance", {"steer": 0.0})["steer"]
     return answer.names == ("compliance",) and abs(found / steer - 1.0) < 0.15
@@ -85,7 +90,7 @@ def a_drum_with_a_seam(tire, record, seed):
     """Its pulses of 0.4 m have a mean, which alone would be conicity; the catalogue has no seam."""
     recording = record(seed, rate=50.0)
     data = prepare(tire, recording).data
-    pulse = np.exp(-0.5 * (((data.distance / 6.7) % 1.0 - 0.5) / 0.06) ** 2)
+    pulse = np.exp(-0.5 * (((data.states.distance / 6.7) % 1.0 - 0.5) / 0.06) ** 2)
     seam = 250.0 * pulse * data.get("normal_load") / 4000.0
     return _unexplained(tire, recording.assign(fy=recording["fy"] + seam))
 
@@ -117,7 +122,7 @@ def a_wheel_that_turns_on_in_the_pauses(tire, record, seed):
 
 def a_load_that_varies_once_a_turn(tire, record, seed):
     """It changes a force of either sign the other way, so the force has hardly any power once a turn."""
-    radius = 0.97 * prepare(tire, record(seed)).data.radius
+    radius = 0.97 * prepare(tire, record(seed)).data.nominal.radius
     wobbling = put_in(tire, record(seed), "nonuniformity", {"load_sine": 0.06, "radius": radius})
     found = Explainer().weigh(tire, wobbling)
     if found.answer.names != ("nonuniformity",):

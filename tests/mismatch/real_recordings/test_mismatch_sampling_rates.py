@@ -109,7 +109,7 @@ def test_noise_of_one_drive_is_not_taken_off_where_the_slip_really_moves(rate):
     session, free = (at_rate(drives(s)[0].frame, rate) for s in ("second", "free"))
     cleaned = {c.channel: c.removed for c in prepare(tire, session).cleaned if c.smoothed}
     assert "slip_angle" in cleaned
-    model = CorrectedModel(tire, NOTHING_PUT_IN, {}, ("fy",), cleaned=cleaned)
+    model = CorrectedModel(tire, NOTHING_PUT_IN, ("fy",), cleaned=cleaned)
     assert rms(free["fy"] - model.predict(free)["fy"]) < 1.02 * rms(free["fy"] - forces(tire, free))
 
 
@@ -117,7 +117,7 @@ def test_noise_of_one_drive_is_not_taken_off_where_the_slip_really_moves(rate):
 def test_cleaning_stays_only_where_it_leaves_less_of_the_recorded_force(rate):
     for tire, given, _ in sources(rate):
         cleaned = {c.channel: c.removed for c in prepare(tire, given).cleaned if c.smoothed}
-        model = CorrectedModel(tire, NOTHING_PUT_IN, {}, ("fy",), cleaned=cleaned)
+        model = CorrectedModel(tire, NOTHING_PUT_IN, ("fy",), cleaned=cleaned)
         kept = model.cleaned_where_it_helps(given)
         assert set(kept.cleaned) == (set(cleaned) if kept.cleaned else set())  # all or nothing
         left = rms(given["fy"] - kept.predict(given)["fy"])

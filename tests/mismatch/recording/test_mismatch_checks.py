@@ -135,6 +135,7 @@ def test_a_slip_that_is_next_to_nothing_is_written_as_nothing():
     assert interval("speed", 22.221, 22.224) == "speed 22.2 m/s"
     assert place("normal_load", 4001.0, 4003.0, {}) == "at load 4 kN"
     assert place("normal_load", 4000.0, 5000.0, {}) == "at load between 4 and 5 kN"
+    assert interval("time", 757.0, 1057.4) == "time 757 to 1,057 s"
     assert interval("normal_load", 1200.0, 4300.0) == "load 1.2 to 4.3 kN"
 
 

@@ -176,7 +176,7 @@ def test_a_doubt_about_axes_that_the_forces_do_not_settle_stays_open(tire, recor
     assert "negative throughout" in report.summary
     assert any("ISO W axes, which were not stated" in a for a in report.assumed)
     page = without_visible(report).to_html(tmp_path / "page.html").read_text()
-    assert "Assumed:" in page
+    assert "How the recording was read:" in page
     with pytest.raises(RecordingError, match="negative throughout"):
         report.corrected.to_tir(tmp_path / "corrected.tir")
     settled = explain_mismatch(tire, read_recording(path, axes="ISO"))
@@ -201,3 +201,15 @@ def test_a_real_rig_file_in_sae_axes_is_not_explained_by_camber(gain, tmp_path):
     assert prepare(tire, told[rows]).question is None
     level = told["camber"][rows].abs() < 0.01
     assert "negative throughout" in prepare(tire, wrong[level]).question.why
+
+
+def test_units_of_channels_that_no_explanation_uses_are_not_listed(tire, record, tmp_path):
+    """On a real rig's page they stood first: effective and loaded radius, wheel speed."""
+    r = record(0).iloc[:400].assign(loaded_radius=30.0)
+    path = tmp_path / "rig.csv"
+    r.rename(columns={"loaded_radius": "RL [cm]", "speed": "V [km/h]"}).to_csv(path, index=False)
+    recording = read_recording(path, axes="ISO")
+    assert any("RL from cm to m" in text for text in recording.attrs["conversions"])
+    assumed = prepare(tire, recording).assumed
+    assert any("speed: V converted from km/h" in text for text in assumed)
+    assert not any("loaded_radius" in text for text in assumed)

@@ -38,8 +38,11 @@ EFFECT = EffectReport(
 OPEN = "the recording agrees with the model only in other axes: fy has the other sign"
 
 
-def said(verdict, effects=(), left=NONE, unnamed=None):
-    return head(verdict, list(effects), FIT, [PLACE], left, "Record again.", unnamed=unnamed)
+RIVALS = [("friction_scale", "wear"), ("stiffness_scale",)]
+
+
+def said(verdict, effects=(), left=NONE, unnamed=None, rivals=()):
+    return head(verdict, list(effects), FIT, [PLACE], left, "Record again.", unnamed=unnamed, rivals=rivals)
 
 
 def sentences(text):
@@ -53,6 +56,7 @@ HEADS = {
     "partly explained, with an equation": said("partly explained", [EFFECT], LEFT, FOUND),
     "unexplained": said("unexplained", left=LEFT),
     "unexplained, with an equation": said("unexplained", left=LEFT, unnamed=FOUND),
+    "unexplained, by one of several": said("unexplained", left=LEFT, unnamed=FOUND, rivals=RIVALS),
     "open": on_question(Question(OPEN, "Read it in other axes"), said("explained", [EFFECT])),
     "unusable": on_question(Question("it carries no answer", "Look at it", "unusable"), said("unexplained")),
 }
@@ -74,6 +78,18 @@ def test_an_equation_is_in_the_middle_and_its_drivers_beside_it():
         "removes 60% of the remaining RMS error of Fy" in r
         for r in HEADS["partly explained, with an equation"].remarks
     )
+
+
+def test_explanations_of_which_none_stands_out_are_listed():
+    told = HEADS["unexplained, by one of several"]
+    titles = [" with ".join(catalogue()[n].title for n in names) for names in RIVALS]
+    assert (
+        f"which of these explains the difference (Fy 280 N RMS above noise): {' or '.join(titles)}"
+        in told.text
+    )
+    assert any("has several explanations in the catalogue" in remark for remark in told.remarks)
+    many = said("unexplained", left=LEFT, rivals=[(name,) for name in sorted(catalogue())[:5]]).text
+    assert many.split(".")[0].endswith(", or others")
 
 
 def test_what_an_equation_predicts_of_unseen_sweeps_was_no_noise():
@@ -123,7 +139,7 @@ def test_an_equation_that_did_not_hold_is_gone_from_head_and_errors():
         again = without_unnamed(put_in, FOUND)
         assert again["fy"].rms_after == pytest.approx(plain["fy"].rms_after)
         assert put_in["fy"].rms_after == pytest.approx(0.4 * plain["fy"].rms_after)
-        left = without_equation(told, FOUND, verdict, effects, again)
+        left = without_equation(told, verdict, effects, again)
         assert left.text == head(verdict, effects, again, [PLACE], LEFT, "").text
         assert "equation" not in " ".join([left.text, *left.remarks])
 

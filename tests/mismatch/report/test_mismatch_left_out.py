@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from tire_pipeline.mismatch import explain_mismatch
-from tire_pipeline.mismatch.report.left_out import reasons, with_reasons
+from tire_pipeline.mismatch.report.remarks import reasons, with_reasons
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.tir import read_tir
 

@@ -8,15 +8,15 @@ from __future__ import annotations
 
 from collections import namedtuple
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-try:
+njit: Any = None
+with suppress(ImportError):  # numba is a dependency; this keeps a broken one from stopping the pipeline
     from numba import njit
-except ImportError:  # numba is a dependency; this keeps a broken one from stopping the pipeline
-    njit = None  # type: ignore[assignment]
 
 ForestArrays = namedtuple("ForestArrays", ["feature", "threshold", "left", "right", "value", "roots"])
 ForestArrays.__doc__ = "The arrays of a :class:`CompiledForest`, as compiled code takes them."

@@ -49,7 +49,7 @@ def to_version(model: Tire, version: str) -> Tire:
     if old == 6:
         raise TirVersionError(
             f"a {model.version} model cannot be written as {version}: the older form has fewer terms",
-            todo="fit a 5.2 model to its forces with fit_magic_formula",
+            todo="fit a 5.2 model to its forces, as docs/tutorials/your_supplier_files.md shows",
         )
     return _renamed(model, version, _as_61(model))
 

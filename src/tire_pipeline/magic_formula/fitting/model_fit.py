@@ -304,7 +304,9 @@ class _Report:
             )
         self.at_bound += outcome.fit.at_bound
         if outcome.fit.at_bound:
-            self.notes.append(f"{stage.title}: {', '.join(outcome.fit.at_bound)} at the bound")
+            self.notes.append(
+                f"{stage.title}: {', '.join(outcome.fit.at_bound)} ended at the bound of what tires have"
+            )
         if rows < FEW_POINTS * len(outcome.values):
             self.notes.append(
                 f"{stage.title}: {rows} points are few for {len(outcome.values)} coefficients, "

@@ -29,6 +29,7 @@ def as_recorded(
     corrected: CorrectedModel,
     recording: pd.DataFrame,
     used: Array,
+    spoiled: bool = False,
 ) -> dict[str, OutputFit]:
     """Return the errors on the recorded rows.
 
@@ -42,6 +43,8 @@ def as_recorded(
         As it came.
     used : ndarray of int
         Its rows that were weighed: what was taken out as a fault is no noise.
+    spoiled : bool
+        Whether other rows were taken out as a fault: the errors after the correction are without them.
 
     Returns
     -------
@@ -59,7 +62,8 @@ def as_recorded(
         there = simulate_moments(analysis.data, analysis.fit.changes, moments)
         here |= {o: analysis.data.channels[o] - there[o] for o in moments}
     inside = {o: rms(r) for o, r in here.items()}
-    moved = {o: _moved(f, before[o], after[o], inside[o], recording, same) for o, f in fit.items()}
+    good = np.isin(np.arange(len(recording)), used) if spoiled else np.ones(len(recording), bool)
+    moved = {o: _moved(f, before[o], after[o], inside[o], recording, same, good) for o, f in fit.items()}
     alone = replace(corrected, instead=())
     of_fit = after if same or not corrected.instead else _errors(alone, recording, fit)
     return {
@@ -86,9 +90,15 @@ def _errors(
 
 
 def _moved(
-    f: OutputFit, before: Array, after: Array, inside: float, recording: pd.DataFrame, same: bool
+    f: OutputFit,
+    before: Array,
+    after: Array,
+    inside: float,
+    recording: pd.DataFrame,
+    same: bool,
+    good: Array,
 ) -> OutputFit:
-    first, last = rms(before), rms(after)
+    first, last = rms(before), rms(after[good])
     further = last**2 - inside**2
 
     def at_rows(value: float) -> float:
@@ -97,7 +107,7 @@ def _moved(
     rows = _inside(f.held_out_condition, recording)
     changed: dict[str, Any] = {
         "rms_before": first,
-        "rms_after": first if same else at_rows(f.rms_after),
+        "rms_after": last if same else at_rows(f.rms_after),
         "rms_after_low": at_rows(f.rms_after_low),
         "rms_after_high": at_rows(f.rms_after_high),
     }
@@ -105,7 +115,7 @@ def _moved(
         there = rms(before[rows])
         changed["rms_condition_before"] = there
         if same:
-            changed["rms_condition_after"] = there
+            changed["rms_condition_after"] = rms(after[rows & good])
     return replace(f, **changed)
 
 

@@ -13,10 +13,14 @@ import pandas as pd
 from tire_pipeline.channels import INPUT_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.agreed import agreed
+from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
-from tire_pipeline.mismatch.model.data import Data
-from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate, simulate_moments
+from tire_pipeline.mismatch.model.channels import RecordedChannels
+from tire_pipeline.mismatch.model.data import NO_REFERENCE, Data
+from tire_pipeline.mismatch.model.forces import Change, simulate, simulate_moments
+from tire_pipeline.mismatch.model.nominal import Reference
+from tire_pipeline.mismatch.model.plain_forces import plain_forces
 from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.recording.given import numeric
 from tire_pipeline.mismatch.recording.open_questions import Question
@@ -40,11 +44,11 @@ class CorrectedModel:
         The model as it came; None where it stands in for another simulator.
     changes : tuple of (name, parameters)
         Effects of the catalogue, with their parameters in SI, in the order they are added.
-    reference : dict
-        Nominal pressure and speed, what work, heat and time are measured by, and as ``rolled`` where the
-        wheel stood (:class:`.WheelWay`).
     outputs : tuple of str
         Forces that were recorded.
+    reference : Reference
+        Of the recording that was explained: nominal pressure and speed, loads, what work, heat and time are
+        measured by, and which channels were recorded. What it lacks is found in the recording to predict.
     stands_in : bool
         True if the tire model only stands in for another simulator, whose output a recording to
         predict must have as ``simulated_fy``.
@@ -63,6 +67,8 @@ class CorrectedModel:
     instead : tuple of (odds, changes)
         Other explanations that the recording cannot tell from ``changes``, and how likely they are beside
         these: ``predict`` adds what they agree on (:func:`.agreed`).
+    rolled : WheelWay, optional
+        Where the wheel stood, if an effect follows it.
 
     See Also
     --------
@@ -81,7 +87,7 @@ class CorrectedModel:
     >>> from tire_pipeline.tir import read_tir
     >>> tire = read_tir("tire.tir")
     >>> changes = (("stiffness_scale", {"stiffness": -0.1, "lateral_stiffness": 0.0}),)
-    >>> softer = CorrectedModel(tire, changes, reference={}, outputs=("fy",))
+    >>> softer = CorrectedModel(tire, changes, outputs=("fy",))
     >>> run = pd.DataFrame({"slip_angle": [0.001, 0.3], "normal_load": 4000.0})
     >>> before = tire.forces(slip_angle=run["slip_angle"], normal_load=run["normal_load"]).fy
     >>> (softer.predict(run)["fy"] / before).round(1).tolist()
@@ -90,8 +96,8 @@ class CorrectedModel:
 
     tire: Any
     changes: tuple[Change, ...]
-    reference: Mapping[str, Any]
     outputs: tuple[str, ...]
+    reference: Reference = NO_REFERENCE
     stands_in: bool = False
     moments: tuple[str, ...] = ()
     factors: Mapping[str, float] = field(default_factory=dict)
@@ -100,6 +106,7 @@ class CorrectedModel:
     cleaned: Mapping[str, float] = field(default_factory=dict)
     unnamed: UnnamedPhysics | None = None
     instead: tuple[tuple[float, tuple[Change, ...]], ...] = ()
+    rolled: WheelWay | None = None
 
     def __repr__(self) -> str:
         put_in = [name for name, _ in self.changes]
@@ -176,7 +183,9 @@ class CorrectedModel:
 
     def _of_unknown_phase(self, data: Data) -> list[str]:
         """Say which effects are left out because nobody knows the angle of the wheel."""
-        unknown = float(np.mean(np.isnan(data.fixed.get("wheel_way", 0.0))))
+        if data.wheel.known_way is None:
+            return []
+        unknown = float(np.mean(np.isnan(data.wheel.known_way)))
         turning = [e.title for n, p in self.changes if (e := catalogue()[n]).quarter_turn(p) is not None]
         return [
             f"{title}: left out at {unknown:.1%} of the samples, which are not of the recording that was "
@@ -259,18 +268,23 @@ class CorrectedModel:
                 )
             own = plain_forces(self.tire, **{n: channels[n] for n in SLIP_AND_LOAD})
             beside = {o: recording[f"simulated_{o}"].to_numpy(dtype=float) - own[o] for o in self.outputs}
-        fixed = {**self.reference, "own_relaxation": own_relaxation(self.tire) if self._changed else None}
-        if time is not None and "rolled" in fixed:
-            fixed["wheel_way"] = fixed["rolled"].at(time, channels["speed"])
-        return Data(
-            tire=self.tire,
+        way = None
+        if self.rolled is not None and time is not None and "speed" in channels:
+            way = self.rolled.at(time, channels["speed"])
+        recorded = RecordedChannels(
             channels=channels,
             recorded={o: np.zeros(n) for o in self.outputs},
             time=time,
             start=start,
             present={c for c in channels if c in recording.columns},
+        )
+        return Data.of(
+            self.tire,
+            recorded,
             beside=beside,
-            fixed=fixed,
+            own_relaxation=own_relaxation(self.tire) if self._changed else None,
+            reference=self.reference,
+            way=way,
         )
 
     def tire_model(self) -> tuple[Any, dict[str, dict[str, object]]]:
@@ -297,9 +311,7 @@ class CorrectedModel:
                     "equation": effect.equation,
                     "source": effect.source,
                     "parameters": {k: float(v) for k, v in p.items()},
-                    "reference": {
-                        k: v for k, v in self.reference.items() if isinstance(v, (int, float, dict))
-                    },
+                    "reference": self.reference.to_sidecar(),
                 }
         if self.unnamed is not None:
             sidecar["unnamed"] = self.unnamed.to_sidecar()

@@ -40,7 +40,7 @@ def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str
     others = [instead(form) for form in effect.other_forms(data, found)]
     later = effect.quarter_turn(found)
     ahead, hats = (instead(later), _hats(data)) if later else (None, [])
-    load = data.load_excess(data.get("normal_load"))
+    load = data.nominal.load_excess(data.get("normal_load"))
     load = load / max(float(np.max(np.abs(load))), 1e-9)
     out = {}
     for o in data.outputs:

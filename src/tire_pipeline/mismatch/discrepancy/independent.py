@@ -54,7 +54,9 @@ def orders_of(data: Data) -> list[Array]:
     rows = np.arange(data.size)
     if data.time is not None:
         return [rows]
-    place = np.column_stack([*(data.get(n) for n in _SLIP_CHANNELS if data.varies(n)), *data.base.values()])
+    place = np.column_stack(
+        [*(data.get(n) for n in _SLIP_CHANNELS if data.varies(n)), *data.simulation.base.values()]
+    )
     tree = scipy.spatial.cKDTree(place / np.maximum(np.ptp(place, axis=0), 1e-12), leafsize=1)
     return [rows, np.asarray(tree.indices)]
 

@@ -69,7 +69,7 @@ class ForceNoise:
         return white
 
 
-def estimate_noise(data: Data, residual: dict[str, Array]) -> dict[str, ForceNoise]:
+def estimate_noise(data: Data, residual: dict[str, Array], *, stated: bool = True) -> dict[str, ForceNoise]:
     """Estimate the size of the noise of each output from what the model leaves, as if it were white.
 
     Parameters
@@ -77,16 +77,17 @@ def estimate_noise(data: Data, residual: dict[str, Array]) -> dict[str, ForceNoi
     data : Data
     residual : dict of ndarray
         Recorded minus simulated, N.
+    stated : bool
+        Whether standard deviations that the recording states (``fy_std``, ``slip_angle_std``) are added.
 
     Returns
     -------
     dict of ForceNoise
-        Known standard deviations (``fy_std``, ``slip_angle_std``) are added.
     """
     out = {}
     for name, r in residual.items():
         seen = white_noise(r) if data.time is not None else _between_neighbours(data, r)
-        known = _known(data, name)
+        known = _known(data, name) if stated else np.zeros(data.size)
         least = _AS_STORED * largest(data.recorded[name]) + 1e-9
         out[name] = ForceNoise(np.sqrt(max(seen, least) ** 2 + known**2))
     return out
@@ -106,7 +107,7 @@ def _known(data: Data, name: str) -> Array:
     if f"{name}_std" in data.channels:
         variance = variance + np.nan_to_num(data.get(f"{name}_std")) ** 2
     if "slip_angle_std" in data.channels:
-        slope = data.slope("slip_angle")[name]
+        slope = data.simulation.slope("slip_angle")[name]
         variance = variance + (slope * np.nan_to_num(data.get("slip_angle_std"))) ** 2
     return np.sqrt(variance)
 

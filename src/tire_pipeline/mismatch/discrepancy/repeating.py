@@ -10,7 +10,7 @@ from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import residual
-from tire_pipeline.mismatch.model.states import OF_A_TURN
+from tire_pipeline.mismatch.model.wheel import OF_A_TURN
 
 Array = np.ndarray
 _CIRCUMFERENCES = (3.0, 14.0)
@@ -25,12 +25,12 @@ def repeating_forms(data: Data, changes: list[Change]) -> Iterator[dict[str, Arr
     if data.time is None or not data.has("speed"):
         return
     rest = residual(data, changes)
-    share = data.get("normal_load") / data.load_nominal
+    share = data.get("normal_load") / data.nominal.load
     for output in data.outputs:
         length = strongest_length(data, rest[output])
         if length is None:
             continue
-        phase = 2.0 * np.pi * data.distance / length
+        phase = 2.0 * np.pi * data.states.distance / length
         waves = [f(k * phase) * share for k in range(1, _HARMONICS + 1) for f in (np.cos, np.sin)]
         own = np.column_stack(waves)
         yield {o: own if o == output else np.zeros_like(own) for o in data.outputs}
@@ -52,7 +52,7 @@ def strongest_length(data: Data, rest: Array) -> float | None:
     float or None
         None if too little was rolled, or sampling is too coarse to tell.
     """
-    rolled = data.distance
+    rolled = data.states.distance
     way = float(rolled[-1] - rolled[0])
     step = float(np.median(np.diff(rolled)))
     if way < INDEPENDENT_STRETCHES * _CIRCUMFERENCES[1] or not 0.0 < step < _CIRCUMFERENCES[0] / (
@@ -64,7 +64,7 @@ def strongest_length(data: Data, rest: Array) -> float | None:
     power = np.abs(np.fft.rfft(np.interp(even, rolled, fast), _PADDED * even.size)) ** 2
     per_metre = np.arange(power.size) / (_PADDED * even.size * step)
     first = np.flatnonzero((per_metre >= 1.0 / _CIRCUMFERENCES[1]) & (per_metre <= 1.0 / _CIRCUMFERENCES[0]))
-    turns = 1.0 / per_metre[first] / (2.0 * np.pi * data.radius)
+    turns = 1.0 / per_metre[first] / (2.0 * np.pi * data.nominal.radius)
     first = first[(turns < OF_A_TURN[0]) | (turns > OF_A_TURN[1])]
     first = first[2 * first < power.size]
     if first.size == 0:

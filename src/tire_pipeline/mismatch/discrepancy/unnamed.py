@@ -19,7 +19,8 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.shared import first_order, play
 from tire_pipeline.mismatch.model.channels import used
 from tire_pipeline.mismatch.model.data import Data
-from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
+from tire_pipeline.mismatch.model.forces import Change, simulate
+from tire_pipeline.mismatch.model.plain_forces import plain_forces
 from tire_pipeline.mismatch.model.simulated import DIFFERENCE
 
 Array = np.ndarray
@@ -69,8 +70,10 @@ def _with_play(data: Data, name: str, width: float) -> dict[str, Array]:
     """Return what play in an input does to the model's forces, N."""
     at = {n: data.get(n) for n in SLIP_AND_LOAD}
     at[name] = play(at[name], width, data.start)
-    moved = plain_forces(data.tire, speed=data.model_speed, pressure=data.model_pressure, **at)
-    return {o: moved[o] - data.all_base[o] for o in data.outputs}
+    moved = plain_forces(
+        data.tire, speed=data.nominal.model_speed, pressure=data.nominal.model_pressure, **at
+    )
+    return {o: moved[o] - data.simulation.both_forces[o] for o in data.outputs}
 
 
 def _drivers(data: Data) -> Iterator[Array]:

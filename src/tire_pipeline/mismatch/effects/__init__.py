@@ -9,8 +9,9 @@ from importlib.metadata import entry_points
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, State
+from tire_pipeline.mismatch.effects.context import Context
 
-__all__ = ["Effect", "Parameter", "State", "catalogue", "register"]
+__all__ = ["Context", "Effect", "Parameter", "State", "catalogue", "register"]
 
 GROUP = "tire_pipeline.effects"
 """Entry point under which an installed package offers effects of its own."""

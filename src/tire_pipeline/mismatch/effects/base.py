@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.mismatch.effects.context import Context, Simulate
 
 Array = np.ndarray
 Parameters = Mapping[str, float]
@@ -13,6 +16,13 @@ TOO_SMALL_TO_SEE = 1e-9
 """A size too small to see. In a start it says that this parameter floats in the form that begins there."""
 _OF_UNIFORM = 12.0**-0.5
 """Standard deviation of a uniform distribution over its width."""
+_MEASURES: dict[str, Callable[[Context], float]] = {
+    "": lambda data: 1.0,
+    "load_nominal": lambda data: data.nominal.load,
+    "radius": lambda data: data.nominal.radius,
+    "sampling": lambda data: data.sampling,
+}
+"""What of a recording a prior may be a multiple of, in the parameter's unit."""
 
 
 @dataclass(frozen=True)
@@ -193,61 +203,61 @@ class Effect:
     experiment = ""
     order = 50
 
-    def absent(self, data: object) -> str | None:
+    def absent(self, data: Context) -> str | None:
         """Say why the effect cannot be looked for in this recording, or None if it can."""
-        if self.needs_time and data.time is None:  # type: ignore[attr-defined]
+        if self.needs_time and data.time is None:
             return "the recording has no time"
         for name in self.channels:
-            if not data.varies(name):  # type: ignore[attr-defined]
-                return f"{name} {'does not vary' if data.has(name) else 'is not recorded'}"  # type: ignore[attr-defined]
+            if not data.varies(name):
+                return f"{name} {'does not vary' if data.has(name) else 'is not recorded'}"
         for name in self.used:
-            if not data.has(name):  # type: ignore[attr-defined]
+            if not data.has(name):
                 return f"{name} is not recorded"
         return None
 
-    def lacking(self, data: object) -> list[str]:
+    def lacking(self, data: Context) -> list[str]:
         """Return the channels (and ``time``) without which the effect cannot be put into a recording."""
-        lost = [n for n in (*self.channels, *self.used) if n not in data.channels]  # type: ignore[attr-defined]
-        return [*lost, "time"] if self.needs_time and data.time is None else lost  # type: ignore[attr-defined]
+        lost = [n for n in (*self.channels, *self.used) if n not in data.channels]
+        return [*lost, "time"] if self.needs_time and data.time is None else lost
 
     def parameter(self, name: str) -> Parameter:
         """Return the parameter of a name."""
         return next(p for p in self.parameters if p.name == name)
 
-    def usual(self, data: object, name: str) -> tuple[float, float]:
+    def usual(self, data: Context, name: str) -> tuple[float, float]:
         """Return centre and standard deviation of a parameter's prior in a recording.
 
         Where the parameter states none (``prior`` 0) every value between its bounds, or between the ends of
         the recording for a moment in time, is as likely: the centre is NaN.
         """
         p = self.parameter(name)
-        stated = data.fixed.get("priors", {}).get(self.name, {}).get(name)  # type: ignore[attr-defined]
+        stated = data.stated_prior(self.name, name)
         if stated is not None:
-            return self.zeros(data)[name], float(stated)
+            return self.zeros(data)[name], stated
         if p.prior:
-            return self.zeros(data)[name], p.prior * float(getattr(data, p.prior_in) if p.prior_in else 1.0)
-        width, time = p.high - p.low, data.time  # type: ignore[attr-defined]
+            return self.zeros(data)[name], p.prior * _MEASURES[p.prior_in](data)
+        width, time = p.high - p.low, data.time
         if p.unit == "s" and time is not None:
             width = min(width, float(time[-1] - time[0]))
         return float("nan"), width * _OF_UNIFORM
 
-    def outside(self, data: object, p: Parameters) -> bool:
+    def outside(self, data: Context, p: Parameters) -> bool:
         """Whether parameters are outside of what this recording can show; bounds are checked besides."""
         return False
 
-    def starts(self, data: object) -> list[dict[str, float]]:
+    def starts(self, data: Context) -> list[dict[str, float]]:
         """Return the parameter values to start from: one dict for each form worth trying."""
         return [self.zeros(data)]
 
-    def expected(self, data: object) -> bool:
+    def expected(self, data: Context) -> bool:
         """Whether physics leaves no doubt of it: what it follows varied, and the file has no term."""
         return False
 
-    def blind(self, data: object) -> bool:
+    def blind(self, data: Context) -> bool:
         """Whether it is a state that is integrated for want of its channel."""
         return False
 
-    def other_forms(self, data: object, p: Parameters) -> list[dict[str, float]]:
+    def other_forms(self, data: Context, p: Parameters) -> list[dict[str, float]]:
         """Return other parameters between which and the found ones the truth may lie; none by default."""
         return []
 
@@ -255,16 +265,16 @@ class Effect:
         """Return the parameters of the same effect a quarter of a wheel turn on, if it follows the wheel."""
         return None
 
-    def inputs(self, state: State, data: object, p: Parameters) -> None:
+    def inputs(self, state: State, data: Context, p: Parameters) -> None:
         """Change what the tire sees (slips, camber, load)."""
 
-    def tire(self, state: State, data: object, p: Parameters) -> None:
+    def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Change the tire (friction, stiffness, coefficients)."""
 
-    def outputs(self, state: State, data: object, p: Parameters) -> None:
+    def outputs(self, state: State, data: Context, p: Parameters) -> None:
         """Change the forces that are recorded."""
 
-    def detect(self, channels: Mapping[str, Array], simulate: object) -> list[Finding]:
+    def detect(self, channels: Mapping[str, Array], simulate: Simulate) -> list[Finding]:
         """Look for the effect without a fit (artefacts that are exact); nothing by default.
 
         Parameters
@@ -276,14 +286,14 @@ class Effect:
         """
         return []
 
-    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+    def coefficients(self, tire: TireModel, p: Parameters) -> dict[str, float]:
         """Return the ``.tir`` coefficients that hold the effect, or nothing if the format has no place."""
         return {}
 
-    def zeros(self, data: object) -> dict[str, float]:
+    def zeros(self, data: Context) -> dict[str, float]:
         """Return the parameter values at which the effect is absent."""
         return {p.name: p.zero for p in self.parameters}
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """Return the names of the parameters that float in the form that begins at ``start``."""
         return tuple(p.name for p in self.parameters)

@@ -2,20 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+from numba import njit
 
+from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
-
-try:
-    from numba import njit
-except ImportError:  # pragma: no cover - numba is a dependency; this keeps the file importable without
-
-    def njit(*_args: object, **_kwargs: object):  # type: ignore[no-redef]
-        """Leave the function as it is."""
-        return lambda function: function
-
 
 GAINS = (-0.8, 2.0)
 """Least and largest gain that a force channel may be wrong by."""
@@ -133,7 +124,7 @@ def safe_log1p(x: np.ndarray | float) -> np.ndarray | float:
     return np.log(np.maximum(1.0 + np.asarray(x), 0.05))
 
 
-def relaxation_lengths(tire: Any) -> dict[str, float]:
+def relaxation_lengths(tire: TireModel) -> dict[str, float]:
     """Return the relaxation lengths of a tire model at its nominal load, by the model's own formula.
 
     Parameters

@@ -15,6 +15,7 @@ import numpy as np
 import scipy
 
 from tire_pipeline.mismatch.inference.evidence.hypotheses import (
+    NO_MASS,
     asked,
     hypotheses,
     log_evidence,
@@ -38,8 +39,6 @@ _ODDS = ("effect", "further", "unnamed")
 _SURPRISES = 0.01
 """Share of cases whose answer is as likely as any other: cases that nothing can explain must not decide the
 sizes."""
-_MOST_LOG_ODDS = 12.0
-"""Log odds to the likeliest hypothesis beyond which one has no mass, nor near these sizes."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +82,7 @@ def pruned(each: Tuning, sizes: LearntSizes) -> Tuning:
     """Return a case with the hypotheses that have mass and those that are right; the rest takes time only."""
     case, every = each.case, hypotheses(each.case)
     value = log_evidence(case, sizes) + log_prior(case, sizes)
-    near = (value > value.max() - _MOST_LOG_ODDS) | replace(each, kept=None).rights()
+    near = (value > value.max() - NO_MASS) | replace(each, kept=None).rights()
     wanted = {(h.names, h.wide, h.form) for h, here in zip(every, near, strict=True) if here}
     holding = {names for names, *_ in wanted} | {(), each.truth}
     smaller = replace(case, sets=tuple(s for s in case.sets if s.names in holding))

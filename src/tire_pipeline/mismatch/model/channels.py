@@ -1,12 +1,15 @@
-"""Channels of a recording: whether they vary, without their noise, and the time step; a part of `Data`."""
+"""Channels of a recording: whether they vary, without their noise, and the time step."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Set
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 import scipy
+
+from tire_pipeline.channels import FORCE_OF_SLIP
 
 Array = np.ndarray
 _RELATIVE_SPREAD = {"pressure": 0.03, "speed": 0.12, "normal_load": 0.1}
@@ -32,6 +35,9 @@ CHANCE = 0.05
 
 _OUTLIERS = 0.005
 """Part of the samples at either end of a channel that may be outliers."""
+
+_TAKEN_OVER_SMOOTH = ("pressure", "speed", "tread_temperature")
+"""Those of which a part of a recording takes over the values without sensor noise."""
 
 
 def span(x: Array) -> tuple[float, float]:
@@ -71,16 +77,49 @@ def least_spread(name: str, values: Array) -> float:
     return ABSOLUTE_SPREAD.get(name, 0.0)
 
 
-class RecordedChannels:
-    """What is recorded."""
+@dataclass(frozen=True, eq=False)
+class OfWhole:
+    """What the channels of a part of a recording take over from all of it.
 
-    tire: Any
-    channels: dict[str, Array]
-    recorded: dict[str, Array]
+    Parameters
+    ----------
+    varying : set of str
+        Channels that vary in all of it.
+    slow : mapping of ndarray, shape (n,)
+        Slow channels without their sensor noise, at the rows of the part, SI.
+    """
+
+    varying: Set[str]
+    slow: Mapping[str, Array]
+
+
+@dataclass(frozen=True, eq=False)
+class RecordedChannels:
+    """What is recorded.
+
+    Parameters
+    ----------
+    channels : mapping of ndarray, shape (n,)
+        SI; slip_angle, slip_ratio, camber, normal_load are always there.
+    recorded : mapping of ndarray, shape (n,)
+        fx and or fy, N.
+    time : ndarray, shape (n,), optional
+        s, rising.
+    start : ndarray of bool, shape (n,)
+        First samples of uninterrupted pieces.
+    present : set of str
+        Channels that the recording really has.
+    whole : OfWhole, optional
+        If it is a part of a recording: what all of it says.
+    """
+
+    channels: Mapping[str, Array]
+    recorded: Mapping[str, Array]
     time: Array | None
     start: Array
-    present: set[str]
-    fixed: dict[str, Any]
+    present: Set[str]
+    whole: OfWhole | None = None
+    _means: dict[str, Array] = field(default_factory=dict, init=False, repr=False)
 
     @property
     def size(self) -> int:
@@ -91,6 +130,12 @@ class RecordedChannels:
     def outputs(self) -> tuple[str, ...]:
         """Forces that are recorded."""
         return tuple(self.recorded)
+
+    @property
+    def time_line(self) -> Array:
+        """The time, s, where only a recording with time is asked."""
+        assert self.time is not None
+        return self.time
 
     def get(self, name: str) -> Array:
         """Return one channel."""
@@ -104,17 +149,17 @@ class RecordedChannels:
         """Whether the channel is recorded and varies by more than a sensor's noise."""
         if name not in self.present:
             return False
-        known = self.fixed.get("varies")
-        if known is not None:
-            return bool(known[name])
+        if self.whole is not None:
+            return name in self.whole.varying
         return moves(self.smooth(name), least_spread(name, self.channels[name]))
 
     def smooth(self, name: str) -> Array:
         """Return a slow channel without its sensor noise: a running mean over half a second."""
-        key = f"smooth {name}"
-        if key not in self.fixed:
-            self.fixed[key] = self.running_mean(self.channels[name], SLOW)
-        return self.fixed[key]
+        if self.whole is not None and name in self.whole.slow:
+            return self.whole.slow[name]
+        if name not in self._means:
+            self._means[name] = self.running_mean(self.channels[name], SLOW)
+        return self._means[name]
 
     def running_mean(self, x: Array, seconds: float) -> Array:
         """Return the mean over so many seconds around each sample, within its piece."""
@@ -147,6 +192,29 @@ class RecordedChannels:
     def sampling(self) -> float:
         """Time from one sample to the next, s."""
         return float(np.median(self.step))
+
+    @cached_property
+    def has_combined(self) -> bool:
+        """Whether both slips are large together in at least 1% of the samples: beyond three least spreads."""
+        slips = [np.abs(self.get(n)) / ABSOLUTE_SPREAD[n] for n in FORCE_OF_SLIP]
+        return largest(np.min(slips, axis=0)) > 3.0
+
+    def part(self, rows: Array) -> RecordedChannels:
+        """Return the rows of ``rows`` (bool); which channels vary, and slow ones, are those of all rows."""
+        index = np.flatnonzero(rows)
+        start = self.start[rows].copy()
+        start[np.flatnonzero(np.diff(index, prepend=index[0] - 2) > 1)] = True
+        return RecordedChannels(
+            channels={n: c[rows] for n, c in self.channels.items()},
+            recorded={n: c[rows] for n, c in self.recorded.items()},
+            time=None if self.time is None else self.time[rows],
+            start=start,
+            present=self.present,
+            whole=OfWhole(
+                varying={n for n in self.present if self.varies(n)},
+                slow={n: self.smooth(n)[rows] for n in _TAKEN_OVER_SMOOTH if n in self.present},
+            ),
+        )
 
 
 _OTHER_SIDE = 0.5

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Set
+from dataclasses import asdict, dataclass
 from functools import cached_property
 
 import numpy as np
 
+from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
 from tire_pipeline.mismatch.model.channels import RecordedChannels, least_spread
 
@@ -18,19 +21,96 @@ OF_CAMBER = {
 _PRESSURES_OF_FILE = ("NOMPRES", "INFLPRES")
 
 
-class NominalConditions(RecordedChannels):
-    """Nominal values of the model beside a recording; a part of `Data`."""
+@dataclass(frozen=True)
+class Scales:
+    """What work, heat and time are measured by, so that parameters hold for other recordings too.
+
+    Parameters
+    ----------
+    work : float
+        Friction work of the whole recording, J.
+    power : float
+        Largest friction power, W.
+    time_origin, time_span : float
+        Begin and duration of the recording, s.
+    """
+
+    work: float = 1.0
+    power: float = 1.0
+    time_origin: float = 0.0
+    time_span: float = 1.0
+
+
+@dataclass(frozen=True)
+class Reference:
+    """What is taken over from the recording that was explained where a part of it, or another one, is used.
+
+    What is None is found in the recording that is used.
+
+    Parameters
+    ----------
+    scales : Scales, optional
+    pressure_nominal, speed_nominal : float, optional
+        At which the model is right, Pa and m/s.
+    load_range : (low, high), optional
+        Loads that the effects were fitted to, N.
+    measured : set of str, optional
+        Channels that were recorded.
+    """
+
+    scales: Scales | None = None
+    pressure_nominal: float | None = None
+    speed_nominal: float | None = None
+    load_range: tuple[float, float] | None = None
+    measured: Set[str] | None = None
+
+    def to_sidecar(self) -> dict[str, object]:
+        """Return the numbers among it by name."""
+        out: dict[str, object] = {}
+        if self.scales is not None:
+            out["scales"] = asdict(self.scales)
+        if self.load_range is not None:
+            out["load_range"] = dict(zip(("low", "high"), self.load_range, strict=True))
+        stated = {"pressure_nominal": self.pressure_nominal, "speed_nominal": self.speed_nominal}
+        return {**out, **{name: value for name, value in stated.items() if value is not None}}
+
+
+@dataclass(frozen=True, eq=False)
+class NominalConditions:
+    """What a tire model refers to, beside a recording: load, pressure, speed, radius, camber.
+
+    Parameters
+    ----------
+    tire : TireModel
+    recording : RecordedChannels
+    reference : Reference
+        Of the recording that was explained, if it is another one.
+    """
+
+    tire: TireModel
+    recording: RecordedChannels
+    reference: Reference = Reference()
+
+    @property
+    def coefficients(self) -> Mapping[str, float]:
+        """Coefficients of the model."""
+        return self.tire.coefficients
 
     @cached_property
-    def load_nominal(self) -> float:
-        """Nominal load of the model, N."""
-        c = self.tire.coefficients
-        return float(c.get("FNOMIN", np.median(self.get("normal_load"))))
+    def load(self) -> float:
+        """Nominal load of the model, N; the median of the recording where it has none."""
+        return float(self.coefficients.get("FNOMIN", np.median(self.recording.get("normal_load"))))
+
+    @property
+    def load_range(self) -> tuple[float, float]:
+        """Least and largest load that the file says it holds for, N; infinite where it gives no range."""
+        *_, low, high = self.tire.ranges.get("normal_load", (-np.inf, np.inf))
+        return low, high
 
     @cached_property
     def radius(self) -> float:
         """Unloaded radius, m."""
-        return float(self.tire.coefficients.get("UNLOADED_RADIUS", ASSUMED_RADIUS))
+        return float(self.coefficients.get("UNLOADED_RADIUS", ASSUMED_RADIUS))
 
     def load_excess(self, load: Array) -> Array:
         """Return ``(Fz - Fz0) / Fz0``, which fades outside of the loads that the effects were fitted to.
@@ -38,66 +118,66 @@ class NominalConditions(RecordedChannels):
         A line through the recorded loads says nothing of others: it goes to zero there, over the width of
         what was recorded, and the model that came in stays.
         """
-        excess = (load - self.load_nominal) / self.load_nominal
-        known = self.fixed.get("load_range")
-        if known is None:
+        excess = (load - self.load) / self.load
+        if self.reference.load_range is None:
             return excess
-        low, high = known["low"], known["high"]
+        low, high = self.reference.load_range
         inside = np.clip(load, low, high)
         width = max(high - low, least_spread("normal_load", load))
         faded = 1.0 - np.abs(load - inside) / width
-        return (inside - self.load_nominal) / self.load_nominal * np.maximum(faded, 0.0)
+        return (inside - self.load) / self.load * np.maximum(faded, 0.0)
 
     @cached_property
     def pressure_levels(self) -> list[float]:
         """Pressures at which the model may be right, Pa: the file's, or the most common and the first."""
-        nominal = self.pressure_nominal
+        nominal = self.pressure
         if nominal == self.pressure_of_file:
             return [nominal]
-        pressure = self.smooth("pressure")
+        pressure = self.recording.smooth("pressure")
         first = float(pressure[0])
         return [nominal] + ([first] if abs(first - nominal) > least_spread("pressure", pressure) else [])
 
     @cached_property
     def pressure_of_file(self) -> float | None:
         """Pressure at which the file says that it is right, Pa: the first of its values that was recorded."""
-        c, missing = self.tire.coefficients, getattr(self.tire, "defaulted", {})
+        c, missing = self.coefficients, self.tire.defaulted
         stated = [float(c.get(k, 0.0) or 0.0) for k in _PRESSURES_OF_FILE if k not in missing]
-        pressure = self.channels["pressure"]
+        pressure = self.recording.channels["pressure"]
         recorded = [p for p in stated if pressure.min() <= p <= pressure.max()]
         return next((p for p in recorded + stated if p > 0.0), None)
 
     @property
     def off_pressure(self) -> bool:
         """Whether the pressure stays at another one than that at which the file says that it is right."""
-        if "pressure" not in self.present or self.varies("pressure") or self.pressure_of_file is None:
+        recording = self.recording
+        if not recording.has("pressure") or recording.varies("pressure") or self.pressure_of_file is None:
             return False
-        pressure = self.channels["pressure"]
+        pressure = self.recording.channels["pressure"]
         return bool(abs(np.median(pressure) - self.pressure_of_file) > least_spread("pressure", pressure))
 
     @cached_property
-    def pressure_nominal(self) -> float:
+    def pressure(self) -> float:
         """Pressure at which the model is right, Pa.
 
         The file's if it was recorded, or if the recording stays at one other pressure; else the most common.
         """
-        if "pressure_nominal" in self.fixed:
-            return float(self.fixed["pressure_nominal"])
+        if self.reference.pressure_nominal is not None:
+            return self.reference.pressure_nominal
         if self.off_pressure and self.pressure_of_file is not None:
             return self.pressure_of_file
         return self._stated("pressure", *_PRESSURES_OF_FILE)
 
     @cached_property
-    def speed_nominal(self) -> float:
+    def speed(self) -> float:
         """Speed at which the model is right, m/s: the file's if it was recorded, else the most common one."""
-        if "speed_nominal" in self.fixed:
-            return float(self.fixed["speed_nominal"])
+        if self.reference.speed_nominal is not None:
+            return self.reference.speed_nominal
         return self._stated("speed", "LONGVL")
 
     def _stated(self, channel: str, *keys: str) -> float:
         """Return the first of some values of the file that the channel had, or its most common value."""
-        c, missing = self.tire.coefficients, getattr(self.tire, "defaulted", {})
-        x = self.channels[channel]
+        c, missing = self.coefficients, self.tire.defaulted
+        x = self.recording.channels[channel]
         for key in keys:
             value = float(c.get(key, 0.0) or 0.0)
             if key not in missing and x.min() <= value <= x.max():
@@ -107,28 +187,25 @@ class NominalConditions(RecordedChannels):
     @cached_property
     def speed_excess(self) -> Array:
         """``(v - v0) / v0``; v0 is LONGVL, else the speed that is most common."""
-        v = self.smooth("speed")
-        return (v - self.speed_nominal) / self.speed_nominal
+        v = self.recording.smooth("speed")
+        return (v - self.speed) / self.speed
 
     @property
     def model_speed(self) -> Array | None:
         """Speed for the model, if it is recorded."""
-        return self.channels.get("speed") if "speed" in self.present else None
+        return self.recording.channels.get("speed") if self.recording.has("speed") else None
 
     @property
     def model_pressure(self) -> Array | None:
         """Pressure for the model, if it is recorded and the model asks for it."""
-        if "pressure" in self.present and str(getattr(self.tire, "version", "")).startswith("6"):
-            return self.channels["pressure"]
+        if self.recording.has("pressure") and self.tire.version.startswith("6"):
+            return self.recording.channels["pressure"]
         return None
 
     @cached_property
     def knows_camber(self) -> bool:
         """Whether the model's lateral force answers to camber."""
-        if "knows_camber" in self.fixed:
-            return bool(self.fixed["knows_camber"])
-        c = self.tire.coefficients
-        return any(c.get(key, 0.0) for key in OF_CAMBER["fy"])
+        return any(self.coefficients.get(key, 0.0) for key in OF_CAMBER["fy"])
 
 
 def most_common(x: Array) -> float:

@@ -1,14 +1,22 @@
-"""The simulation as it is and its slopes; a part of `Data`."""
+"""The simulation as it is, its slopes, and what it gives where a state of slips and tire is changed."""
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from tire_pipeline.channels import SLIP_AND_LOAD
-from tire_pipeline.mismatch.model.forces import plain_forces, simulate
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.mismatch.effects.base import State
+from tire_pipeline.mismatch.effects.shared import first_order
+from tire_pipeline.mismatch.model.channels import SMALL, RecordedChannels, largest
 from tire_pipeline.mismatch.model.nominal import NominalConditions
+from tire_pipeline.mismatch.model.plain_forces import plain_forces
 
 Array = np.ndarray
 DIFFERENCE = float(np.cbrt(np.finfo(float).eps))
@@ -16,31 +24,128 @@ DIFFERENCE = float(np.cbrt(np.finfo(float).eps))
 error of the difference (Nocedal and Wright, Numerical Optimization, 2nd ed., 8.1)."""
 
 
-class Simulated(NominalConditions):
-    """Forces of the model at the recorded points."""
+@dataclass(frozen=True, eq=False)
+class BaseSimulation:
+    """The model at the recorded points, before any effect is added.
+
+    Parameters
+    ----------
+    nominal : NominalConditions
+    beside : mapping of ndarray, shape (n,), optional
+        What another simulator has beyond the tire model that stands in for it, N.
+    own_relaxation : mapping of str to float, optional
+        Slip -> the relaxation length that the file itself states, m.
+    """
+
+    nominal: NominalConditions
+    beside: Mapping[str, Array] | None = None
+    own_relaxation: Mapping[str, float] | None = None
+    _slopes: dict[str, dict[str, Array]] = field(default_factory=dict, init=False, repr=False)
+
+    @property
+    def recording(self) -> RecordedChannels:
+        """What is recorded."""
+        return self.nominal.recording
+
+    def as_recorded(self) -> State:
+        """Return slips, camber and load as they were recorded, at a tire that nothing has changed."""
+        zero = np.zeros(self.recording.size)
+        return State(
+            slip_angle=self.recording.get("slip_angle"),
+            slip_ratio=self.recording.get("slip_ratio"),
+            camber=self.recording.get("camber"),
+            normal_load=self.recording.get("normal_load"),
+            log_friction=zero,
+            log_friction_y=zero,
+            log_stiffness=zero,
+            log_stiffness_y=zero,
+        )
+
+    def relax(self, state: State) -> None:
+        """Lag the slips by the relaxation that the file itself states (PTY1, PTX1), if it does."""
+        recording = self.recording
+        if self.own_relaxation is None or recording.time is None or not recording.has("speed"):
+            return
+        rolled = np.abs(recording.get("speed")) * recording.step
+        for slip, length in self.own_relaxation.items():
+            gain = 1.0 - np.exp(-rolled / max(length, 1e-9))
+            setattr(state, slip, first_order(getattr(state, slip), gain, recording.start))
+
+    def forces(self, state: State) -> dict[str, Array]:
+        """Return fx and fy, N, by similarity: friction m and stiffness k turn F(s) into m F(s k / m)."""
+        m_x, ratio_x, m_y, ratio_y = _similarity(state)
+        forces = plain_forces(
+            self._tire(state),
+            slip_angle=state.slip_angle * ratio_y,
+            slip_ratio=state.slip_ratio * ratio_x,
+            camber=state.camber,
+            normal_load=state.normal_load,
+            speed=self.nominal.model_speed,
+            pressure=self.nominal.model_pressure,
+        )
+        fx = forces["fx"] * np.exp(m_x)
+        fy = (forces["fy"] + state.added_y) * np.exp(m_y)
+        if self.beside is not None:
+            fx = fx + self.beside.get("fx", 0.0)
+            fy = fy + self.beside.get("fy", 0.0)
+        return {"fx": fx, "fy": fy}
+
+    def moments(self, state: State, names: Sequence[str]) -> dict[str, Array]:
+        """Return some of mx, my, mz, N m, by similarity.
+
+        Friction m and stiffness k turn M(s) into m M(s k / m), with the lateral pair of m and k for mx and
+        mz and the longitudinal one for my.
+        """
+        m_x, ratio_x, m_y, ratio_y = _similarity(state)
+        known = (("speed", self.nominal.model_speed), ("pressure", self.nominal.model_pressure))
+        more: dict[str, Any] = {n: v for n, v in known if v is not None}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            out = self._tire(state).forces(
+                slip_angle=state.slip_angle * ratio_y,
+                slip_ratio=state.slip_ratio * ratio_x,
+                camber=state.camber,
+                normal_load=state.normal_load,
+                limits="ignore",
+                outputs=tuple(names),
+                **more,
+            )
+        scale = {"mx": np.exp(m_y), "my": np.exp(m_x), "mz": np.exp(m_y)}
+        return {n: np.asarray(getattr(out, n), float) * scale[n] for n in names}
+
+    def _tire(self, state: State) -> TireModel:
+        tire = self.nominal.tire
+        return tire.replace(**state.coefficients) if state.coefficients else tire
 
     @cached_property
     def base(self) -> dict[str, Array]:
         """The simulation as it is, N."""
-        return simulate(self)
+        state = self.as_recorded()
+        self.relax(state)
+        forces = self.forces(state)
+        return {name: forces[name] for name in self.recording.outputs}
+
+    def driven(self, output: str) -> bool:
+        """Whether this force is there and the slips make it move, so that its size can be judged."""
+        sizes = {n: largest(b) for n, b in self.base.items()}
+        return sizes.get(output, 0.0) > SMALL * max(sizes.values())
 
     @cached_property
-    def all_base(self) -> dict[str, Array]:
-        """fx and fy of the model, recorded or not, N."""
+    def both_forces(self) -> dict[str, Array]:
+        """fx and fy of the model, recorded or not, without any relaxation, N."""
+        return self._forces_at(self.recording.get("slip_angle"))
+
+    def _forces_at(self, slip_angle: Array) -> dict[str, Array]:
+        """Return fx and fy, N, at another slip angle."""
         return plain_forces(
-            self.tire,
-            slip_angle=self.get("slip_angle"),
-            slip_ratio=self.get("slip_ratio"),
-            camber=self.get("camber"),
-            normal_load=self.get("normal_load"),
-            speed=self.model_speed,
-            pressure=self.model_pressure,
+            self.nominal.tire,
+            slip_angle=slip_angle,
+            slip_ratio=self.recording.get("slip_ratio"),
+            camber=self.recording.get("camber"),
+            normal_load=self.recording.get("normal_load"),
+            speed=self.nominal.model_speed,
+            pressure=self.nominal.model_pressure,
         )
-
-    @cached_property
-    def base_fy(self) -> Array:
-        """Lateral force of the model, N."""
-        return self.all_base["fy"]
 
     def turned_by_force(self, slip_angle: Array, steer: float, steer_by_fx: float = 0.0) -> Array:
         """Return ``slip_angle - steer Fy - steer_by_fx Fx`` with the forces that the model then gives.
@@ -50,15 +155,7 @@ class Simulated(NominalConditions):
         """
 
         def wanted(angle: Array) -> Array:
-            force = plain_forces(
-                self.tire,
-                slip_angle=angle,
-                slip_ratio=self.get("slip_ratio"),
-                camber=self.get("camber"),
-                normal_load=self.get("normal_load"),
-                speed=self.model_speed,
-                pressure=self.model_pressure,
-            )
+            force = self._forces_at(angle)
             return slip_angle - steer * force["fy"] - steer_by_fx * force["fx"]
 
         before, here = slip_angle, wanted(slip_angle)
@@ -72,19 +169,20 @@ class Simulated(NominalConditions):
 
     def slope(self, name: str) -> dict[str, Array]:
         """Return d force / d channel of the model by central differences."""
-        key = f"slope {name}"
-        if key not in self.fixed:
-            at = {n: self.get(n) for n in SLIP_AND_LOAD}
-            self.fixed[key] = self._slope_at(at, name)
-        return self.fixed[key]
+        if name not in self._slopes:
+            at = {n: self.recording.get(n) for n in SLIP_AND_LOAD}
+            self._slopes[name] = self._slope_at(at, name)
+        return self._slopes[name]
 
     def _slope_at(self, at: dict[str, Array], name: str) -> dict[str, Array]:
         """Return d force / d channel at some inputs, one a sample."""
-        step = DIFFERENCE * (self.load_nominal if name == "normal_load" else 1.0)
+        step = DIFFERENCE * (self.nominal.load if name == "normal_load" else 1.0)
         out: dict[str, Array] = {}
         for sign in (1.0, -1.0):
             c = {**at, name: at[name] + sign * step}
-            f = plain_forces(self.tire, speed=self.model_speed, pressure=self.model_pressure, **c)
+            f = plain_forces(
+                self.nominal.tire, speed=self.nominal.model_speed, pressure=self.nominal.model_pressure, **c
+            )
             for axis, value in f.items():
                 out[axis] = out.get(axis, 0.0) + sign * value / (2.0 * step)
         return out
@@ -92,10 +190,10 @@ class Simulated(NominalConditions):
     @cached_property
     def shift_by_thrust(self) -> Array:
         """Slip angle (rad) for a side force as large as the load, by the slope while rolling straight."""
-        zero, load = np.zeros(self.size), self.get("normal_load")
+        zero, load = np.zeros(self.recording.size), self.recording.get("normal_load")
         straight = {"slip_angle": zero, "slip_ratio": zero, "camber": zero, "normal_load": load}
         slope = self._slope_at(straight, "slip_angle")["fy"]
-        return np.divide(load, slope, out=np.zeros(self.size), where=np.abs(slope) > 1.0)
+        return np.divide(load, slope, out=np.zeros(self.recording.size), where=np.abs(slope) > 1.0)
 
     def _stiffness(self, axis: str) -> float:
         """Slip stiffness at nominal load, N per unit of slip, positive."""
@@ -103,11 +201,11 @@ class Simulated(NominalConditions):
         a = np.array([h, -h]) if axis == "fy" else np.zeros(2)
         k = np.array([h, -h]) if axis == "fx" else np.zeros(2)
         f = plain_forces(
-            self.tire,
+            self.nominal.tire,
             slip_angle=a,
             slip_ratio=k,
             camber=np.zeros(2),
-            normal_load=np.full(2, self.load_nominal),
+            normal_load=np.full(2, self.nominal.load),
         )[axis]
         return float(max(abs(f[0] - f[1]) / (2.0 * h), 1e-9))
 
@@ -122,3 +220,11 @@ class Simulated(NominalConditions):
         """|dFx/d slip ratio| over the slip stiffness at nominal load, at most 2."""
         share = np.abs(self.slope("slip_ratio")["fx"]) / self._stiffness("fx")
         return np.minimum(share, 2.0)
+
+
+def _similarity(state: State) -> tuple[Array, Array, Array, Array]:
+    """Log friction and factor of the slip, along and across."""
+    m_x, m_y = state.log_friction, state.log_friction + state.log_friction_y
+    ratio_y = np.exp(state.log_stiffness + state.log_stiffness_y - m_y)
+    ratio_x = np.exp(state.log_stiffness - m_x)
+    return m_x, ratio_x, m_y, ratio_y

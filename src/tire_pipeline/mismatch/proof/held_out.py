@@ -32,10 +32,10 @@ def prove(
         The residual of each output, N: :class:`~tire_pipeline.mismatch.proof.nested.RepeatedChoice`. In the
         held-out condition the effects are locked, and the parameters are fitted to the sweeps outside of it.
     noise : mapping of float
-        Output -> RMS of the recording's noise, N (:func:`.proof.noise_floor.noise_floors`).
+        Output -> RMS of the recording's noise, N (:func:`.proof.remainder.noise_floors`).
     """
     data = analysis.data
-    before = {o: data.recorded[o] - data.base[o] for o in data.outputs}
+    before = {o: data.recorded[o] - data.simulation.base[o] for o in data.outputs}
     name, rows = held_out_condition(data)
     condition = _condition(analysis, rows) if rows is not None else None
     out = {}
@@ -90,7 +90,7 @@ def prove_moments(analysis: Analysis) -> dict[str, OutputFit]:
 def recorded_moments(data: Data) -> tuple[str, ...]:
     """Moments that are recorded without holes and that the model gives."""
     names = [n for n in MOMENT_CHANNELS if n in data.channels and bool(np.isfinite(data.channels[n]).all())]
-    if not names or data.beside is not None:
+    if not names or data.simulation.beside is not None:
         return ()
     plain = simulate_moments(data, [], names)
     return tuple(n for n in names if np.ptp(plain[n]) > 1e-6 * max(float(np.ptp(data.channels[n])), 1e-9))

@@ -9,14 +9,15 @@ import scipy
 
 from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.discrepancy.noise import ForceNoise
+from tire_pipeline.mismatch.model.channels import CHANCE, largest
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
-_LEVEL_OF_FLIPS = 0.05
 _LEAST_FORCE = 0.1
 """A share of the force is given where the force is above this part of the largest one."""
 _EVEN = 0.7
-"""One share of the force that is this part of the squared difference is off throughout, in no stretch."""
+"""What is off throughout, in no stretch: one share of the force, or one force, that is this part of the
+squared difference."""
 _BINS_OF_AXIS = 16
 
 
@@ -96,7 +97,7 @@ def _axes(
     data: Data, output: str, rest: Array, noise: ForceNoise, block: Array, signs: Array, along: bool
 ) -> list[Located]:
     """Test all stretches of all axes; the largest statistic of each flip gives the p-values."""
-    plain = rest * _direction(data.base[output]) if along else rest
+    plain = rest * _direction(data.simulation.base[output]) if along else rest
     scaled = plain / noise.sigma
     tests: list[tuple[str, float, float, Array]] = []
     for axis in ("time", *OPERATING_CHANNELS):
@@ -108,9 +109,9 @@ def _axes(
             values = data.smooth(axis)
         else:
             continue
-        edges = np.quantile(values, np.linspace(0.0, 1.0, 17))
-        for width in (1, 2, 4, 8):
-            for k in range(0, 17 - width, max(1, width // 2)):
+        edges = np.quantile(values, np.linspace(0.0, 1.0, _BINS_OF_AXIS + 1))
+        for width in _widths():
+            for k in range(0, _BINS_OF_AXIS + 1 - width, max(1, width // 2)):
                 low, high = float(edges[k]), float(edges[k + width])
                 if high - low > 0.02 * (edges[-1] - edges[0]):
                     tests.append((axis, low, high, (values >= low) & (values <= high)))
@@ -126,8 +127,8 @@ def _axes(
     for axis in dict.fromkeys(t[0] for t in tests):
         own = [i for i, t in enumerate(tests) if t[0] == axis]
         chance = {i: float((1 + (top[1:] >= statistics[0, i]).sum()) / signs.shape[0]) for i in own}
-        sure = [i for i in own if chance[i] <= _LEVEL_OF_FLIPS]
-        sure = [i for i in sure if _along(rest, data.base[output], tests[i][3]) == along]
+        sure = [i for i in own if chance[i] <= CHANCE]
+        sure = [i for i in sure if _along(rest, data.simulation.base[output], tests[i][3]) == along]
         if not sure:
             continue
         best = max(sure, key=lambda i: abs(float(plain[tests[i][3]].mean())))
@@ -146,10 +147,14 @@ def _axes(
     ]
 
 
+def _widths() -> list[int]:
+    """Numbers of neighbouring bins that are looked at together: 1, 2, 4 ... up to half of them."""
+    return [2**k for k in range(_BINS_OF_AXIS.bit_length() - 1)]
+
+
 def _direction(force: Array) -> Array:
     """Sign of a force, fading to zero where the force does."""
-    largest = float(np.quantile(np.abs(force), 0.99))
-    return np.sign(force) * np.minimum(np.abs(force) / (0.05 * largest + 1e-12), 1.0)
+    return np.sign(force) * np.minimum(np.abs(force) / (0.5 * _LEAST_FORCE * largest(force) + 1e-12), 1.0)
 
 
 def _along(rest: Array, force: Array, rows: Array) -> bool:
@@ -176,13 +181,30 @@ def _profile(values: Array, x: Array) -> Array:
 
 def _force(data: Data, output: str, rows: Array) -> float:
     """Mean size of the simulated force, N; NaN where it is too small for a share of it to mean something."""
-    size = np.abs(data.base[output])
+    size = np.abs(data.simulation.base[output])
     here = float(size[rows].mean())
-    return here if here > _LEAST_FORCE * float(np.quantile(size, 0.99)) else float("nan")
+    return here if here > _LEAST_FORCE * largest(size) else float("nan")
 
 
-def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -> dict[str, float]:
-    """Return the share of the force by which an output is off throughout, if that is most of the mismatch.
+@dataclass(frozen=True)
+class Throughout:
+    """How a force is off everywhere.
+
+    Parameters
+    ----------
+    mean : float
+        Mean of recorded minus simulated force, N.
+    share : float
+        Mean of the difference along the force over the mean size of the force; NaN where the force is off to
+        one side instead.
+    """
+
+    mean: float
+    share: float = float("nan")
+
+
+def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -> dict[str, Throughout]:
+    """Return by what an output is off throughout, if that is most of the mismatch: a share of it, or a force.
 
     Parameters
     ----------
@@ -194,17 +216,20 @@ def everywhere(data: Data, residual: dict[str, Array], located: list[Located]) -
     Returns
     -------
     dict
-        Output -> mean of the difference along the force over the mean size of the force.
+        Output -> how it is off.
     """
     out = {}
     for o, r in residual.items():
-        rows = np.abs(data.base[o]) > _LEAST_FORCE * float(np.quantile(np.abs(data.base[o]), 0.99))
-        if not rows.any() or not any(f.output == o and f.along_force for f in located):
-            continue
-        force = data.base[o]
-        whole = float((r[rows] * np.sign(force[rows])).mean() / np.abs(force[rows]).mean())
-        if np.sum((r - whole * force) ** 2) < (1.0 - _EVEN) * np.sum(r**2):
-            out[o] = whole
+        found = {f.along_force for f in located if f.output == o}
+        mean, force = float(r.mean()), data.simulation.base[o]
+        rows = np.abs(force) > _LEAST_FORCE * largest(force)
+        ways = [(np.sum((r - mean) ** 2), Throughout(mean))] if False in found else []
+        if True in found and rows.any():
+            share = float((r[rows] * np.sign(force[rows])).mean() / np.abs(force[rows]).mean())
+            ways.append((np.sum((r - share * force) ** 2), Throughout(mean, share)))
+        left, way = min(ways, key=lambda each: each[0], default=(np.inf, None))
+        if way is not None and left < (1.0 - _EVEN) * np.sum(r**2):
+            out[o] = way
     return out
 
 
@@ -239,7 +264,7 @@ def where(part: Array, data: Data) -> dict[str, tuple[float, float]]:
         values = data.get(axis)
         order = np.argsort(values, kind="stable")
         share = np.cumsum(energy[order]) / total
-        low, high = np.searchsorted(share, [0.05, 0.95])
+        low, high = np.searchsorted(share, [CHANCE, 1.0 - CHANCE])
         last = values.size - 1
         out[axis] = (float(values[order[min(low, last)]]), float(values[order[min(high, last)]]))
     return out

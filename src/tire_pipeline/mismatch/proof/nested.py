@@ -1,7 +1,7 @@
 """The choice repeated without each fifth of the sweeps: what it leaves on sweeps that it has not seen.
 
 Sets are weighed again without a fold, and the set that is named then predicts the fold by parameters that it
-has not fitted. Only which effects are fitted at all, and where each fit is linearised, has seen every sweep.
+has not fitted. Only which sets are weighed at all, and where each fit is linearised, has seen every sweep.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The residual above the noise after the effects: where, how large, and a Gaussian process for it."""
+"""The noise, and the residual above it after the effects: where, how large, and a Gaussian process for it."""
 
 from __future__ import annotations
 
@@ -7,14 +7,15 @@ from collections.abc import Mapping
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm, gaussian_form
+from tire_pipeline.mismatch.discrepancy.noise import estimate_noise, refined
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.locate import locate
 from tire_pipeline.mismatch.proof.measured import Remainder
-from tire_pipeline.mismatch.proof.noise_floor import noise_floors
 
 Array = np.ndarray
+_DEVIATION_SUFFIX = "_std"
 
 
 def unexplained(answer: SetAnswer) -> bool:
@@ -77,3 +78,34 @@ def gaussian_forms(analysis: Analysis, size: dict[str, float]) -> list[GaussianF
         gaussian_form(analysis.data, rest[o], o, analysis.block, analysis.noise[o].floor) for o in wanted
     ]
     return [f for f in forms if f is not None]
+
+
+def noise_floors(analysis: Analysis, *, settled: bool) -> dict[str, float]:
+    """Return the RMS of the noise of each output, N: at most what a smooth misfit leaves of the residual.
+
+    Noise may be slow, and so may physics without a name. Where the residual is not settled, noise is
+    therefore no more than what differs between neighbouring samples.
+
+    A recording may state how uncertain its channels are (``fy_std``, ``slip_angle_std``). Samples are weighed
+    by it, but it is no noise: much of it is the same throughout a drive, such as an axle mass or the place of
+    a marker, and what of it changes is in the samples already.
+
+    Parameters
+    ----------
+    analysis : Analysis
+        With the set that is named.
+    settled : bool
+        Whether the residual is explained, or of a size that fitted models usually leave.
+    """
+    data, fit = analysis.data, analysis.fit
+    rest = residual(data, fit.changes)
+    smooth = analysis.system.fitted(rest, fit.columns if fit.labels else None)
+    calm = {o: r - analysis.columns[o] @ smooth[o] for o, r in rest.items()}
+    noise = analysis.noise
+    if any(n.endswith(_DEVIATION_SUFFIX) for n in data.channels):
+        seen = estimate_noise(data, calm, stated=False)
+        noise = {o: refined(data, n, calm[o]) for o, n in seen.items()}
+    floors = {o: min(n.floor, rms(calm[o]), rms(rest[o])) for o, n in noise.items()}
+    if settled:
+        return floors
+    return {o: min(floors[o], n.floor) for o, n in estimate_noise(data, rest).items()}

@@ -155,8 +155,7 @@ class Rivals:
                 self.columns[o].T @ seen / (seen.size * self.products.largest[o] ** 2)
             )
             own[o][-1, -1] = residual.own[o][0, 0]
-            both = zip(self.base.parts[o], residual.parts[o], strict=True)
-            parts[o] = tuple(np.column_stack([columns[:, :-1], last]) for columns, last in both)
+            parts[o] = np.concatenate([self.base.parts[o][:, :, :-1], residual.parts[o]], axis=2)
         return Projected(own, parts)
 
 

@@ -48,7 +48,10 @@ def put_in(tire: Any, recording: pd.DataFrame, name: str, parameters: Mapping[st
     if type(effect).outputs is not Effect.outputs and not _of_the_tire(effect):
         zero = np.zeros(data.size)
         state = State(zero, zero, zero, data.get("normal_load"), zero, zero, zero, zero)
-        state.forces = {**data.all_base, **{o: recording[o].to_numpy(float) for o in data.outputs}}
+        state.forces = {
+            **data.simulation.both_forces,
+            **{o: recording[o].to_numpy(float) for o in data.outputs},
+        }
         effect.outputs(state, data, values)
         return recording.assign(**{o: state.forces[o] for o in data.outputs})
     absent = {**effect.zeros(data), **{k: v for k, v in values.items() if k == "reference"}}

@@ -24,6 +24,7 @@ from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.inference.sets.screen import screened_forms
 from tire_pipeline.mismatch.model.candidates import Variant
+from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.proof.beside import Beside
 from tire_pipeline.mismatch.proof.measured import Visible
@@ -81,7 +82,7 @@ class Sight:
         size = value + _RULED_OUT * self.error
         return size if size < largest(self.parameter) else np.inf
 
-    def values(self, data: object, size: float) -> dict[str, float]:
+    def values(self, data: Data, size: float) -> dict[str, float]:
         """Return the effect's parameters where this one alone is off by some size."""
         zero = self.variant.effect.zeros(data)
         return {**zero, **self.form, self.parameter.name: zero[self.parameter.name] + size}
@@ -260,7 +261,7 @@ def _moved(products: Projected, size: float) -> Projected:
     turn[count - 2, -1] = size
     return Projected(
         {o: turn.T @ a @ turn for o, a in products.own.items()},
-        {o: tuple(part @ turn for part in parts) for o, parts in products.parts.items()},
+        {o: parts @ turn for o, parts in products.parts.items()},
     )
 
 

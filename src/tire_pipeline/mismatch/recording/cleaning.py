@@ -15,7 +15,7 @@ import numpy as np
 
 from tire_pipeline.channels import POINT_CHANNELS, SLIP_AND_LOAD, shown_unit
 from tire_pipeline.mismatch.model.channels import CHANCE
-from tire_pipeline.mismatch.model.forces import plain_forces
+from tire_pipeline.mismatch.model.plain_forces import plain_forces
 from tire_pipeline.mismatch.model.residual import rms
 from tire_pipeline.mismatch.recording.smoothing import denoise
 

@@ -15,7 +15,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Effect, Finding
 from tire_pipeline.mismatch.effects.sensor.sign_convention import excludes_sae, turned
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, ENOUGH_ROWS, SLOW, moves
-from tire_pipeline.mismatch.model.forces import plain_forces
+from tire_pipeline.mismatch.model.plain_forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
 
 Array = np.ndarray
@@ -45,6 +45,7 @@ def repair(
     n = arrays["normal_load"].size
     bad = np.zeros(n, bool)
     findings: list[Finding] = []
+    run = partial(_run, tire)
     for effect in _found_in("samples"):
         if effect.needs_time and time is None:
             continue
@@ -52,7 +53,7 @@ def repair(
         if time is None:
             some["_steady_points"] = np.ones(1)
         rows = np.flatnonzero(~bad)
-        for finding in effect.detect(some, None):
+        for finding in effect.detect(some, run):
             hit = np.zeros(n, bool)
             hit[rows[finding.bad]] = True
             at = np.zeros(2) if time is None else time[hit]
@@ -61,7 +62,6 @@ def repair(
             findings.append(replace(finding, bad=hit, span=span))
     pick = np.flatnonzero(~bad)
     pick = pick[:: max(1, pick.size // ENOUGH_ROWS)]
-    run = partial(_run, tire)
     stated = {"_nominal_pressure": "NOMPRES", "_nominal_load": "FNOMIN"}
     c = tire.coefficients
     besides = {n: np.array([float(c[key])]) for n, key in stated.items() if c.get(key, 0.0) > 0.0}

@@ -12,7 +12,7 @@ import scipy
 from tire_pipeline.channels import SLIP_AND_LOAD, SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.mismatch.model.channels import ENOUGH_ROWS, least_spread, moves
-from tire_pipeline.mismatch.model.forces import plain_forces, slip_at_peak
+from tire_pipeline.mismatch.model.plain_forces import plain_forces, slip_at_peak
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.usable import LEAST, Drive, drives
 

@@ -14,7 +14,8 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.parameters.assumed_radius import assumed_radius
 from tire_pipeline.mismatch.effects.base import Finding
 from tire_pipeline.mismatch.effects.shared import relaxation_lengths
-from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.channels import RecordedChannels
+from tire_pipeline.mismatch.model.data import NO_CHOICES, Choices, Data
 from tire_pipeline.mismatch.recording.cleaning import Cleaning, clean
 from tire_pipeline.mismatch.recording.exact import open_axes, repair
 from tire_pipeline.mismatch.recording.given import check_tire, numeric
@@ -23,6 +24,7 @@ from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
 from tire_pipeline.mismatch.recording.usable import judge, leave_out_no_pressure, leave_out_still_slip
 from tire_pipeline.recordings.check import BRIDGED, LEAST_POINTS, LEAST_SAMPLES, LEAST_WHOLE, LONG_STEP
+from tire_pipeline.recordings.conventions.channel_names import FURTHER
 
 Array = np.ndarray
 ASSUMED_ZERO = ("camber", "slip_ratio", "slip_angle")
@@ -31,7 +33,7 @@ AS_GIVEN = "columns in ISO W axes and SI units, as they were given"
 _LEAST_RATE = 50.0
 
 
-@dataclass
+@dataclass(frozen=True)
 class Prepared:
     """The recording, cleaned.
 
@@ -110,7 +112,7 @@ def _cleaned(tire: Any, arrays: dict[str, Array], start: Array) -> tuple[dict[st
     return clean(tire, arrays, forces, start)
 
 
-def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
+def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -> Prepared:
     """Check a recording, repair what is exactly wrong, and bring it to arrays.
 
     Parameters
@@ -119,6 +121,8 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
         None if the recording has ``simulated_fy`` or ``simulated_fx``.
     recording : pandas.DataFrame
         Canonical columns, SI.
+    choices : Choices
+        What the user states in place of what the effects do.
 
     Raises
     ------
@@ -166,25 +170,31 @@ def prepare(tire: Any, recording: pd.DataFrame) -> Prepared:
     if own and time is not None and "speed" not in present:
         notes.append("speed is not recorded, so the relaxation lengths that the file states are left out")
     beside = None if beside is None else {n: arrays.pop(f"_beside_{n}") for n in beside}
-    data = Data(
-        tire=tire,
+    recorded = RecordedChannels(
         channels={n: a for n, a in arrays.items() if n not in TANGENTIAL_FORCES},
         recorded={n: arrays[n] for n in TANGENTIAL_FORCES if n in arrays and (beside is None or n in beside)},
         time=time,
         start=start,
         present=present,
-        beside=beside,
-        fixed={"own_relaxation": own},
     )
+    data = Data.of(tire, recorded, beside=beside, own_relaxation=own, choices=choices)
     return Prepared(data, findings, notes, rows, factors, cleaned, assumed, [q for q in asked if q])
 
 
 def _assumed(recording: pd.DataFrame, factors: Mapping[str, float]) -> list[str]:
     """What is taken for given: by the reader, and by the repair of exact factors."""
     assumed = list(recording.attrs.get("assumed", [AS_GIVEN]))
-    assumed += [t.replace(" from ", " converted from ", 1) for t in recording.attrs.get("conversions", [])]
+    converted = [t for t in recording.attrs.get("conversions", []) if not _of_unused(t)]
+    assumed += [t.replace(" from ", " converted from ", 1) for t in converted]
     assumed += [f"{n} is taken as {f:.6g} times what was recorded" for n, f in factors.items() if f != 1.0]
     return assumed
+
+
+def _of_unused(conversion: str) -> bool:
+    """Whether a conversion is of a channel that no explanation uses, such as a loaded radius."""
+    name = conversion.partition(":")[0]
+    further = name in {channel.name for channel in FURTHER} and name not in INPUT_CHANNELS
+    return further and not name.startswith("simulated_")
 
 
 def _arrays(recording: pd.DataFrame) -> dict[str, Array]:

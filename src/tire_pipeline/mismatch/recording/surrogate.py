@@ -11,7 +11,7 @@ import pandas as pd
 from tire_pipeline.channels import SLIP_AND_LOAD, TANGENTIAL_FORCES
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.model.channels import ENOUGH_ROWS
-from tire_pipeline.mismatch.model.forces import plain_forces
+from tire_pipeline.mismatch.model.plain_forces import plain_forces
 
 Array = np.ndarray
 

@@ -13,7 +13,7 @@ from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_AND_LOAD
 from tire_pipeline.mismatch.effects.sensor.unit_error import inflates_no_tire
 from tire_pipeline.mismatch.effects.shared import GAINS, LONGEST_DELAY
 from tire_pipeline.mismatch.model.channels import ABSOLUTE_SPREAD, SMALL, moves
-from tire_pipeline.mismatch.model.forces import plain_forces
+from tire_pipeline.mismatch.model.plain_forces import plain_forces
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.recordings.check import unit_stated
 

@@ -21,6 +21,7 @@ from tire_pipeline.mismatch.inference.sets.answer import LEVEL, SetAnswer
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.model.channels import CHANCE, ENOUGH_ROWS, one_sided, span
 from tire_pipeline.mismatch.model.forces import Change
+from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.model.residual import residual, rms
 from tire_pipeline.mismatch.proof.held_out import prove, prove_moments, recorded_moments
 from tire_pipeline.mismatch.proof.locate import everywhere, locate
@@ -31,9 +32,16 @@ from tire_pipeline.mismatch.proof.visible import visible
 from tire_pipeline.mismatch.recording.prepare import Prepared
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.found_effects import from_factors, from_fit
-from tire_pipeline.mismatch.report.left_out import reasons, state_units, with_reasons
 from tire_pipeline.mismatch.report.next_experiment import next_experiment
-from tire_pipeline.mismatch.report.remarks import on_expected, on_moments, on_several, on_withheld
+from tire_pipeline.mismatch.report.remarks import (
+    on_expected,
+    on_moments,
+    on_several,
+    on_withheld,
+    reasons,
+    state_units,
+    with_reasons,
+)
 from tire_pipeline.mismatch.report.result import MismatchReport
 from tire_pipeline.mismatch.report.sentences import head, on_question
 from tire_pipeline.mismatch.report.words import not_looked_for
@@ -92,7 +100,8 @@ def assembled(it: Explained) -> MismatchReport:
     withheld = tuple(n for n in analysis.fit.names if n not in put_in.names)
     inside = replace(analysis, fit=put_in)
     proved = {**prove(inside, unseen, noise), **prove_moments(inside)}
-    fit = as_recorded(proved, inside, model, it.recording, prepared.rows)
+    spoiled = any(finding.bad is not None for finding in prepared.findings)
+    fit = as_recorded(proved, inside, model, it.recording, prepared.rows, spoiled)
     unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit, equation)
     if unnamed is not None and unnamed.physics is not None and not effects:
         verdict = "unexplained"  # what was proved is no agreement, though it has no name
@@ -101,7 +110,8 @@ def assembled(it: Explained) -> MismatchReport:
     located = [] if silent else locate(data, before, analysis.noise, analysis.block)
     following = _following(it, verdict, plain)
     ranges, all_over = _ranges(analysis), everywhere(data, before, located)
-    told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed)
+    rivals = [each.names for each in answer.rivals]
+    told = head(verdict, effects, fit, located, left, following, ranges, all_over, unnamed, rivals)
     told = told.beside(
         on_withheld(withheld),
         on_several(effects if model.instead else []),
@@ -201,7 +211,8 @@ def _corrected(it: Explained, plain: CorrectedModel) -> tuple[CorrectedModel, Fi
 
     What was added, and the residual of unseen sweeps, come second and third.
     """
-    fit, left = harmless(it.analysis, it.sets, it.level)
+    likely = it.sets.with_mass(it.answer.probabilities, it.answer.named.names)
+    fit, left = harmless(it.analysis, likely, it.level)
     model = _model(it, fit.changes, _instead(it, fit))
     if fit.names and not _no_worse(it, model, plain):
         return plain, it.analysis.fit.part([], it.analysis.system), residual(it.analysis.data, [])
@@ -237,36 +248,36 @@ def _model(
     data, prepared = it.analysis.data, it.prepared
     outputs = tuple(prepared.data.outputs)
     load = data.get("normal_load")
-    reference: dict[str, Any] = {"scales": data.scales, "measured": tuple(sorted(data.present))}
-    reference["load_range"] = {"low": float(load.min()), "high": float(load.max())}
-    if "pressure" in data.present:
-        reference["pressure_nominal"] = data.pressure_nominal
-    if "speed" in data.present:
-        reference["speed_nominal"] = data.speed_nominal
+    reference = Reference(
+        scales=data.states.scales,
+        pressure_nominal=data.nominal.pressure if data.has("pressure") else None,
+        speed_nominal=data.nominal.speed if data.has("speed") else None,
+        load_range=(float(load.min()), float(load.max())),
+        measured=frozenset(data.present),
+    )
     every = [change for explanation in (changes, *(c for _, c in instead)) for change in explanation]
-    if any(catalogue()[n].quarter_turn(p) is not None for n, p in every):
-        reference["rolled"] = _rolled(it)
+    turning = any(catalogue()[n].quarter_turn(p) is not None for n, p in every)
     return CorrectedModel(
         data.tire,
         tuple(changes),
-        reference,
         outputs,
-        data.beside is not None,
-        recorded_moments(data),
+        reference,
+        stands_in=data.simulation.beside is not None,
+        moments=recorded_moments(data),
         factors=prepared.factors,
         limits=force_limits(prepared.findings, outputs),
         question=prepared.question,
         cleaned={c.channel: c.removed for c in prepared.cleaned if c.smoothed},
         instead=tuple(instead),
+        rolled=_rolled(it) if turning else None,
     ).cleaned_where_it_helps(it.recording)
 
 
 def _rolled(it: Explained) -> WheelWay:
     """Return where the wheel stood at each recorded sample."""
     data = it.prepared.data
-    assert data.time is not None  # what follows the wheel needs a time line
     speed = it.recording["speed"].to_numpy(dtype=float)[it.prepared.rows]
-    return WheelWay(data.time, speed * it.prepared.factors.get("speed", 1.0), data.wheel_way)
+    return WheelWay(data.time_line, speed * it.prepared.factors.get("speed", 1.0), data.wheel.way)
 
 
 def _unnamed(

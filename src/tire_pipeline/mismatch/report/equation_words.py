@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.report.words import newtons
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
 
-def on_unnamed(found: UnnamedReport | None, verdict: str) -> str:
-    """Return what is known about the unexplained residual, in a sentence or two; empty if nothing is."""
+def on_unnamed(found: UnnamedReport | None, verdict: str, rivals: Sequence[Sequence[str]] = ()) -> str:
+    """Return what is known about the unexplained residual, in a sentence or two; empty if nothing is.
+
+    Parameters
+    ----------
+    found : UnnamedReport, optional
+    verdict : str
+    rivals : sequence of sequence of str
+        Sets of effects of which each would explain it.
+    """
     if found is None or found.physics is None:
         return ""
     first = verdict in ("unexplained", "partly explained")
     what = "The unexplained residual" if first else "The remaining residual"
     text = (
-        f"{what} {_resembles(found)}. Of what was recorded, it depends most on "
+        f"{what} {_resembles(found, rivals)}. Of what was recorded, it depends most on "
         f"{_drivers(found)}. The corrected model contains an equation for it"
     )
     if verdict in ("unexplained", "undecided"):
@@ -40,8 +50,10 @@ def of_equation(found: UnnamedReport | None) -> str:
     return f"an equation in {_drivers(found)} takes the RMS error of {errors} on held-out sweeps"
 
 
-def _resembles(found: UnnamedReport) -> str:
+def _resembles(found: UnnamedReport, rivals: Sequence[Sequence[str]]) -> str:
     """Say which effects it could be taken for, if any."""
+    if not found.instead_of and rivals:
+        return "has several explanations in the catalogue"
     if not found.instead_of:
         return "does not look like any effect of the catalogue"
     names = " and ".join(catalogue()[name].title.lower() for name in found.instead_of)

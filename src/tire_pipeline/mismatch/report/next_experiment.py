@@ -57,16 +57,19 @@ def next_experiment(analysis: Analysis, answer: SetAnswer, model: CorrectedModel
     weights = np.array([p for _, p in rivals])
     most = float(scipy.stats.entropy(weights))
     best = max(gains, key=lambda text: gains[text])
+    settles = gains[best] >= 0.5 * most  # more than it leaves open
+    if answer.rivals:
+        return f"To tell the explanations apart, record {best}." if settles else ""
     names = next(group for group, _ in answer.sets if len(group) > 1)
     first, *others = (catalogue()[n] for n in names)
-    if gains[best] < 0.5 * most:  # it leaves more open than it settles
+    if not settles:
         return f"{first.experiment[:1].upper()}{first.experiment[1:]}."
     return f"To separate {first.title} from {' and '.join(o.title for o in others)}, record {best}."
 
 
 def _rivals(answer: SetAnswer) -> list[tuple[tuple[Change, ...], float]]:
-    """The effects that share the place of each name, with their probability."""
-    out = []
+    """What shares the place of each name, or the answer where none stands out; with probabilities."""
+    out = [(each.changes, answer.probabilities[each.names]) for each in answer.rivals]
     for group, sure in answer.sets:
         if len(group) > 1:
             for name in group:

@@ -1,14 +1,17 @@
-"""What a report says beside its head: what is not in the corrected model, or makes something worse."""
+"""What a report says beside its head: what is left out of the corrected model or the recording, and why."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 
-from tire_pipeline.channels import TANGENTIAL_FORCES
+from tire_pipeline.channels import INPUT_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.proof.measured import OutputFit
 from tire_pipeline.mismatch.report.contents import EffectReport
 from tire_pipeline.mismatch.report.words import newtons
+
+_NOTE = re.compile(rf"({'|'.join(INPUT_CHANNELS)}) is (?:.+ and )?left out: (.+?)(?:\. (?=[A-Z]).*)?")
 
 
 def on_withheld(names: Sequence[str]) -> str:
@@ -59,3 +62,40 @@ def on_expected(names: Sequence[str]) -> str:
         f"{titles[:1].upper()}{titles[1:]} {acts} on every tire, and the tire model has no coefficient for "
         f"{it}: in this recording {is_} too small to be told from the misfit of the formula."
     )
+
+
+def reasons(notes: Iterable[str]) -> dict[str, str]:
+    """Return why each channel that was recorded is left out, by what the notes say.
+
+    Examples
+    --------
+    >>> reasons(["pressure is left out: 7.5 to 8 Pa is no tire's. State its unit"])
+    {'pressure': "7.5 to 8 Pa is no tire's"}
+    """
+    found = (_NOTE.fullmatch(note) for note in notes)
+    return {match[1]: match[2] for match in found if match}
+
+
+def with_reasons(text: str, left_out: Mapping[str, str]) -> str:
+    """Return a text that does not call a channel *not recorded* which was left out.
+
+    Examples
+    --------
+    >>> with_reasons("pressure is not recorded", {"pressure": "its unit cannot be told"})
+    'pressure is left out (its unit cannot be told)'
+    """
+    for channel, why in left_out.items():
+        text = text.replace(f"{channel} is not recorded", f"{channel} is left out ({why})")
+    return text
+
+
+def state_units(notes: Iterable[str]) -> str:
+    """Return what to do next where a channel is left out because of its unit; "" if none is.
+
+    Examples
+    --------
+    >>> state_units(["pressure is left out: 75 Pa is no tire's, and its unit cannot be told. State it"])
+    'State the unit of pressure, which is left out, and explain again.'
+    """
+    of = [channel for channel, why in reasons(notes).items() if "unit" in why]
+    return f"State the unit of {' and '.join(of)}, which is left out, and explain again." if of else ""

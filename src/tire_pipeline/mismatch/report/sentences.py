@@ -9,17 +9,19 @@ import numpy as np
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.proof.locate import Located
+from tire_pipeline.mismatch.proof.locate import Located, Throughout
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.recording.open_questions import Question
-from tire_pipeline.mismatch.report.contents import EffectReport, HeldOutFit
+from tire_pipeline.mismatch.report.contents import EffectReport, Head, HeldOutFit
 from tire_pipeline.mismatch.report.equation_words import of_equation, on_unnamed
-from tire_pipeline.mismatch.report.head import Head
-from tire_pipeline.mismatch.report.words import figure, in_words, newtons, place
+from tire_pipeline.mismatch.report.words import figure, in_words, listed, newtons, place
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
 _FEW_STRETCHES = 3
 """More stretches of time are not listed in the summary; the report has them all."""
+
+_RIVALS_LISTED = 3
+"""So many explanations are named where each would do."""
 
 _HALF = 0.5
 _HARDLY = 0.2
@@ -46,8 +48,9 @@ def head(
     remainder: Remainder,
     next_experiment: str,
     ranges: Ranges | None = None,
-    even: Mapping[str, float] | None = None,
+    even: Mapping[str, Throughout] | None = None,
     unnamed: UnnamedReport | None = None,
+    rivals: Sequence[Sequence[str]] = (),
 ) -> Head:
     """Return the head of a report.
 
@@ -58,7 +61,9 @@ def head(
     ranges : mapping, optional
         Axis -> (lowest, highest) recorded, SI, to say "above" and "below" where a stretch ends there.
     even : mapping, optional
-        Output -> share of the force by which it is off throughout.
+        Output -> how it is off throughout.
+    rivals : sequence of sequence of str
+        Sets of effects of which one is the answer, where no name stands out.
     """
     fit = _forces(fit)
     if verdict == "agrees":
@@ -67,14 +72,15 @@ def head(
     if verdict == "undecided":
         causes, size = _SAID_IF_UNDECIDED, _undecided(fit, remainder)
     else:
-        causes = _causes(verdict, effects, remainder, ranges)
+        causes = _causes(verdict, effects, remainder, ranges, rivals)
         size = _size(effects, fit) or of_equation(unnamed)
     return Head(
         causes=causes,
         spot=_spot(effects, fit, located, remainder, ranges, even or {}),
         size=size,
         todo=_next(effects, next_experiment),
-        remarks=tuple(filter(None, [_more_left(remainder) if effects else "", on_unnamed(unnamed, verdict)])),
+        notes=tuple(filter(None, [_more_left(remainder) if effects else ""])),
+        equation=on_unnamed(unnamed, verdict, rivals),
     )
 
 
@@ -110,27 +116,20 @@ def with_held_out(told: Head, fit: HeldOutFit, effects: Sequence[EffectReport]) 
 
 
 def without_equation(
-    told: Head,
-    found: UnnamedReport,
-    verdict: str,
-    effects: Sequence[EffectReport],
-    fit: Mapping[str, OutputFit],
+    told: Head, verdict: str, effects: Sequence[EffectReport], fit: Mapping[str, OutputFit]
 ) -> Head:
     """Return a head without an equation that did not hold.
 
     Parameters
     ----------
     told : Head
-    found : UnnamedReport
-        With the equation.
     verdict, effects
         Of the report.
     fit : mapping of str to OutputFit
         Errors without the equation.
     """
-    remarks = tuple(remark for remark in told.remarks if remark != on_unnamed(found, verdict))
     size = told.size if verdict == "undecided" else _size(effects, _forces(fit))
-    return replace(told, size=size, remarks=remarks)
+    return replace(told, size=size, equation="")
 
 
 def _forces(fit: Mapping[str, OutputFit]) -> dict[str, OutputFit]:
@@ -203,9 +202,19 @@ def _than_usual(left: Remainder) -> str:
     )
 
 
-def _causes(verdict: str, effects: Sequence[EffectReport], remainder: Remainder, ranges: Ranges) -> str:
+def _causes(
+    verdict: str,
+    effects: Sequence[EffectReport],
+    remainder: Remainder,
+    ranges: Ranges,
+    rivals: Sequence[Sequence[str]],
+) -> str:
     """The verdict, the causes, and the unexplained residual."""
     left = _what_is_left(remainder, ranges)
+    if not effects and rivals:
+        sets = [" with ".join(catalogue()[n].title for n in names) for names in rivals[:_RIVALS_LISTED]]
+        sets += ["others"] if len(rivals) > len(sets) else []
+        return f"I can't tell which of these explains the difference{left}: {listed(sets)}"
     if not effects:
         return f"I can't tell: no effect of the catalogue explains the difference{left}"
     physics, faults, either = (
@@ -246,7 +255,7 @@ def _cause(effect: EffectReport, ranges: Ranges) -> str:
     apart = "this recording cannot tell them apart" if effect.alternatives else ""
     seen = f"seen {stretches}" if stretches else ""
     said = "; ".join(filter(None, [seen, apart]))
-    together = ", ".join([*names[:-1], f"or {names[-1]}"]) if len(names) > 2 else " or ".join(names)
+    together = listed(names)
     return f"{together} ({said})" if said else together
 
 
@@ -265,7 +274,7 @@ def _spot(
     located: Sequence[Located],
     remainder: Remainder,
     ranges: Ranges,
-    even: Mapping[str, float],
+    even: Mapping[str, Throughout],
 ) -> str:
     """Where they differ; nothing if an exact fault of the recording is all there is."""
     exact = bool(effects) and not any(np.isfinite(e.share) for e in effects)
@@ -318,7 +327,7 @@ def _to_both_sides(
     return f"{main.output.capitalize()} differs most {stretches}, to both sides"
 
 
-def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, float]) -> str:
+def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, Throughout]) -> str:
     """Where recorded and simulated force differ most."""
     top = max(located, key=lambda f: abs(f.mean))
     output = top.output
@@ -335,14 +344,18 @@ def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, float]
     best = max(own, key=lambda f: abs(f.mean))
     name = output.capitalize()
     if output in even:
-        word = "lower" if even[output] < 0.0 else "higher"
+        share = even[output].share
+        if not np.isfinite(share):
+            return f"{name} differs from the model by {even[output].mean:+,.3g} N throughout"
+        word = "lower" if share < 0.0 else "higher"
         most = f"most in newtons {where}: {newtons(abs(best.mean))} N"
-        return f"{name} is {abs(even[output]) * 100:.2g}% {word} than the model throughout ({most})"
+        return f"{name} is {abs(share) * 100:.2g}% {word} than the model throughout ({most})"
     much = _of_the_force(best.share)
     if best.along_force:
         word = "lower" if best.mean < 0.0 else "higher"
         return f"{where}, {name} is on average {newtons(abs(best.mean))} N ({much}) {word} than the model"
-    return f"{where}, {name} differs from the model by {best.mean:+,.3g} N on average ({much})"
+    sign = "-" if best.mean < 0.0 else "+"
+    return f"{where}, {name} differs from the model by {sign}{newtons(abs(best.mean))} N on average ({much})"
 
 
 def _of_the_force(share: float) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -23,7 +23,12 @@ def shown(axis: str, value: float) -> str:
 def figure(axis: str, value: float, size: float | None = None) -> str:
     """Return a value of an axis without its unit, which is that for values of some size."""
     factor = shown_unit(axis, value if size is None else size)[0]
-    return "0" if abs(value) < _FINEST.get(axis, 0.0) else f"{value * factor:.3g}"
+    return "0" if abs(value) < _FINEST.get(axis, 0.0) else _three_digits(value * factor)
+
+
+def _three_digits(value: float) -> str:
+    """Return at least three digits, without an exponent for thousands."""
+    return f"{value:,.0f}" if abs(value) >= 999.5 else f"{value:.3g}"
 
 
 def label(axis: str) -> str:
@@ -85,6 +90,17 @@ def in_words(text: str) -> str:
     return re.sub(rf"\b({'|'.join(n for n in names if '_' in n)})\b", lambda m: catalogue()[m[1]].title, text)
 
 
+def listed(texts: Sequence[str], word: str = "or") -> str:
+    """Return ``a``, ``a or b``, ``a, b, or c``.
+
+    Examples
+    --------
+    >>> listed(["wear", "temperature", "drift"])
+    'wear, temperature, or drift'
+    """
+    return ", ".join([*texts[:-1], f"{word} {texts[-1]}"]) if len(texts) > 2 else f" {word} ".join(texts)
+
+
 def shortened(text: str) -> str:
     """Return what was found in a channel as it stands after the effect's title.
 
@@ -118,8 +134,8 @@ def not_looked_for(absent: Mapping[str, str]) -> str:
     for name, why in absent.items():
         if type(catalogue()[name]).detect is Effect.detect:
             by_reason.setdefault(why, []).append(catalogue()[name].title)
-    reasons = [f"{', '.join(titles)}: {why}" for why, titles in by_reason.items()]
-    return f"effects that could not be tested are {'; '.join(reasons)}" if reasons else ""
+    reasons = [f"{', '.join(titles)} – {why}" for why, titles in by_reason.items()]
+    return f"effects that could not be tested: {'; '.join(reasons)}" if reasons else ""
 
 
 def place(axis: str, low: float, high: float, ranges: Mapping[str, tuple[float, float]]) -> str:

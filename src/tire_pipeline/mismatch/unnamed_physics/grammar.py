@@ -22,10 +22,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numba import njit
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.mismatch.effects.shared import play
-from tire_pipeline.mismatch.unnamed_physics.memories import lag
 
 Array = np.ndarray
 FUNCTIONS = ("abs", "sqrt", "sin", "cos", "exp", "tanh", "highest")
@@ -269,3 +269,21 @@ def number(value: float) -> str:
     """Return a number as the grammar writes it, exact to 1e-11 of itself, in brackets if negative."""
     text = f"{abs(value):.12g}"
     return f"(-{text})" if value < 0.0 and math.isfinite(value) else text
+
+
+@njit(cache=True)
+def lag(x: Array, gain: Array, start: Array) -> Array:
+    """Follow ``x`` with a lag: ``y += gain (x - y)``, and ``y = x`` where a piece starts.
+
+    Parameters
+    ----------
+    x, gain : ndarray, shape (n,)
+        ``gain`` is ``1 - exp(-step / lag)``.
+    start : ndarray of bool, shape (n,)
+    """
+    out = np.empty_like(x)
+    y = 0.0
+    for i in range(x.size):
+        y = x[i] if start[i] else y + gain[i] * (x[i] - y)
+        out[i] = y
+    return out

@@ -137,26 +137,23 @@ class Columns:
                 self._singles[term] = (sums.size[i], sums.ee[:, i], sums.er[:, i], *ne)
             self._residual[every] = sums
             self._singles.update({t: None for t in batch if t not in self._singles})
-        live = [t for t in dict.fromkeys(terms) if self._singles[t] is not None]
-        if not live:
+        known = {t: f for t in dict.fromkeys(terms) if (f := self._singles[t]) is not None}
+        if not known:
             return [], []
-        found = [self._singles[t] for t in live]
+        found = list(known.values())
         rest = self._residual[every]
         sums = Products(
-            np.array([f[0] for f in found]),  # type: ignore[index]
-            {
-                o: np.stack([f[3 + j] for f in found], axis=2)  # type: ignore[index]
-                for j, o in enumerate(self.problem.outputs)
-            },
+            np.array([f[0] for f in found]),
+            {o: np.stack([f[3 + j] for f in found], axis=2) for j, o in enumerate(self.problem.outputs)},
             rest.nr,
-            np.stack([f[1] for f in found], axis=1),  # type: ignore[index]
-            np.stack([f[2] for f in found], axis=1),  # type: ignore[index]
+            np.stack([f[1] for f in found], axis=1),
+            np.stack([f[2] for f in found], axis=1),
             rest.rr,
             rest.plain_ee,
             rest.plain_er,
             rest.plain_rr,
         )
-        return live, self.reduced(sums, inflation, kept, every)
+        return list(known), self.reduced(sums, inflation, kept, every)
 
     def products(self, terms: Sequence[Term]) -> tuple[list[Term], Products]:
         """Return the terms that do something, and all their sums over all rows."""

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
 
 import numpy as np
 
 from tire_pipeline.channels import SLIP_AND_LOAD, SLIP_OF_FORCE, TANGENTIAL_FORCES
-from tire_pipeline.mismatch.model.forces import Change, plain_forces, simulate
+from tire_pipeline.mismatch.model.data import Data
+from tire_pipeline.mismatch.model.forces import Change, simulate
+from tire_pipeline.mismatch.model.plain_forces import plain_forces
 from tire_pipeline.mismatch.unnamed_physics.grammar import SymbolTable
 
 Array = np.ndarray
@@ -62,7 +63,7 @@ class NominalValues:
 
 
 def table_of(
-    data: Any, changes: Sequence[Change], nominal: NominalValues | None = None
+    data: Data, changes: Sequence[Change], nominal: NominalValues | None = None
 ) -> tuple[SymbolTable, NominalValues]:
     """Return the symbols at the samples of a recording.
 
@@ -113,26 +114,27 @@ def table_from(
     return SymbolTable(columns, step, way, start)
 
 
-def _nominal(data: Any) -> NominalValues:
+def _nominal(data: Data) -> NominalValues:
     def middle(name: str, otherwise: float) -> float:
         return float(np.median(data.channels[name])) if name in data.present else otherwise
 
     return NominalValues(
-        F0=data.load_nominal,
-        R0=data.radius,
-        V0=max(float(data.speed_nominal), 1e-3) if "speed" in data.present else 1.0,
-        P0=float(data.pressure_nominal) if "pressure" in data.present else 1.0,
+        F0=data.nominal.load,
+        R0=data.nominal.radius,
+        V0=max(float(data.nominal.speed), 1e-3) if "speed" in data.present else 1.0,
+        P0=float(data.nominal.pressure) if "pressure" in data.present else 1.0,
         T0=round(middle("tread_temperature", 0.0), 1),
     )
 
 
-def _slopes(data: Any) -> dict[str, Array]:
+def _slopes(data: Data) -> dict[str, Array]:
     """The tire model's own slopes along the recording."""
     names = SLIP_AND_LOAD
-    more = {"speed": data.model_speed, "pressure": data.model_pressure}
+    speed, pressure = data.nominal.model_speed, data.nominal.model_pressure
 
     def at(**moved: Array) -> dict[str, Array]:
-        return plain_forces(data.tire, **{**{n: data.get(n) for n in names}, **moved}, **more)
+        points = {**{n: data.get(n) for n in names}, **moved}
+        return plain_forces(data.tire, **points, speed=speed, pressure=pressure)
 
     out = {}
     for force in TANGENTIAL_FORCES:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
@@ -246,7 +247,7 @@ def _finish(
     min_speed: float | None,
     rate: float | None,
     notes: list[str],
-    source: dict[object, object],
+    source: Mapping[Any, Any],
 ) -> pd.DataFrame:
     """Cut what is missing or too slow, thin, number the pieces, and write the attributes."""
     keep, limit = _usable(table, motion, vehicle, min_speed)
@@ -272,7 +273,7 @@ def _finish(
         "noise": motion.noise,
         "vehicle": asdict(vehicle),
         "min_speed": limit,
-        "notes": [*source.get("notes", []), *notes],  # type: ignore[misc]
+        "notes": [*source.get("notes", []), *notes],
     }
     return out
 

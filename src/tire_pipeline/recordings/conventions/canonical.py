@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError, did_you_mean
 from tire_pipeline.recordings.conventions.axis_systems import to_iso_w
-from tire_pipeline.recordings.conventions.channel_names import CANONICAL, Channel, find_channel
+from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHER, Channel, find_channel
 from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit
 from tire_pipeline.recordings.conventions.unrecognised import may_be, of_a_wheel
 
@@ -188,6 +188,7 @@ def _assign(
             where=source,
             todo="its channels are " + ", ".join(c.name for c in raw.channels[:30]),
         )
+    _check_told(names, source)
     best: dict[str, tuple[int, int]] = {}
     found: list[tuple[Channel, int] | None] = []
     for index, item in enumerate(raw.channels):
@@ -216,6 +217,22 @@ def _assign(
         taken.add(column)
         result.append((item, None, column))
     return result
+
+
+def _check_told(names: Mapping[str, str], source: str) -> None:
+    """What a column is said to be is a channel that is known."""
+    for column, told in names.items():
+        if told and find_channel(told) is None:
+            raise RecordingError(
+                f"column {column!r} is said to be {told!r}, which is no channel that is known",
+                where=source,
+                todo=did_you_mean(
+                    told,
+                    [channel.name for channel in (*CANONICAL, *FURTHER)],
+                    "the file's name stands first and the channel second, such as Querkraft=fy; "
+                    "docs/reference/recordings.md lists the channels",
+                ),
+            )
 
 
 def _to_si(

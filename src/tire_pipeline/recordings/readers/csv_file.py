@@ -101,10 +101,13 @@ def _find_layout(path: Path) -> _TableLayout:
             return layout
         if whole:
             break
+    lines = min(len(head.splitlines()), _MOST_PREAMBLE + 20)
     raise RecordingError(
-        f"no row of numbers in the first {min(len(head.splitlines()), _MOST_PREAMBLE + 20)} lines",
+        f"no row of numbers in the first {lines} lines"
+        if lines > 1
+        else "there is one line, and no row of numbers",
         where=str(path),
-        todo="give a text table with a header row",
+        todo="give a text table with the channels' names first and rows of numbers below them",
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -46,12 +47,12 @@ def read_mdf(path: Path) -> RawRecording:
         ) from error
 
 
-def _collect(file: object) -> RawRecording:
+def _collect(file: Any) -> RawRecording:
     """All numeric channels on the time base of the group with most samples."""
     notes: list[str] = []
     groups: list[tuple[np.ndarray | None, list[RawChannel]]] = []
-    for index, group in enumerate(file.groups):  # type: ignore[attr-defined]
-        master_index = file.masters_db.get(index)  # type: ignore[attr-defined]
+    for index, group in enumerate(file.groups):
+        master_index = file.masters_db.get(index)
         master: np.ndarray | None = None
         channels: list[RawChannel] = []
         for number, channel in enumerate(group.channels):
@@ -60,7 +61,7 @@ def _collect(file: object) -> RawRecording:
             if channel.data_type > _LARGEST_NUMERIC_TYPE or channel.channel_type == _VARIABLE_LENGTH:
                 notes.append(f"{channel.name}: no plain numbers, left out")
                 continue
-            signal = file.get(group=index, index=number)  # type: ignore[attr-defined]
+            signal = file.get(group=index, index=number)
             samples = np.asarray(signal.samples)
             if samples.ndim != 1 or samples.dtype.kind not in "fiub":
                 notes.append(f"{channel.name}: no plain numbers, left out")

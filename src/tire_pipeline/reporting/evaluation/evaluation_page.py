@@ -142,7 +142,8 @@ def _forces(table: pd.DataFrame, references: pd.DataFrame, best: dict[str, Any],
     return Figure(
         force_figure(table, references, best),
         f"Lateral force over slip angle at 6 kN: solid as each source measured, dashed as the {best['name']} "
-        f"translated{beside if len(references) else ''}.",
+        f"translated{beside if len(references) else ''}. A file that was not "
+        "translated has its solid line only.",
         heading="Force curves",
     )
 

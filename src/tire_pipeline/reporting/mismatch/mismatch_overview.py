@@ -157,8 +157,8 @@ def _in_one_table(rows: list[dict[str, str]]) -> Table:
     )
     return Table(
         table.rename(columns=_HEADS),
-        "Run: when the report was made, for earlier runs. Effects are what the model left out, by their "
-        "names; alternatives cannot be told from them by these recordings.",
+        "Run: when the report was made, for earlier runs. Effects: what the model left out, or the fault of "
+        "the recording. Alternatives cannot be told from them by these recordings.",
         heading="In one table",
         most_rows=1000,
     )

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 import pandas as pd
 
 from tire_pipeline.classifiers.open_set import LEAST_PROBABILITY, LEAST_TYPICALITY
+from tire_pipeline.pages.visible_text import visible
 from tire_pipeline.progress import track
 from tire_pipeline.reporting import Table
 from tire_pipeline.reporting.translation.drawn_files import DrawnFiles
@@ -21,6 +22,7 @@ _PROTOCOLS = (
     "counts by its date; one without a date counts as the mean of both protocols. Of the target, the "
     "newest protocol counts."
 )
+_MOST_REASONS = 5
 
 
 def translate_page(
@@ -95,6 +97,8 @@ def _outcome(report: pd.DataFrame, own: set[str], target: str, parameters: Trans
             f"This run was restricted: {asked}. This page shows these files only. Other files that earlier "
             "runs translated stay in 07_model_output/translated until a run without the restriction."
         )
+    if why := _why_refused(report):
+        lines.append(f"Refused: {why}. The page gives the whole reason for each file.")
     translated = report[report["verdict"] == TRANSLATED]
     if len(translated):
         middle = translated["expected_rms_ratio"].median()
@@ -114,12 +118,24 @@ def _asked_for(parameters: TranslateParameters) -> str:
 
 
 def _counted(report: pd.DataFrame, target: str) -> str:
-    counts = report["verdict"].value_counts().to_dict()
+    targets = (report["source"] == target).to_numpy()
+    counts = report.loc[~targets, "verdict"].value_counts().to_dict()
     first = [f"{counts.pop(TRANSLATED, 0):,} translated to {target}", f"{counts.pop(REFUSED, 0):,} refused"]
     if unknown := counts.pop(UNKNOWN, 0):
         first.append(f"{unknown:,} of an unknown supplier")
     others = [f"{count:,} {verdict}" for verdict, count in counts.items()]
+    if measured := int(targets.sum()):
+        others.append(f"{measured:,} measured by {target} itself")
     return ", ".join([*first, *others])
+
+
+def _why_refused(report: pd.DataFrame) -> str:
+    """The reasons without their details, the most frequent first, with how many files each holds for."""
+    reasons = report.loc[report["verdict"] == REFUSED, "reason"].astype(str)
+    counts = reasons.map(lambda reason: reason.partition(": ")[0]).value_counts()
+    shown = [f"{visible(str(why))} ({count:,})" for why, count in counts.iloc[:_MOST_REASONS].items()]
+    others = int(counts.iloc[_MOST_REASONS:].sum())
+    return "; ".join([*shown, *([f"other reasons ({others:,})"] if others else [])])
 
 
 def _explained(report: pd.DataFrame, parameters: TranslateParameters) -> list[str]:
@@ -132,9 +148,11 @@ def _explained(report: pd.DataFrame, parameters: TranslateParameters) -> list[st
         "nothing beyond 5%.",
         "Left alone: too little would be gained, or the bias cannot be told from chance, as with few "
         "training files.",
-        "Refused: the file cannot be read or translated, or its tire is too far from those learned from.",
+        "Refused: the file cannot be read or is of version 6.x, no physical tire was found, or its tire is "
+        "too far from those learned from.",
         "Unknown supplier: too few files of this folder were learned from to know its bias.",
-        f"Only translated files are written, none beyond {reach}. Errors are RMS.",
+        f"Only translated files are written, none beyond {reach}. Errors are RMS of side and longitudinal "
+        "force; the aligning torque is translated, but is not among them.",
         f"Method: {parameters.translator.replace('_', ' ')}. Tires that several organisations measured were "
         + ("used." if parameters.pairs else "not used."),
     ]

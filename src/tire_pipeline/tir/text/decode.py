@@ -36,6 +36,8 @@ def load_bytes(source: str | os.PathLike[str] | bytes, path: str | None = None) 
             if isinstance(error, TirError):
                 raise
             why = getattr(error, "strerror", None) or str(error)
+            if isinstance(error, IsADirectoryError):
+                raise TirError("this is a folder", path=path, todo="give one .tir file") from error
             raise TirError(
                 f"cannot be read: {why}", path=path, todo="check the path and its permissions"
             ) from error

@@ -10,9 +10,13 @@ import numpy as np
 import pandas as pd
 from scipy.spatial import cKDTree
 
+from tire_pipeline.translation.curves.features import LOADS
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 
 _SHARE_INSIDE = 0.995  # share of the training data inside the edge
+
+OWN_LOAD = "own_nominal_load"
+"""Column with the nominal load that a file itself states, N, beside coefficients at another one."""
 
 
 @dataclass(frozen=True)
@@ -59,10 +63,14 @@ class TrainingReach:
         Returns
         -------
         ndarray, shape (n,)
-            1 at the edge. The larger of two: how far the metadata is from the target's nearest tire, and how
-            unlike the curves are to what is expected of such a tire in its category.
+            1 at the edge. The largest of three: how far the metadata is from the target's nearest tire, how
+            unlike the curves are to what is expected of such a tire in its category, and, for a tire that
+            carries other loads than those at which forces are judged, by which factor it does.
         """
         curves = _size(model, found) / self.surprise
+        if OWN_LOAD in table:
+            beyond = beyond_judged_loads(table[OWN_LOAD].to_numpy(dtype=float))
+            curves = np.maximum(curves, np.where(beyond > 1.0, beyond, 0.0))
         if not self.metadata.shape[1]:
             return curves
         nearest = cKDTree(self.metadata).query(model.metadata.regressors(table))[0] / self.gap
@@ -78,6 +86,11 @@ class TrainingReach:
         return cls(
             np.asarray(state["reach_metadata"]), float(state["reach_gap"]), float(state["reach_surprise"])
         )
+
+
+def beyond_judged_loads(load: np.ndarray) -> np.ndarray:
+    """Return by which factor loads (N) are outside of those at which forces are judged; up to 1 inside."""
+    return np.maximum(load / LOADS.max(), LOADS.min() / load)
 
 
 def _size(model: CurveMixedModel, found: Prediction) -> np.ndarray:

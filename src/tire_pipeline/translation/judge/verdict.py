@@ -121,7 +121,8 @@ class VerdictRules:
         if "version" in source:
             other = ~source["version"].astype(str).isin(VERSIONS).to_numpy()
             reason[other] = (
-                "its Magic Formula version is not 5.x: fit 5.2 to its forces first (fit_magic_formula)"
+                "its Magic Formula version is not 5.x: fit 5.2 to its forces first, as "
+                "docs/tutorials/your_supplier_files.md shows"
             )
         reason[category == self.target] = _OF_TARGET
         reason[~np.isin(category, model.categories)] = _NO_TRAINING_FILE

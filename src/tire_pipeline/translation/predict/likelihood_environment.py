@@ -8,7 +8,6 @@ pressure D would more probably have measured that, and it is still this tire".
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -153,7 +152,7 @@ class BatchLikelihoodEnvironment(VecEnv):
         super().__init__(count, single.observation_space, single.action_space)
         self.situation, self.curiosity = situation, curiosity
         self.rng = np.random.default_rng(seed)
-        self.actions = np.zeros((count, single.action_space.shape[0]))  # type: ignore[index]
+        self.actions = np.zeros((count, situation.scores.shape[1]))
 
     def reset(self) -> np.ndarray:
         """Take other tires."""
@@ -201,6 +200,6 @@ class BatchLikelihoodEnvironment(VecEnv):
         """Not offered: there are no single environments in here."""
         raise NotImplementedError(method_name)
 
-    def env_is_wrapped(self, wrapper_class: Any, indices: Any = None) -> Sequence[bool]:  # type: ignore[override]
+    def env_is_wrapped(self, wrapper_class: Any, indices: Any = None) -> list[bool]:
         """Tell for each tire that it is not wrapped."""
         return [False] * self.num_envs

@@ -120,8 +120,8 @@ def base(
         if unloaded_radius is None:
             unloaded_radius = ASSUMED_RADIUS
             notes.append(
-                f"UNLOADED_RADIUS = {ASSUMED_RADIUS:g} m is assumed; "
-                "the moments' coefficients are relative to it"
+                f"UNLOADED_RADIUS = {ASSUMED_RADIUS:g} m is assumed{_beside_loaded(recording)}; the moments' "
+                "coefficients are relative to it: state it with unloaded_radius (tire fit: --unloaded-radius)"
             )
     if unloaded_radius is not None:
         known["UNLOADED_RADIUS"] = float(unloaded_radius)
@@ -181,3 +181,9 @@ def braking_alone(points: Mapping[str, np.ndarray], fy: np.ndarray, most: int) -
     rolling, straight = pure(points)
     rows = np.flatnonzero(np.isfinite(fy) & straight & ~rolling)
     return rows[:: max(1, -(-rows.size // most))]
+
+
+def _beside_loaded(recording: pd.DataFrame) -> str:
+    """What the recording holds of the loaded radius, beside which an assumed radius is judged."""
+    loaded = _median(recording["loaded_radius"], 0.0) if "loaded_radius" in recording else 0.0
+    return f", and the median of the recorded loaded radius is {loaded:.3g} m" if loaded > 0.0 else ""

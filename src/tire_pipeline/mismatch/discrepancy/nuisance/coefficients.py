@@ -6,8 +6,8 @@ import numpy as np
 
 from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.model.data import Data
-from tire_pipeline.mismatch.model.forces import plain_forces
 from tire_pipeline.mismatch.model.nominal import OF_CAMBER
+from tire_pipeline.mismatch.model.plain_forces import plain_forces
 
 Array = np.ndarray
 At = dict[str, Array]
@@ -62,7 +62,7 @@ def shifts(data: Data, name: str, at: At) -> Array:
     slip, h = SLIP_OF_FORCE[name], 2e-3
     up, down = (plain_forces(data.tire, **{**at, slip: at[slip] + s * h})[name] for s in (1.0, -1.0))
     load = at["normal_load"]
-    return np.column_stack([np.full(load.size, data.load_nominal), load, up - down])
+    return np.column_stack([np.full(load.size, data.nominal.load), load, up - down])
 
 
 def _halves(data: Data, name: str, here: At, slopes: Array) -> Array:

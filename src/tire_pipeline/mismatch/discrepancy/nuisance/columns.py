@@ -18,7 +18,7 @@ from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import directions, jacobian, shifts
 from tire_pipeline.mismatch.discrepancy.nuisance.flexible import flexible_form
 from tire_pipeline.mismatch.discrepancy.nuisance.transients import fast_load, memory
-from tire_pipeline.mismatch.model.channels import least_spread
+from tire_pipeline.mismatch.model.channels import least_spread, span
 from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
@@ -118,20 +118,20 @@ def largest_force(data: Data, name: str) -> float:
 
     If this force is near zero, a fraction of the other one.
     """
-    sizes = {n: float(np.quantile(np.abs(data.base[n]), 0.995)) for n in data.outputs}
+    sizes = {n: float(np.quantile(np.abs(data.simulation.base[n]), 0.995)) for n in data.outputs}
     top = max(*sizes.values(), 1e-09)
     return sizes[name] if sizes[name] > 0.3 * top else 0.3 * top
 
 
 def _grid(data: Data) -> dict[str, Array]:
     """Even points over the recorded ranges: pure slip, slip with camber, combined slip, at five loads."""
-    low, high = np.quantile(data.get("normal_load"), [0.005, 0.995])
+    low, high = span(data.get("normal_load"))
     loads = np.linspace(low, high, 5) if data.varies("normal_load") else [_at_rest(data, "normal_load")]
     a, k = _range(data, "slip_angle", 31), _range(data, "slip_ratio", 21)
     turned, rolled, lean = (_at_rest(data, n) for n in ("slip_angle", "slip_ratio", "camber"))
     rows = [(x, rolled, lean, f) for f in loads for x in a]
     rows += [(turned, x, lean, f) for f in loads for x in k]
-    if data.varies("camber") and data.knows_camber:
+    if data.varies("camber") and data.nominal.knows_camber:
         leans = np.delete(_range(data, "camber", 5), 2)
         rows += [(x, rolled, g, f) for f in loads for g in leans for x in a[::2]]
         rows += [(turned, x, g, f) for f in loads for g in leans for x in k[::2]]

@@ -7,8 +7,9 @@ import numpy as np
 from tire_pipeline.channels import FORCE_OF_SLIP, SLIP_OF_FORCE
 from tire_pipeline.mismatch.discrepancy.nuisance.coefficients import ASYMMETRY_SHARE
 from tire_pipeline.mismatch.discrepancy.nuisance.transients import rate
+from tire_pipeline.mismatch.model.channels import largest, span
 from tire_pipeline.mismatch.model.data import Data
-from tire_pipeline.mismatch.model.forces import plain_forces
+from tire_pipeline.mismatch.model.plain_forces import plain_forces
 
 Array = np.ndarray
 At = dict[str, Array]
@@ -38,9 +39,9 @@ def flexible_form(
     kernels = [_Mirrored(points, mirror, sign, _SYMMETRIC_LENGTH, 1.0)]
     if mirror.min() < 0.0:
         kernels.append(_Mirrored(points, mirror, -sign, _ASYMMETRIC_LENGTH, ASYMMETRY_SHARE))
-    top = np.quantile(data.get("normal_load"), 0.99)
+    top = largest(data.get("normal_load"))
     slip, half = SLIP_OF_FORCE[name], _slip_at_half(data, name)
-    lean = max(float(np.quantile(np.abs(data.get("camber")), 0.99)), 0.01)
+    lean = max(largest(data.get("camber")), 0.01)
 
     def amplitude(point: dict[str, Array]) -> Array:
         size = 0.25 + 0.75 * np.clip(point["normal_load"] / top, 0.0, 1.2)
@@ -82,14 +83,12 @@ def _coordinates(data: Data, at: dict[str, Array]) -> tuple[Array, Array]:
             parts.append(2.0 / np.pi * np.arctan(at[slip] / half) / _LENGTHS_OF_INPUTS["slip"])
             mirror.append(-1.0 if slip == "slip_angle" else 1.0)
     if data.varies("normal_load"):
-        low, high = np.quantile(data.get("normal_load"), [0.005, 0.995])
+        low, high = span(data.get("normal_load"))
         load = (at["normal_load"] - 0.5 * (low + high)) / (0.5 * (high - low))
         parts.append(load / _LENGTHS_OF_INPUTS["normal_load"])
         mirror.append(1.0)
-    if data.varies("camber") and data.knows_camber:
-        parts.append(
-            at["camber"] / np.quantile(np.abs(data.get("camber")), 0.99) / _LENGTHS_OF_INPUTS["camber"]
-        )
+    if data.varies("camber") and data.nominal.knows_camber:
+        parts.append(at["camber"] / largest(data.get("camber")) / _LENGTHS_OF_INPUTS["camber"])
         mirror.append(-1.0)
     if not parts:
         return np.zeros((at["normal_load"].size, 1)), np.ones(1)
@@ -102,7 +101,7 @@ def _slip_at_half(data: Data, force: str) -> float:
     zero = np.zeros(200)
     args = {**dict.fromkeys(FORCE_OF_SLIP, zero), SLIP_OF_FORCE[force]: slip}
     f = np.abs(
-        plain_forces(data.tire, camber=zero, normal_load=np.full(200, data.load_nominal), **args)[force]
+        plain_forces(data.tire, camber=zero, normal_load=np.full(200, data.nominal.load), **args)[force]
     )
     k = max(f[0] / slip[0], 1e-9)
     return float(np.clip(f.max() / k, 0.005, 0.3))

@@ -25,10 +25,10 @@ def memory(data: Data, name: str) -> Array:
     if data.time is None or not data.varies(slip):
         return np.zeros((data.size, 0))
     speed = np.abs(data.get("speed")) if data.has("speed") else np.ones(data.size)
-    power = np.abs(data.base[name] * data.get(slip)) * speed
+    power = np.abs(data.simulation.base[name] * data.get(slip)) * speed
     power = power / max(float(np.quantile(power, 0.9)), 1e-12)
     lags = [first_order(power, 1.0 - np.exp(-data.step / lag), data.start) - power for lag in _MEMORY_SECONDS]
-    ways = (data.base[name], data.slope(slip)[name] * data.get(slip))
+    ways = (data.simulation.base[name], data.simulation.slope(slip)[name] * data.get(slip))
     return np.column_stack([way * lag for way in ways for lag in lags])
 
 
@@ -41,14 +41,16 @@ def fast_load(data: Data, name: str) -> Array:
     if data.time is None:
         return np.zeros((data.size, 0))
     load = data.get("normal_load")
-    change = (load - data.smooth("normal_load")) / np.maximum(load, 0.02 * data.load_nominal)
+    change = (load - data.smooth("normal_load")) / np.maximum(load, 0.02 * data.nominal.load)
     if not np.any(change):
         return np.zeros((data.size, 0))
     rates = [rate(data, data.running_mean(change, seconds)) for seconds in _BANDS]
     drivers = [change, *(each * (rms(change) / max(rms(each), 1e-12)) for each in rates)]
     slip = SLIP_OF_FORCE[name]
-    steeper = data.slope(slip)[name] * data.get(slip)
-    return np.column_stack([way * driver for way in (data.base[name], steeper) for driver in drivers])
+    steeper = data.simulation.slope(slip)[name] * data.get(slip)
+    return np.column_stack(
+        [way * driver for way in (data.simulation.base[name], steeper) for driver in drivers]
+    )
 
 
 def rate(data: Data, x: Array) -> Array:

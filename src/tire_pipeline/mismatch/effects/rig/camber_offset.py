@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 
 
 class CamberOffset(Effect):
@@ -29,12 +30,12 @@ class CamberOffset(Effect):
     experiment = "record the same sweep at camber of both signs"
     order = 10
 
-    def absent(self, data: object) -> str | None:
+    def absent(self, data: Context) -> str | None:
         """Ask for a model that knows camber."""
-        if not data.knows_camber:  # type: ignore[attr-defined]
+        if not data.nominal.knows_camber:
             return "the model does not answer to camber"
         return super().absent(data)
 
-    def inputs(self, state: State, data: object, p: Parameters) -> None:
+    def inputs(self, state: State, data: Context, p: Parameters) -> None:
         """Take the offset off."""
         state.camber = state.camber - p["offset"]

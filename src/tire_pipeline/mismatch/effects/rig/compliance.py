@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 
 
 class Compliance(Effect):
@@ -36,12 +37,12 @@ class Compliance(Effect):
     experiment = "record small-slip sweeps at three loads or more, one with brakes; or measure the toe"
     order = 20
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """Without a drive or brake force beside a slip angle nothing is known of what that does."""
-        return ("steer", "steer_by_fx") if data.has_combined else ("steer",)  # type: ignore[attr-defined]
+        return ("steer", "steer_by_fx") if data.has_combined else ("steer",)
 
-    def inputs(self, state: State, data: object, p: Parameters) -> None:
+    def inputs(self, state: State, data: Context, p: Parameters) -> None:
         """Turn the wheel by the forces that then act."""
-        load = data.load_nominal  # type: ignore[attr-defined]
-        turned = data.turned_by_force  # type: ignore[attr-defined]
+        load = data.nominal.load
+        turned = data.simulation.turned_by_force
         state.slip_angle = turned(state.slip_angle, p["steer"] / load, p["steer_by_fx"] / load)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.mismatch.effects.base import TOO_SMALL_TO_SEE, Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 
 _FORCE_PARAMETERS = ("cosine_y", "sine_y", "cosine_x", "sine_x")
 _WOBBLE = ("angle_cosine", "angle_sine", "load_cosine", "load_sine")
@@ -44,21 +45,21 @@ class Nonuniformity(Effect):
     experiment = "record straight rolling at two steady speeds: the frequency must follow the speed"
     order = 15
 
-    def absent(self, data: object) -> str | None:
+    def absent(self, data: Context) -> str | None:
         """Ask for enough samples a turn besides."""
         missing = super().absent(data)
-        if missing is None and not data.turns_resolved:  # type: ignore[attr-defined]
+        if missing is None and not data.wheel.turns_resolved:
             missing = "fewer than three samples a wheel turn"
         return missing
 
-    def starts(self, data: object) -> list[dict[str, float]]:
+    def starts(self, data: Context) -> list[dict[str, float]]:
         """In both forms, from the rolling radius at which the residual has most power of that form."""
-        force = data.rolling_radius()  # type: ignore[attr-defined]
-        wobble = data.rolling_radius(("slip_angle", "normal_load"))  # type: ignore[attr-defined]
+        force = data.wheel.rolling_radius()
+        wobble = data.wheel.rolling_radius(("slip_angle", "normal_load"))
         zero = self.zeros(data)
         return [{**zero, "radius": force}, {**zero, "radius": wobble, "angle_cosine": TOO_SMALL_TO_SEE}]
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """Return one form's parameters; the radius is found by the scan."""
         return _WOBBLE if start["angle_cosine"] else _FORCE_PARAMETERS
 
@@ -69,7 +70,7 @@ class Nonuniformity(Effect):
             out[cosine], out[sine] = p[sine], -p[cosine]
         return out
 
-    def inputs(self, state: State, data: object, p: Parameters) -> None:
+    def inputs(self, state: State, data: Context, p: Parameters) -> None:
         """Wobble slip angle and load."""
         if not any(p[n] for n in _WOBBLE):
             return
@@ -77,7 +78,7 @@ class Nonuniformity(Effect):
         state.slip_angle = state.slip_angle + p["angle_cosine"] * c + p["angle_sine"] * s
         state.normal_load = state.normal_load * (1.0 + p["load_cosine"] * c + p["load_sine"] * s)
 
-    def outputs(self, state: State, data: object, p: Parameters) -> None:
+    def outputs(self, state: State, data: Context, p: Parameters) -> None:
         """Add the harmonic."""
         if not any(p[n] for n in _FORCE_PARAMETERS):
             return
@@ -88,6 +89,6 @@ class Nonuniformity(Effect):
                 state.forces[f"f{axis}"] = state.forces[f"f{axis}"] + wave
 
     @staticmethod
-    def _turn(data: object, p: Parameters) -> tuple[np.ndarray, np.ndarray]:
-        phase = data.wheel_way / p["radius"]  # type: ignore[attr-defined]
+    def _turn(data: Context, p: Parameters) -> tuple[np.ndarray, np.ndarray]:
+        phase = data.wheel.way / p["radius"]
         return np.nan_to_num(np.cos(phase)), np.nan_to_num(np.sin(phase))  # NaN: the angle is not known

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 
 
 class SlipAngleOffset(Effect):
@@ -30,6 +31,6 @@ class SlipAngleOffset(Effect):
     experiment = "record a sweep to full sliding on both sides; turn the tire on its rim"
     order = 10
 
-    def inputs(self, state: State, data: object, p: Parameters) -> None:
+    def inputs(self, state: State, data: Context, p: Parameters) -> None:
         """Take the offset off."""
         state.slip_angle = state.slip_angle - p["offset"]

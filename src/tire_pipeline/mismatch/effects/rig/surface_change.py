@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 _STEP_SECONDS = 0.2
@@ -42,28 +43,28 @@ class SurfaceChange(Effect):
     experiment = "drive back onto the first surface"
     order = 40
 
-    def starts(self, data: object) -> list[dict[str, float]]:
+    def starts(self, data: Context) -> list[dict[str, float]]:
         """Try steps over the whole recording, and a steady change from its begin to its end.
 
         A step in a long gap between two pieces would look the same.
         """
-        first, last = data.time[0], data.time[-1]  # type: ignore[attr-defined]
+        first, last = data.time_line[0], data.time_line[-1]
         forms = [(m, _STEP_SECONDS) for m in np.linspace(first, last, 26)[1:-1]]
-        if np.max(np.diff(data.time)) < _LONGEST_GAP * (last - first):  # type: ignore[attr-defined]
+        if np.max(np.diff(data.time_line)) < _LONGEST_GAP * (last - first):
             forms.append((0.5 * (first + last), last - first))
         return [{"friction": 0.0, "moment": float(m), "duration": float(d)} for m, d in forms]
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """Friction, and the moment of a step; a steady change lasts the whole recording."""
         return ("friction", "moment") if start["duration"] <= _STEP_SECONDS else ("friction",)
 
-    def outside(self, data: object, p: Parameters) -> bool:
+    def outside(self, data: Context, p: Parameters) -> bool:
         """Ask for a twentieth of the recording before and after: at its ends it is something that settles."""
-        first, last = data.time[0], data.time[-1]  # type: ignore[attr-defined]
+        first, last = data.time_line[0], data.time_line[-1]
         edge = 0.05 * (last - first)
         return bool(not first + edge < p["moment"] < last - edge)
 
-    def tire(self, state: State, data: object, p: Parameters) -> None:
+    def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Change the friction."""
-        ramp = np.clip((data.time - p["moment"]) / max(p["duration"], _STEP_SECONDS) + 0.5, 0.0, 1.0)  # type: ignore[attr-defined]
+        ramp = np.clip((data.time_line - p["moment"]) / max(p["duration"], _STEP_SECONDS) + 0.5, 0.0, 1.0)
         state.log_friction = state.log_friction + safe_log1p(p["friction"] * ramp)

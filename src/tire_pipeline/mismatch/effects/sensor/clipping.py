@@ -8,6 +8,7 @@ import numpy as np
 import scipy
 
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
+from tire_pipeline.mismatch.effects.context import Context, Simulate
 from tire_pipeline.mismatch.effects.shared import CLIPPED
 
 
@@ -29,11 +30,11 @@ class Clipping(Effect):
     order = 99
     found_in = "samples"
 
-    def absent(self, data: object) -> str | None:
+    def absent(self, data: Context) -> str | None:
         """Never a candidate of the fit: at a limit samples stand, or there is none."""
         return "looked for in the channel itself, not by a fit"
 
-    def detect(self, channels: Mapping[str, Array], simulate: object) -> list[Finding]:
+    def detect(self, channels: Mapping[str, Array], simulate: Simulate) -> list[Finding]:
         """Find many samples exactly at one end of a channel's range."""
         found = []
         for name in CLIPPED:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tire_pipeline.mismatch.effects.base import TOO_SMALL_TO_SEE, Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 
 _OF_FORCES = ("into_fy", "into_fx")
 _OF_LOAD = ("load_into_fy", "load_into_fx")
@@ -41,31 +42,31 @@ class Crosstalk(Effect):
     experiment = "record a pure brake ramp, a pure slip-angle sweep, and straight rolling at three loads"
     order = 86
 
-    def absent(self, data: object) -> str | None:
+    def absent(self, data: Context) -> str | None:
         """Ask for both forces, or for a load that varies."""
         missing = super().absent(data)
         if missing is None and not self.starts(data):
             missing = "only one force is recorded, and the load does not vary"
         return missing
 
-    def starts(self, data: object) -> list[dict[str, float]]:
+    def starts(self, data: Context) -> list[dict[str, float]]:
         """With leaks of a load that varies, with leaks between two forces, and with all of these."""
         leaks: list[tuple[str, ...]] = []
-        if data.varies("normal_load"):  # type: ignore[attr-defined]
+        if data.varies("normal_load"):
             leaks.append(_OF_LOAD)
-        if "fx" in data.outputs and "fy" in data.outputs:  # type: ignore[attr-defined]
+        if "fx" in data.outputs and "fy" in data.outputs:
             leaks.append(_OF_FORCES)
         if len(leaks) > 1:
             leaks.append((*_OF_FORCES, *_OF_LOAD))
         return [{**self.zeros(data), **dict.fromkeys(names, TOO_SMALL_TO_SEE)} for names in leaks]
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """Return the leaks that a start has."""
         return tuple(p.name for p in self.parameters if start.get(p.name))
 
-    def outputs(self, state: State, data: object, p: Parameters) -> None:
+    def outputs(self, state: State, data: Context, p: Parameters) -> None:
         """Mix the forces."""
         fx, fy = state.forces["fx"], state.forces["fy"]
-        load = data.get("normal_load")  # type: ignore[attr-defined]
+        load = data.get("normal_load")
         state.forces["fy"] = fy + p["into_fy"] * fx + p["load_into_fy"] * load
         state.forces["fx"] = fx + p["into_fx"] * fy + p["load_into_fx"] * load

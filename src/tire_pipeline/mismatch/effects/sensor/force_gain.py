@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import GAINS
 
 
@@ -32,11 +33,11 @@ class ForceGain(Effect):
     experiment = "hang a known weight on the load cell; or one sweep to full sliding"
     order = 84
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """Gains of the forces that move."""
-        return tuple(n for n in data.outputs if data.driven(n))  # type: ignore[attr-defined]
+        return tuple(n for n in data.outputs if data.simulation.driven(n))
 
-    def outputs(self, state: State, data: object, p: Parameters) -> None:
+    def outputs(self, state: State, data: Context, p: Parameters) -> None:
         """Scale the forces."""
         for name in TANGENTIAL_FORCES:
             if name in state.forces:

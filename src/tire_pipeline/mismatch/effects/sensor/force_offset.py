@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 
 
 class ForceOffset(Effect):
@@ -32,7 +33,7 @@ class ForceOffset(Effect):
     experiment = "record straight rolling at three loads; read the load cell with the wheel lifted"
     order = 85
 
-    def outputs(self, state: State, data: object, p: Parameters) -> None:
+    def outputs(self, state: State, data: Context, p: Parameters) -> None:
         """Add the offsets."""
         for name in TANGENTIAL_FORCES:
             if name in state.forces:

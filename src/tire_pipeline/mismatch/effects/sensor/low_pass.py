@@ -6,6 +6,7 @@ import numpy as np
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import first_order
 
 
@@ -34,15 +35,15 @@ class LowPass(Effect):
     experiment = "record the same slip-angle sine at two speeds, up to where its amplitude falls"
     order = 94
 
-    def starts(self, data: object) -> list[dict[str, float]]:
+    def starts(self, data: Context) -> list[dict[str, float]]:
         """Three lags: of a filter, of a slow one, and of something that is late."""
         return [{"lag": lag} for lag in (0.02, 0.1, 0.6)]
 
-    def outputs(self, state: State, data: object, p: Parameters) -> None:
+    def outputs(self, state: State, data: Context, p: Parameters) -> None:
         """Filter the forces."""
         if p["lag"] <= 0.0:
             return
-        gain = 1.0 - np.exp(-data.step / p["lag"])  # type: ignore[attr-defined]
+        gain = 1.0 - np.exp(-data.step / p["lag"])
         for name in TANGENTIAL_FORCES:
             if name in state.forces:
-                state.forces[name] = first_order(state.forces[name], gain, data.start)  # type: ignore[attr-defined]
+                state.forces[name] = first_order(state.forces[name], gain, data.start)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
+from tire_pipeline.mismatch.effects.context import Simulate
 
 Array = np.ndarray
-Simulate = Callable[[Mapping[str, Array]], dict[str, Array]]
 
 FAR = 0.15
 """The model's force is far from zero beyond this part of its largest one (of either force)."""
@@ -55,7 +55,10 @@ def best_repair(
 
 
 def unexplained(
-    channels: Mapping[str, Array], simulate: Simulate, factors: Mapping[str, float], plain: dict[str, Array]
+    channels: Mapping[str, Array],
+    simulate: Simulate,
+    factors: Mapping[str, float],
+    plain: Mapping[str, Array],
 ) -> tuple[float, float]:
     """Return the unexplained share of the recorded forces' squares without and with a repair.
 

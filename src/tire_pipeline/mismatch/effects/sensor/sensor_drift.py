@@ -6,6 +6,7 @@ import numpy as np
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 
 _LEAST_LAG, _MOST_LAG = 1.0, 300.0
 """s, of a load cell or an amplifier that warms up."""
@@ -46,26 +47,26 @@ class SensorDrift(Effect):
     experiment = "record straight rolling at the start and at the end"
     order = 85
 
-    def starts(self, data: object) -> list[dict[str, float]]:
+    def starts(self, data: Context) -> list[dict[str, float]]:
         """In proportion to time, and settling within a twelfth or a third of the recording."""
-        zero, span = self.zeros(data), data.scales["time_span"]  # type: ignore[attr-defined]
+        zero, span = self.zeros(data), data.states.time_span
         lags = [lag for lag in (span / 12.0, span / 3.0) if _LEAST_LAG < lag < _MOST_LAG]
         return [zero, *({**zero, "lag": lag} for lag in lags)]
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """Return the drifts, and the lag of a drift that settles."""
         drifts = tuple(p.name for p in self.parameters if not p.form)
         return (*drifts, "lag") if start["lag"] else drifts
 
-    def outside(self, data: object, p: Parameters) -> bool:
+    def outside(self, data: Context, p: Parameters) -> bool:
         """Whether no device warms up so fast or so slowly."""
         return bool(p["lag"]) and not _LEAST_LAG <= p["lag"] <= _MOST_LAG
 
-    def outputs(self, state: State, data: object, p: Parameters) -> None:
+    def outputs(self, state: State, data: Context, p: Parameters) -> None:
         """Add the drift."""
-        so_far = np.clip(data.elapsed, 0.0, 1.0)  # type: ignore[attr-defined]
+        so_far = np.clip(data.states.elapsed, 0.0, 1.0)
         if p["lag"] > 0.0:
-            lags = data.scales["time_span"] / p["lag"]  # type: ignore[attr-defined]
+            lags = data.states.time_span / p["lag"]
             so_far = np.expm1(-lags * so_far) / np.expm1(-lags)
         for name in TANGENTIAL_FORCES:
             if name in state.forces:

@@ -10,7 +10,7 @@ import numpy as np
 
 from tire_pipeline.channels import SLIP_OF_FORCE
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
-from tire_pipeline.mismatch.effects.sensor.repairs import Simulate
+from tire_pipeline.mismatch.effects.context import Context, Simulate
 from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
 from tire_pipeline.recordings.check import LEAST_POINTS
 
@@ -64,11 +64,11 @@ class SignConvention(Effect):
     }
     experiment = "look at the axis system of the acquisition"
 
-    def absent(self, data: object) -> str | None:
+    def absent(self, data: Context) -> str | None:
         """Never a candidate of the fit: signs are tried before."""
         return "signs are tried before the fit"
 
-    def detect(self, channels: Mapping[str, Array], simulate: Simulate) -> list[Finding]:  # type: ignore[override]
+    def detect(self, channels: Mapping[str, Array], simulate: Simulate) -> list[Finding]:
         """Try all axis conventions of each force; load must be positive."""
         found = []
         load = channels["normal_load"]

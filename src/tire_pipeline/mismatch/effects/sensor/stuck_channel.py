@@ -8,6 +8,7 @@ import numpy as np
 
 from tire_pipeline.channels import OPERATING_CHANNELS
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
+from tire_pipeline.mismatch.effects.context import Context, Simulate
 from tire_pipeline.mismatch.effects.shared import CLIPPED
 
 _CHANNELS_LOOKED_AT = ("fy", "fx", "mz", *OPERATING_CHANNELS)
@@ -31,11 +32,11 @@ class StuckChannel(Effect):
     found_in = "samples"
     in_one_stretch = True
 
-    def absent(self, data: object) -> str | None:
+    def absent(self, data: Context) -> str | None:
         """Never a candidate of the fit: it is found in the channel itself."""
         return "looked for in the channel itself, not by a fit"
 
-    def detect(self, channels: Mapping[str, Array], simulate: object) -> list[Finding]:
+    def detect(self, channels: Mapping[str, Array], simulate: Simulate) -> list[Finding]:
         """Find long runs of one value in channels that otherwise change all the time."""
         found = []
         for name in _CHANNELS_LOOKED_AT:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from tire_pipeline.channels import TANGENTIAL_FORCES
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import delayed
 
 
@@ -31,13 +32,13 @@ class TimeDelay(Effect):
     experiment = "record the same slip-angle sine at two speeds; or tap the load cell and compare channels"
     order = 95
 
-    def starts(self, data: object) -> list[dict[str, float]]:
+    def starts(self, data: Context) -> list[dict[str, float]]:
         """Late by little or much, or early."""
-        sampling = data.sampling  # type: ignore[attr-defined]
+        sampling = data.sampling
         return [{"delay": d} for d in (0.02, 0.08, -0.03, 2.0 * sampling, 5.0 * sampling)]
 
-    def outputs(self, state: State, data: object, p: Parameters) -> None:
+    def outputs(self, state: State, data: Context, p: Parameters) -> None:
         """Shift the forces."""
         for name in TANGENTIAL_FORCES:
             if name in state.forces:
-                state.forces[name] = delayed(data.time, state.forces[name], p["delay"], data.start)  # type: ignore[attr-defined]
+                state.forces[name] = delayed(data.time_line, state.forces[name], p["delay"], data.start)

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Array, Effect, Finding
-from tire_pipeline.mismatch.effects.sensor.repairs import Simulate, best_repair
+from tire_pipeline.mismatch.effects.context import Context, Simulate
+from tire_pipeline.mismatch.effects.sensor.repairs import best_repair
 from tire_pipeline.recordings.conventions.plausible import PLAUSIBLE_VALUES, in_another_unit
 from tire_pipeline.unit_definitions import DEGREE, GRAVITY, POUND_FORCE, PSI
 
@@ -50,11 +51,11 @@ class UnitError(Effect):
     looks_like = {"force_gain": "a gain need not be an exact ratio"}
     experiment = "look at the channel's unit in the acquisition"
 
-    def absent(self, data: object) -> str | None:
+    def absent(self, data: Context) -> str | None:
         """Never a candidate of the fit: exact ratios are tried before."""
         return "exact ratios are tried before the fit"
 
-    def detect(self, channels: Mapping[str, Array], simulate: Simulate) -> list[Finding]:  # type: ignore[override]
+    def detect(self, channels: Mapping[str, Array], simulate: Simulate) -> list[Finding]:
         """Try the exact ratios: forces must fit far better, or the channel must be impossible as it is."""
         found = _pressure(channels) + _impossible(channels)
         channels = {**channels, **{n: x for f in found for n, x in f.repaired.items()}}

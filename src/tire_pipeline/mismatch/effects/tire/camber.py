@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 
 
 class Camber(Effect):
@@ -45,16 +47,16 @@ class Camber(Effect):
     experiment = "record the same slip sweep at camber of both signs and at zero"
     order = 40
 
-    def expected(self, data: object) -> bool:
+    def expected(self, data: Context) -> bool:
         """The file knows no camber: every tire answers to it (Pacejka, 3rd ed., 4.3.1)."""
-        return not data.knows_camber  # type: ignore[attr-defined]
+        return not data.nominal.knows_camber
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """All but the longitudinal friction where nothing brakes or drives."""
         names = tuple(p.name for p in self.parameters if p.name != "friction_loss_x")
-        return (*names, "friction_loss_x") if data.driven("fx") else names  # type: ignore[attr-defined]
+        return (*names, "friction_loss_x") if data.simulation.driven("fx") else names
 
-    def tire(self, state: State, data: object, p: Parameters) -> None:
+    def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Change friction and stiffness with camber."""
         g = state.camber
         loss = np.maximum(1.0 - p["friction_loss"] * g**2, 0.05)
@@ -64,14 +66,14 @@ class Camber(Effect):
         state.log_friction_y = state.log_friction_y + np.log(loss) - np.log(loss_x)
         state.log_stiffness_y = state.log_stiffness_y + np.log(soft)
         state.slip_angle = state.slip_angle + p["shift"] * g
-        excess = data.load_excess(state.normal_load)  # type: ignore[attr-defined]
+        excess = data.nominal.load_excess(state.normal_load)
         thrust = p["thrust"] + p["thrust_load"] * excess
         fade = 1.0 / np.sqrt(1.0 + (10.0 * state.slip_ratio) ** 2)
         state.added_y = state.added_y + state.normal_load * g * thrust * fade
 
-    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+    def coefficients(self, tire: TireModel, p: Parameters) -> dict[str, float]:
         """Add to PHY3, PVY3, PVY4, PDY3, PKY3, PDX3 (MF 5.x; 6.x keeps the shift in PVY3 and PKY6)."""
-        c = tire.coefficients  # type: ignore[attr-defined]
+        c = tire.coefficients
         names = {
             "PVY3": p["thrust"],
             "PVY4": p["thrust_load"],

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 
 _WEIGHT_COEFFICIENTS = ("RBX1", "RBX2", "RBY1", "RBY2")
 _TYPICAL = {"RBX1": 12.0, "RBX2": 12.0, "RBY1": 14.0, "RBY2": 10.0}
@@ -43,37 +45,37 @@ class CombinedSlip(Effect):
     experiment = "record brake ramps at three slip angles or more"
     order = 40
 
-    def absent(self, data: object) -> str | None:
+    def absent(self, data: Context) -> str | None:
         """Ask for points with both slips; one of them may stand still: brake ramps at one slip angle."""
         missing = super().absent(data)
-        if missing is None and not any(data.varies(n) for n in self.used):  # type: ignore[attr-defined]
+        if missing is None and not any(data.varies(n) for n in self.used):
             missing = "neither slip_angle nor slip_ratio varies"
-        if missing is None and not data.has_combined:  # type: ignore[attr-defined]
+        if missing is None and not data.has_combined:
             missing = "no points with slip angle and slip ratio together"
         return missing
 
-    def starts(self, data: object) -> list[dict[str, float]]:
+    def starts(self, data: Context) -> list[dict[str, float]]:
         """From the file's own values, or typical ones where it has none.
 
         Near zero the weighting does not answer to a coefficient at first order, and a fit would stay there.
         """
-        c = data.tire_coefficients  # type: ignore[attr-defined]
+        c = data.nominal.coefficients
         own = {n: float(c.get(n, 0.0)) for n in _WEIGHT_COEFFICIENTS}
         other = {n: own[n] if own[n] > 0.05 * _TYPICAL[n] else _TYPICAL[n] for n in _WEIGHT_COEFFICIENTS}
         return [{**other, "more_x": 0.0, "more_y": 0.0}, {**own, "more_x": 6.0, "more_y": 6.0}]
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """The file's own coefficients, or what comes on top of them."""
         return _MORE_WEIGHT if start["more_x"] else _WEIGHT_COEFFICIENTS
 
-    def zeros(self, data: object) -> dict[str, float]:
+    def zeros(self, data: Context) -> dict[str, float]:
         """Return the file's own values: there the effect is absent."""
-        c = data.tire_coefficients  # type: ignore[attr-defined]
+        c = data.nominal.coefficients
         return {**{n: float(c.get(n, 0.0)) for n in _WEIGHT_COEFFICIENTS}, "more_x": 0.0, "more_y": 0.0}
 
-    def tire(self, state: State, data: object, p: Parameters) -> None:
+    def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Replace the weighting coefficients."""
-        c = data.tire_coefficients  # type: ignore[attr-defined]
+        c = data.nominal.coefficients
         if p["more_x"] or p["more_y"]:
             return
         changes = {n: p[n] for n in _WEIGHT_COEFFICIENTS}
@@ -82,17 +84,17 @@ class CombinedSlip(Effect):
                 changes[f"RC{axis}1"] = 1.0
         state.coefficients.update(changes)
 
-    def outputs(self, state: State, data: object, p: Parameters) -> None:
+    def outputs(self, state: State, data: Context, p: Parameters) -> None:
         """Take more of each force by the other slip."""
         for force, name, slip in (("fx", "more_x", state.slip_angle), ("fy", "more_y", state.slip_ratio)):
             if p[name]:
                 state.forces[force] = state.forces[force] / np.sqrt(1.0 + (p[name] * slip) ** 2)
 
-    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+    def coefficients(self, tire: TireModel, p: Parameters) -> dict[str, float]:
         """RBX1, RBX2, RBY1, RBY2; a weighting on top of the file's own has no place."""
         if p["more_x"] or p["more_y"]:
             return {}
-        c = tire.coefficients  # type: ignore[attr-defined]
+        c = tire.coefficients
         out = {n: p[n] for n in _WEIGHT_COEFFICIENTS}
         out.update({n: 1.0 for n in ("RCX1", "RCY1") if not c.get(n, 0.0)})
         return out

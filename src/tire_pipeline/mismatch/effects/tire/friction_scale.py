@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 
@@ -39,24 +41,24 @@ class FrictionScale(Effect):
     experiment = "record one sweep to full sliding at small and at large load, with both forces recorded"
     order = 40
 
-    def starts(self, data: object) -> list[dict[str, float]]:
+    def starts(self, data: Context) -> list[dict[str, float]]:
         """Both forms where they differ: at combined slip."""
         zero = self.zeros(data)
-        return [zero, {**zero, "by_file": 1.0}] if data.has_combined else [zero]  # type: ignore[attr-defined]
+        return [zero, {**zero, "by_file": 1.0}] if data.has_combined else [zero]
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """The friction; the form is one of the two."""
         return ("friction",)
 
-    def tire(self, state: State, data: object, p: Parameters) -> None:
+    def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale the friction."""
         if p["by_file"] >= 0.5:
-            c = data.tire_coefficients  # type: ignore[attr-defined]
+            c = data.nominal.coefficients
             state.coefficients.update({n: c.get(n, 1.0) * (1.0 + p["friction"]) for n in ("LMUX", "LMUY")})
             return
         state.log_friction = state.log_friction + safe_log1p(p["friction"])
 
-    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+    def coefficients(self, tire: TireModel, p: Parameters) -> dict[str, float]:
         """LMUX and LMUY."""
-        c = tire.coefficients  # type: ignore[attr-defined]
+        c = tire.coefficients
         return {n: c.get(n, 1.0) * (1.0 + p["friction"]) for n in ("LMUX", "LMUY")}

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 
@@ -43,32 +45,32 @@ class LoadSensitivity(Effect):
     experiment = "record sweeps to full sliding at four loads or more"
     order = 40
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """One stiffness where one force alone is driven."""
-        both = data.driven("fx") and data.driven("fy")  # type: ignore[attr-defined]
+        both = data.simulation.driven("fx") and data.simulation.driven("fy")
         return ("rate", "stiffness", "lateral_stiffness") if both else ("rate", "stiffness")
 
-    def expected(self, data: object) -> bool:
+    def expected(self, data: Context) -> bool:
         """The recording's loads reach farther outside of the file's range than that range is wide.
 
         No tire's friction and stiffness are known so far from the loads they were fitted to (Pacejka, 3rd
         ed., 4.3.2: PDY2 and PKY2 take several loads).
         """
-        (low, high), load = data.load_range, data.get("normal_load")  # type: ignore[attr-defined]
+        (low, high), load = data.nominal.load_range, data.get("normal_load")
         return bool(max(low - np.min(load), np.max(load) - high) > high - low)
 
-    def tire(self, state: State, data: object, p: Parameters) -> None:
+    def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale friction and stiffness with load."""
-        excess = data.load_excess(state.normal_load)  # type: ignore[attr-defined]
+        excess = data.nominal.load_excess(state.normal_load)
         state.log_friction = state.log_friction + safe_log1p(p["rate"] * excess)
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * excess)
         state.log_stiffness_y = state.log_stiffness_y + safe_log1p(p["lateral_stiffness"] * excess)
 
-    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+    def coefficients(self, tire: TireModel, p: Parameters) -> dict[str, float]:
         """PDX2 and PDY2; a stiffness that is linear in load has no place beside PKY2."""
         if p["stiffness"] or p["lateral_stiffness"]:
             return {}
-        c = tire.coefficients  # type: ignore[attr-defined]
+        c = tire.coefficients
         out = {}
         for axis in "XY":
             peak, fall = c.get(f"PD{axis}1", 1.0), c.get(f"PD{axis}2", 0.0)

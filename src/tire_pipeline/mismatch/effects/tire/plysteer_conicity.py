@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import TOO_SMALL_TO_SEE, Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 
 
 class PlysteerConicity(Effect):
@@ -45,35 +47,35 @@ class PlysteerConicity(Effect):
     order = 12
     needed = ("conicity", "pseudo_camber", "thrust")
 
-    def starts(self, data: object) -> list[dict[str, float]]:
+    def starts(self, data: Context) -> list[dict[str, float]]:
         """As a force that stays, as one that fades, and as camber where the model knows camber."""
         zero = self.zeros(data)
         out = [zero, {**zero, "thrust": TOO_SMALL_TO_SEE}]
-        if data.knows_camber:  # type: ignore[attr-defined]
+        if data.nominal.knows_camber:
             out.append({**zero, "pseudo_camber": 1e-6})
         return out
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """Return the parameters of one of the three forms."""
         if start["pseudo_camber"]:
             return ("pseudo_camber", "ply_steer")
         return ("conicity", "thrust" if start["thrust"] else "ply_steer")
 
-    def inputs(self, state: State, data: object, p: Parameters) -> None:
+    def inputs(self, state: State, data: Context, p: Parameters) -> None:
         """Shift slip angle and camber."""
         state.slip_angle = state.slip_angle + p["ply_steer"]
         state.camber = state.camber + p["pseudo_camber"]
         if p["thrust"]:
-            shift = data.shift_by_thrust  # type: ignore[attr-defined]
+            shift = data.simulation.shift_by_thrust
             state.slip_angle = state.slip_angle + p["thrust"] * shift
 
-    def tire(self, state: State, data: object, p: Parameters) -> None:
+    def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Add the side force."""
         state.added_y = state.added_y + p["conicity"] * state.normal_load
 
-    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+    def coefficients(self, tire: TireModel, p: Parameters) -> dict[str, float]:
         """PVY1 and PHY1; an equivalent camber and a force that fades have no place."""
         if p["pseudo_camber"] or p["thrust"]:
             return {}
-        c = tire.coefficients  # type: ignore[attr-defined]
+        c = tire.coefficients
         return {"PVY1": c.get("PVY1", 0.0) + p["conicity"], "PHY1": c.get("PHY1", 0.0) + p["ply_steer"]}

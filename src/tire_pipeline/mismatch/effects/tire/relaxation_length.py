@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import first_order, relaxation_lengths
 
 _IN_RADII = (0.1, 4.0)
@@ -46,48 +48,48 @@ class RelaxationLength(Effect):
     experiment = "record the same slip-angle sine at two speeds that differ by a factor of two or more"
     order = 30
 
-    def starts(self, data: object) -> list[dict[str, float]]:
+    def starts(self, data: Context) -> list[dict[str, float]]:
         """Two sizes, in radii of the wheel, with the length constant or falling with slip."""
-        radius, zero = data.radius, self.zeros(data)  # type: ignore[attr-defined]
+        radius, zero = data.nominal.radius, self.zeros(data)
         return [{**zero, "length": s * radius, "fades": f} for s in (0.3, 1.2) for f in (0.0, 1.0)]
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """Return the length, its change with load, and along the wheel; it fades or not."""
         names = ["length"]
-        if data.varies("normal_load"):  # type: ignore[attr-defined]
+        if data.varies("normal_load"):
             names.append("load")
-        if data.driven("fx") and data.driven("fy"):  # type: ignore[attr-defined]
+        if data.simulation.driven("fx") and data.simulation.driven("fy"):
             names.append("along")
         return tuple(names)
 
-    def outside(self, data: object, p: Parameters) -> bool:
+    def outside(self, data: Context, p: Parameters) -> bool:
         """Whether no tire has such a length: it is a matter of the contact patch and the carcass."""
         low, high = _IN_RADII
-        return not low <= p["length"] / data.radius <= high  # type: ignore[attr-defined]
+        return not low <= p["length"] / data.nominal.radius <= high
 
-    def inputs(self, state: State, data: object, p: Parameters) -> None:
+    def inputs(self, state: State, data: Context, p: Parameters) -> None:
         """Lag the slips."""
         if p["length"] <= 0.0:
             return
-        step = data.step * np.maximum(np.abs(data.get("speed")), 0.1)  # type: ignore[attr-defined]
-        by_load = np.maximum(1.0 + p["load"] * data.load_excess(state.normal_load), 0.05)  # type: ignore[attr-defined]
-        slips = (("slip_angle", data.slope_share, 1.0), ("slip_ratio", data.slope_share_x, p["along"]))  # type: ignore[attr-defined]
+        step = data.step * np.maximum(np.abs(data.get("speed")), 0.1)
+        by_load = np.maximum(1.0 + p["load"] * data.nominal.load_excess(state.normal_load), 0.05)
+        slips = (
+            ("slip_angle", data.simulation.slope_share, 1.0),
+            ("slip_ratio", data.simulation.slope_share_x, p["along"]),
+        )
         for slip, share, along in slips:
             length = p["length"] * (1.0 - p["fades"] + p["fades"] * share) * by_load * along
             gain = 1.0 - np.exp(-step / np.maximum(length, 1e-3))
-            setattr(state, slip, first_order(getattr(state, slip), gain, data.start))  # type: ignore[attr-defined]
+            setattr(state, slip, first_order(getattr(state, slip), gain, data.start))
 
-    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+    def coefficients(self, tire: TireModel, p: Parameters) -> dict[str, float]:
         """PTY1, PTY2 and PTX1, so that the length at nominal load is the one found (MF 5.x).
 
         Nothing where the length was found to change with load.
         """
         if str(getattr(tire, "version", "5.2")).startswith("6") or p["load"]:
             return {}
-        zero, unit = (
-            relaxation_lengths(tire.replace(PTY1=one, PTY2=2.0, PTX1=one))  # type: ignore[attr-defined]
-            for one in (0.0, 1.0)
-        )
+        zero, unit = (relaxation_lengths(tire.replace(PTY1=one, PTY2=2.0, PTX1=one)) for one in (0.0, 1.0))
         across, along = (unit[slip] - zero[slip] for slip in ("slip_angle", "slip_ratio"))
         if not (across > 0.0 and along > 0.0):  # a scale factor of 0: no coefficient helps
             return {}

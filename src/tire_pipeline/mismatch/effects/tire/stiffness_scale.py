@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 
@@ -33,18 +35,18 @@ class StiffnessScale(Effect):
     experiment = "record small-slip sweeps at three loads, and one sweep to full sliding"
     order = 40
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """One stiffness where one force alone is driven."""
-        both = data.driven("fx") and data.driven("fy")  # type: ignore[attr-defined]
+        both = data.simulation.driven("fx") and data.simulation.driven("fy")
         return ("stiffness", "lateral_stiffness") if both else ("stiffness",)
 
-    def tire(self, state: State, data: object, p: Parameters) -> None:
+    def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale both slip stiffnesses."""
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"])
         state.log_stiffness_y = state.log_stiffness_y + safe_log1p(p["lateral_stiffness"])
 
-    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+    def coefficients(self, tire: TireModel, p: Parameters) -> dict[str, float]:
         """LKX and LKY."""
-        c = tire.coefficients  # type: ignore[attr-defined]
+        c = tire.coefficients
         both = {n: c.get(n, 1.0) * (1.0 + p["stiffness"]) for n in ("LKX", "LKY")}
         return {**both, "LKY": both["LKY"] * (1.0 + p["lateral_stiffness"])}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 
@@ -29,9 +30,9 @@ class TurnSlip(Effect):
     experiment = "record the same slip angles on paths of two radii"
     order = 40
 
-    def tire(self, state: State, data: object, p: Parameters) -> None:
+    def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Shift the slip angle, lower the friction."""
-        spin = data.get("turn_slip")  # type: ignore[attr-defined]
+        spin = data.get("turn_slip")
         state.slip_angle = state.slip_angle + p["shift"] * spin
-        loss = safe_log1p(-p["friction_loss"] * abs(spin) * data.radius)  # type: ignore[attr-defined]
+        loss = safe_log1p(-p["friction_loss"] * abs(spin) * data.nominal.radius)
         state.log_friction = state.log_friction + loss

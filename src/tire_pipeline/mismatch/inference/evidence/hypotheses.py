@@ -18,6 +18,8 @@ from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 
 Array = np.ndarray
+NO_MASS = 12.0
+"""Log odds to the likeliest hypothesis beyond which one has no mass, nor with other sizes or fewer sweeps."""
 
 
 @dataclass(frozen=True)
@@ -105,7 +107,8 @@ def log_evidence(
     likelihood, every = likelihood or Likelihood(case.unknown, sizes), hypotheses(case)
     weighed = every if which is None else [every[k] for k in which]
     asked_for = {each.names: each.effects for each in weighed}
-    known = {names: likelihood.projected(effects.products) for names, effects in asked_for.items()}
+    together = likelihood.projected_together([effects.products for effects in asked_for.values()])
+    known = dict(zip(asked_for, together, strict=True))
     return np.array([each.log_evidence(likelihood, known[each.names]) for each in weighed])
 
 

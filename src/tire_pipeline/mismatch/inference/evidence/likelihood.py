@@ -72,12 +72,12 @@ class Projected:
     Parameters
     ----------
     own : dict of ndarray, shape (m + 1, m + 1)
-    parts : dict of tuple of ndarray, shape (q, m + 1)
+    parts : dict of ndarray, shape (sizes, q, m + 1)
         For each output and each size, the products with the eigenvectors of what is never known.
     """
 
     own: Mapping[str, Array]
-    parts: Mapping[str, tuple[Array, ...]]
+    parts: Mapping[str, Array]
 
     def take(self, columns: Sequence[int] | Array) -> Projected:
         """Return those of some of the columns, with the residual."""
@@ -85,7 +85,7 @@ class Projected:
         picked = np.r_[np.asarray(columns, dtype=int), last]
         return Projected(
             {o: a[np.ix_(picked, picked)] for o, a in self.own.items()},
-            {o: tuple(part[:, picked] for part in parts) for o, parts in self.parts.items()},
+            {o: parts[:, :, picked] for o, parts in self.parts.items()},
         )
 
 
@@ -209,10 +209,19 @@ class Likelihood:
 
     def projected(self, products: ColumnProducts) -> Projected:
         """Return what :meth:`evidence` needs of some columns, for many choices among them."""
-        return Projected(
-            products.own,
-            {o: tuple(v.T @ products.nuisance[o] for _, v in cells) for o, cells in self._cells.items()},
-        )
+        return self.projected_together([products])[0]
+
+    def projected_together(self, every: Sequence[ColumnProducts]) -> list[Projected]:
+        """Return :meth:`projected` of each of many columns; one large product takes less time than many."""
+        parts: list[dict[str, Array]] = [{} for _ in every]
+        for o, cells in self._cells.items():
+            nuisance = [each.nuisance[o] for each in every]
+            cuts = np.cumsum([x.shape[1] for x in nuisance])[:-1]
+            whole = np.hstack(nuisance)
+            seen = np.array([v.T @ whole for _, v in cells])
+            for part, own in zip(parts, np.split(seen, cuts, axis=2), strict=True):
+                part[o] = own
+        return [Projected(each.own, part) for each, part in zip(every, parts, strict=True)]
 
     def evidence(
         self,
@@ -268,7 +277,7 @@ class Likelihood:
             weights, errors = {}, {}
             for o, own in known.own.items():
                 u = np.r_[-z * scale, 1.0]
-                values = self._values(o, float(u @ own @ u), [r @ u for r in known.parts[o]], wide=wide)
+                values = self._values(o, float(u @ own @ u), known.parts[o] @ u, wide=wide)
                 k, j = np.unravel_index(int(np.argmax(values)), values.shape)
                 weights[o] = Weights(self.count[o] / ERRORS[j] ** 2, *self._cells[o][k], int(k))
                 errors[o] = float(ERRORS[j])
@@ -300,11 +309,23 @@ class Likelihood:
             out[o] = (0.5 * precision[None, :, None] ** 2 / inner, -size - np.log(len(cells)))
         return out
 
-    def _values(self, o: str, power: float, parts: list[Array], *, wide: bool) -> Array:
-        """Return the log likelihood for each size of misfit and error, shape (cells, errors)."""
+    @cached_property
+    def _error_priors(self) -> Mapping[tuple[str, bool], Array]:
+        """For each output, log density of each size of error: of any size, or of the usual one."""
+        return {
+            (o, wide): self.learnt.log_error(ERRORS, self.unknown.white.get(o, 0.0), wide=wide)
+            for o in self._cells
+            for wide in (False, True)
+        }
+
+    def _values(self, o: str, power: float, seen: Array, *, wide: bool) -> Array:
+        """Return the log likelihood for each size of misfit and error, shape (cells, errors).
+
+        ``power`` is the squared size of a residual, ``seen`` (cells, q) its parts along the eigenvectors.
+        """
         weights, before = self._grid[o]
-        explained = (weights @ (np.array(parts) ** 2)[:, :, None])[:, :, 0]
-        prior = self.learnt.log_error(ERRORS, self.unknown.white.get(o, 0.0), wide=wide)
+        explained = (weights @ (seen**2)[:, :, None])[:, :, 0]
+        prior = self._error_priors[o, wide]
         return np.asarray(before + prior - 0.5 * self.count[o] / ERRORS**2 * power + explained)
 
 

@@ -77,6 +77,13 @@ class SetAnswer:
         return tuple(each for each in named if self.probabilities[each.names] > OPEN * most)
 
     @property
+    def rivals(self) -> tuple[OfSet, ...]:
+        """The likely sets, the likeliest first, where one of them is the answer and no name stands out."""
+        if self.sets or self.unnamed + self.agreement >= 1.0 - LEVEL:
+            return ()
+        return tuple(sorted(self.likely, key=lambda each: -self.probabilities[each.names]))
+
+    @property
     def names(self) -> Names:
         """First name of each set."""
         return tuple(names[0] for names, _ in self.sets)

@@ -4,14 +4,14 @@ pairs."""
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.background import make_background
 from tire_pipeline.mismatch.inference.analysis import Analysis
-from tire_pipeline.mismatch.inference.evidence.hypotheses import plain_evidence
+from tire_pipeline.mismatch.inference.evidence.hypotheses import NO_MASS, plain_evidence
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfCase, OfSet, RecordingProducts
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
@@ -42,6 +42,20 @@ class Enumerated:
     def case(self) -> OfCase:
         """What is kept of a recording to learn from."""
         return OfCase(self.likelihood.unknown, self.sets)
+
+    def with_mass(self, probabilities: Mapping[Names, float], named: Collection[str]) -> Enumerated:
+        """Return only the sets that have mass, and what remains of a named one without some of its effects.
+
+        Parameters
+        ----------
+        probabilities : mapping
+            Set of names -> probability.
+        named : collection of str
+        """
+        least = max(probabilities.values()) * np.exp(-NO_MASS)
+        likely = {names for names, p in probabilities.items() if p > least}
+        kept = [s for s in self.sets if s.names in likely or set(s.names) <= set(named)]
+        return replace(self, sets=tuple(kept))
 
 
 def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Names] = ()) -> Enumerated:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.mismatch.effects.base import TOO_SMALL_TO_SEE, Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 _WARMER = 25.0
@@ -54,27 +55,27 @@ class Temperature(Effect):
     experiment = "repeat the first sweep after cooling: temperature comes back, wear does not"
     order = 40
 
-    def absent(self, data: object) -> str | None:
+    def absent(self, data: Context) -> str | None:
         """Ask for a temperature channel, or for time to integrate one."""
-        if data.varies("tread_temperature"):  # type: ignore[attr-defined]
+        if data.varies("tread_temperature"):
             return None
-        if data.has("tread_temperature"):  # type: ignore[attr-defined]
+        if data.has("tread_temperature"):
             return "the tread temperature does not vary"
-        if data.time is None:  # type: ignore[attr-defined]
+        if data.time is None:
             return "neither tread temperature nor time is recorded"
-        if data.power is None:  # type: ignore[attr-defined]
+        if data.states.power is None:
             return "no speed, so that friction power is not known"
         return None
 
-    def lacking(self, data: object) -> list[str]:
+    def lacking(self, data: Context) -> list[str]:
         """Return the temperature, or what friction power is made of where the effect was found without it."""
         needed = "speed" if self.blind(data) else "tread_temperature"
-        lost = [] if data.has(needed) else [needed]  # type: ignore[attr-defined]
+        lost = [] if data.has(needed) else [needed]
         if needed == "tread_temperature":
             return lost
-        return [*lost, "time"] if data.time is None else lost  # type: ignore[attr-defined]
+        return [*lost, "time"] if data.time is None else lost
 
-    def starts(self, data: object) -> list[dict[str, float]]:
+    def starts(self, data: Context) -> list[dict[str, float]]:
         """Several references (where the model is right); several lags and two forms if there is no channel.
 
         The last reference is warmer than the recording: a tire may be measured warm and recorded cold. The
@@ -83,44 +84,43 @@ class Temperature(Effect):
         """
         friction = {"friction": 0.0, "curvature": 0.0, "stiffness": 0.0}
         every = {"friction": 0.0, "curvature": TOO_SMALL_TO_SEE, "stiffness": TOO_SMALL_TO_SEE}
-        if data.varies("tread_temperature"):  # type: ignore[attr-defined]
-            t = data.smooth("tread_temperature")  # type: ignore[attr-defined]
+        if data.varies("tread_temperature"):
+            t = data.smooth("tread_temperature")
             points = [*np.quantile(t, [0.02, 0.5, 0.95]), np.max(t) + _WARMER]
             return [{**every, "reference": float(v), "lag": 10.0} for v in points]
-        lags = [8.0, 20.0, 50.0, min(3.0 * data.scales["time_span"], 250.0)]  # type: ignore[attr-defined]
+        lags = [8.0, 20.0, 50.0, min(3.0 * data.states.time_span, 250.0)]
         places = [{"reference": r, "lag": lag} for lag in lags for r in (0.0, 0.5, 1.2)]
         return [{**form, **place} for form in (friction, every) for place in places]
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """Friction alone, or an optimum of it and stiffness, too; and what the channel does not say."""
         more = ("curvature", "stiffness") if start["stiffness"] else ()
         return ("friction", *more, "reference", *(("lag",) if self.blind(data) else ()))
 
-    def usual(self, data: object, name: str) -> tuple[float, float]:
+    def usual(self, data: Context, name: str) -> tuple[float, float]:
         """Place the reference, at which the model is right, near the middle of the recording."""
         if name != "reference":
             return super().usual(data, name)
         if self.blind(data):
             return 0.5, _AROUND_BLIND
-        return float(np.median(data.smooth("tread_temperature"))), _USUALLY_OFF  # type: ignore[attr-defined]
+        return float(np.median(data.smooth("tread_temperature"))), _USUALLY_OFF
 
-    def blind(self, data: object) -> bool:
+    def blind(self, data: Context) -> bool:
         """Without a temperature channel, now or where the effect was found."""
-        measured = data.fixed.get("measured")  # type: ignore[attr-defined]
-        return "tread_temperature" not in (data.present if measured is None else measured)  # type: ignore[attr-defined]
+        return "tread_temperature" not in data.measured
 
-    def other_forms(self, data: object, p: Parameters) -> list[dict[str, float]]:
+    def other_forms(self, data: Context, p: Parameters) -> list[dict[str, float]]:
         """Without a channel: a tire has more masses than one, which warm faster and slower."""
         if not self.blind(data):
             return []
         return [{**p, "lag": p["lag"] * factor} for factor in (3.0, 1.0 / 3.0)]
 
-    def tire(self, state: State, data: object, p: Parameters) -> None:
+    def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale friction and stiffness."""
         if self.blind(data):
-            d = data.heat(p["lag"]) - p["reference"]  # type: ignore[attr-defined]
+            d = data.states.heat(p["lag"]) - p["reference"]
         else:
-            d = (data.smooth("tread_temperature") - p["reference"]) / 50.0  # type: ignore[attr-defined]
+            d = (data.smooth("tread_temperature") - p["reference"]) / 50.0
         change = p["friction"] * d - p["curvature"] * d**2
         state.log_friction = state.log_friction + safe_log1p(change)
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * d)

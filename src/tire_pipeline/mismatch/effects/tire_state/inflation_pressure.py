@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 _OF_PRESSURE = "PPX1 PPX2 PPX3 PPX4 PPY1 PPY2 PPY3 PPY4".split()
@@ -43,43 +45,43 @@ class InflationPressure(Effect):
     experiment = "record the same sweep at three pressures, in an order that is not the order of time"
     order = 40
 
-    def absent(self, data: object) -> str | None:
+    def absent(self, data: Context) -> str | None:
         """Ask for a pressure that varies, or that is another one than the file's throughout."""
-        return None if data.off_pressure else super().absent(data)  # type: ignore[attr-defined]
+        return None if data.nominal.off_pressure else super().absent(data)
 
-    def starts(self, data: object) -> list[dict[str, float]]:
+    def starts(self, data: Context) -> list[dict[str, float]]:
         """Return each pressure at which the model may be right: the file's, or those of the recording."""
         zero = self.zeros(data)
-        return [{**zero, "reference": p} for p in data.pressure_levels]  # type: ignore[attr-defined]
+        return [{**zero, "reference": p} for p in data.nominal.pressure_levels]
 
-    def expected(self, data: object) -> bool:
+    def expected(self, data: Context) -> bool:
         """The file knows nothing of a pressure that varies: every tire answers (Besselink et al. 2010)."""
-        knows = any(data.tire_coefficients.get(n, 0.0) for n in _OF_PRESSURE)  # type: ignore[attr-defined]
-        return not knows and data.varies("pressure")  # type: ignore[attr-defined]
+        knows = any(data.nominal.coefficients.get(n, 0.0) for n in _OF_PRESSURE)
+        return not knows and data.varies("pressure")
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """All but the reference; one stiffness where one force alone is driven."""
-        both = data.driven("fx") and data.driven("fy")  # type: ignore[attr-defined]
+        both = data.simulation.driven("fx") and data.simulation.driven("fy")
         names: tuple[str, ...] = ("friction", "stiffness", "stiffness_curvature", "friction_curvature")
-        if data.varies("normal_load"):  # type: ignore[attr-defined]
+        if data.varies("normal_load"):
             names = (*names, "stiffness_load")
         return (*names, "lateral_stiffness") if both else names
 
-    def outside(self, data: object, p: Parameters) -> bool:
+    def outside(self, data: Context, p: Parameters) -> bool:
         """Whether the stiffness changes by more than a factor of three at a pressure of the recording."""
-        factor = 1.0 + _bent(p, _excess(data, p), data.load_excess(data.get("normal_load")))  # type: ignore[attr-defined]
+        factor = 1.0 + _bent(p, _excess(data, p), data.nominal.load_excess(data.get("normal_load")))
         return bool(np.min(factor) < 1.0 / 3.0 or np.max(factor) > 3.0)
 
-    def tire(self, state: State, data: object, p: Parameters) -> None:
+    def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale friction and stiffness with pressure."""
         d = _excess(data, p)
         friction = p["friction"] * d + p["friction_curvature"] * d**2
         state.log_friction = state.log_friction + safe_log1p(friction)
-        load = data.load_excess(state.normal_load)  # type: ignore[attr-defined]
+        load = data.nominal.load_excess(state.normal_load)
         state.log_stiffness = state.log_stiffness + safe_log1p(_bent(p, d, load))
         state.log_stiffness_y = state.log_stiffness_y + safe_log1p(p["lateral_stiffness"] * d)
 
-    def coefficients(self, tire: object, p: Parameters) -> dict[str, float]:
+    def coefficients(self, tire: TireModel, p: Parameters) -> dict[str, float]:
         """PPX1, PPX3, PPX4, PPY1, PPY3, PPY4 of MF 6.x.
 
         It has no place for a lateral stiffness that bends, and PPY2 for one that changes with load is another
@@ -88,7 +90,7 @@ class InflationPressure(Effect):
         bent = p["stiffness_curvature"] != 0.0 or p["stiffness_load"] != 0.0
         if not str(getattr(tire, "version", "")).startswith("6") or bent:
             return {}
-        c = tire.coefficients  # type: ignore[attr-defined]
+        c = tire.coefficients
         return {
             "PPX1": c.get("PPX1", 0.0) + p["stiffness"],
             "PPX3": c.get("PPX3", 0.0) + p["friction"],
@@ -99,9 +101,9 @@ class InflationPressure(Effect):
         }
 
 
-def _excess(data: object, p: Parameters) -> np.ndarray:
-    reference = p["reference"] or data.pressure_nominal  # type: ignore[attr-defined]
-    return (data.smooth("pressure") - reference) / reference  # type: ignore[attr-defined]
+def _excess(data: Context, p: Parameters) -> np.ndarray:
+    reference = p["reference"] or data.nominal.pressure
+    return (data.smooth("pressure") - reference) / reference
 
 
 def _bent(p: Parameters, d: np.ndarray, load: np.ndarray) -> np.ndarray:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 
@@ -47,21 +48,21 @@ class SpeedDependence(Effect):
     experiment = "record the same sweep at three speeds, with pauses to cool"
     order = 40
 
-    def starts(self, data: object) -> list[dict[str, float]]:
+    def starts(self, data: Context) -> list[dict[str, float]]:
         """Return the logarithmic and the linear form."""
         zero = self.zeros(data)
         return [zero, {**zero, "linear": 1.0}]
 
-    def free(self, data: object, start: Parameters) -> tuple[str, ...]:
+    def free(self, data: Context, start: Parameters) -> tuple[str, ...]:
         """Return friction and stiffness, and friction by sliding speed; the form is one of the two."""
         return ("friction", "stiffness", "sliding")
 
-    def tire(self, state: State, data: object, p: Parameters) -> None:
+    def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale friction and stiffness with speed."""
-        d = data.speed_excess  # type: ignore[attr-defined]
+        d = data.nominal.speed_excess
         if p["linear"] < 0.5:
             d = np.log(np.maximum(1.0 + d, 0.02))
         slides = np.hypot(np.tan(np.clip(state.slip_angle, -1.4, 1.4)), state.slip_ratio)
-        faster = slides * data.speed_excess  # type: ignore[attr-defined]
+        faster = slides * data.nominal.speed_excess
         state.log_friction = state.log_friction + safe_log1p(p["friction"] * d - p["sliding"] * faster)
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * d)

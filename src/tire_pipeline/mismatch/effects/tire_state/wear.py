@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
+from tire_pipeline.mismatch.effects.context import Context
 from tire_pipeline.mismatch.effects.shared import safe_log1p
 
 
@@ -35,8 +36,8 @@ class Wear(Effect):
     experiment = "repeat the first sweep at the end, after cooling"
     order = 40
 
-    def tire(self, state: State, data: object, p: Parameters) -> None:
+    def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale friction and stiffness with the work done."""
-        w = data.work  # type: ignore[attr-defined]
+        w = data.states.work
         state.log_friction = state.log_friction + safe_log1p(p["friction"] * w)
         state.log_stiffness = state.log_stiffness + safe_log1p(p["stiffness"] * w)
