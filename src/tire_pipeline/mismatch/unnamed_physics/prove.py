@@ -21,7 +21,7 @@ from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 Array = np.ndarray
 _LEAST_GONE = 0.03
 """Least share of the squared mismatch that has to go on unseen sweeps."""
-_LEVEL = CHANCE / 9.0
+_LEVEL_OF_PROOF = CHANCE / 9.0
 """Of the test over sweeps, of which a force has nine: two views of all forces and one of it alone, each with
 one term, two and three."""
 _NEAR_MOST = 0.95
@@ -104,7 +104,7 @@ def judged(columns: Columns, predicted: Mapping[str, Array], choices: int) -> Pr
         gain[o] = np.bincount(problem.block, (before**2 - after**2) / size, sweeps)
         gone[o] = 1.0 - float(np.mean(after**2)) / size
         chance[o] = chance_of_no_gain(gain[o])
-    good = tuple(o for o in gain if gone[o] >= _LEAST_GONE and chance[o] < _LEVEL)
+    good = tuple(o for o in gain if gone[o] >= _LEAST_GONE and chance[o] < _LEVEL_OF_PROOF)
     if not good:
         return Proven(predicted, choices, 0, sweeps, min(chance.values(), default=1.0), 0.0, ())
     better = int(np.sum(sum(gain[o] for o in good) > 0.0))

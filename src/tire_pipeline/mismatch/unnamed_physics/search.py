@@ -168,7 +168,7 @@ def find(*views: Unexplained) -> UnnamedReport:
     return _reported(views[0], _parts([_look(problem) for problem in views]))
 
 
-def _reported(problem: Unexplained, parts: Sequence[_Part]) -> UnnamedReport:
+def _reported(problem: Unexplained, parts: Sequence[_ChosenEquation]) -> UnnamedReport:
     """Say what was found, with its equations if they are proved."""
     first = parts[0]
     sets, each = driver_posterior(first.choice.models, first.choice.terms)
@@ -197,7 +197,7 @@ def _reported(problem: Unexplained, parts: Sequence[_Part]) -> UnnamedReport:
 
 
 @dataclass(frozen=True)
-class _Part:
+class _ChosenEquation:
     """What was chosen for some forces, and how it does on sweeps that it has not seen."""
 
     columns: Columns
@@ -224,7 +224,7 @@ class _Part:
         return [(float(v), float(e)) for v, e in zip(values, errors, strict=True)]
 
 
-def _parts(looked: Sequence[_Looked]) -> list[_Part]:
+def _parts(looked: Sequence[_Looked]) -> list[_ChosenEquation]:
     """Look for one equation of all forces, then for an own one of each force that it does not make better.
 
     What acts on one force alone must not give way to a form that another force asks for.
@@ -238,19 +238,19 @@ def _parts(looked: Sequence[_Looked]) -> list[_Part]:
     return kept or [whole]
 
 
-def _added(parts: Sequence[_Part]) -> dict[str, Array]:
+def _added(parts: Sequence[_ChosenEquation]) -> dict[str, Array]:
     """What is added to each force on unseen sweeps, N."""
     return {o: force for part in parts for o, force in part.proof.added.items()}
 
 
-def _best_part(looked: Sequence[_Looked]) -> _Part:
+def _best_part(looked: Sequence[_Looked]) -> _ChosenEquation:
     """Return the choice that does best on sweeps that it has not seen."""
     proofs = [proof for _, _, of_view in looked for proof in of_view]
     which = best_of(proofs)
     columns, choice, _ = looked[which // MOST_TERMS]
     if not proofs[which].holds:
         columns, choice, _ = next((each for each in looked if each[1].models), looked[0])
-    return _Part(columns, choice, choice.best(which % MOST_TERMS + 1), proofs[which])
+    return _ChosenEquation(columns, choice, choice.best(which % MOST_TERMS + 1), proofs[which])
 
 
 def _look(problem: Unexplained) -> _Looked:
@@ -274,7 +274,7 @@ def equations(choice: ChosenModels, model: Model, outputs: tuple[str, ...]) -> d
     return out
 
 
-def _physics(problem: Unexplained, parts: Sequence[_Part]) -> UnnamedPhysics | None:
+def _physics(problem: Unexplained, parts: Sequence[_ChosenEquation]) -> UnnamedPhysics | None:
     texts: dict[str, str] = {}
     for part in parts:
         if part.model is not None:
@@ -338,7 +338,7 @@ def _alternatives(choice: ChosenModels, best: Model) -> list[Alternative]:
     return out
 
 
-def _unseen(part: _Part) -> dict[str, tuple[float, float, float]]:
+def _unseen(part: _ChosenEquation) -> dict[str, tuple[float, float, float]]:
     problem, predicted = part.columns.problem, part.proof.predicted
     most = ceiling(part.columns, part.terms)
     return {
