@@ -135,17 +135,12 @@ def coarsely(problem: Unexplained, analysis: Analysis) -> Unexplained:
     )
 
 
-def by_condition(problem: Unexplained, least: int) -> Unexplained:
+def by_condition(problem: Unexplained) -> Unexplained:
     """Return the same with whole operating conditions held out: all sweeps at one load, speed, camber ...
 
     What fits the sweeps of one condition also predicts its other sweeps, whatever it depends on. Only at a
-    condition that was not seen does a false driver show.
-
-    Parameters
-    ----------
-    problem : Unexplained
-    least : int
-        With fewer conditions, sweeps are held out as before.
+    condition that was not seen does a false driver show. Where there is one condition only, sweeps are held
+    out.
     """
     count = int(problem.block.max()) + 1
     level = np.zeros((count, len(_HELD_CHANNELS)))
@@ -159,7 +154,17 @@ def by_condition(problem: Unexplained, least: int) -> Unexplained:
         near = [k for k, a in enumerate(first) if np.max(np.abs(level[b] - level[a])) < 1.0]
         condition[b] = near[0] if near else len(first)
         first += [] if near else [b]
-    return replace(problem, together=condition[problem.block]) if len(first) >= least else problem
+    return replace(problem, together=condition[problem.block]) if len(first) > 1 else problem
+
+
+def of_force(problem: Unexplained, output: str) -> Unexplained:
+    """Return the same of one force alone."""
+    return replace(
+        problem,
+        rest={output: problem.rest[output]},
+        nuisance={output: problem.nuisance[output]},
+        sizes=[{output: size[output]} for size in problem.sizes],
+    )
 
 
 def _beside_effects(analysis: Analysis) -> tuple[System, dict[str, Array]]:

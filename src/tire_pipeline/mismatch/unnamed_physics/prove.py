@@ -7,28 +7,24 @@ and the equation so found predicts it, in newtons, as it will be used: without t
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import scipy
 
 from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
-from tire_pipeline.mismatch.unnamed_physics.evidence import MOST_TERMS, coefficients, drivers_of
+from tire_pipeline.mismatch.unnamed_physics.evidence import MOST_TERMS, coefficients
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
 from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 
 Array = np.ndarray
 _LEAST_GONE = 0.03
 """Least share of the squared mismatch that has to go on unseen sweeps."""
-_LEVEL_OF_WILCOXON = 0.05 / 6.0
-"""Of the Wilcoxon test over sweeps, of which there are six: two views, each with one term, two and three."""
+_LEVEL_OF_PROOF = CHANCE / 9.0
+"""Of the test over sweeps, of which a force has nine: two views of all forces and one of it alone, each with
+one term, two and three."""
 _NEAR_MOST = 0.95
-_PLAIN_SHARE = 0.1
-_PLAIN_LEVEL = 0.001
-_SAME_DRIVERS = 4
-"""The same where the residual might be the formula's usual misfit, and in how many folds the choice must
-name the drivers that it names with all sweeps."""
 
 
 @dataclass(frozen=True)
@@ -43,12 +39,11 @@ class Proven:
         Folds in which an equation was chosen at all.
     better, sweeps : int
     p_value : float
+        Chance of a gain as large where there is none: of the force that is least sure.
     share : float
-        Of the squared mismatch that goes, mean of the outputs that are acted on.
+        Of the squared mismatch that goes, mean of the outputs that become better.
     outputs : tuple of str
-        Those that become better.
-    drivers : tuple of frozenset of str
-        What each choice depends on.
+        Those that surely become better.
     """
 
     predicted: Mapping[str, Array]
@@ -58,34 +53,23 @@ class Proven:
     p_value: float
     share: float
     outputs: tuple[str, ...]
-    drivers: tuple[frozenset[str], ...] = ()
 
-    def plain(self, drivers: frozenset[str]) -> bool:
-        """Whether it is kept where the residual might be the formula's usual misfit."""
-        return bool(
-            self.holds
-            and self.share >= _PLAIN_SHARE
-            and self.p_value < _PLAIN_LEVEL
-            and sum(d == drivers for d in self.drivers) >= _SAME_DRIVERS
-        )
+    @property
+    def added(self) -> dict[str, Array]:
+        """What is added to the forces that surely become better, N."""
+        return {o: self.predicted[o] for o in self.outputs} if self.holds else {}
 
     @property
     def holds(self) -> bool:
         """Whether the equation is kept."""
-        return bool(
-            self.outputs
-            and self.choices > FOLDS // 2
-            and self.share >= _LEAST_GONE
-            and self.p_value < _LEVEL_OF_WILCOXON
-            and 2 * self.better > self.sweeps
-        )
+        return bool(self.outputs and self.choices > FOLDS // 2)
 
 
 def proven(columns: Columns) -> list[Proven]:
     """Choose without each fold in turn, and predict it: with one term, with two at most, with three."""
     problem = columns.problem
     predicted = [{o: np.zeros(problem.table.size) for o in problem.outputs} for _ in range(MOST_TERMS)]
-    drivers: list[list[frozenset[str]]] = [[] for _ in range(MOST_TERMS)]
+    choices = [0] * MOST_TERMS
     for fold in range(FOLDS):
         choice = choose(columns, np.arange(FOLDS) != fold, refine=False)
         rows = columns.folds == fold
@@ -93,12 +77,10 @@ def proven(columns: Columns) -> list[Proven]:
             model = choice.best(k + 1)
             if model is None:
                 continue
-            drivers[k].append(drivers_of(model, choice.terms))
+            choices[k] += 1
             for o, force in forces_of(columns, choice, model.terms).items():
                 predicted[k][o][rows] = force[rows]
-    return [
-        replace(judged(columns, p, len(d)), drivers=tuple(d)) for p, d in zip(predicted, drivers, strict=True)
-    ]
+    return [judged(columns, p, c) for p, c in zip(predicted, choices, strict=True)]
 
 
 def best_of(proofs: Sequence[Proven]) -> int:
@@ -112,21 +94,22 @@ def best_of(proofs: Sequence[Proven]) -> int:
 
 
 def judged(columns: Columns, predicted: Mapping[str, Array], choices: int) -> Proven:
-    """Compare the errors with and without what was predicted, sweep by sweep."""
+    """Compare the errors with and without what was predicted, force by force and sweep by sweep."""
     problem = columns.problem
-    acts = [o for o in problem.outputs if np.any(predicted[o])]
-    before = {o: problem.rest[o] ** 2 for o in acts}
-    after = {o: (problem.rest[o] - predicted[o]) ** 2 for o in acts}
-    gone = {o: 1.0 - float(after[o].mean() / max(before[o].mean(), 1e-300)) for o in acts}
-    good = tuple(o for o in acts if gone[o] > 0.0)
-    if not good:
-        return Proven(predicted, choices, 0, 0, 1.0, 0.0, ())
     sweeps = int(problem.block.max()) + 1
-    weight = {o: 1.0 / max(float(before[o].mean()), 1e-300) for o in good}
-    gain = sum(weight[o] * np.bincount(problem.block, before[o] - after[o], sweeps) for o in good)
-    p_value = float(scipy.stats.wilcoxon(gain, alternative="greater").pvalue) if sweeps > 5 else 1.0
+    gain, gone, chance = {}, {}, {}
+    for o in (o for o in problem.outputs if np.any(predicted[o])):
+        before, after = problem.rest[o], problem.rest[o] - predicted[o]
+        size = max(float(np.mean(before**2)), 1e-300)
+        gain[o] = np.bincount(problem.block, (before**2 - after**2) / size, sweeps)
+        gone[o] = 1.0 - float(np.mean(after**2)) / size
+        chance[o] = chance_of_no_gain(gain[o])
+    good = tuple(o for o in gain if gone[o] >= _LEAST_GONE and chance[o] < _LEVEL_OF_PROOF)
+    if not good:
+        return Proven(predicted, choices, 0, sweeps, min(chance.values(), default=1.0), 0.0, ())
+    better = int(np.sum(sum(gain[o] for o in good) > 0.0))
     share = float(np.mean([gone[o] for o in good]))
-    return Proven(predicted, choices, int(np.sum(gain > 0.0)), sweeps, p_value, share, good)
+    return Proven(predicted, choices, better, sweeps, max(chance[o] for o in good), share, good)
 
 
 def surely_less(
@@ -147,10 +130,23 @@ def surely_less(
         Sweep of each sample.
     """
     gain = np.bincount(sweep, sum((before[o] ** 2 - after[o] ** 2) / largest[o] ** 2 for o in after))
+    return chance_of_no_gain(gain) < CHANCE
+
+
+def chance_of_no_gain(gain: Array) -> float:
+    """Return the chance of a mean gain as large where there is none: one-sided t test over sweeps.
+
+    Parameters
+    ----------
+    gain : ndarray, shape (sweeps,)
+        What goes of the squared error, sweep by sweep; one sweep alone proves nothing.
+    """
     if gain.size < 2:
-        return bool(gain.sum() > 0.0)
+        return 1.0
     error = float(gain.std(ddof=1)) / np.sqrt(gain.size)
-    return bool(gain.mean() > float(scipy.special.stdtrit(gain.size - 1, 1.0 - CHANCE)) * error)
+    if error == 0.0:
+        return 0.0 if gain.mean() > 0.0 else 1.0
+    return float(scipy.special.stdtr(gain.size - 1, -gain.mean() / error))
 
 
 def forces_of(columns: Columns, choice: ChosenModels, terms: tuple[int, ...]) -> dict[str, Array]:
@@ -172,7 +168,7 @@ def fitted(choice: ChosenModels, terms: tuple[int, ...]) -> tuple[Array, Array]:
     return mean / size, np.sqrt(np.maximum(np.diag(covariance), 0.0)) / size
 
 
-def ceiling(columns: Columns, drivers: frozenset[str], way_terms: list[Term]) -> dict[str, Array]:
+def ceiling(columns: Columns, way_terms: list[Term]) -> dict[str, Array]:
     """Predict each fold by a Gaussian process in the same drivers from the other folds, N.
 
     Squared-exponential over the factors of the equation's terms, each over its spread, times what the terms

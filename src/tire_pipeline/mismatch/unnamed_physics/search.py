@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -31,9 +31,10 @@ from tire_pipeline.mismatch.unnamed_physics.problem import (
     Unexplained,
     by_condition,
     coarsely,
+    of_force,
     problem_of,
 )
-from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
+from tire_pipeline.mismatch.unnamed_physics.products import Columns
 from tire_pipeline.mismatch.unnamed_physics.prove import (
     Proven,
     best_of,
@@ -43,7 +44,7 @@ from tire_pipeline.mismatch.unnamed_physics.prove import (
     proven,
     surely_less,
 )
-from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL
+from tire_pipeline.mismatch.unnamed_physics.symbols import CHANNEL, SPAN
 
 Array = np.ndarray
 _Looked = tuple[Columns, ChosenModels, list[Proven]]
@@ -68,7 +69,7 @@ def unnamed_physics(analysis: Analysis, *, plainly: bool = False) -> UnnamedRepo
         analysis = with_fit(analysis, analysis.fit)
     problem = problem_of(analysis)
     if plainly:
-        return find(by_condition(problem, FOLDS), plainly=True)
+        return find(by_condition(problem))
     return find(problem, coarsely(problem, analysis))
 
 
@@ -76,54 +77,64 @@ def instead_of_names(analysis: Analysis) -> UnnamedReport | None:
     """Return an equation that predicts unseen sweeps better than the named effects do, if there is one.
 
     An effect of the catalogue often resembles a part of what has no name, and then the posterior names it:
-    it weighs no equation. Here an equation alone, by the stricter proof, has to leave surely less than the
-    named effects fitted without each sweep, and no more than these together with an equation of their own
-    residual. So a true cause keeps its name where something unnamed acts, too.
+    it weighs no equation. Here an equation alone, chosen and fitted without each operating condition, has to
+    leave surely less than the named effects fitted without each sweep. The names stay if they leave less with
+    an equation of their own residual: so a true cause keeps its name where something unnamed acts, too.
 
     Parameters
     ----------
     analysis : Analysis
         With the set that is named.
     """
-    problem = by_condition(problem_of(with_fit(analysis, Fit([], []))), FOLDS)
+    problem = by_condition(problem_of(with_fit(analysis, Fit([], []))))
     names = each_left_out(analysis, analysis.fit)
-    found = find_better(problem, names)
-    if found is None or _size_beside(analysis, names) < _size_alone(problem, found):
+    found, left = _better(problem, names)
+    if found is None or _stay(analysis, names, left):
         return None
     return replace(found, instead_of=tuple(analysis.fit.names))
 
 
-def _size_alone(problem: Unexplained, found: UnnamedReport) -> float:
-    """Squared error that an equation leaves on unseen sweeps, each force over its largest."""
-    left = {o: found.unseen[o][1] if o in found.unseen else rms(rest) for o, rest in problem.rest.items()}
-    return sum((error / problem.largest[o]) ** 2 for o, error in left.items())
-
-
-def _size_beside(analysis: Analysis, names: Mapping[str, Array]) -> float:
-    """The same of named effects and an equation of what they leave."""
-    problem = by_condition(problem_of(analysis), FOLDS)
+def _stay(analysis: Analysis, names: Mapping[str, Array], alone: Mapping[str, Array]) -> bool:
+    """Whether named effects and an equation of what they leave, N, leave less than an equation alone."""
+    problem = by_condition(problem_of(analysis))
     proofs = proven(Columns(problem))
-    added = proofs[best_of(proofs)].predicted
-    return size_over_largest({o: left - added[o] for o, left in names.items()}, problem.largest)
+    added = proofs[best_of(proofs)].added
+    beside = {o: left - added.get(o, 0.0) for o, left in names.items()}
+    return size_over_largest(beside, problem.largest) < size_over_largest(alone, problem.largest)
 
 
 def find_better(problem: Unexplained, rival: Mapping[str, Array]) -> UnnamedReport | None:
     """The same against any rival: output -> what it leaves on unseen sweeps, N, shape (n,)."""
+    return _better(problem, rival)[0]
+
+
+def _better(
+    problem: Unexplained, rival: Mapping[str, Array]
+) -> tuple[UnnamedReport | None, dict[str, Array]]:
+    """Return what is better than a rival, and what it leaves on unseen sweeps, N."""
     columns = Columns(problem)
     choice = choose(columns)
     models = [m for k in range(MOST_TERMS) if (m := choice.best(k + 1)) is not None]
-    if not any(_leaves_less(problem, forces_of(columns, choice, m.terms), rival) for m in models):
-        return None  # not even where it was fitted
-    found = _reported([(columns, choice, proven(columns))], plainly=True, rival=rival)
+    if not any(
+        surely_less(
+            rival, _left(problem, forces_of(columns, choice, m.terms)), problem.largest, problem.block
+        )
+        for m in models
+    ):
+        return None, {}  # not even where it was fitted
+    parts = _parts([(columns, choice, proven(columns))])
+    left = _left(problem, _added(parts))
+    found = _reported(problem, parts)
+    if not surely_less(rival, left, problem.largest, problem.block):
+        return None, {}
     if found.physics is None or "t" in found.physics.ranges:
-        return None  # an equation in time, or in the way rolled, ends with its recording; a name does not
-    return found
+        return None, {}  # an equation in time, or the way rolled, ends with its recording; a name does not
+    return found, left
 
 
-def _leaves_less(problem: Unexplained, added: Mapping[str, Array], rival: Mapping[str, Array]) -> bool:
-    """Whether forces that are added, N, surely leave less than a rival does."""
-    left = {o: rest - added[o] for o, rest in problem.rest.items()}
-    return surely_less(rival, left, problem.largest, problem.block)
+def _left(problem: Unexplained, added: Mapping[str, Array]) -> dict[str, Array]:
+    """What is left of the residual by forces that are added, N."""
+    return {o: rest - added.get(o, 0.0) for o, rest in problem.rest.items()}
 
 
 def more_than_usual(analysis: Analysis) -> bool:
@@ -144,7 +155,7 @@ def _one_sided(problem: Unexplained) -> bool:
     return "slip_angle" in problem.moves and one_sided(problem.table.columns["s"])
 
 
-def find(*views: Unexplained, plainly: bool = False) -> UnnamedReport:
+def find(*views: Unexplained) -> UnnamedReport:
     """The same from what any engine leaves.
 
     Parameters
@@ -152,49 +163,93 @@ def find(*views: Unexplained, plainly: bool = False) -> UnnamedReport:
     views : Unexplained
         One recording, weighed in one way or in several. The one is taken whose choice does best on sweeps
         that it has not seen.
-    plainly : bool
     """
-    return _reported([_look(problem) for problem in views], plainly=plainly)
+    return _reported(views[0], _parts([_look(problem) for problem in views]))
 
 
-def _reported(
-    looked: Sequence[_Looked], *, plainly: bool, rival: Mapping[str, Array] | None = None
-) -> UnnamedReport:
-    """Return the best of what was found, with its equation if it is proved."""
-    problem = looked[0][0].problem
+def _reported(problem: Unexplained, parts: Sequence[_ChosenEquation]) -> UnnamedReport:
+    """Say what was found, with its equations if they are proved."""
+    first = parts[0]
+    sets, each = driver_posterior(first.choice.models, first.choice.terms)
+    shown = [(tuple(sorted(k)), p) for k, p in list(sets.items())[:_SHOWN]]
+    if first.model is None:
+        return UnnamedReport(None, "nothing in the library is worth its length", drivers=each, sets=shown)
+    one_sided = _one_sided(problem)
+    physics = _physics(problem, parts) if first.proof.holds and not one_sided else None
+    terms = [t for p in parts for t in p.terms]
+    return UnnamedReport(
+        physics=physics,
+        why_not="" if physics is not None else _ONE_SIDED if one_sided else _NOT_PROVED,
+        drivers=each | {d: 1.0 for p in parts[1:] for d in p.drivers},
+        sets=shown,
+        where=_where(terms),
+        coefficients=[pair for p in parts for pair in p.coefficients],
+        evidence=sum(p.model.evidence for p in parts if p.model is not None),
+        alternatives=_alternatives(first.choice, first.model),
+        unseen={o: error for p in parts for o, error in _unseen(p).items()},
+        better=min(p.proof.better for p in parts),
+        sweeps=first.proof.sweeps,
+        p_value=max(p.proof.p_value for p in parts),
+        ideas=matching(frozenset[str]().union(*(p.drivers for p in parts)), terms),
+        curve=_curve(first.columns, first.choice, first.model),
+    )
+
+
+@dataclass(frozen=True)
+class _ChosenEquation:
+    """What was chosen for some forces, and how it does on sweeps that it has not seen."""
+
+    columns: Columns
+    choice: ChosenModels
+    model: Model | None
+    proof: Proven
+
+    @property
+    def terms(self) -> list[Term]:
+        """Terms of the equation."""
+        return [] if self.model is None else [self.choice.terms[i] for i in self.model.terms]
+
+    @property
+    def drivers(self) -> frozenset[str]:
+        """What it depends on."""
+        return frozenset[str]() if self.model is None else drivers_of(self.model, self.choice.terms)
+
+    @property
+    def coefficients(self) -> list[tuple[float, float]]:
+        """Values and standard errors."""
+        if self.model is None:
+            return []
+        values, errors = fitted(self.choice, self.model.terms)
+        return [(float(v), float(e)) for v, e in zip(values, errors, strict=True)]
+
+
+def _parts(looked: Sequence[_Looked]) -> list[_ChosenEquation]:
+    """Look for one equation of all forces, then for an own one of each force that it does not make better.
+
+    What acts on one force alone must not give way to a form that another force asks for.
+    """
+    whole, problem = _best_part(looked), looked[0][0].problem
+    left = [o for o in problem.outputs if o not in whole.proof.outputs]
+    if len(problem.outputs) == 1 or not left:
+        return [whole]
+    own = [_best_part([_look(of_force(problem, o))]) for o in left]
+    kept = [part for part in (whole, *own) if part.model is not None and part.proof.holds]
+    return kept or [whole]
+
+
+def _added(parts: Sequence[_ChosenEquation]) -> dict[str, Array]:
+    """What is added to each force on unseen sweeps, N."""
+    return {o: force for part in parts for o, force in part.proof.added.items()}
+
+
+def _best_part(looked: Sequence[_Looked]) -> _ChosenEquation:
+    """Return the choice that does best on sweeps that it has not seen."""
     proofs = [proof for _, _, of_view in looked for proof in of_view]
     which = best_of(proofs)
     columns, choice, _ = looked[which // MOST_TERMS]
     if not proofs[which].holds:
         columns, choice, _ = next((each for each in looked if each[1].models), looked[0])
-    best, proof = choice.best(which % MOST_TERMS + 1), proofs[which]
-    sets, each = driver_posterior(choice.models, choice.terms)
-    shown = [(tuple(sorted(k)), p) for k, p in list(sets.items())[:_SHOWN]]
-    if best is None:
-        return UnnamedReport(None, "nothing in the library is worth its length", drivers=each, sets=shown)
-    terms = [choice.terms[i] for i in best.terms]
-    values, errors = fitted(choice, best.terms)
-    drivers = drivers_of(best, choice.terms)
-    one_sided = _one_sided(problem)
-    kept = (proof.plain(drivers) if plainly else proof.holds) and not one_sided
-    kept = kept and (rival is None or _leaves_less(problem, proof.predicted, rival))
-    physics = _physics(columns, choice, best, proof.outputs) if kept else None
-    return UnnamedReport(
-        physics=physics,
-        why_not="" if physics is not None else _ONE_SIDED if one_sided else _NOT_PROVED,
-        drivers=each,
-        sets=shown,
-        where=_where(terms),
-        coefficients=[(float(v), float(e)) for v, e in zip(values, errors, strict=True)],
-        evidence=best.evidence,
-        alternatives=_alternatives(choice, best),
-        unseen=_unseen(columns, proof, drivers, terms),
-        better=proof.better,
-        sweeps=proof.sweeps,
-        p_value=proof.p_value,
-        ideas=matching(drivers, terms),
-        curve=_curve(columns, choice, best),
-    )
+    return _ChosenEquation(columns, choice, choice.best(which % MOST_TERMS + 1), proofs[which])
 
 
 def _look(problem: Unexplained) -> _Looked:
@@ -218,16 +273,16 @@ def equations(choice: ChosenModels, model: Model, outputs: tuple[str, ...]) -> d
     return out
 
 
-def _physics(
-    columns: Columns, choice: ChosenModels, model: Model, outputs: tuple[str, ...]
-) -> UnnamedPhysics | None:
-    texts = equations(choice, model, outputs)
+def _physics(problem: Unexplained, parts: Sequence[_ChosenEquation]) -> UnnamedPhysics | None:
+    texts: dict[str, str] = {}
+    for part in parts:
+        if part.model is not None:
+            texts |= equations(part.choice, part.model, part.proof.outputs)
     if not texts:
         return None
-    terms = [choice.terms[i] for i in model.terms]
-    acts = ", ".join(dict.fromkeys(WAY[t.way].acts_on for t in terms))
-    drivers = tuple(sorted(drivers_of(model, choice.terms)))
-    return UnnamedPhysics(texts, drivers, acts, _ranges(columns.problem, texts), columns.problem.nominal)
+    acts = ", ".join(dict.fromkeys(WAY[t.way].acts_on for p in parts for t in p.terms))
+    drivers = tuple(sorted(frozenset[str]().union(*(p.drivers for p in parts))))
+    return UnnamedPhysics(texts, drivers, acts, _ranges(problem, texts), problem.nominal)
 
 
 def _ranges(problem: Unexplained, texts: Mapping[str, str]) -> dict[str, tuple[float, float]]:
@@ -242,9 +297,14 @@ def _ranges(problem: Unexplained, texts: Mapping[str, str]) -> dict[str, tuple[f
     for symbol in sorted(s for s in seen if s in CHANNEL):
         x = problem.table.columns[symbol]
         low, high = (x.min(), x.max()) if symbol == "t" else span(x)
-        short = 0.5 * max(least_spread(CHANNEL[symbol], x) - (high - low), 0.0) if symbol == "L" else 0.0
+        short = 0.5 * max(_held_within(symbol, x) - (high - low), 0.0)
         found[symbol] = (float(low - short), float(high + short))
     return found
+
+
+def _held_within(symbol: str, x: Array) -> float:
+    """Spread, in the symbol's unit, within which its channel counts as held."""
+    return least_spread(CHANNEL[symbol], x) / (SPAN if symbol == "h" else 1.0)
 
 
 def _where(terms: list[Term]) -> str:
@@ -277,13 +337,11 @@ def _alternatives(choice: ChosenModels, best: Model) -> list[Alternative]:
     return out
 
 
-def _unseen(
-    columns: Columns, proof: Proven, drivers: frozenset[str], terms: list[Term]
-) -> dict[str, tuple[float, float, float]]:
-    problem = columns.problem
-    most = ceiling(columns, drivers, terms)
+def _unseen(part: _ChosenEquation) -> dict[str, tuple[float, float, float]]:
+    problem, predicted = part.columns.problem, part.proof.predicted
+    most = ceiling(part.columns, part.terms)
     return {
-        o: (rms(problem.rest[o]), rms(problem.rest[o] - proof.predicted[o]), rms(problem.rest[o] - most[o]))
+        o: (rms(problem.rest[o]), rms(problem.rest[o] - predicted[o]), rms(problem.rest[o] - most[o]))
         for o in problem.outputs
     }
 
