@@ -13,6 +13,7 @@ import pandas as pd
 from tire_pipeline.channels import INPUT_CHANNELS, SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.mismatch.corrected.agreed import agreed
+from tire_pipeline.mismatch.corrected.tir_file import comments, with_coefficients
 from tire_pipeline.mismatch.corrected.wheel_phase import WheelWay
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.effects.base import Finding
@@ -26,9 +27,9 @@ from tire_pipeline.mismatch.recording.given import numeric
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.prepare import ASSUMED_ZERO, own_relaxation
 from tire_pipeline.mismatch.recording.smoothing import denoise
+from tire_pipeline.mismatch.recording.time_line import beginnings
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
 from tire_pipeline.mismatch.unnamed_physics.symbols import table_of
-from tire_pipeline.recordings.check import BREAK_OF_TIME_LINE
 
 Array = np.ndarray
 _SAME_NOISE = 3.0
@@ -240,7 +241,7 @@ class CorrectedModel:
             return self
         plain = replace(self, cleaned={})
         channels = plain._data(recording).channels
-        start = _pieces(recording["time"].to_numpy(dtype=float), len(recording))
+        start = beginnings(recording["time"].to_numpy(dtype=float), len(recording))
         noise = {n: rms(channels[n] - denoise(channels[n], start)) for n in self.cleaned}
         clean = replace(self, cleaned=noise)
         names = [o for o in self.outputs if o in recording]
@@ -260,7 +261,7 @@ class CorrectedModel:
             if c in INPUT_CHANNELS
         }
         time = recording["time"].to_numpy(dtype=float) if "time" in recording else None
-        start = _pieces(time, n)
+        start = beginnings(time, n)
         for name in ASSUMED_ZERO:
             channels.setdefault(name, np.zeros(n))
         if time is not None and self._changed:
@@ -307,47 +308,7 @@ class CorrectedModel:
             ``part``, by which its change of a force is multiplied, if that is not 1.
             Artefacts belong to the recording, not to the tire, and are in neither.
         """
-        tire: Any = self.tire
-        sidecar: dict[str, dict[str, object]] = {}
-        for name, p in self.changes:
-            effect = catalogue()[name]
-            if effect.kind == "artefact":
-                continue
-            coefficients = effect.coefficients(tire, p)
-            if coefficients:
-                without = effect.coefficients(tire, dict.fromkeys(p, 0.0))
-                tire = tire.replace(**_between(without, coefficients, self.part))
-            else:
-                sidecar[name] = {
-                    "equation": effect.equation,
-                    "source": effect.source,
-                    "parameters": {k: float(v) for k, v in p.items()},
-                    "reference": self.reference.to_sidecar(),
-                    **({"part": self.part} if self.part < 1.0 else {}),
-                }
-        if self.unnamed is not None:
-            sidecar["unnamed"] = self.unnamed.to_sidecar()
-        return tire, sidecar
-
-    def _comments(self, sidecar: Mapping[str, object]) -> list[str]:
-        """What a ``.tir`` file says at its top: physics, where it stands, and faults of the recording."""
-        names = [name for name, _ in self.changes]
-        physics = [name for name in names if catalogue()[name].kind != "artefact"]
-        inside = [name for name in physics if name not in sidecar]
-        faults = [name for name in names if name not in physics]
-        said = ["corrected by tire_pipeline.mismatch"]
-        said += [f"physics in these coefficients: {', '.join(inside) or 'none'}"]
-        beside = [name for name in sidecar if name != "unnamed"]
-        said += [f"physics in the sidecar beside this file: {', '.join(beside)}"] if beside else []
-        if self.part < 1.0:
-            said.append(f"added: {self.part:.0%} of what was found, as much as unseen sweeps confirm")
-        if self.instead:
-            others = [" and ".join(name for name, _ in changes) for _, changes in self.instead]
-            said.append(f"the recording does not tell {' and '.join(names)} from: {'; '.join(others)}")
-        if self.unnamed is not None:
-            said.append("unexplained residual, by an empirical equation: in the sidecar beside this file")
-        said += [f"faults of the recording, not in this file: {', '.join(faults)}"] if faults else []
-        return said
+        return with_coefficients(self.tire, self.changes, self.part, self.reference, self.unnamed)
 
     def to_tir(self, path: str | Path, *, overwrite: bool = False) -> Path:
         """Write the corrected ``.tir`` file, and a sidecar for what the format has no place for.
@@ -375,19 +336,12 @@ class CorrectedModel:
                 f"nothing corrected is written: {self.question.why}", where=str(path), todo=self.question.todo
             )
         tire, sidecar = self.tire_model()
-        written = write_tir(
-            tire, path, comments=self._comments(sidecar), overwrite=overwrite, digits=COMPUTED_DIGITS
-        )
+        others = [changes for _, changes in self.instead]
+        said = comments(self.changes, self.part, others, sidecar)
+        written = write_tir(tire, path, comments=said, overwrite=overwrite, digits=COMPUTED_DIGITS)
         if sidecar:
             write_sidecar(written, sidecar)
         return written
-
-
-def _between(without: Mapping[str, float], full: Mapping[str, float], part: float) -> dict[str, float]:
-    """Return coefficients between those without an effect and those with all of it."""
-    if part == 1.0:
-        return dict(full)
-    return {n: partly(without.get(n, v), v, part) for n, v in full.items()}
 
 
 def _without_noise(x: Array, start: Array, noise: float) -> Array:
@@ -397,16 +351,6 @@ def _without_noise(x: Array, start: Array, noise: float) -> Array:
     """
     smooth = denoise(x, start)
     return smooth if rms(x - smooth) < _SAME_NOISE * noise else x
-
-
-def _pieces(time: Array | None, n: int) -> Array:
-    """Where uninterrupted pieces of a recording begin."""
-    start = np.zeros(n, bool)
-    start[:1] = True
-    if time is not None and n > 1:
-        steps = np.diff(time)
-        start[1:] = (steps > BREAK_OF_TIME_LINE * np.median(steps)) | (steps <= 0.0)
-    return start
 
 
 def force_limits(findings: Iterable[Finding], outputs: Iterable[str]) -> dict[str, tuple[float, float]]:

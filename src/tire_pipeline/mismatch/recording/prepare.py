@@ -22,13 +22,12 @@ from tire_pipeline.mismatch.recording.given import check_tire, numeric
 from tire_pipeline.mismatch.recording.identity import another_tire
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.surrogate import stand_in
+from tire_pipeline.mismatch.recording.time_line import averaged, beginnings, long_gaps, rising_time
 from tire_pipeline.mismatch.recording.usable import judge, leave_out_no_pressure, leave_out_still_slip
 from tire_pipeline.recordings.check import (
-    BREAK_OF_TIME_LINE,
     LEAST_POINTS,
     LEAST_SAMPLES,
     LEAST_WHOLE,
-    LONG_GAP,
     LONG_STEP,
     LONGEST_HOLE,
 )
@@ -38,7 +37,6 @@ Array = np.ndarray
 ASSUMED_ZERO = ("camber", "slip_ratio", "slip_angle")
 """What is taken as zero where it is not recorded."""
 AS_GIVEN = "columns in ISO W axes and SI units, as they were given"
-_LEAST_RATE = 50.0
 
 
 @dataclass(frozen=True)
@@ -140,7 +138,7 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
     notes: list[str] = []
     check_tire(tire)
     arrays = _arrays(recording)
-    time = _time(arrays)
+    time = rising_time(arrays)
     if time is not None:
         _bridge(arrays, notes)
     notes += _on_time(time)
@@ -170,8 +168,9 @@ def prepare(tire: Any, recording: pd.DataFrame, choices: Choices = NO_CHOICES) -
         asked = [another_tire(tire, arrays, driven), axes]
     present = {n for n in INPUT_CHANNELS if n in recording.columns and n in arrays}
     assumed = [*_assumed(recording, factors), *_zeros(arrays, rows.size), *assumed_radius(tire)]
-    start = _pieces(time, rows, notes)
-    arrays, time, start, rows = _binned(arrays, time, start, rows)
+    start = beginnings(time, rows.size, rows)
+    notes += long_gaps(time, start)
+    arrays, time, start, rows = averaged(arrays, time, start, rows)
     arrays, cleaned = (arrays, []) if time is None else _cleaned(tire, arrays, start)
     notes += [c.text() for c in cleaned]
     own = own_relaxation(tire)
@@ -276,32 +275,6 @@ def _bridge(arrays: dict[str, Array], notes: list[str]) -> None:
         )
 
 
-def _time(arrays: Mapping[str, Array]) -> Array | None:
-    """Return the time stamps, which must rise."""
-    if "time" not in arrays:
-        return None
-    time = arrays["time"]
-    known = time[np.isfinite(time)]
-    if known.size == 0:
-        return None
-    steps = np.diff(known)
-    if np.any(steps < 0.0):
-        at = int(np.flatnonzero(steps < 0.0)[0]) + 1
-        raise RecordingError(
-            f"time goes backwards {int((steps < 0).sum())} times, first at sample {at}",
-            where="time",
-            todo="sort the recording, or split it where it starts again",
-        )
-    if np.any(steps == 0.0):
-        at = int(np.flatnonzero(steps == 0.0)[0]) + 1
-        raise RecordingError(
-            f"{int((steps == 0).sum())} time stamps are repeated, first at sample {at}",
-            where="time",
-            todo="drop the repeated rows: recording.drop_duplicates('time')",
-        )
-    return time
-
-
 def _usable(arrays: Mapping[str, Array], time: Array | None, notes: list[str]) -> Array:
     """Return the rows in which every channel that matters is finite."""
     n = arrays["normal_load"].size
@@ -346,47 +319,6 @@ def _overlap(tire: Any, arrays: Mapping[str, Array]) -> None:
             where="normal_load",
             todo="use the .tir file of this tire, or check the unit of the load",
         )
-
-
-def _pieces(time: Array | None, rows: Array, notes: list[str]) -> Array:
-    """Return where uninterrupted pieces begin."""
-    start = np.zeros(rows.size, bool)
-    start[0] = True
-    if time is None:
-        return start
-    steps = np.diff(time)
-    typical = float(np.median(steps))
-    gaps = np.flatnonzero((steps > BREAK_OF_TIME_LINE * typical) | (np.diff(rows) > LONGEST_HOLE))
-    start[gaps + 1] = True
-    long = steps[gaps] > LONG_GAP * typical
-    if long.any():
-        count, longest = int(long.sum()), float(steps[gaps].max())
-        said = f"{count} gaps in the time line, the longest" if count > 1 else "a gap in the time line of"
-        notes.append(f"{said} {longest:.3g} s")
-    return start
-
-
-def _binned(
-    arrays: dict[str, Array], time: Array | None, start: Array, rows: Array
-) -> tuple[dict[str, Array], Array | None, Array, Array]:
-    """Average neighbours so that the rate is 50 to 100 Hz; nothing is averaged over a gap."""
-    if time is None:
-        return arrays, time, start, rows
-    rate = 1.0 / max(float(np.median(np.diff(time))), 1e-9)
-    m = int(rate / _LEAST_RATE + 1e-6)
-    if m < 2:
-        return arrays, time, start, rows
-    piece = np.cumsum(start) - 1
-    first = np.flatnonzero(start)[piece]
-    group = (np.arange(rows.size) - first) // m
-    edges = np.flatnonzero(np.r_[True, (np.diff(group) != 0) | (np.diff(piece) != 0)])
-    size = np.diff(np.r_[edges, rows.size])
-    keep = size >= max(1, m // 2)
-    mean = {n: (np.add.reduceat(a, edges) / size)[keep] for n, a in arrays.items()}
-    stamps = (np.add.reduceat(time, edges) / size)[keep]
-    begins = np.add.reduceat(start.astype(int), edges)[keep] > 0
-    begins[0] = True
-    return mean, stamps, begins, rows[edges][keep]
 
 
 def own_relaxation(tire: Any) -> dict[str, float] | None:
