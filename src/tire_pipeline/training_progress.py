@@ -1,4 +1,4 @@
-"""Progress of a training by stable-baselines3, like that of any other loop."""
+"""A training by stable-baselines3, with the progress of any other loop and no log folder of its own."""
 
 from __future__ import annotations
 
@@ -7,7 +7,25 @@ from typing import TYPE_CHECKING
 from tire_pipeline.progress import track
 
 if TYPE_CHECKING:
+    from stable_baselines3.common.base_class import BaseAlgorithm
     from stable_baselines3.common.callbacks import BaseCallback
+
+
+def learn(agent: BaseAlgorithm, total_steps: int, steps_per_update: int, what: str) -> None:
+    """Train an agent. Left to itself, stable-baselines3 leaves a folder behind for each, in the system's /tmp.
+
+    Parameters
+    ----------
+    agent : BaseAlgorithm
+    total_steps, steps_per_update : int
+        Steps of all environments together.
+    what : str
+        What the progress is labelled with.
+    """
+    from stable_baselines3.common.logger import Logger
+
+    agent.set_logger(Logger(folder=None, output_formats=[]))
+    agent.learn(total_steps, training_progress(total_steps, steps_per_update, what))
 
 
 def training_progress(total_steps: int, steps_per_update: int, what: str) -> BaseCallback:

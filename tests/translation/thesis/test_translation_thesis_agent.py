@@ -1,5 +1,6 @@
 import subprocess
 import sys
+import tempfile
 
 import numpy as np
 import pytest
@@ -130,6 +131,12 @@ def test_same_seed_same_agent(binned, forest, algorithm, reward):
         np.testing.assert_array_equal(w, w2)
         np.testing.assert_array_equal(b, b2)
     assert first.learning_curve.equals(again.learning_curve)
+
+
+def test_training_leaves_nothing_in_the_systems_folder(binned, forest, tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    train_agent(binned, forest, Rules(11, 10, target=1), algorithm="PPO", total_steps=1_300, seed=4)
+    assert not list(tmp_path.glob("SB3*"))
 
 
 def test_roll_out_keeps_the_best_state(binned, forest):

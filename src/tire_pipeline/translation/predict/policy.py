@@ -13,7 +13,7 @@ from stable_baselines3 import PPO
 from torch import nn
 
 from tire_pipeline.row_products import by_row
-from tire_pipeline.training_progress import training_progress
+from tire_pipeline.training_progress import learn
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.curiosity import Curiosity
 from tire_pipeline.translation.predict.likelihood_environment import (
@@ -75,7 +75,7 @@ class PolicyPredictor:
                 device="cpu",
             )
             steps = self.updates * TIRES_TOGETHER * ROLL_OUT
-            agent.learn(steps, training_progress(steps, TIRES_TOGETHER * ROLL_OUT, "training our agent"))
+            learn(agent, steps, TIRES_TOGETHER * ROLL_OUT, "training our agent")
         finally:
             torch.set_num_threads(threads)
         learning = tuple(float(info["r"]) for info in agent.ep_info_buffer or [])

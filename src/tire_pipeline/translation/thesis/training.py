@@ -12,7 +12,7 @@ import pandas as pd
 
 from tire_pipeline.classifiers.methods.compiled_forest import CompiledForest
 from tire_pipeline.errors import DomainError
-from tire_pipeline.training_progress import training_progress
+from tire_pipeline.training_progress import learn
 from tire_pipeline.translation.thesis.policy import GreedyPolicy
 from tire_pipeline.translation.thesis.rules import Rules
 
@@ -72,8 +72,7 @@ def train_agent(
         env = BatchEnv(starts, forest, rules, n_envs=n_envs, seed=seed)
         model = make_model(env, algorithm=algorithm, seed=seed, n_steps=n_steps)
         steps = TOTAL_STEPS[algorithm] if total_steps is None else total_steps
-        progress = training_progress(steps, n_steps * n_envs, "training the thesis' agent")
-        model.learn(total_timesteps=steps, callback=progress)
+        learn(model, steps, n_steps * n_envs, "training the thesis' agent")
     return TrainedAgent(
         policy=GreedyPolicy.from_model(model, rules.n_bins),
         learning_curve=pd.DataFrame(env.episodes, columns=["step", "reward", "length"]),
