@@ -11,7 +11,7 @@ from tire_pipeline.mismatch.model.nominal import Reference
 from tire_pipeline.mismatch.model.residual import partly
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedPhysics
 
-_UNNAMED = "unnamed"
+_ENTRY_OF_EQUATION = "unnamed"
 
 
 def with_coefficients(
@@ -54,7 +54,7 @@ def with_coefficients(
                 **({"part": part} if part < 1.0 else {}),
             }
     if unnamed is not None:
-        sidecar[_UNNAMED] = unnamed.to_sidecar()
+        sidecar[_ENTRY_OF_EQUATION] = unnamed.to_sidecar()
     return tire, sidecar
 
 
@@ -82,14 +82,14 @@ def comments(
     faults = [name for name in names if name not in physics]
     said = ["corrected by tire_pipeline.mismatch"]
     said += [f"physics in these coefficients: {', '.join(inside) or 'none'}"]
-    beside = [name for name in sidecar if name != _UNNAMED]
+    beside = [name for name in sidecar if name != _ENTRY_OF_EQUATION]
     said += [f"physics in the sidecar beside this file: {', '.join(beside)}"] if beside else []
     if part < 1.0:
         said.append(f"added: {part:.0%} of what was found, as much as unseen sweeps confirm")
     if others:
         open_ones = "; ".join(" and ".join(name for name, _ in each) for each in others)
         said.append(f"the recording does not tell {' and '.join(names)} from: {open_ones}")
-    if _UNNAMED in sidecar:
+    if _ENTRY_OF_EQUATION in sidecar:
         said.append("unexplained residual, by an empirical equation: in the sidecar beside this file")
     said += [f"faults of the recording, not in this file: {', '.join(faults)}"] if faults else []
     return said
