@@ -43,7 +43,7 @@ def relaxation_length(load: float) -> float:
     return float(np.sum(1.0 - (fy[100:] - fy[99]) / (fy[-1] - fy[99])) * 0.01 * 18.0)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.ci) for seed in range(1, 6))])
 def test_a_drawn_tire_is_a_passenger_cars(seed: int) -> None:
     tire = draw_tire(np.random.default_rng(seed))
     assert 500.0 < stiffness(tire, 4000.0) < 2500.0
@@ -143,7 +143,7 @@ def test_places_are_those_of_the_tire() -> None:
 NOT_BRAKED, BRAKED = 9, pytest.param(41, marks=pytest.mark.ci)
 
 
-@pytest.mark.parametrize("seed", [NOT_BRAKED, BRAKED])
+@pytest.mark.parametrize("seed", [NOT_BRAKED, pytest.param(BRAKED, marks=pytest.mark.ci)])
 @pytest.mark.parametrize("name", CAUSES)
 def test_a_cause_changes_the_forces_by_the_size_asked_for(name: str, seed: int) -> None:
     """With no longitudinal force none leaks into the lateral one, and the truth says so."""

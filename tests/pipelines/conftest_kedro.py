@@ -19,7 +19,12 @@ from tire_pipeline.cli import cli
 
 ROOT = Path(__file__).resolve().parents[2]
 SHORT_TRAINING = ",".join(
-    ("train_agent.total_steps=1280", "train_agent.likelihood_updates=2", "train_classifier.ann.epochs=10")
+    (
+        "train_agent.total_steps=1280",
+        "train_agent.likelihood_updates=2",
+        "train_classifier.ann.epochs=10",
+        "train_classifier.trainings=1",
+    )
 )
 """How good agents and networks become is no matter of a whole run's tests."""
 Run = Callable[..., subprocess.CompletedProcess[str]]

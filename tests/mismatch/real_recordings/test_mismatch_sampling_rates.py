@@ -42,16 +42,18 @@ def prepared(rate):
 # No search: what is repaired and cleaned before
 
 
-@pytest.mark.parametrize("rate", RATES)
+FEW_RATES = [*(pytest.param(rate, marks=pytest.mark.ci) for rate in RATES[:-1]), RATES[-1]]
+"""The highest in `make test`, all of them in CI."""
+
+
+@pytest.mark.parametrize("rate", FEW_RATES)
 def test_real_channels_are_neither_stuck_nor_clipped_nor_turned(rate):
     """A drive's axes were the other ones."""
     for _, _, as_it_is in prepared(rate):
         assert [(f.name, f.channel) for f in as_it_is.findings] == []
 
 
-@pytest.mark.parametrize(
-    "rate", [*(pytest.param(rate, marks=pytest.mark.ci) for rate in RATES[:-1]), RATES[-1]]
-)
+@pytest.mark.parametrize("rate", FEW_RATES)
 def test_real_channels_in_few_digits_are_neither_stuck_nor_clipped_nor_turned(rate):
     """At 500 Hz a speed in few digits was stuck for 645 samples."""
     for tire, given, _ in sources(rate):
@@ -131,7 +133,7 @@ def test_noise_of_one_drive_is_not_taken_off_where_the_slip_really_moves(rate):
     assert rms(free["fy"] - model.predict(free)["fy"]) < 1.02 * rms(free["fy"] - forces(tire, free))
 
 
-@pytest.mark.parametrize("rate", RATES)
+@pytest.mark.parametrize("rate", FEW_RATES)
 def test_cleaning_stays_only_where_it_leaves_less_of_the_recorded_force(rate):
     for tire, given, as_it_is in prepared(rate):
         cleaned = {c.channel: c.removed for c in as_it_is.cleaned if c.smoothed}
