@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def learn(agent: BaseAlgorithm, total_steps: int, steps_per_update: int, what: str) -> None:
-    """Train an agent. Left to itself, stable-baselines3 leaves a folder behind for each, in the system's /tmp.
+    """Train an agent, without the folder that stable-baselines3 leaves in the system's /tmp for each.
 
     Parameters
     ----------

@@ -25,7 +25,8 @@ from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.mismatch.inference.one_sided import log_possible
 from tire_pipeline.mismatch.inference.priors import prior
 from tire_pipeline.mismatch.inference.sets.answer import answered
-from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets
+from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets, screened_recording
+from tire_pipeline.mismatch.inference.sets.fitting import fitted
 from tire_pipeline.mismatch.recording.prepare import prepare
 
 OTHERS = all_but("friction_scale", "stiffness_scale", "force_offset", "force_gain", "inflation_pressure")
@@ -168,6 +169,29 @@ def test_the_fit_finds_the_friction(cases):
     case = cases[("friction_scale",)]
     changes = next(each.changes for each in case.sets if each.names == ("friction_scale",))
     assert changes[0][1]["friction"] == pytest.approx(-0.3, abs=0.01)
+
+
+@pytest.mark.parametrize("away", [-5.0, 5.0])
+def test_the_moment_of_a_step_is_found_from_the_start_beside_the_nearest(tire, record, away):
+    """Starts are 6 s apart. On real sweeps the likeliest was not the nearest, and the step out of reach."""
+    friction = np.where(np.arange(3750) / 25.0 < 81.0, 1.0, 0.8)
+    analysis = analyse(prepare(tire, record(friction=friction)).data, all_but("surface_change"))
+    looked = screened_recording(analysis, learnt())
+    begun = next(v for v in analysis.variants if "moment" in v.free)
+    begun = replace(begun, start={**begun.start, "moment": 81.0 + away})
+    ((_, found),) = fitted(looked.products, looked.guess, [begun]).changes
+    assert found["moment"] == pytest.approx(81.0, abs=0.1)
+    assert found["friction"] == pytest.approx(-0.2, abs=0.03)
+
+
+def test_a_steady_change_lasts_the_whole_recording(tire, record):
+    friction = 1.0 - 0.2 * np.linspace(0.0, 1.0, 3750)
+    analysis = analyse(prepare(tire, record(friction=friction)).data, all_but("surface_change"))
+    looked = screened_recording(analysis, learnt())
+    begun = next(v for v in analysis.variants if "moment" not in v.free)
+    ((_, found),) = fitted(looked.products, looked.guess, [begun]).changes
+    assert found["moment"] == begun.start["moment"]
+    assert found["friction"] == pytest.approx(-0.2, abs=0.03)
 
 
 @pytest.fixture(scope="module")
