@@ -18,7 +18,7 @@ from tire_pipeline.mismatch import Explainer
 from tire_pipeline.mismatch.discrepancy.background import principal
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.analysis import analyse
-from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_posterior, log_prior
+from tire_pipeline.mismatch.inference.evidence.hypotheses import hypotheses, log_posterior, log_prior, plain
 from tire_pipeline.mismatch.inference.evidence.likelihood import Weights
 from tire_pipeline.mismatch.inference.learn_sizes import Tuning, learn, log_scores, pruned
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
@@ -27,6 +27,7 @@ from tire_pipeline.mismatch.inference.priors import prior
 from tire_pipeline.mismatch.inference.sets.answer import answered
 from tire_pipeline.mismatch.inference.sets.enumerate import enumerate_sets, screened_recording
 from tire_pipeline.mismatch.inference.sets.fitting import fitted
+from tire_pipeline.mismatch.inference.sets.objective import negative_log_posterior
 from tire_pipeline.mismatch.recording.prepare import prepare
 
 OTHERS = all_but("friction_scale", "stiffness_scale", "force_offset", "force_gain", "inflation_pressure")
@@ -182,6 +183,24 @@ def test_the_moment_of_a_step_is_found_from_the_start_beside_the_nearest(tire, r
     ((_, found),) = fitted(looked.products, looked.guess, [begun]).changes
     assert found["moment"] == pytest.approx(81.0, abs=0.1)
     assert found["friction"] == pytest.approx(-0.2, abs=0.03)
+
+
+def test_a_step_is_weighed_by_how_far_its_moment_may_move(tire, record):
+    """At zero slip friction changes nothing: the slope at the moment does not say how far it may move."""
+    friction = np.where(np.arange(3750) / 25.0 < 82.5, 1.0, 0.9)  # where the slip is zero
+    analysis = analyse(prepare(tire, record(friction=friction)).data, all_but("surface_change"))
+    looked = screened_recording(analysis, learnt())
+    begun = next(v for v in analysis.variants if "moment" in v.free)
+    found = fitted(looked.products, looked.guess, [replace(begun, start={**begun.start, "moment": 82.0})])
+    ((name, p),) = found.changes
+    moments = p["moment"] + np.arange(-12.0, 12.0, 0.02)
+    moved = [[(name, {**p, "moment": float(m)})] for m in moments]
+    cost = np.array([negative_log_posterior(looked.products, looked.guess, c, [("moment",)]) for c in moved])
+    mass = np.trapezoid(np.exp(cost.min() - cost), moments)
+    wide = prior(analysis.data, found.changes, [(0, "moment")])[1][0]
+    narrow = wide * plain(looked.guess, found).covariance[1, 1] ** 0.5
+    assert found.spread == pytest.approx(np.log(mass / narrow / np.sqrt(2.0 * np.pi)), abs=0.5)
+    assert found.spread < -0.3  # there the slope is flatter than on either side
 
 
 def test_a_steady_change_lasts_the_whole_recording(tire, record):

@@ -54,13 +54,14 @@ class Hypothesis:
         columns = self.effects.columns(wide=self.wide, form=self.form)
         own = scales(self.effects, likelihood.learnt)
         scale = np.r_[own, np.full(columns.size - own.size, likelihood.learnt.wide)]
-        return likelihood.evidence(
+        found = likelihood.evidence(
             products.take(columns),
             scale,
             tailed=self.effects.tailed(columns.size),
             positive=self.effects.positive(columns.size),
             wide=self.wide,
-        ).value
+        )
+        return found.value + self.effects.spread
 
 
 def hypotheses(case: OfCase) -> list[Hypothesis]:
@@ -84,7 +85,7 @@ def plain(likelihood: Likelihood, each: OfSet, *, wide: bool = False) -> Evidenc
 
 def plain_evidence(likelihood: Likelihood, each: OfSet) -> float:
     """Return the log evidence of a set with nothing unnamed."""
-    return plain(likelihood, each).value
+    return plain(likelihood, each).value + each.spread
 
 
 def log_evidence(

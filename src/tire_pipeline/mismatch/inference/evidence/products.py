@@ -42,6 +42,9 @@ class OfSet:
     forms : tuple of int
         Columns of each unnamed form by itself, which come after those of all together; empty for sets that
         are too unlikely.
+    spread : float
+        Log of how much wider the moments at which forces jump spread than their derivatives say: these are
+        spikes. It is added to the log evidence.
     """
 
     changes: tuple[Change, ...]
@@ -50,6 +53,7 @@ class OfSet:
     errors: int
     products: ColumnProducts
     forms: tuple[int, ...] = ()
+    spread: float = 0.0
 
     @property
     def names(self) -> tuple[str, ...]:

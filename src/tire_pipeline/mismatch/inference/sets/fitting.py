@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.inference.evidence.likelihood import ColumnProducts, Likelihood, Weights
+from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import OfSet, RecordingProducts
 from tire_pipeline.mismatch.inference.linearised_set import columns_of, moved
-from tire_pipeline.mismatch.inference.priors import Labels, prior
-from tire_pipeline.mismatch.inference.tails import cost, widening
+from tire_pipeline.mismatch.inference.sets.moments import log_spread, with_likeliest_moments
+from tire_pipeline.mismatch.inference.sets.objective import (
+    learnt_prior,
+    negative_log_posterior,
+    normal_equations,
+)
+from tire_pipeline.mismatch.inference.tails import widening
 from tire_pipeline.mismatch.model.candidates import Variant
 from tire_pipeline.mismatch.model.channels import CHANCE
-from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change
 from tire_pipeline.mismatch.model.residual import residual
 
@@ -37,41 +41,12 @@ def fitted(products: RecordingProducts, likelihood: Likelihood, variants: Sequen
     free = [tuple(v.free) for v in variants]
     smooth = [tuple(p for p in v.free if p not in v.effect.scanned) for v in variants]
     changes, gain, near = _step(products, likelihood, changes, smooth)
-    changes, more = _scan(products, near, changes, free)
+    changes, more = with_likeliest_moments(products, near, changes, free)
     gain += more
     while gain >= CHANCE:
-        changes, gain, _ = _step(products, likelihood, changes, smooth)
-    return products.of_set(changes, free)
-
-
-def _cost(
-    products: RecordingProducts,
-    likelihood: Likelihood,
-    changes: Sequence[Change],
-    free: Sequence[tuple[str, ...]],
-) -> float:
-    """Negative log posterior of the parameters, summed over the sizes of misfit and error."""
-    rest = residual(products.data, changes)
-    found = likelihood.evidence(products.of({o: r[:, None] for o, r in rest.items()}), np.zeros(0))
-    off, wide = _learnt_prior(products.data, likelihood, changes, _moving(changes, free))
-    return -found.value + float(np.sum(cost(off / wide)))
-
-
-def _learnt_prior(
-    data: Data, likelihood: Likelihood, changes: Sequence[Change], labels: Labels
-) -> tuple[Array, Array]:
-    """As :func:`prior`, with the learnt width."""
-    off, wide = prior(data, changes, labels)
-    return off, wide * likelihood.learnt.prior
-
-
-def _moving(changes: Sequence[Change], free: Sequence[tuple[str, ...]]) -> Labels:
-    return [
-        (i, p.name)
-        for i, ((name, _), names) in enumerate(zip(changes, free, strict=True))
-        for p in catalogue()[name].parameters
-        if p.name in names
-    ]
+        changes, gain, near = _step(products, likelihood, changes, smooth)
+    spread = log_spread(products, likelihood, changes, free)
+    return replace(products.of_set(changes, free), spread=spread)
 
 
 def _step(
@@ -87,69 +62,21 @@ def _step(
     """
     data = products.data
     labels, columns = columns_of(data, changes, list(free))
-    off, wide = _learnt_prior(data, likelihood, changes, labels)
+    off, wide = learnt_prior(data, likelihood, changes, labels)
     rest = residual(data, changes)
     here = products.of({o: np.column_stack([columns[o] * wide, r]) for o, r in rest.items()})
     found = likelihood.evidence(here, np.ones(wide.size))
     near = likelihood.at(found.weights)
     if not labels:
         return changes, 0.0, near
-    best = _cost(products, near, changes, free)
-    inner, aim = _normal_equations(found.weights, here, wide.size)
+    best = negative_log_posterior(products, near, changes, free)
+    inner, aim = normal_equations(found.weights, here, wide.size)
     tails = 1.0 / widening(off / wide) ** 2
     inner, aim = inner + np.diag(tails), aim - tails * off / wide
     for damping in _DAMPINGS:
         delta = np.linalg.solve(inner + damping * np.diag(np.diag(inner)), aim) * wide
         trial = moved(changes, labels, delta)
-        tried = _cost(products, near, trial, free)
+        tried = negative_log_posterior(products, near, trial, free)
         if tried < best:
             return trial, best - tried, near
     return changes, 0.0, near
-
-
-def _scan(
-    products: RecordingProducts,
-    likelihood: Likelihood,
-    changes: list[Change],
-    free: Sequence[tuple[str, ...]],
-) -> tuple[list[Change], float]:
-    """Move by trial the moments at which the force jumps: the derivative with respect to one is a spike.
-
-    From half of the way between two starts down to a sample; each width is tried until it gains nothing more.
-    """
-    data, effects = products.data, catalogue()
-    moments = [(i, m) for i, (name, _) in enumerate(changes) for m in effects[name].stepped if m in free[i]]
-    if not moments:
-        return changes, 0.0
-    assert data.time is not None  # the effect needs a time line
-    first = best = _cost(products, likelihood, changes, free)
-    for i, moment in moments:
-        effect = effects[changes[i][0]]
-        begun_from = {s[moment] for s in effect.starts(data) if moment in effect.free(data, s)}
-        width = 0.5 * float(np.min(np.diff(sorted(begun_from))))
-        while width > data.sampling:
-            nearer = [_with_moment(changes, i, moment, sign * width, data.time) for sign in (1.0, -1.0)]
-            costs = [_cost(products, likelihood, trial, free) for trial in nearer]
-            if min(costs) < best:
-                changes, best = nearer[int(np.argmin(costs))], min(costs)
-            else:
-                width *= 0.5
-    return changes, first - best
-
-
-def _with_moment(changes: Sequence[Change], i: int, moment: str, later: float, time: Array) -> list[Change]:
-    """Return the same with a moment of one effect later by some seconds, within the recording."""
-    out: list[Change] = [(name, dict(p)) for name, p in changes]
-    out[i][1][moment] = float(np.clip(out[i][1][moment] + later, time[0], time[-1]))
-    return out
-
-
-def _normal_equations(
-    weights: Mapping[str, Weights], products: ColumnProducts, count: int
-) -> tuple[Array, Array]:
-    inner, aim = np.zeros((count, count)), np.zeros(count)
-    for o, each in weights.items():
-        reduced = each.reduced(products.own[o], products.nuisance[o])
-        inner += reduced[:-1, :-1]
-        aim += reduced[:-1, -1]
-    return inner, aim
