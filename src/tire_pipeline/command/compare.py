@@ -49,7 +49,7 @@ def command(
 
 @contextmanager
 def _missing_radius_is_said() -> Iterator[None]:
-    """Keep the warning of a missing radius back: a line of the result says it."""
+    """Suppress the warning of a missing radius: a line of the result says it."""
     from tire_pipeline.magic_formula.forces import MissingRadiusWarning
 
     with warnings.catch_warnings():

@@ -93,7 +93,7 @@ def command(
             refusal = error
     stem = runs[0].stem if str(file) == NO_TIRE else file.stem
     finish(_outcome(report, file, written), f"{stem}_explain", **output)
-    if refusal is not None:  # what was found is told all the same
+    if refusal is not None:  # after the result has been printed
         raise refusal
 
 

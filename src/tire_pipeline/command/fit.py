@@ -95,7 +95,7 @@ def _fitted(result: FitResult) -> dict[str, float]:
 
 
 def _poor(result: FitResult) -> list[str]:
-    """What may not pass for a tire's, one sentence an output."""
+    """Fits that are not plausible for a tire, one sentence an output."""
     return [f"POOR FIT of {name.capitalize()}, not to be used: {text}" for name, text in result.poor.items()]
 
 

@@ -1,4 +1,4 @@
-"""A lock that goes with the process that held it, however that ended."""
+"""A lock that ends with the process that held it, however that process ended."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def held(folder: Files | Objects) -> contextlib.AbstractContextManager[None]:
 
 @contextlib.contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold ``<folder>/.lock``; the system lets go of it when the process ends, even when it is killed.
+    """Hold ``<folder>/.lock``; the system releases it when the process ends, even if it is killed.
 
     Where the file system has no locks, the run's ticket (:mod:`tire_pipeline.runs`) keeps others away.
     """

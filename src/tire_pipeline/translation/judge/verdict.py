@@ -83,7 +83,7 @@ class VerdictRules:
             Tire table with ``category``.
         target : str
         trust : float
-            How far what is a file's own is drawn towards the expectation for such a tire.
+            How far the tire effect of a file is shrunk towards the expectation for such a tire.
         gate, farthest
             As in the class.
         """
@@ -207,7 +207,7 @@ class VerdictRules:
         )
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays, strings and numbers that bring it back."""
+        """Return the arrays, strings and numbers that restore it."""
         return {
             "target": self.target,
             "option_gate": self.gate,
@@ -218,7 +218,7 @@ class VerdictRules:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         return cls(
             str(state["target"]),
             TrainingReach.from_state(state),
