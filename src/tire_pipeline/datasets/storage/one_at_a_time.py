@@ -38,13 +38,13 @@ def replace_unless_changed(folder: Files | Objects, name: str, content: bytes, s
     Raises
     ------
     DomainError
-        Another run has stored meanwhile.
+        Another run has stored its results in the meantime.
     """
     try:
         folder.replace(name, content, stamp)
     except ConflictError as error:
         raise DomainError(
-            "another run has stored meanwhile",
+            "another run has stored its results in the meantime",
             where=f"{folder}/{name}",
             todo="nothing was changed: run again",
         ) from error
@@ -60,7 +60,7 @@ def refuse_other_revision(found: int, expected: int, where: Path | str) -> None:
     """
     if found != expected:
         raise DomainError(
-            f"another run has stored revision {found} meanwhile; this one began at {expected}",
+            f"another run has stored revision {found} in the meantime; this one began at {expected}",
             where=str(where),
             todo="nothing was changed: run again",
         )
