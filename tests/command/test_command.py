@@ -357,6 +357,16 @@ def test_check_has_one_sign_for_what_has_no_unit(folder):
     assert {units["slip_ratio"], units["RUN"], units["ratio"]} == {"-"}
 
 
+def test_the_page_of_a_check_has_the_digits_of_each_channel(folder):
+    """The median of a speed of 22.18 to 22.26 m/s was 22, because pressures stand in the same column."""
+    record("run.csv", seconds=5.0)
+    rows = pd.read_csv("run.csv")
+    rows.assign(speed=np.linspace(22.18, 22.26, len(rows)), pressure=250000.0).to_csv("run.csv", index=False)
+    run("check", "run.csv")
+    (row,) = re.findall(r"<tr><td>speed</td>.*?</tr>", page(folder / "run_check.html"))
+    assert re.findall(r">([\d.]+)<", row) == ["22.18", "22.22", "22.26", "0"]
+
+
 def test_check_says_that_names_tell_the_axes(folder):
     """A TYDEX file was "read as ISO, which is assumed", though its channels name their axes."""
     record("run.csv", seconds=5.0)

@@ -183,7 +183,8 @@ def _page(
     if issues.rows:
         parts.append(Table(pd.DataFrame(issues.rows, columns=list(issues.header)), heading="What is wrong"))
     parts.append(Figure(*_figure(recording), heading="Channels"))
-    parts.append(Table(pd.DataFrame(channels.rows, columns=list(channels.header)), channels.title, digits=4))
+    table = pd.DataFrame(channels.rows, columns=list(channels.header))
+    parts.append(Table(table, channels.title, digits=4, unlike=True))
     if notes:
         parts.append(Text(notes, heading="What was done and assumed on reading"))
     return render_page(run.name, parts, footer=f"tire check {run.name}")

@@ -174,7 +174,8 @@ def _page(
         ),
     ]
     for grid, heading in zip(grids, ("Key figures", "Forces"), strict=True):
-        parts.append(Table(pd.DataFrame(grid.rows, columns=list(grid.header)), grid.title, heading))
+        table = pd.DataFrame(grid.rows, columns=list(grid.header))
+        parts.append(Table(table, grid.title, heading, unlike=True))
     frame = pd.DataFrame(changed, columns=["coefficient", "A", "B"])
     if len(frame):
         said = "SI units; a dash: the version does not use it, or the file lacks it."
