@@ -79,6 +79,9 @@ def test_a_file_is_translated_as_the_translator_itself_does(folder, translator):
     assert "source category: A" in Path("tire_as_D.tir").read_text(encoding="latin-1")
     page = Path("tire_translate.html").read_text()
     assert "90% probability" in page
+    printed = run("translate", "A/tire.tir", "--model", "06_models/translator.npz", "--overwrite").stdout
+    changes = [line for line in printed.splitlines() if line.startswith("D measures")]
+    assert changes == [f"{change}." for change in said["changes"].split("; ")]  # a line each
     assert "Coefficients that moved" in page
 
 
