@@ -44,7 +44,7 @@ def notebooks(root: Path) -> list[Path]:
 
 def navigation(root: Path) -> list[dict[str, str]]:
     """Return the entries of the navigation."""
-    entries = [{_parts(path)[0]: f"gallery/{path.stem}.md"} for path in scripts(root)]
+    entries = [{parts_of(path)[0]: f"gallery/{path.stem}.md"} for path in scripts(root)]
     return entries + [{_title(path): f"gallery/notebook_{path.stem}.md"} for path in notebooks(root)]
 
 
@@ -53,7 +53,7 @@ def pages(root: Path) -> dict[str, str | bytes]:
     made: dict[str, str | bytes] = {}
     cards = []
     for path in scripts(root):
-        title, text, caption, code = _parts(path)
+        title, text, caption, code = parts_of(path)
         printed, picture = run(path, root)
         made[f"gallery/{path.stem}.png"] = picture
         parts = [f"# {title}", text, f"```python\n{code}\n```"]
@@ -73,7 +73,7 @@ def pages(root: Path) -> dict[str, str | bytes]:
     return made
 
 
-def _parts(path: Path) -> tuple[str, str, str, str]:
+def parts_of(path: Path) -> tuple[str, str, str, str]:
     """Title, text, caption of the picture and code of a script."""
     source = path.read_text("utf-8")
     tree = ast.parse(source)

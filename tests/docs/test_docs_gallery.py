@@ -14,7 +14,7 @@ gallery = pytest.importorskip("gallery", reason="pip install -e .[docs]")
 
 @pytest.mark.parametrize("path", gallery.scripts(ROOT), ids=lambda path: path.stem)
 def test_a_script_has_title_text_and_caption(path):
-    title, text, caption, code = gallery._parts(path)
+    title, text, caption, code = gallery.parts_of(path)
     assert min(map(len, (title, text, caption))) > 10
     assert caption.endswith(".")
     assert "Picture: " not in text + code
@@ -25,4 +25,4 @@ def test_a_script_without_a_caption_stops_the_build(tmp_path):
     script = tmp_path / "one.py"
     script.write_text('"""Title.\n\nWhat it shows.\n"""\nfigure = None\n')
     with pytest.raises(ValueError, match=r"has to end with a paragraph 'Picture: "):
-        gallery._parts(script)
+        gallery.parts_of(script)
