@@ -1,6 +1,7 @@
 """The gallery: scripts in docs/gallery are run, and shown with what they print and draw; notebooks beside them.
 
-A script ends with a ``figure``. What it gave is kept in ``.cache/gallery`` for as long as neither the script, nor
+A script ends with a ``figure``, and the last paragraph of its docstring says what to see in it: ``Picture: ...``.
+What it gave is kept in ``.cache/gallery`` for as long as neither the script, nor
 the examples, nor the package changes.
 """
 
@@ -43,7 +44,7 @@ def notebooks(root: Path) -> list[Path]:
 
 def navigation(root: Path) -> list[dict[str, str]]:
     """Return the entries of the navigation."""
-    entries = [{_parts(path)[0]: f"gallery/{path.stem}.md"} for path in scripts(root)]
+    entries = [{parts_of(path)[0]: f"gallery/{path.stem}.md"} for path in scripts(root)]
     return entries + [{_title(path): f"gallery/notebook_{path.stem}.md"} for path in notebooks(root)]
 
 
@@ -52,13 +53,13 @@ def pages(root: Path) -> dict[str, str | bytes]:
     made: dict[str, str | bytes] = {}
     cards = []
     for path in scripts(root):
-        title, text, code = _parts(path)
+        title, text, caption, code = parts_of(path)
         printed, picture = run(path, root)
         made[f"gallery/{path.stem}.png"] = picture
         parts = [f"# {title}", text, f"```python\n{code}\n```"]
         if printed.strip():
             parts.append(f"It prints:\n\n```text\n{printed.rstrip()}\n```")
-        parts.append(f"![{title}]({path.stem}.png)")
+        parts += [f"![{title}]({path.stem}.png)", f"*{caption}*"]
         made[f"gallery/{path.stem}.md"] = "\n\n".join(parts) + "\n"
         cards.append(f'<a href="{path.stem}.html"><img alt="" src="{path.stem}.png">{html.escape(title)}</a>')
     listed = []
@@ -72,14 +73,16 @@ def pages(root: Path) -> dict[str, str | bytes]:
     return made
 
 
-def _parts(path: Path) -> tuple[str, str, str]:
-    """Title, text and code of a script."""
+def parts_of(path: Path) -> tuple[str, str, str, str]:
+    """Title, text, caption of the picture and code of a script."""
     source = path.read_text("utf-8")
     tree = ast.parse(source)
-    said = ast.get_docstring(tree) or path.stem
+    said, found, caption = (ast.get_docstring(tree) or "").partition("\n\nPicture: ")
+    if not found:
+        raise ValueError(f"{path}: the docstring has to end with a paragraph 'Picture: what to see in it'")
     title, _, text = said.partition("\n")
     code = "\n".join(source.splitlines()[tree.body[0].end_lineno or 0 :]).strip()
-    return title.rstrip("."), text.strip(), code
+    return title.rstrip("."), text.strip(), " ".join(caption.split()), code
 
 
 @cache

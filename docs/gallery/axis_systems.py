@@ -3,6 +3,8 @@
 ISO W: a positive slip angle gives a negative side force. In SAE axes the y axis points to the right, so slip
 angle and side force both change their sign, and the curve looks the same. In adapted SAE axes a positive slip
 angle gives a positive side force.
+
+Picture: The curves of ISO and SAE lie on each other; that of adapted SAE is their mirror image.
 """
 
 import numpy as np

@@ -3,6 +3,10 @@
 A constant force is added to the run, and only the samples at one load are kept. At one load an offset of
 the force channel, conicity and an offset of the slip angle look alike. The report names one and lists
 the others as alternatives.
+
+Picture: Top: recorded minus simulated side force of each point, over slip angle and load. Bottom: the
+same over time. Before the correction all points are off by the same force; after it they scatter within
+the noise.
 """
 
 from tire_pipeline.mismatch import explain_mismatch

@@ -1,6 +1,8 @@
 """Check a recording before anything is explained.
 
 A copy of the rig run gets two faults: a gap of two seconds, and a block without numbers.
+
+Picture: The side force over time. At 20 s time itself is missing, just before 40 s only the numbers.
 """
 
 import numpy as np

@@ -2,6 +2,9 @@
 
 Each curve has one slip angle; the slip ratio goes from free rolling to strong braking. The more force the
 tire uses for braking, the less is left for cornering.
+
+Picture: Each curve begins at free rolling on the right. The side force falls as braking grows to the
+left.
 """
 
 import numpy as np

@@ -2,6 +2,9 @@
 
 `write_tir` keeps order, comments and printed digits. Only the line that was changed differs. The source
 file is not touched.
+
+Picture: Solid: the file as it was. Dashed: with 10% more cornering stiffness, which shows at small slip
+angles; the peak stays. The example file has no aligning moment.
 """
 
 import tempfile

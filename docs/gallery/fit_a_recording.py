@@ -2,6 +2,9 @@
 
 The rig run is cut to one inflation pressure, because a 5.2 model has no coefficient of pressure.
 `undetermined` lists the coefficients that the data leave open. Do not rely on them.
+
+Picture: Left: the fit at three loads. Right: model minus measured side force. No pattern over the slip
+angle is left, only noise.
 """
 
 from tire_pipeline.magic_formula import fit_magic_formula

@@ -3,6 +3,9 @@
 Coefficients depend on the nominal load they were fitted with. `nominal_load_changed` rewrites them so
 that the forces stay the same; only then can the coefficients of two files be compared. In the picture
 the dots lie on the line. If only the number `FNOMIN` is replaced, the file describes another tire.
+
+Picture: The dots lie on the line: the rewritten tire has the same forces. The dashed line is the tire of
+which only `FNOMIN` was replaced.
 """
 
 import numpy as np

@@ -2,6 +2,8 @@
 
 `to_version` keeps the forces: the dots lie on the line. `conversion_notes` says what other
 software will see differently.
+
+Picture: The dots of version 6.1 lie on the line of version 5.2.
 """
 
 import numpy as np

@@ -2,6 +2,9 @@
 
 `read_tir` brings all units to SI. `plot` draws the forces over slip and the cornering stiffness over
 load.
+
+Picture: Side force and longitudinal force over slip at three loads, and the cornering stiffness over
+load. The example file has no aligning moment.
 """
 
 from tire_pipeline.tir import read_tir

@@ -2,6 +2,9 @@
 
 `jacobian` gives exact derivatives. Each curve is the change of the side force when a coefficient grows
 by 1% of its value.
+
+Picture: The cornering stiffness (PKY1) acts at small slip angles, peak friction (PDY1) at large ones,
+with opposite signs on the two sides of zero.
 """
 
 import numpy as np

@@ -2,6 +2,8 @@
 
 The dashed curve is the true one, which only a generated fleet has. Rig, surface and fit make each
 organisation's file differ from it.
+
+Picture: The files agree in shape, and differ most in the largest force.
 """
 
 import numpy as np
@@ -11,13 +13,14 @@ from tire_pipeline.pages.drawing import colour_of, new_figure
 from tire_pipeline.tir import read_tir
 
 fleet = make_fleet(FleetSettings(seed=1, files=400, hidden_tires=2, tuning_tires=2))
-names = sorted(name for name in fleet.evaluation if name.startswith("hidden/"))
+measured = fleet.truth.first  # the target's own measurements too, which no method may see
+names = sorted(name for name in measured if name.startswith("hidden/"))
 tire = names[0].rsplit("/", 1)[1]
 slip_angle = np.linspace(-0.2, 0.2, 101)
 
 figure, axes = new_figure(width=6.5, height=3.8)
 for number, name in enumerate(name for name in names if name.endswith(tire)):
-    model = read_tir(fleet.evaluation[name].encode("cp1252"), path=name)
+    model = read_tir(measured[name].encode("cp1252"), path=name)
     fy = model.forces(slip_angle=slip_angle, normal_load=6000.0, limits="ignore").fy
     axes.plot(np.degrees(slip_angle), fy / 1e3, color=colour_of(number), label=name.split("/")[1])
 curves = fleet.truth.curves["hidden"]

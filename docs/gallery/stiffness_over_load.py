@@ -2,6 +2,8 @@
 
 Stiffness grows less than in proportion to the load, and the friction coefficient falls: a heavily loaded
 tire has less of both for its load.
+
+Picture: Left: the stiffness curve bends down. Right: the friction coefficient falls with load.
 """
 
 import numpy as np

@@ -2,6 +2,10 @@
 
 A translator learns from the fleet's files. It then predicts what D would have measured of a tire that A
 measured. The 90% band shows how certain the prediction is.
+
+Picture: Left: side force of the file as A measured it and as translated. Right: the difference from the
+translated one. The shaded band holds D's own measurement with 90% probability; at large slip angles A's
+file lies outside of it.
 """
 
 import numpy as np
@@ -33,12 +37,17 @@ band = result.bands["fy"]
 load = len(band.normal_load) // 2
 at = float(band.normal_load[load])
 source = read_tir(fleet.evaluation[name].encode("cp1252"), path=name)
-figure, axes = new_figure(width=6.5, height=3.8)
+fy = source.forces(slip_angle=band.slip, normal_load=at, limits="ignore").fy / 1e3
+low, middle, high = (each[0, load] / 1e3 for each in (band.low, band.middle, band.high))
 degrees = np.degrees(band.slip)
-axes.fill_between(degrees, band.low[0, load] / 1e3, band.high[0, load] / 1e3, alpha=0.3, label="90% band")
-axes.plot(degrees, band.middle[0, load] / 1e3, color=colour_of(0), label="translated to D")
-fy = source.forces(slip_angle=band.slip, normal_load=at, limits="ignore").fy
-axes.plot(degrees, fy / 1e3, color=colour_of(1), label="as A measured it")
-axes.set_xlabel("slip angle (deg)")
-axes.set_ylabel(f"lateral force at {at / 1e3:g} kN (kN)")
-axes.legend()
+figure, (left, right) = new_figure(1, 2, width=8.5, height=3.6)
+left.plot(degrees, middle, color=colour_of(0), label="translated to D")
+left.plot(degrees, fy, color=colour_of(1), label="as A measured it")
+left.set_ylabel(f"lateral force at {at / 1e3:g} kN (kN)")
+left.legend()
+right.fill_between(degrees, low - middle, high - middle, alpha=0.3, label="90% band")
+right.plot(degrees, fy - middle, color=colour_of(1), label="as A measured it")
+right.set_ylabel("minus the translated force (kN)")
+right.legend()
+for axes in (left, right):
+    axes.set_xlabel("slip angle (deg)")

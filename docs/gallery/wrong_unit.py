@@ -2,6 +2,9 @@
 
 The force of the rig run is converted to pounds-force, but still labelled as newtons. The unit is found from
 its exact factor and repaired before any physics is looked for.
+
+Picture: Recorded and predicted forces lie on each other, in pounds-force: the prediction returns what the
+rig would record.
 """
 
 import numpy as np
@@ -25,5 +28,5 @@ for number, (name, fy) in enumerate(
 ):
     axes.plot(np.degrees(wrong["slip_angle"]), fy, ".", ms=2, color=colour_of(number), label=name)
 axes.set_xlabel("slip angle (deg)")
-axes.set_ylabel("lateral force, in the recording's unit")
+axes.set_ylabel("lateral force (lbf)")
 axes.legend()

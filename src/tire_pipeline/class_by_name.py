@@ -1,4 +1,4 @@
-"""A class that is imported only when somebody asks for it by its name."""
+"""Import a class only when it is asked for by its name."""
 
 from __future__ import annotations
 

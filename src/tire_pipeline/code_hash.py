@@ -1,4 +1,4 @@
-"""A hash of parts of this project's code: results of other code are not taken for this code's."""
+"""A hash of parts of this project's code, so that results of other code are never reused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Products of many rows with one matrix, to the last bit the same whatever rows stand beside each other."""
+"""Products of many rows with one matrix: no row's result depends on the other rows, to the last bit."""
 
 from __future__ import annotations
 

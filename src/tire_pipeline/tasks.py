@@ -1,4 +1,4 @@
-"""Many independent pieces of work, each with a name: what code that knows no cluster asks for."""
+"""Many independent pieces of work, each with a name, for code that does not know about clusters."""
 
 from __future__ import annotations
 

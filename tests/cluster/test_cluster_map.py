@@ -176,7 +176,7 @@ def test_a_scheduler_elsewhere_needs_tls(tmp_path):
     with pytest.raises(DomainError, match="tls_ca is not given"):
         check_address(ClusterParameters(scheduler="tls://10.0.0.1:8786"))
     files = {name: str(tmp_path / name) for name in ("tls_ca", "tls_certificate", "tls_key")}
-    with pytest.raises(DomainError, match="tls_ca is no file"):
+    with pytest.raises(DomainError, match="tls_ca is not a file"):
         check_address(ClusterParameters(scheduler="tls://10.0.0.1:8786", **files))
     for file in files.values():
         open(file, "w").close()

@@ -304,6 +304,13 @@ def test_what_was_found_is_told_though_no_corrected_file_may_be_written(folder):
     assert not (folder / "corrected.tir").exists()
 
 
+def test_a_difference_larger_than_the_force_has_no_exponent(folder):
+    write_tir(read_tir("a.tir").replace(PDY1=6.0, PKY1=-130.0), "b.tir")
+    text = run("compare", "a.tir", "b.tir", "--no-page").stdout
+    assert re.search(r"Fy \d\d\d%", text)
+    assert "e+" not in text
+
+
 def test_a_file_or_a_pipe_gets_whole_names(folder):
     """Tables were 80 columns wide there, and broke the names of channels."""
     record("run.csv")
@@ -336,6 +343,41 @@ def test_check_shows_no_digits_below_those_of_the_channel(folder):
     row = next(line for line in run("check", "run.csv").stdout.splitlines() if line.startswith("slip_angle"))
     assert row.split()[3:] == ["-0.2", "0", "0.2", "0"]
     assert told("check", "run.csv")["channels"]["slip_angle"]["median"] == pytest.approx(3e-9)
+
+
+def test_check_has_one_sign_for_what_has_no_unit(folder):
+    """It was "-" for a ratio, "none" as the file wrote it, and nothing where no unit was stated."""
+    record("run.csv", seconds=5.0)
+    rows = pd.read_csv("run.csv").rename(columns={"fy": "fy [N]"}).assign(slip_ratio=0.0, RUN=18.0)
+    rows["ratio [none]"] = 0.1
+    rows.to_csv("run.csv", index=False)
+    shown = {line.split()[0]: line.split() for line in run("check", "run.csv").stdout.splitlines() if line}
+    units = {name: row[-5] for name, row in shown.items() if len(row) > 4}
+    assert units["fy"] == "N"
+    assert {units["slip_ratio"], units["RUN"], units["ratio"]} == {"-"}
+
+
+def test_the_page_of_a_check_has_the_digits_of_each_channel(folder):
+    """The median of a speed of 22.18 to 22.26 m/s was 22, because pressures stand in the same column."""
+    record("run.csv", seconds=5.0)
+    rows = pd.read_csv("run.csv")
+    rows.assign(speed=np.linspace(22.18, 22.26, len(rows)), pressure=250000.0).to_csv("run.csv", index=False)
+    run("check", "run.csv")
+    (row,) = re.findall(r"<tr><td>speed</td>.*?</tr>", page(folder / "run_check.html"))
+    assert re.findall(r">([\d.]+)<", row) == ["22.18", "22.22", "22.26", "0"]
+
+
+def test_check_says_that_names_tell_the_axes(folder):
+    """A TYDEX file was "read as ISO, which is assumed", though its channels name their axes."""
+    record("run.csv", seconds=5.0)
+    names = {"fy": "FYW", "normal_load": "FZW", "slip_angle": "SLIPANGL"}
+    pd.read_csv("run.csv").rename(columns=names).to_csv("tydex.csv", index=False)
+    assert (
+        "Read with axes by the names of the channels (TYDEX): at a positive"
+        in run("check", "tydex.csv").stdout
+    )
+    assert "Read with ISO W axes, which were not stated: at a positive" in run("check", "run.csv").stdout
+    assert "Read with SAE axes, as stated: at a positive" in run("check", "run.csv", "--axes", "SAE").stdout
 
 
 def test_check_says_what_to_do_about_a_file_of_another_format_or_unit(folder):

@@ -79,14 +79,18 @@ def test_a_file_is_translated_as_the_translator_itself_does(folder, translator):
     assert "source category: A" in Path("tire_as_D.tir").read_text(encoding="latin-1")
     page = Path("tire_translate.html").read_text()
     assert "90% probability" in page
+    printed = run("translate", "A/tire.tir", "--model", "06_models/translator.npz", "--overwrite").stdout
+    changes = [line for line in printed.splitlines() if line.startswith("D measures")]
+    assert changes == [f"{change}." for change in said["changes"].split("; ")]  # a line each
     assert "Coefficients that moved" in page
 
 
 def test_a_tire_beyond_the_training_data_is_written_only_if_asked_for(folder):
     tire = read_tir("A/tire.tir")
     write_tir(tire.replace(PKY1=1.3 * tire.coefficients["PKY1"]), "A/stiff.tir")
-    asked = ("translate", "A/stiff.tir", "--model", "06_models/translator.npz", "--no-page")
+    asked = ("translate", "A/stiff.tir", "--model", "06_models/translator.npz")
     text = run(*asked).stdout
+    assert "Shaded" not in Path("stiff_translate.html").read_text()  # a refused file has no band
     assert ": refused." in text
     assert "outside of what d has measured: distance" in text.lower()
     assert "Bias of" not in text
@@ -102,10 +106,12 @@ def test_a_tire_of_other_loads_than_those_compared_is_refused_unless_asked_for(f
     asked = ("translate", "A/bus.tir", "--model", "06_models/translator.npz", "--no-page", "--json")
     refused = json.loads(run(*asked).stdout)
     assert refused["verdict"] == "refused"
-    assert "(its nominal load is 20 kN, and forces are judged at 2 to 8 kN)" in refused["reason"]
+    why, advice = refused["reason"].split(". ")  # the advice comes last
+    assert why.endswith("are judged at 2 to 8 kN, its nominal load is 20 kN)")
+    assert "--farthest 3" in advice
     assert not Path("bus_as_D.tir").exists()
     reason = json.loads(run(*asked, "--farthest", "3").stdout)["reason"]
-    assert "at 2 to 8 kN; its nominal load is 20 kN" in reason
+    assert "at 2 to 8 kN, its nominal load is 20 kN" in reason
     comments = " ".join(Path("bus_as_D.tir").read_text("latin-1").replace("\n! ", " ").split())
     assert "its nominal load is 20 kN: compare its curves there" in comments
     own = ("translate", "A/tire.tir", "--model", "06_models/translator.npz", "--no-page", "--json")

@@ -169,7 +169,7 @@ def test_a_store_that_changes_during_the_write_is_left_as_it_is(folder, monkeypa
 
     monkeypatch.setattr(Objects, "write", meanwhile)
     manifest = Manifest(revision=before.manifest.revision, sequence=2)
-    with pytest.raises(DatasetError, match="another run has stored meanwhile"):
+    with pytest.raises(DatasetError, match="another run has stored its results in the meantime"):
         dataset.save(Store(manifest, _table("mine")))
     assert dataset.load().table["file"].tolist() == ["other"]
 

@@ -43,6 +43,14 @@ def test_the_same_figure_gives_the_same_text():
     assert inline_svg(figure).startswith("<svg")
 
 
+def test_a_figure_that_is_higher_than_wide_may_fill_a_printed_page():
+    """The channels of a recording, one panel each, were printed as small as a single panel."""
+    high, _ = new_figure(11, 1, width=9.0, height=13.0)
+    low, _ = new_figure()
+    assert 'class="tall"' in render_page("t", [Figure(high)])
+    assert 'class="tall"' not in render_page("t", [Figure(low)])
+
+
 def test_numbers_are_rounded_and_long_tables_counted():
     page = render_page("t", [Table(pd.DataFrame({"x": [1.23456] * 5}), most_rows=2)])
     assert page.count("1.23<") == 2

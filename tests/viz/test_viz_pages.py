@@ -171,3 +171,20 @@ def test_figures_are_as_dark_as_their_page(reports, driver, media, scheme, white
     picture = driver.find_element("css selector", "svg.figure").screenshot_as_png
     usual = np.median(imread(io.BytesIO(picture))[..., :3])
     assert usual == pytest.approx(1.0 if white else 24 / 255, abs=0.02)
+
+
+@pytest.mark.parametrize("zoom", [1.0, 1.25])
+def test_a_table_that_is_seen_whole_has_no_shadow_at_its_edges(reports, driver, zoom):
+    """At other zooms than 100% a line of the shadow stood beside each table, seen on dark pages."""
+    dark = {"features": [{"name": "prefers-color-scheme", "value": "dark"}]}
+    size = {"width": 1200, "height": 900, "deviceScaleFactor": zoom, "mobile": False}
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", dark)
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    try:
+        driver.get((reports / "command/show.html").as_uri())
+        frame = driver.find_element("css selector", ".wide")
+        assert driver.execute_script("return arguments[0].scrollWidth <= arguments[0].clientWidth", frame)
+        edge = imread(io.BytesIO(frame.screenshot_as_png))[:, -3:, :3] * 255.0
+    finally:
+        driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    assert np.abs(edge - (22, 24, 26)).max() <= 2.0

@@ -42,12 +42,12 @@ class Classifier(Protocol):
         ...
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays, strings and numbers that bring the trained classifier back."""
+        """Return the arrays, strings and numbers that restore the trained classifier."""
         ...
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave; predicts the same, cannot be trained further."""
+        """Restore what :meth:`to_state` returned; predicts the same, cannot be trained further."""
         ...
 
 
@@ -71,7 +71,7 @@ def make_classifier(name: str, **options: Any) -> Classifier:
 
 
 def classifier_from_state(state: Mapping[str, Any]) -> Classifier:
-    """Bring back any classifier from its ``to_state()``."""
+    """Restore any classifier from its ``to_state()``."""
     classifier: Classifier = class_by_name(CLASSIFIERS, str(state["classifier"]), "classifier").from_state(
         state
     )

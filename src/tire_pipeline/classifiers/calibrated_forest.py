@@ -97,7 +97,7 @@ class CalibratedForest:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         back = cls()
         back.classes_ = np.asarray(state["classes"]).astype(str)
         back.curves = np.asarray(state["curves"], dtype=float)

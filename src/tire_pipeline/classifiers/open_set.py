@@ -1,4 +1,4 @@
-"""Whose file is it, or nobody's that is known? A calibrated probability and a test of typicality.
+"""Assign a file to a known supplier, or to none: a calibrated probability and a test of typicality.
 
 A probability among known categories knows nothing of unknown ones: of two wrong answers one is always the
 more probable. So a file must be typical of the category, too: its distance to the category's mean, in the
@@ -31,7 +31,7 @@ _LEAST_SCALE = 0.01  # of the magnitude: what never varies counts as varying by 
 
 @dataclass(frozen=True)
 class Assignment:
-    """Whose files they are.
+    """The supplier of each file.
 
     Attributes
     ----------
@@ -83,7 +83,8 @@ class OpenSetClassifier:
         folds = StratifiedGroupKFold(_fold_count(codes, tires), shuffle=True, random_state=seed)
         splits = list(folds.split(features, codes, tires))
         self.space = _Space.of(features, codes)
-        equal = np.full(self.classes_.size, 1.0 / self.classes_.size)  # how many files he sent says nothing
+        # equal priors: the number of files that a supplier sent is no evidence
+        equal = np.full(self.classes_.size, 1.0 / self.classes_.size)
         linear = LinearDiscriminantAnalysis(solver="lsqr", shrinkage="auto", priors=equal)
         self.calibrated: Any = CalibratedClassifierCV(
             linear, method="temperature", cv=splits, ensemble=False

@@ -1,4 +1,4 @@
-"""Whether a classifier's probabilities mean what they say."""
+"""Whether a classifier's probabilities are calibrated."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who measured a tire: three classifiers, two splits, always both."""
+"""Predict which organisation measured a tire: three classifiers, each on both splits."""
 
 from __future__ import annotations
 

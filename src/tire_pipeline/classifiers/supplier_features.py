@@ -1,4 +1,4 @@
-"""What a file shows of its supplier: curves, which coefficients were not fitted, stated conditions."""
+"""Features that identify a supplier: curves, coefficients that are not fitted, stated conditions."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ QUOTIENTS = (("FZMIN", "FZMAX"), ("INFLPRES", "NOMPRES"))
 
 
 def supplier_features(table: pd.DataFrame) -> tuple[np.ndarray, list[str]]:
-    """Lay out what tells a supplier, one row a file.
+    """Return the features that identify a supplier, one row a file.
 
     The coefficients of the pure slip forces and the aligning torque; which of them are exactly zero, because
     the supplier does not fit them; scale factors; the stated ranges and speed, the load range and the test

@@ -32,7 +32,7 @@ def category_of(file: str, known: set[str]) -> str:
 
 @dataclass(frozen=True)
 class KnownSuppliers:
-    """Says of files to translate who supplied them.
+    """Finds the supplier of each file to translate.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class KnownSuppliers:
         return category_of(file, set(self.names))
 
     def of(self, source: pd.DataFrame) -> pd.DataFrame:
-        """Say of each file who supplied it, and how that is known.
+        """Return the supplier of each file, and how it is known.
 
         Parameters
         ----------

@@ -44,7 +44,7 @@ def given_map(function: Callable[..., _T]) -> Callable[..., _T]:
 
 
 class ClusterHooks:
-    """Takes the parameter ``cluster`` of the run, and lets go of cluster and processes when the run ends."""
+    """Takes the parameter ``cluster`` of the run, and releases cluster and processes when the run ends."""
 
     @hook_impl
     def after_context_created(self, context: Any) -> None:

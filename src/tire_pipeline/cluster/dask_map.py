@@ -77,14 +77,14 @@ def check_address(chosen: ClusterParameters) -> bool:
         for name, file in files.items():
             if not file or not os.path.isfile(file):
                 raise DomainError(
-                    f"cluster.{name} is no file" if file else f"cluster.{name} is not given",
+                    f"cluster.{name} is not a file" if file else f"cluster.{name} is not given",
                     where=address,
                     todo="give tls_ca, tls_certificate and tls_key (docs/how-to/cluster.md)",
                 )
         return True
     if not _loopback(parts.hostname or ""):
         raise DomainError(
-            "a scheduler on another machine is only taken with TLS: Dask runs whatever it is sent",
+            "a scheduler on another machine needs TLS, because Dask runs any code that it receives",
             where=address,
             todo="use tls://... with cluster.tls_ca, tls_certificate and tls_key (docs/how-to/cluster.md)",
         )

@@ -1,1 +1,1 @@
-"""The command ``tire``: what an engineer asks of one file and one recording, without a project."""
+"""The command ``tire``: questions about one file or one recording, without a project."""

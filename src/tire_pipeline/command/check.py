@@ -9,7 +9,7 @@ import click
 import numpy as np
 
 from tire_pipeline.command.options import FILE, output_options, read_runs, reading_options
-from tire_pipeline.command.outcome import CommandOutcome, Grid, digits, finish
+from tire_pipeline.command.outcome import NO_UNIT, CommandOutcome, Grid, digits, finish
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -44,12 +44,12 @@ def command(
     runs = read_runs([run], axes=axes, units=units, names=names, format_=format_)
     recording = runs[run.name]
     issues = check_recording(recording)
-    finish(outcome(run, recording, issues, axes), f"{run.stem}_check", **output)
+    finish(outcome(run, recording, issues), f"{run.stem}_check", **output)
     if any(issue.severity == "error" for issue in issues):
         click.get_current_context().exit(UNUSABLE)
 
 
-def outcome(run: Path, recording: pd.DataFrame, issues: list[Issue], axes: str | None) -> CommandOutcome:
+def outcome(run: Path, recording: pd.DataFrame, issues: list[Issue]) -> CommandOutcome:
     """What is said of a recording.
 
     Parameters
@@ -59,19 +59,17 @@ def outcome(run: Path, recording: pd.DataFrame, issues: list[Issue], axes: str |
     recording : DataFrame
     issues : list of Issue
         What is wrong with it.
-    axes : str, optional
-        As stated by the user.
     """
     attrs = recording.attrs
     errors = sum(issue.severity == "error" for issue in issues)
     verdict = "It cannot be explained as it is" if errors else "It can be explained"
     counts = [_count(errors, "error"), _count(len(issues) - errors, "warning")]
-    lines = [f"{verdict}: {' and '.join(counts)}.", _size(recording), _axes(recording, axes)]
+    lines = [f"{verdict}: {' and '.join(counts)}.", _size(recording), _axes(recording)]
     rows = _channels(recording)
     channels = Grid(
         ("channel", "in the file", "unit", "lowest", "median", "highest", "missing"),
-        [(*row[:3], *_alike(row[3:6]), row[6]) for row in rows],
-        "Channels, in SI units",
+        [(*row[:2], _unit(row[2]), *_alike(row[3:6]), row[6]) for row in rows],
+        f"Channels, in SI units ({NO_UNIT}: none)",
     )
     found = Grid(
         ("severity", "what", "where", "what to do"),
@@ -116,15 +114,15 @@ def _size(recording: pd.DataFrame) -> str:
     return f"{kind}, {len(recording):,} samples over {digits(float(np.ptp(time)))} s{rate}."
 
 
-def _axes(recording: pd.DataFrame, axes: str | None) -> str:
+def _axes(recording: pd.DataFrame) -> str:
     """Say which sign the side force has: what the reader of a file has to compare with the rig's manual."""
-    read = f"Read as {axes.upper() if axes else 'ISO, which is assumed'}"
+    read = f"Read with {recording.attrs['assumed'][0]}"
     if not {"slip_angle", "fy"} <= set(recording):
-        return f"{read} where names do not tell."
+        return f"{read}."
     pair = recording[["slip_angle", "fy"]].to_numpy(dtype=float)
     pair = pair[np.isfinite(pair).all(axis=1)]
     if len(pair) < 3 or np.any(np.ptp(pair, axis=0) == 0.0):
-        return f"{read} where names do not tell."
+        return f"{read}."
     together = float(np.corrcoef(pair.T)[0, 1])
     if abs(together) < 0.5:
         return f"{read}; the side force does not follow the slip angle."
@@ -135,6 +133,15 @@ def _axes(recording: pd.DataFrame, axes: str | None) -> str:
         "leaves open which hold"
     )
     return f"{read}: at a positive slip angle the side force is {sign}."
+
+
+def _unit(name: str) -> str:
+    """One sign for ratios, however the file writes them, and for channels of which no unit is known."""
+    from tire_pipeline.recordings.conventions.units import find_unit
+
+    known = find_unit(name)
+    bare = known is not None and known.dimension == "ratio" and known.factor == 1.0
+    return NO_UNIT if not name or bare else name
 
 
 def _channels(recording: pd.DataFrame) -> list[tuple[Any, ...]]:
@@ -176,7 +183,8 @@ def _page(
     if issues.rows:
         parts.append(Table(pd.DataFrame(issues.rows, columns=list(issues.header)), heading="What is wrong"))
     parts.append(Figure(*_figure(recording), heading="Channels"))
-    parts.append(Table(pd.DataFrame(channels.rows, columns=list(channels.header)), channels.title, digits=4))
+    table = pd.DataFrame(channels.rows, columns=list(channels.header))
+    parts.append(Table(table, channels.title, digits=4, unlike=True))
     if notes:
         parts.append(Text(notes, heading="What was done and assumed on reading"))
     return render_page(run.name, parts, footer=f"tire check {run.name}")

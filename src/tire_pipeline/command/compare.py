@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tire_pipeline.command.options import FILE, names_of, output_options, radius_option
-from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
+from tire_pipeline.command.outcome import NO_UNIT, CommandOutcome, Grid, finish, percent
 
 if TYPE_CHECKING:
     from tire_pipeline.magic_formula import TireModel
@@ -49,7 +49,7 @@ def command(
 
 @contextmanager
 def _missing_radius_is_said() -> Iterator[None]:
-    """Keep the warning of a missing radius back: a line of the result says it."""
+    """Suppress the warning of a missing radius: a line of the result says it."""
     from tire_pipeline.magic_formula.forces import MissingRadiusWarning
 
     with warnings.catch_warnings():
@@ -78,7 +78,7 @@ def compared(
     held = [(x, y) for x, y in pairs if not math.isnan(x.value) or not math.isnan(y.value)]
     figures = Grid(
         ("quantity", "A", "B", "change", "unit"),
-        [(x.name, x.value, y.value, _change(x.value, y.value), x.unit) for x, y in held],
+        [(x.name, x.value, y.value, _change(x.value, y.value), x.unit or NO_UNIT) for x, y in held],
         f"At {load:,.0f} N, no camber. A dash: no such force, or no peak within the range of the file",
     )
     forces = Grid(
@@ -138,7 +138,7 @@ def _row(difference: Difference) -> tuple[Any, ...]:
 def _percent(share: float) -> str:
     if not math.isfinite(share):
         return "–"
-    return f"{100 * share:.2g}%" if share > _ROUNDING_SHARE else "0%"
+    return percent(share) if share > _ROUNDING_SHARE else "0%"
 
 
 def _change(before: float, after: float) -> str:
@@ -174,7 +174,8 @@ def _page(
         ),
     ]
     for grid, heading in zip(grids, ("Key figures", "Forces"), strict=True):
-        parts.append(Table(pd.DataFrame(grid.rows, columns=list(grid.header)), grid.title, heading))
+        table = pd.DataFrame(grid.rows, columns=list(grid.header))
+        parts.append(Table(table, grid.title, heading, unlike=True))
     frame = pd.DataFrame(changed, columns=["coefficient", "A", "B"])
     if len(frame):
         said = "SI units; a dash: the version does not use it, or the file lacks it."

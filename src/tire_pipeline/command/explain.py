@@ -93,7 +93,7 @@ def command(
             refusal = error
     stem = runs[0].stem if str(file) == NO_TIRE else file.stem
     finish(_outcome(report, file, written), f"{stem}_explain", **output)
-    if refusal is not None:  # what was found is told all the same
+    if refusal is not None:  # after the result has been printed
         raise refusal
 
 
@@ -134,16 +134,19 @@ def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> Command
     )
 
 
+def _rms(value: float) -> float:
+    """Three digits: its 95% interval leaves no more certain."""
+    return float(f"{value:.3g}")
+
+
 def _errors(report: MismatchReport) -> Grid:
     return Grid(
         ("output", "noise", "RMS before", "RMS after", "95% interval", "unit"),
         [
             (
                 name.capitalize(),
-                fit.noise_floor,
-                fit.rms_before,
-                fit.rms_after,
-                f"{digits(fit.rms_after_low)} to {digits(fit.rms_after_high)}",
+                *map(_rms, (fit.noise_floor, fit.rms_before, fit.rms_after)),
+                f"{digits(_rms(fit.rms_after_low))} to {digits(_rms(fit.rms_after_high))}",
                 "N m" if name.startswith("m") else "N",
             )
             for name, fit in report.fit.items()
@@ -156,7 +159,8 @@ def _found(effects: list[EffectReport]) -> Grid:
     return Grid(
         ("effect", "kind", "parameter", "value", "standard error"),
         [row for effect in effects for row in _rows(effect)],
-        "Found: parameters of the effects' equations, which the page shows",
+        "Found: parameters of the effects' equations, which the page shows. Parameters of one effect can act "
+        "alike; then each alone is uncertain",
     )
 
 
@@ -164,7 +168,12 @@ def _held_out(fit: HeldOutFit) -> Grid:
     return Grid(
         ("output", "RMS before", "RMS after", "after, of before (95%)"),
         [
-            (n.capitalize(), e.rms_before, e.rms_after, f"{e.ratio_low:.2f} to {e.ratio_high:.2f}")
+            (
+                n.capitalize(),
+                _rms(e.rms_before),
+                _rms(e.rms_after),
+                f"{e.ratio_low:.2f} to {e.ratio_high:.2f}",
+            )
             for n, e in fit.errors.items()
         ],
         f"On {fit.recording}, which was held out",

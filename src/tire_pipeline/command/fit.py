@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tire_pipeline.command.options import FILE, check_target, output_options, read_runs, reading_options
-from tire_pipeline.command.outcome import CommandOutcome, Grid, finish
+from tire_pipeline.command.outcome import CommandOutcome, Grid, finish, percent
 
 if TYPE_CHECKING:
     from tire_pipeline.magic_formula import FitResult
@@ -72,7 +72,7 @@ def command(
     )
     if start is None:
         result = replace(result, model=with_measured_ranges(result.model, result.measured))
-    said = ", ".join(f"{name} {100 * value:.2g}%" for name, value in _fitted(result).items())
+    said = ", ".join(f"{name} {percent(value)}" for name, value in _fitted(result).items())
     write_tir(
         result.model,
         target,
@@ -95,13 +95,13 @@ def _fitted(result: FitResult) -> dict[str, float]:
 
 
 def _poor(result: FitResult) -> list[str]:
-    """What may not pass for a tire's, one sentence an output."""
+    """Fits that are not plausible for a tire, one sentence an output."""
     return [f"POOR FIT of {name.capitalize()}, not to be used: {text}" for name, text in result.poor.items()]
 
 
 def _outcome(result: FitResult, runs: list[str], target: Path, notes: list[str]) -> CommandOutcome:
     model = result.model
-    sizes = ", ".join(f"{n.capitalize()} {100 * v:.2g}%" for n, v in _fitted(result).items())
+    sizes = ", ".join(f"{n.capitalize()} {percent(v)}" for n, v in _fitted(result).items())
     lines = [
         *_poor(result),
         f"Magic Formula {model.version} fitted to {', '.join(runs)}: "

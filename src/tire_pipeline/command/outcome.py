@@ -18,6 +18,8 @@ from tire_pipeline.pages.percentage import is_percentage
 from tire_pipeline.pages.visible_text import visible
 
 _WIDTH_OF_A_FILE = 1000
+NO_UNIT = "-"
+"""In a column of units: a ratio, or no unit is known."""
 
 
 @dataclass(frozen=True)
@@ -132,6 +134,18 @@ def digits(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.4g}"
     return str(value)
+
+
+def percent(share: float) -> str:
+    """Return a share with two digits that matter, and no exponent.
+
+    Examples
+    --------
+    >>> percent(0.0773), percent(0.0049), percent(1.23)
+    ('7.7%', '0.49%', '123%')
+    """
+    value = 100.0 * share
+    return f"{value:,.0f}%" if value >= 10.0 else f"{value:.2g}%"
 
 
 def plain(value: Any) -> Any:

@@ -10,7 +10,7 @@ import click
 
 from tire_pipeline.channels import shown_unit
 from tire_pipeline.command.options import FILE, output_options, radius_option
-from tire_pipeline.command.outcome import CommandOutcome, Grid, digits, finish
+from tire_pipeline.command.outcome import NO_UNIT, CommandOutcome, Grid, digits, finish
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -70,7 +70,7 @@ def _outcome(model: TireModel, file: Path, loads: tuple[float, ...], camber: flo
     odd = [str(text) for text in found] if isinstance(found, (list, tuple)) else []
     key = Grid(
         ("quantity", "value", "unit"),
-        [(f.name, f.value, f.unit) for f in figures if f.value == f.value or "peak" in f.name],
+        [(f.name, f.value, f.unit or NO_UNIT) for f in figures if f.value == f.value or "peak" in f.name],
         "At the nominal load, no camber",
     )
     valid = Grid(("valid for", "from", "to", "unit"), [_range(n, *ends) for n, ends in ranges.items()])
@@ -134,7 +134,7 @@ def _missing(missing: dict[str, float]) -> str:
 
 def _range(name: str, low: float, high: float) -> tuple[str, float, float, str]:
     factor, unit, _ = shown_unit(name, max(abs(low), abs(high)))
-    return name.replace("_", " "), low * factor, high * factor, unit
+    return name.replace("_", " "), low * factor, high * factor, unit or NO_UNIT
 
 
 def _by_section(model: TireModel) -> dict[str, pd.DataFrame]:

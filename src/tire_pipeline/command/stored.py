@@ -53,7 +53,7 @@ def translator_state(path: Path) -> tuple[Mapping[str, Any], Path]:
         load = {"nominal_load": state["nominal_load"]} if "nominal_load" in state else {}
         return {**inner, **load}, file
     raise DomainError(
-        "this model is no translator", where=str(file), todo="give the folder of a fitted translator"
+        "this model is not a translator", where=str(file), todo="give the folder of a fitted translator"
     )
 
 

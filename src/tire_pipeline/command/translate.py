@@ -115,7 +115,7 @@ def _outcome(
     lines = [
         f"Translation of {file.name}, measured by {said['source']}, to {said['target']}: {said['verdict']}.",
         *([f"{str(said['reason'])[:1].upper()}{str(said['reason'])[1:]}."] if said["reason"] else []),
-        *([f"{said['changes']}."] if said["changes"] else []),
+        *(f"{change}." for change in said["changes"].split("; ") if change),
         *([f"Bias of {said['source']} against {said['target']} (90% bands): {bands}."] if bands else []),
     ]
     moved = [(r["coefficient"], r["from"], r["to"]) for r in result.coefficients.to_dict("records")]

@@ -88,7 +88,7 @@ def floor_evaluation(
     grid: EvaluationGrid | None = None,
     lateral_only: bool = False,
 ) -> Evaluation:
-    """Say how well the target does itself, measuring each tire a second time: no translator does better.
+    """Return the error of the target's own second measurement of each tire, which is the floor.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""All files below a folder, each once, whatever else lies there."""
+"""All files below a folder, each once, and what else is in it."""
 
 from __future__ import annotations
 

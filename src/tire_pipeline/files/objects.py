@@ -83,7 +83,7 @@ class Objects:
         protocol, _, rest = address.partition("://")
         if "@" in rest.split("/", 1)[0]:
             raise DomainError(
-                "an address may not hold keys",
+                "an address must not contain keys",
                 where=f"{protocol}://...",
                 todo="give them in the environment (docs/how-to/cluster.md)",
             )

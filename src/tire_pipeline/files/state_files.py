@@ -1,4 +1,4 @@
-"""Trained things as plain numbers: one state within another, and a state as a file (NPZ, never pickle)."""
+"""Trained models as plain numbers: one state within another, and a state as a file (NPZ, never pickle)."""
 
 from __future__ import annotations
 

@@ -66,7 +66,7 @@ def _versions(catalog: Any, pipeline: Any, version: str, protocol: str) -> list[
 class OneRunHooks:
     """One run at a time on a data folder, and nothing left of a run that fails or is killed.
 
-    A run draws a ticket in ``<data>/.runs`` (:mod:`tire_pipeline.runs`), waits for its turn, and takes back
+    A run draws a ticket in ``<data>/.runs`` (:mod:`tire_pipeline.runs`), waits for its turn, and deletes
     what killed runs left before it reads anything. It checks its ticket around every result: a run that
     another has declared dead writes nothing more. A run that fails deletes its own versions.
     """
@@ -154,7 +154,7 @@ class OneRunHooks:
         self._end()
 
     def _end(self) -> None:
-        """Take back what the run wrote, and give its ticket back."""
+        """Delete what the run wrote, and return its ticket."""
         self._stop_checking()
         if self._ticket is not None:
             if isinstance(self._data, Objects):

@@ -1,1 +1,1 @@
-"""What pictures, pages and tables for people are made with: figures, safe pages and CSVs, notebook cards."""
+"""Tools for figures, pages and tables that people read: safe HTML and CSV, notebook cards."""

@@ -20,7 +20,7 @@ class PlainTextFigure(Figure):
         """Draw, with formulas only in the labels of logarithmic axes."""
         powers: set[Text] = set()
         for axis in (each for axes in self.axes for each in (axes.xaxis, axes.yaxis)):
-            labels = axis.get_majorticklabels()  # brings them up to date, too
+            labels = axis.get_majorticklabels()  # also updates them
             if axis.get_scale() != "linear":
                 powers.update(labels, axis.get_minorticklabels())
         for text in self.findobj(Text):

@@ -1,4 +1,4 @@
-"""Pages show what stands in files and run nothing of it: all is escaped, under a policy of what may run."""
+"""Pages that show text from files but never run it: all is escaped, and a policy limits what may run."""
 
 from __future__ import annotations
 

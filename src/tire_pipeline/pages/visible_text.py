@@ -1,4 +1,4 @@
-"""Texts from files as pages, tables and terminals can show them: nothing in them is unseen or acts."""
+"""Show texts from files on pages and in terminals: control characters become visible."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Data inside a page: compressed, as text that can end no element."""
+"""Data inside a page: compressed, and encoded so that it cannot close an element."""
 
 from __future__ import annotations
 

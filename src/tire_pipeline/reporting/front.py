@@ -201,7 +201,7 @@ def _one_of(name: str, place: Path) -> str:
 
 
 def _newest(path: Path) -> Path | None:
-    """The file itself, or the newest version of a versioned one."""
+    """The file itself, or its newest version."""
     if path.is_file():
         return path
     return max(path.glob(f"*/{path.name}"), default=None)

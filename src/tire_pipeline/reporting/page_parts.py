@@ -136,6 +136,12 @@ class Figure:
         """The drawing."""
         return inline_svg(self.figure)
 
+    @property
+    def tall(self) -> bool:
+        """Whether it is higher than wide: printed, it may fill a page."""
+        width, height = self.figure.get_size_inches()
+        return bool(height > width)
+
 
 @dataclass(frozen=True)
 class Links:

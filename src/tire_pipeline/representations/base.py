@@ -86,12 +86,12 @@ class Representation(Protocol):
         ...
 
     def to_state(self) -> State:
-        """Return arrays, strings and numbers that bring the fitted object back."""
+        """Return the arrays, strings and numbers that restore the fitted object."""
         ...
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         ...
 
 
@@ -120,7 +120,7 @@ def make_representation(name: str, **options: Any) -> Representation:
 
 
 def representation_from_state(state: Mapping[str, Any]) -> Representation:
-    """Bring back any representation from its ``to_state()``."""
+    """Restore any representation from its ``to_state()``."""
     representation: Representation = class_by_name(
         REPRESENTATIONS, str(state["representation"]), "representation"
     ).from_state(state)

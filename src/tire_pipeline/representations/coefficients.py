@@ -124,7 +124,7 @@ class Coefficients:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         return cls(dataset=str(state["dataset"]))
 
     def _check(self, table: pd.DataFrame) -> None:

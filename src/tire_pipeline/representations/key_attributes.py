@@ -71,7 +71,7 @@ class KeyAttributes:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         return cls()
 
 

@@ -111,7 +111,7 @@ class Latent:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         back = cls(
             n_features=int(state["n_features"]),
             epochs=int(state["epochs"]),

@@ -118,7 +118,7 @@ class PowerSeries:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         back = cls(form=str(state["form"]))
         back.spread = np.asarray(state["spread"], dtype=float)
         return back

@@ -45,7 +45,7 @@ class HashTogether:
         return {name: digest for part in parts for name, digest in part.items()}
 
     def lost(self, reason: str) -> dict[str, str]:
-        """What one file gives that ends its process: reading it is tried all the same, and says why not."""
+        """The result for a file that ends its process: reading it is tried anyway, to get the reason."""
         return dict.fromkeys(self.names, f"{UNREADABLE}{reason}")
 
 

@@ -1,4 +1,4 @@
-"""New and changed files into the stored table, and nothing else read."""
+"""Read new and changed files into the stored table, and no others."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ class CategoryModel:
         return list(self.representation.feature_names) if self.representation.name == "coefficients" else []
 
     def to_state(self) -> dict[str, Any]:
-        """Arrays, numbers and texts that bring it back."""
+        """Arrays, numbers and texts that restore it."""
         return {
             "nominal_load": self.nominal_load,
             "representation": self.representation.to_state(),
@@ -79,7 +79,7 @@ class CategoryModel:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         return cls(
             nominal_load=float(state["nominal_load"]),
             representation=representation_from_state(state["representation"]),

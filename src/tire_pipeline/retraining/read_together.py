@@ -40,7 +40,7 @@ class FilesRead:
 
 @dataclass(frozen=True)
 class ReadTogether:
-    """Reads some files. A table of them is a tenth of what their models are, and quickly joined to others.
+    """Reads some files. Their table has a tenth of the size of their models and is quickly joined to others.
 
     Attributes
     ----------

@@ -118,7 +118,7 @@ class OtherRuns(Protocol):
         ...
 
     def again(self) -> None:
-        """Take back what runs wrote that were declared dead and were not."""
+        """Delete what runs wrote after they were declared dead by mistake."""
         ...
 
 
@@ -167,7 +167,7 @@ def take_turn(
     monotonic: Callable[[], float] = time.monotonic,
     sleep: Callable[[float], None] = time.sleep,
 ) -> None:
-    """Return when this run may begin; what dead runs left is taken back by then.
+    """Return when this run may begin; by then, the results of dead runs are deleted.
 
     Runs that are ``alongside`` others neither wait nor are waited for.
 

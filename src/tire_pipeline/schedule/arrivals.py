@@ -1,4 +1,4 @@
-"""What has arrived since the last run, by the catalog's own folders and the retraining's own rules."""
+"""Files that arrived since the last run, found with the catalog's folders and the rules of the retraining."""
 
 from __future__ import annotations
 

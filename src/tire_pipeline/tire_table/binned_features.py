@@ -1,4 +1,4 @@
-"""Features -> bin numbers; and who trains on what."""
+"""Features -> bin numbers, and the files of each training set."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A tire table in pieces: as many files as there are, a few thousand of them in memory at a time."""
+"""A tire table of any number of files, with a few thousand of them in memory at a time."""
 
 from __future__ import annotations
 

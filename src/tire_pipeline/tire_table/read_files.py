@@ -1,4 +1,4 @@
-"""Read every .tir file; set aside, with its reason, what cannot be read."""
+"""Read every .tir file; list those that cannot be read, with the reason."""
 
 from __future__ import annotations
 

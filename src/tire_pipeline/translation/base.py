@@ -126,7 +126,7 @@ class Translator(Protocol):
         ...
 
     def to_state(self) -> dict[str, Any]:
-        """Return what brings the fitted translator back.
+        """Return what restores the fitted translator.
 
         Returns
         -------
@@ -137,7 +137,7 @@ class Translator(Protocol):
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring a fitted translator back.
+        """Restore a fitted translator.
 
         Parameters
         ----------
@@ -262,7 +262,7 @@ def make_translator(name: str, **options: Any) -> Translator:
 
 
 def translator_from_state(state: Mapping[str, Any]) -> Translator:
-    """Bring back any translator from its ``to_state()``, also that of a former name.
+    """Restore any translator from its ``to_state()``, also that of a former name.
 
     Parameters
     ----------

@@ -38,8 +38,8 @@ class CurveOptions:
     learn_from_batch : bool
         Learn from the files to translate, too (:mod:`.predict.batch`).
     trust : float
-        How far what is a source file's own is drawn towards the expectation for such a tire, as far as it is
-        noise, where the verdict weighs the training files; 0: not at all.
+        How far the tire effect of a source file is shrunk towards the expectation for such a tire, as
+        far as it is noise, where the verdict weighs the training files; 0: not at all.
     gate : bool
         Leave files alone for which little gain is expected, and refuse those far from the training data.
     farthest : float
@@ -288,7 +288,7 @@ class CurveTranslator:
         return _among_all(band, usable, len(table))
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays, strings and numbers that bring the fitted translator back."""
+        """Return the arrays, strings and numbers that restore the fitted translator."""
         parts = self.parts
         return {
             "translator": self.name,
@@ -304,7 +304,7 @@ class CurveTranslator:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave; it translates the same."""
+        """Restore what :meth:`to_state` returned; it translates the same."""
         learns = bool(state.get("option_learn_from_batch", False))
         parts = Parts(
             CurveMixedModel.from_state(state),
@@ -345,8 +345,8 @@ class MixedModel(CurveTranslator):
         by what files of *other* tires taught: no file of its own tire counts, and no measurement of the
         target beyond the training files. So a file alone comes out as without.
     trust : float
-        How far what is a source file's own is drawn towards the expectation for such a tire, as far as it is
-        noise; 0: not at all.
+        How far the tire effect of a source file is shrunk towards the expectation for such a tire, as
+        far as it is noise; 0: not at all.
     gate : bool
         Leave files alone for which little gain is expected, and refuse those far from the training data.
     farthest : float

@@ -90,7 +90,7 @@ class CompiledForest:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> CompiledForest:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         return cls(**{name: np.asarray(state[name]) for name in ForestArrays._fields})
 
 

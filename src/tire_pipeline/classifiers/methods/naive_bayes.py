@@ -55,7 +55,7 @@ class NaiveBayes:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         from sklearn.naive_bayes import GaussianNB
 
         back = cls()

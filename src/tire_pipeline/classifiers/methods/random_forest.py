@@ -62,7 +62,7 @@ class RandomForest:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         back = cls()
         back.classes_ = np.asarray(state["classes"]).astype(str)
         back.forest = CompiledForest.from_state(state)

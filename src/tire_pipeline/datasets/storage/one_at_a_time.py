@@ -1,4 +1,4 @@
-"""A lock that goes with the process that held it, however that ended."""
+"""A lock that ends with the process that held it, however that process ended."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def held(folder: Files | Objects) -> contextlib.AbstractContextManager[None]:
 
 @contextlib.contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold ``<folder>/.lock``; the system lets go of it when the process ends, even when it is killed.
+    """Hold ``<folder>/.lock``; the system releases it when the process ends, even if it is killed.
 
     Where the file system has no locks, the run's ticket (:mod:`tire_pipeline.runs`) keeps others away.
     """
@@ -38,13 +38,13 @@ def replace_unless_changed(folder: Files | Objects, name: str, content: bytes, s
     Raises
     ------
     DomainError
-        Another run has stored meanwhile.
+        Another run has stored its results in the meantime.
     """
     try:
         folder.replace(name, content, stamp)
     except ConflictError as error:
         raise DomainError(
-            "another run has stored meanwhile",
+            "another run has stored its results in the meantime",
             where=f"{folder}/{name}",
             todo="nothing was changed: run again",
         ) from error
@@ -60,7 +60,7 @@ def refuse_other_revision(found: int, expected: int, where: Path | str) -> None:
     """
     if found != expected:
         raise DomainError(
-            f"another run has stored revision {found} meanwhile; this one began at {expected}",
+            f"another run has stored revision {found} in the meantime; this one began at {expected}",
             where=str(where),
             todo="nothing was changed: run again",
         )

@@ -1,4 +1,4 @@
-"""A folder of files that are computed one by one; what is there already is not computed again."""
+"""A folder of files that are computed one by one; existing files are not computed again."""
 
 from __future__ import annotations
 

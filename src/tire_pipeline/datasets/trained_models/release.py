@@ -78,7 +78,7 @@ class ReleaseDataset(AbstractDataset[ModelRegistry, ModelRegistry]):
         return CategoryModel.from_state(state)
 
     def _what_is_left_to_do(self, release: Release) -> str:
-        """Nobody is sent to ``rollback`` where that could only say that no model is left."""
+        """Recommend ``rollback`` only if a model is left to go back to."""
         unusable = self._unusable(release)
         if all(name in unusable for name in release.models):
             return WITHOUT_ANY_MODEL

@@ -1,4 +1,4 @@
-"""How files are called that belong to a recording: its page, its row, its corrected model."""
+"""Names of the files that belong to a recording: its page, its row, its corrected model."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the page of translated files draws of each file, small enough for many thousand files."""
+"""Curves of each file for the page of translated files, small enough for many thousand files."""
 
 from __future__ import annotations
 

@@ -37,11 +37,11 @@ def draw_translation(
     figure, axes = new_figure(1, len(shown), width=3.6 * len(shown) + 0.6, height=3.6, squeeze=False)
     for panel, output in zip(np.asarray(axes).ravel(), shown, strict=True):
         _draw(panel, output, source, translated, bands.get(output))
-    np.asarray(axes).ravel()[0].legend(fontsize=7)
+    np.asarray(axes).ravel()[0].legend(fontsize=7, title="normal load", title_fontsize=7)
     caption = (
         "Dashed: the file as it is. Solid: translated. " if translated is not None else "Dashed: the file. "
     )
-    if bands:
+    if any(np.isfinite(bands[name].low).any() for name in shown if name in bands):
         caption += "Shaded: where the target's own measurement is expected with 90% probability. "
     return figure, f"{caption}One colour a load; pure slip, no camber."
 

@@ -1,4 +1,4 @@
-"""Nodes of the grid: train the agents of a cell, judge them. What is stored already is not done again."""
+"""Nodes of the grid: train the agents of a cell, judge them. Stored results are not computed again."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ def judge_of(cell: Cell) -> Callable[..., Work]:
         normalize: NormalizeParameters,
         target_category: str,
     ) -> Work:
-        """Compare with the target's measurements; nothing of it goes back to any agent."""
+        """Compare with the target's measurements; no agent sees the comparison."""
         references = references_of(evaluation_truth, "first", thesis_sources, normalize, target_category)
         data = files.key_of(code_hash(*JUDGING_CODE), getsource(thesis_agents), thesis_sources, references)
         work: Work = {}
@@ -160,7 +160,7 @@ def judge_floor(
     normalize: NormalizeParameters,
     target_category: str,
 ) -> pd.DataFrame:
-    """How near the target comes to itself when it measures again."""
+    """The floor: the error of the target's own second measurement."""
     first, again = (
         references_of(evaluation_truth, which, thesis_sources, normalize, target_category)
         for which in ("first", "second")

@@ -113,7 +113,7 @@ def curves_of_forces(fy: np.ndarray) -> Curves:
 
 
 def judged_floor(sources: pd.DataFrame, references: pd.DataFrame, again: pd.DataFrame) -> pd.DataFrame:
-    """Say how near the target comes to itself when it measures every tire again: no translator does better.
+    """Return the error of the target's own second measurement of every tire, which is the floor.
 
     Returns
     -------

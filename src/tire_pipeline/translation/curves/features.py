@@ -1,4 +1,4 @@
-"""Tires as points of their force curves: the space in which a measurement's bias is simple.
+"""Features of a tire's force curves, in which the bias of a measurement is simple.
 
 A measurement's bias is a factor on friction (surface, temperature) or on slope (belt, drum, lag) far more
 than it

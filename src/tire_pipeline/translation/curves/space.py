@@ -108,7 +108,7 @@ class CurveSpace:
         return {group: np.concatenate(values, axis=1) for group, values in found.items()}
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays that bring it back."""
+        """Return the arrays that restore it."""
         state: dict[str, Any] = {"space_noise": self.noise}
         for what in ("mean", "onto", "back", "limit"):
             state.update({f"space_{what}_{k}": v for k, v in getattr(self, what).items()})
@@ -116,7 +116,7 @@ class CurveSpace:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
 
         def take(what: str) -> dict[str, np.ndarray]:
             return {name: np.asarray(state[f"space_{what}_{name}"]) for name in PARTS}

@@ -1,1 +1,1 @@
-"""What may be claimed of a prediction: its reach, its gain, the bias it rests on, and that in words."""
+"""What a prediction is worth: distance to the training data, expected gain, bias, verdict."""

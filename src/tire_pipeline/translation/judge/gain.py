@@ -15,7 +15,7 @@ see :func:`pooled_harm`. On ten tuning fleets without any bias the least of a ca
 the calibrated bias the largest was 0.19, at 0.3 it was 0.17."""
 
 POOLED = 2.0 / 3.0
-"""How far a category's probability of harm is drawn towards the mean of all categories'. Its own alone tells
+"""How far a category's probability of harm is shrunk towards the mean of all categories'. Its own alone tells
 little: it was 0.17 to 0.35 without any bias and up to 0.22 at 0.3 of the calibrated one."""
 
 _JUDGED = tuple(name for name, part in PARTS.items() if part.group in ("lateral", "longitudinal"))
@@ -55,7 +55,7 @@ def pooled_harm(
 ) -> np.ndarray:
     """Return the probability that translating a category's files makes their error larger, (categories,).
 
-    The mean over its files, drawn towards the mean over all categories: whether anyone differs from the
+    The mean over its files, shrunk towards the mean over all categories: whether anyone differs from the
     target at all is told by all of them together.
 
     Parameters

@@ -1,4 +1,4 @@
-"""How well a translator does on the tires that several organisations measured, each left out in its turn."""
+"""Leave-one-out errors of a translator, on the tires that several organisations measured."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far a file is from what the training data can speak for."""
+"""How far a file is from the training data."""
 
 from __future__ import annotations
 
@@ -77,12 +77,12 @@ class TrainingReach:
         return np.maximum(curves, nearest)
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays and numbers that bring it back."""
+        """Return the arrays and numbers that restore it."""
         return {"reach_metadata": self.metadata, "reach_gap": self.gap, "reach_surprise": self.surprise}
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         return cls(
             np.asarray(state["reach_metadata"]), float(state["reach_gap"]), float(state["reach_surprise"])
         )

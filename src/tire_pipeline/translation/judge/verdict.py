@@ -23,7 +23,7 @@ from tire_pipeline.translation.judge.reach import OWN_LOAD, TrainingReach, beyon
 from tire_pipeline.translation.judge.words import describe_bias
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.shrinkage import shortened
-from tire_pipeline.translation.result import EDGE, LEFT_ALONE, REFUSED, TRANSLATED, UNBIASED, UNKNOWN
+from tire_pipeline.translation.result import LEFT_ALONE, REFUSED, TRANSLATED, UNBIASED, UNKNOWN
 
 FARTHEST_DISTANCE = 3.0
 """Files farther than this from the training data are refused; 1 is the edge of the training data. On tuning
@@ -83,7 +83,7 @@ class VerdictRules:
             Tire table with ``category``.
         target : str
         trust : float
-            How far what is a file's own is drawn towards the expectation for such a tire.
+            How far the tire effect of a file is shrunk towards the expectation for such a tire.
         gate, farthest
             As in the class.
         """
@@ -177,17 +177,19 @@ class VerdictRules:
         uncertain = np.isin(organisations, np.array(model.categories)[self.harm > MOST_HARM])
         verdict = np.full(len(rows), TRANSLATED, dtype=object)
         reason = np.full(len(rows), "", dtype=object)
+        loads = _other_loads(rows)
         for i in range(len(rows)):
             reason[i] = f"expected RMS error {np.sqrt(ratio[i]):.0%} of the unchanged file's"
             if self.gate and distance[i] > self.farthest:
-                verdict[i], reason[i] = REFUSED, _too_far(self.target, distance[i])
+                verdict[i], reason[i] = REFUSED, _too_far(self.target, distance[i], loads[i])
             elif impossible.iloc[i]:
                 verdict[i] = REFUSED
                 reason[i] = f"no physical tire found: {', '.join(broken.columns[broken.iloc[i]])}"
             elif self.gate and (uncertain[i] or ratio[i] > 1.0 - LEAST_RELATIVE_GAIN):
                 verdict[i] = UNBIASED if band.negligible[i] else LEFT_ALONE
                 reason[i] = _why_alone(organisations[i], self.target, bool(uncertain[i]), band, i, ratio[i])
-        reason += _on_other_loads(rows, verdict, distance)
+            if verdict[i] == TRANSLATED and loads[i]:
+                reason[i] += f"; {loads[i]}: compare its curves there before you use the file"
         before, after = measured_by_both(model, rows, found)
         said = np.array(describe_bias(before, after, organisations, self.target), dtype=object)
         said[verdict != TRANSLATED] = ""
@@ -207,7 +209,7 @@ class VerdictRules:
         )
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays, strings and numbers that bring it back."""
+        """Return the arrays, strings and numbers that restore it."""
         return {
             "target": self.target,
             "option_gate": self.gate,
@@ -218,7 +220,7 @@ class VerdictRules:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         return cls(
             str(state["target"]),
             TrainingReach.from_state(state),
@@ -228,33 +230,27 @@ class VerdictRules:
         )
 
 
-def _on_other_loads(rows: pd.DataFrame, verdict: np.ndarray, distance: np.ndarray) -> np.ndarray:
+def _other_loads(rows: pd.DataFrame) -> np.ndarray:
     """Say of tires that carry other loads than those at which forces are judged that they do; else ""."""
     out = np.full(len(rows), "", dtype=object)
     if OWN_LOAD not in rows:
         return out
     load = rows[OWN_LOAD].to_numpy(dtype=float)
-    judged = f"{LOADS.min() / 1e3:g} to {LOADS.max() / 1e3:g} kN"
+    judged = f"side and longitudinal force are judged at {LOADS.min() / 1e3:g} to {LOADS.max() / 1e3:g} kN"
     for i in np.flatnonzero(beyond_judged_loads(load) > 1.0):
-        said = f"its nominal load is {load[i] / 1e3:.3g} kN"
-        if verdict[i] == TRANSLATED:
-            out[i] = (
-                f", judged by side and longitudinal force at {judged}; {said}: compare its curves there "
-                "before you use the file"
-            )
-        elif verdict[i] == REFUSED and distance[i] > EDGE:
-            out[i] = f" ({said}, and forces are judged at {judged})"
+        out[i] = f"{judged}, its nominal load is {load[i] / 1e3:.3g} kN"
     return out
 
 
-def _too_far(target: str, distance: float) -> str:
+def _too_far(target: str, distance: float, loads: str) -> str:
     beyond = max(distance, 1.01)  # what is beyond the edge never reads as 1.00
-    said = f"this tire is outside of what {target} has measured: distance {beyond:.2f}"
+    said = f"this tire is outside of what {target} has measured: distance {beyond:.2f}, the edge is 1"
+    said += f" ({loads})" if loads else ""
     if distance > FARTHEST_DISTANCE:
-        return f"{said}, the edge is 1; a translation cannot be trusted"
+        return f"{said}; a translation cannot be trusted"
     far = f"{FARTHEST_DISTANCE:g}"
     most = f"it by --params translate.farthest={far} (tire translate: --farthest {far})"
-    return f"{said}, the edge is 1: add training files of such tires, or allow {most}"
+    return f"{said}. Add training files of such tires, or allow {most}"
 
 
 def _why_alone(

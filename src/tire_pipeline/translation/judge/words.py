@@ -6,7 +6,7 @@ import numpy as np
 
 from tire_pipeline.translation.curves.features import CAMBER_ANGLE, GROUPS, LOADS
 
-_LEAST_CHANGE = 0.005  # a change of half a percent is worth a word
+_LEAST_CHANGE = 0.005  # smaller changes are not mentioned
 _CURVES = {"cornering stiffness": ("lateral", 0), "lateral grip": ("lateral", 1)}
 _CURVES.update({"slip stiffness": ("longitudinal", 0), "longitudinal grip": ("longitudinal", 1)})
 _WHY = {

@@ -1,4 +1,4 @@
-"""What the errors of one fit have to do with each other.
+"""Correlations between the errors of one fit.
 
 A fit that draws the curve a little too stiff at the origin bends it more towards the peak, because it goes
 through the same points: the errors of stiffness and shape of one output belong together. So a shape that is
@@ -45,12 +45,12 @@ class FitLinks:
     error: np.ndarray
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays that bring it back."""
+        """Return the arrays that restore it."""
         return {"links_own": self.own, "links_error": self.error}
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any], count: int) -> Self:
-        """Bring back what :meth:`to_state` gave; a state from before there were links has none."""
+        """Restore what :meth:`to_state` returned; a state from before there were links has none."""
         if "links_own" not in state:
             return cls(np.eye(count), np.eye(count))
         return cls(np.asarray(state["links_own"]), np.asarray(state["links_error"]))

@@ -172,7 +172,7 @@ def prepare(
     kinds: int = 2,
     space_and_cells: tuple[CurveSpace, Cells] | None = None,
 ) -> PreparedTraining:
-    """Find the curve space (unless it is given), draw cells together, find classes, lay out the design.
+    """Find the curve space (unless it is given), average cells, find classes, set up the design.
 
     Where files have dates, categories are searched for a change of protocol, too; if there is one, classes
     and design are laid out again with it.

@@ -67,7 +67,7 @@ def with_finite_curves(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def fit_curve_space(table: pd.DataFrame) -> tuple[CurveSpace, Cells]:
-    """Learn the components from training files, and draw the files of each cell together.
+    """Learn the components from training files, and average the files of each cell.
 
     Parameters
     ----------

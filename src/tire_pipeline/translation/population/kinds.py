@@ -74,12 +74,12 @@ class TireKinds:
         return by_row(expected - self.centre + own, self.turn)
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays that bring it back."""
+        """Return the arrays that restore it."""
         return {f"kinds_{name}": getattr(self, name) for name in ("scores", "expected", "centre", "turn")}
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         scores, *others = (
             np.asarray(state[f"kinds_{name}"]) for name in ("scores", "expected", "centre", "turn")
         )

@@ -1,4 +1,4 @@
-"""What the files say about the tire itself: known to be right, whoever measured."""
+"""The metadata of a tire, which do not depend on who measured it."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class Metadata:
         return 1.0 - np.isfinite(_raw(table, self.names)).mean(axis=1)
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays that bring it back."""
+        """Return the arrays that restore it."""
         return {
             "metadata_names": np.array(self.names, dtype=str),
             "metadata_mean": self.mean,
@@ -75,7 +75,7 @@ class Metadata:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         return cls(
             tuple(str(name) for name in state["metadata_names"]),
             np.asarray(state["metadata_mean"]),

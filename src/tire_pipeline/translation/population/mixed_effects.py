@@ -1,4 +1,4 @@
-"""A linear mixed model whose variances are found from the data: the statistics under the translators.
+"""A linear mixed model whose variances are found from the data: the statistical model of the translators.
 
 y_i = sum over blocks of x_i' w_block + tire effect + (tire x category) effect + noise
 

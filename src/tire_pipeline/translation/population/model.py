@@ -204,7 +204,7 @@ class CurveMixedModel:
             n source files, of known categories.
         target : str
         trust : float
-            How much of the model's drawing towards the expectation is followed: 0 moves by the
+            How much of the model's shrinkage towards the expectation is applied: 0 moves by the
             categories' difference only.
 
         Returns
@@ -248,7 +248,7 @@ class CurveMixedModel:
         )
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays, strings and numbers that bring it back."""
+        """Return the arrays, strings and numbers that restore it."""
         names = list(self.fitted[0].variances)
         return {
             **self.space.to_state(),
@@ -270,7 +270,7 @@ class CurveMixedModel:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         names = [str(name) for name in state["variance_names"]]
         fitted = tuple(
             # columns lie as the fit leaves them: sums in another order differ in the last bit

@@ -61,7 +61,7 @@ def predict_block(
     likely : ndarray, shape (n, k)
         Probability of each class.
     trust : float
-        0: what is the file's own is kept as it is; 1: it is drawn towards the expectation by as much as it is
+        0: the tire effect is kept as it is; 1: it is shrunk towards the expectation by as much as it is
         error.
     reading : CategoryReading
 

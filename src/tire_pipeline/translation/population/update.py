@@ -101,12 +101,12 @@ class TaughtCells:
         return np.asarray(self.tire[:, None] == names[count > 1][None, :], dtype=float)
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays that bring it back."""
+        """Return the arrays that restore it."""
         return {f"taught_{name}": value for name, value in vars(self).items()}
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         names = ("design", "scores", "category", "tire", "files")
         return cls(*(np.asarray(state[f"taught_{name}"]) for name in names))
 

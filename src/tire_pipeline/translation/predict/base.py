@@ -33,10 +33,10 @@ class Predictor(Protocol):
         ...
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays, strings and numbers that bring it back."""
+        """Return the arrays, strings and numbers that restore it."""
         ...
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         ...

@@ -144,7 +144,7 @@ class BatchLearning:
         return np.asarray(sure & new)
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays that bring it back."""
+        """Return the arrays that restore it."""
         return {
             **self.training.to_state(),
             "taught_repeats": self.repeats,
@@ -153,7 +153,7 @@ class BatchLearning:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         return cls(
             TaughtCells.from_state(state),
             np.asarray(state["taught_repeats"]),

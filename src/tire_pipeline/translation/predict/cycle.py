@@ -64,7 +64,7 @@ class CyclePredictor:
         return replace(found, shift=moved, target=found.source + moved)
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays, strings and numbers that bring it back."""
+        """Return the arrays, strings and numbers that restore it."""
         return {
             "option_rounds": self.rounds,
             **{f"network_{k}": layer for k, layer in enumerate(self.layers)},
@@ -72,7 +72,7 @@ class CyclePredictor:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         return cls(int(state["option_rounds"]), tuple(np.asarray(state[f"network_{k}"]) for k in range(4)))
 
 

@@ -135,7 +135,7 @@ class LikelihoodEnvironment(gym.Env):
 
 
 class BatchLikelihoodEnvironment(VecEnv):
-    """Many tires in one go: the same rules as :class:`LikelihoodEnvironment`.
+    """Many tires at once: the same rules as :class:`LikelihoodEnvironment`.
 
     Parameters
     ----------

@@ -19,7 +19,8 @@ class MixedPredictor:
     Attributes
     ----------
     trust : float
-        How far what is a source file's own is drawn towards the expectation for such a tire; 0: not at all.
+        How far the tire effect of a source file is shrunk towards the expectation for such a tire; 0: not
+        at all.
     """
 
     trust: float = 1.0
@@ -39,5 +40,5 @@ class MixedPredictor:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         return cls(float(state["option_trust"]))

@@ -99,7 +99,7 @@ class PolicyPredictor:
         return without_failed_fits(model, replace(found, shift=moved, target=found.source + moved))
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays, strings and numbers that bring the trained policy back."""
+        """Return the arrays, strings and numbers that restore the trained policy."""
         return {
             "option_updates": self.updates,
             **{f"policy_{k}": layer for k, layer in enumerate(self.layers)},
@@ -107,7 +107,7 @@ class PolicyPredictor:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave; it moves alike, and can be trained again."""
+        """Restore what :meth:`to_state` returned; it moves alike, and can be trained again."""
         layers = tuple(np.asarray(state[f"policy_{k}"]) for k in range(4))
         return cls(int(state["option_updates"]), str(state["translator"]) == "curious_agent", layers)
 

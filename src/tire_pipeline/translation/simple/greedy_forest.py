@@ -1,4 +1,4 @@
-"""Greedy maximum of a classifier's probability: the compass that misleads, measured beside the others."""
+"""Greedy maximum of a classifier's probability, as a baseline: this goal misleads."""
 
 from __future__ import annotations
 
@@ -84,13 +84,13 @@ class GreedyForest:
         return without_estimate(source, self.translate(source), self.target, self.name)
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays, strings and numbers that bring it back."""
+        """Return the arrays, strings and numbers that restore it."""
         state = {f"forest_{name}": value for name, value in self.forest.to_state().items()}
         return {"translator": self.name, "target": self.target, "low": self.low, "high": self.high, **state}
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         found = cls()
         found.target = str(state["target"])
         found.low, found.high = np.asarray(state["low"]), np.asarray(state["high"])

@@ -38,7 +38,7 @@ class NoChange:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         translator = cls()
         translator.target = str(state["target"])
         return translator

@@ -69,5 +69,5 @@ class GreedyPolicy:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> GreedyPolicy:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         return cls(layers_from_state(state), int(state["n_bins"]))

@@ -118,7 +118,7 @@ class Rules:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Rules:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         return cls(
             n_features=int(state["n_features"]),
             n_bins=int(state["n_bins"]),

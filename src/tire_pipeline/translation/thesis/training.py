@@ -26,7 +26,7 @@ updates 200 times, so it gets more steps and still takes less time (``benchmarks
 
 @dataclass(frozen=True)
 class TrainedAgent:
-    """What is left of a training.
+    """The result of a training.
 
     Attributes
     ----------

@@ -28,7 +28,7 @@ from tire_pipeline.translation.thesis.training import N_ENVS, N_STEPS, train_age
 
 
 class AgentTranslator:
-    """A random forest on binned features, and an agent that moves a tire's bins to please it.
+    """A random forest on binned features, and an agent that moves bins to make the target more probable.
 
     Parameters
     ----------
@@ -198,7 +198,7 @@ class AgentTranslator:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         representation = representation_from_state(without_prefix("representation", state))
         bins = Binning.from_state(without_prefix("bins", state))
         rules = Rules.from_state(without_prefix("rules", state))

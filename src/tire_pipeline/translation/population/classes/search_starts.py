@@ -97,7 +97,7 @@ def _of_one_category(
 
 
 def _split(gap: np.ndarray, organisation: np.ndarray, fewer: np.ndarray, seed: int) -> list[np.ndarray]:
-    """Each class in its turn cut in two, by what its tires differ in within their categories."""
+    """Split each class in two, one after the other, by how its tires differ within their categories."""
     kind = fewer.argmax(axis=1)
     found = []
     for k in range(fewer.shape[1]):

@@ -70,7 +70,7 @@ class TireClasses:
         return np.exp(_normalised(self.prior(metadata) + log_density(gap, self.own, alone)))
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays that bring it back."""
+        """Return the arrays that restore it."""
         return {
             "class_scores": self.scores,
             "class_shares": self.shares,
@@ -80,7 +80,7 @@ class TireClasses:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave."""
+        """Restore what :meth:`to_state` returned."""
         return cls(
             np.asarray(state["class_scores"]).astype(int),
             np.asarray(state["class_shares"]),

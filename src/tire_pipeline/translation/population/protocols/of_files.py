@@ -99,7 +99,7 @@ class Protocols:
         return said
 
     def to_state(self) -> dict[str, Any]:
-        """Return arrays that bring it back."""
+        """Return the arrays that restore it."""
         return {
             **{f"protocol_{n}": np.array([getattr(c, n) for c in self.changes], dtype=str) for n in _AS_TEXT},
             "protocol_probability": np.array([c.probability for c in self.changes], dtype=float),
@@ -108,7 +108,7 @@ class Protocols:
 
     @classmethod
     def from_state(cls, state: Mapping[str, Any]) -> Self:
-        """Bring back what :meth:`to_state` gave; states from before there were protocols have none."""
+        """Restore what :meth:`to_state` returned; states from before there were protocols have none."""
         if "protocol_category" not in state:
             return cls()
         rows = zip(
