@@ -14,7 +14,7 @@ from tire_pipeline.datasets.users_files.tir_file import TirDataset
 from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.file_names import shown_name
 from tire_pipeline.files.folder_walk import walk
-from tire_pipeline.files.objects import Objects, no_place
+from tire_pipeline.files.objects import Objects, no_place, refuse_keys
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tir.sidecar import SUFFIX
@@ -43,12 +43,13 @@ class TirFolderDataset(PartitionedDataset):
     Raises
     ------
     DomainError
-        The folder is absent or empty, or may not be read itself.
+        The folder is absent or empty, or may not be read itself; or keys stand in its address.
     """
 
     def __init__(
         self, *, path: str, may_be_absent: bool = False, metadata: dict[str, Any] | None = None
     ) -> None:
+        refuse_keys(path)
         super().__init__(path=path, dataset={"type": TirDataset}, metadata=metadata)
         self._may_be_absent = may_be_absent
 
