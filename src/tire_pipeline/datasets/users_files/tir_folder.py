@@ -6,6 +6,7 @@ import logging
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any, NoReturn
 
 from kedro_datasets.partitions import PartitionedDataset
@@ -19,6 +20,7 @@ from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tir.sidecar import SUFFIX
 from tire_pipeline.tire_table.object_files import read_object
+from tire_pipeline.tire_table.read_files import NAMED_IN_LOG
 
 _LOG = logging.getLogger(__name__)
 
@@ -69,8 +71,10 @@ class TirFolderDataset(PartitionedDataset):
         if not os.path.isdir(self._path):
             return {}
         found = walk(self._path, _is_tir)
-        for name, other in found.again.items():
+        for name, other in islice(found.again.items(), NAMED_IN_LOG):
             _LOG.info("%s is a link to %s, which is taken already.", name, other)
+        if (more := len(found.again) - NAMED_IN_LOG) > 0:
+            _LOG.info("%d more links lead to what is taken already.", more)
         partitions: dict[str, Callable[[], Any]] = {
             name: TirLoader(path) for name, path in found.files.items()
         }

@@ -37,7 +37,7 @@ def fitted(products: RecordingProducts, likelihood: Likelihood, variants: Sequen
     free = [tuple(v.free) for v in variants]
     smooth = [tuple(p for p in v.free if p not in v.effect.scanned) for v in variants]
     changes, gain, near = _step(products, likelihood, changes, smooth)
-    changes, more = _scan(products, near, changes, free)
+    changes, more = _scan(products, near, changes, smooth)
     gain += more
     while gain >= CHANCE:
         changes, gain, _ = _step(products, likelihood, changes, smooth)
@@ -113,35 +113,27 @@ def _scan(
     changes: list[Change],
     free: Sequence[tuple[str, ...]],
 ) -> tuple[list[Change], float]:
-    """Move by trial the moments at which the force jumps: the derivative with respect to one is a spike.
-
-    From half of the way between two starts down to a sample; each width is tried until it gains nothing more.
-    """
-    data, effects = products.data, catalogue()
-    moments = [(i, m) for i, (name, _) in enumerate(changes) for m in effects[name].stepped if m in free[i]]
+    """Move by trial the moments at which the force jumps: the derivative with respect to one is a spike."""
+    time = products.data.time
+    moments = [(i, m) for i, (name, _) in enumerate(changes) for m in catalogue()[name].stepped]
     if not moments:
         return changes, 0.0
-    assert data.time is not None  # the effect needs a time line
+    assert time is not None  # the effect needs a time line
     first = best = _cost(products, likelihood, changes, free)
     for i, moment in moments:
-        effect = effects[changes[i][0]]
-        begun_from = {s[moment] for s in effect.starts(data) if moment in effect.free(data, s)}
+        begun_from = {float(start[moment]) for start in catalogue()[changes[i][0]].starts(products.data)}
         width = 0.5 * float(np.min(np.diff(sorted(begun_from))))
-        while width > data.sampling:
-            nearer = [_with_moment(changes, i, moment, sign * width, data.time) for sign in (1.0, -1.0)]
-            costs = [_cost(products, likelihood, trial, free) for trial in nearer]
-            if min(costs) < best:
-                changes, best = nearer[int(np.argmin(costs))], min(costs)
-            else:
-                width *= 0.5
+        while width > products.data.sampling:
+            for sign in (1.0, -1.0):
+                trial: list[Change] = [(n, dict(p)) for n, p in changes]
+                there = float(np.clip(changes[i][1][moment] + sign * width, time[0], time[-1]))
+                trial[i] = (changes[i][0], {**changes[i][1], moment: there})
+                tried = _cost(products, likelihood, trial, free)
+                if tried < best:
+                    changes, best = trial, tried
+                    break
+            width *= 0.5
     return changes, first - best
-
-
-def _with_moment(changes: Sequence[Change], i: int, moment: str, later: float, time: Array) -> list[Change]:
-    """Return the same with a moment of one effect later by some seconds, within the recording."""
-    out: list[Change] = [(name, dict(p)) for name, p in changes]
-    out[i][1][moment] = float(np.clip(out[i][1][moment] + later, time[0], time[-1]))
-    return out
 
 
 def _normal_equations(
