@@ -1,5 +1,6 @@
-"""``make audit``: known vulnerabilities of the pinned versions, by an advisory database on this machine.
+"""Known vulnerabilities of the pinned versions, by an advisory database on this machine.
 
+`tools/audit.sh` runs this and ends with its code; `make audit` runs that, and ends every failure with 2.
 Exit codes: 0 clean, 1 vulnerable, 2 not run, 3 stale: nothing found, but the newest
 advisory is over 90 days old.
 """

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import json
 import sys
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -17,8 +19,10 @@ from tire_pipeline.concealed.proof.simulated import (
     ProveConcealedParameters,
     cases_to_make,
     explain_by_baselines,
+    explain_cases,
     part_cases,
 )
+from tire_pipeline.files.packed import as_parquet, pack, unpack
 from tire_pipeline.files.state_files import pack_state, unpack_state
 from tire_pipeline.tasks import Map, all_done, in_turn
 from tire_pipeline.thesis.experiments import experiment_files, files
@@ -39,6 +43,7 @@ SETTINGS = ReproduceThesisParameters.model_validate(
         "forest": {"trees": 2, "most_trees": 2, "most_depth": 2},
     }
 )
+CHANNELS = {"time", "slip_angle", "normal_load", "fy"}
 Work = Mapping[str, Callable[[], bytes]]
 
 
@@ -81,6 +86,24 @@ def test_concealed_cases_are_made_the_same(work):
 def test_concealed_cases_are_explained_the_same_by_baselines(work, shown, baselines):
     wanted = explain_by_baselines(shown, ProveConcealedParameters(seed=10_000, baselines=baselines))
     assert _done(work, wanted) == _done(in_turn, wanted)
+
+
+def _small(read: Callable[[], bytes]) -> bytes:
+    """A case with few channels and a twentieth of its rows: a whole one takes minutes."""
+    parts = unpack(read())
+    for name, every in (("recording.parquet", 20), ("inputs.parquet", 1)):
+        table = pd.read_parquet(io.BytesIO(parts[name])).iloc[::every].reset_index(drop=True)
+        parts[name] = as_parquet(table[[each for each in table if each in CHANNELS]])
+    return pack(parts)
+
+
+@pytest.mark.long
+def test_concealed_cases_are_explained_the_same_by_the_engine(work, shown):
+    wanted = explain_cases({name: partial(_small, read) for name, read in shown.items()})
+    alone = _done(in_turn, wanted)
+    for each in alone.values():
+        assert json.loads(unpack(each)["report.json"])["verdict"] != "refused"
+    assert _done(work, wanted) == alone
 
 
 def _without_seconds(parts: Mapping[str, bytes]) -> dict[str, bytes]:

@@ -11,6 +11,7 @@ from functools import partial
 
 import pytest
 from kedro.io import DatasetError, Version
+from moto_keys import KEY
 
 from tire_pipeline.datasets import (
     ComputedFolderDataset,
@@ -69,6 +70,15 @@ def test_keys_are_neither_taken_from_an_address_nor_told(bucket, monkeypatch):
     assert os.environ["AWS_SECRET_ACCESS_KEY"] not in str(found.value)
     assert found.value.__cause__ is None
     s3fs.S3FileSystem.clear_instance_cache()
+
+
+@pytest.mark.parametrize("dataset", [Objects, lambda path: TirFolderDataset(path=path)])
+@pytest.mark.parametrize("secret", ["seCret", "seC/ret", "seC/r@t", "/seCret"])
+def test_a_secret_key_with_a_slash_is_not_told_either(dataset, secret):
+    with pytest.raises(DomainError, match="may not hold keys") as found:
+        dataset(f"s3://{KEY}:{secret}@bucket/tires")
+    assert "seC" not in str(found.value)
+    assert KEY not in str(found.value)
 
 
 def test_no_folder_called_s3_is_made_here(folder, tmp_path, monkeypatch):

@@ -65,6 +65,36 @@ def no_place(name: str) -> str:
     return ""
 
 
+def refuse_keys(address: str) -> None:
+    """Raise if keys stand before the bucket; the error does not repeat them.
+
+    A secret key may hold ``/``, so the ``@`` behind it does not always stand before the first one. No bucket
+    has a ``:`` in its name; an access point (``arn:aws:s3:...``) has.
+
+    Parameters
+    ----------
+    address : str
+        A local path holds none.
+
+    Raises
+    ------
+    DomainError
+
+    Examples
+    --------
+    >>> refuse_keys("s3://bucket/a@b:c"), refuse_keys("s3://arn:aws:s3:us-east-1:123:accesspoint/tires")
+    (None, None)
+    """
+    protocol, _, rest = address.partition("://")
+    bucket = rest.split("/", 1)[0]
+    if is_remote(address) and ("@" in bucket or (":" in bucket and not bucket.startswith("arn:"))):
+        raise DomainError(
+            "an address must not contain keys",
+            where=f"{protocol}://...",
+            todo="give them in the environment (docs/how-to/cluster.md)",
+        )
+
+
 class Objects:
     """The objects below an address.
 
@@ -80,13 +110,8 @@ class Objects:
     """
 
     def __init__(self, address: str) -> None:
+        refuse_keys(address)
         protocol, _, rest = address.partition("://")
-        if "@" in rest.split("/", 1)[0]:
-            raise DomainError(
-                "an address must not contain keys",
-                where=f"{protocol}://...",
-                todo="give them in the environment (docs/how-to/cluster.md)",
-            )
         import fsspec
 
         try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import stat
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
@@ -98,9 +99,8 @@ def read_recording(
     ['time', 'slip_angle', 'normal_load', 'speed', 'pressure', 'fy']
     """
     file = Path(path)
-    if not file.is_file():
-        what = "this is a folder" if file.is_dir() else "no such file"
-        raise RecordingError(what, where=str(file), todo="give the path of a recording")
+    if reason := _no_recording(file):
+        raise RecordingError(reason, where=str(file), todo="give the path of a recording that may be read")
     check_size(file)
     kind = _format(file, format)
     try:
@@ -116,6 +116,19 @@ def read_recording(
         ) from error
 
 
+def _no_recording(file: Path) -> str:
+    """Why nothing can be read there; empty if it is a regular file."""
+    try:
+        mode = file.stat().st_mode
+    except (FileNotFoundError, NotADirectoryError, ValueError):
+        return "no such file"
+    except OSError as error:
+        return f"it may not be looked at ({error.strerror})"
+    if stat.S_ISDIR(mode):
+        return "this is a folder"
+    return "" if stat.S_ISREG(mode) else "this is not a regular file"
+
+
 def _format(file: Path, format: str | None) -> str:
     """The format by name, by the file's first bytes, or by its suffix."""
     if format is not None:
@@ -127,7 +140,7 @@ def _format(file: Path, format: str | None) -> str:
         with file.open("rb") as stream:
             head = stream.read(4096)
     except OSError as error:
-        raise RecordingError(f"cannot be opened ({error})", where=str(file)) from error
+        raise RecordingError(f"cannot be opened ({error.strerror})", where=str(file)) from error
     if not head:
         raise RecordingError("the file is empty", where=str(file), todo="export it again")
     if head[:4] == b"PAR1":

@@ -28,7 +28,7 @@ class IngestParameters(Parameters):
     Attributes
     ----------
     most_failed_share : float
-        Stop when more than this share of the files cannot be read.
+        Stop when more than this share of the files cannot be read. Folders and links do not count as files.
     """
 
     most_failed_share: float = Field(0.5, ge=0.0, le=1.0)
@@ -68,7 +68,7 @@ def join_files(
     Raises
     ------
     DomainError
-        If more than ``most_failed_share`` of the files cannot be read.
+        If more than ``most_failed_share`` of the files called ``.tir`` cannot be read.
     """
     pieces: list[Piece] = []
     rows: list[dict[str, Any]] = []
@@ -82,10 +82,12 @@ def join_files(
     aside = report[report["status"] == "set aside"]
     for file, reason in aside[["file", "reason"]].head(NAMED_IN_LOG).itertuples(index=False):
         _LOG.warning("%s is set aside: %s", file, reason)
-    if summary["set_aside"] > parameters.most_failed_share * summary["files"]:
+    files = _called_tir(report)
+    failed = files[files["status"] == "set aside"]
+    if len(failed) > parameters.most_failed_share * len(files):
         raise DomainError(
-            f"{summary['set_aside']} of {summary['files']} files cannot be read; the first: "
-            f"{aside.iloc[0]['file']}: {aside.iloc[0]['reason']}",
+            f"{len(failed)} of {len(files)} files cannot be read; the first: "
+            f"{failed.iloc[0]['file']}: {failed.iloc[0]['reason']}",
             where="ingest_tir",
             todo="correct or remove those files, or raise ingest_tir.most_failed_share",
         )
@@ -94,6 +96,12 @@ def join_files(
 
 def _table_of(read: Callable[[], bytes]) -> pd.DataFrame:
     return table_of(read())
+
+
+def _called_tir(report: pd.DataFrame) -> pd.DataFrame:
+    """What counts as a file: folders and links that lead nowhere do not, however many one link brings in."""
+    named = report[report["file"].str.lower().str.endswith(".tir")]
+    return report if named.empty else named
 
 
 def _summary(report: pd.DataFrame) -> dict[str, Any]:

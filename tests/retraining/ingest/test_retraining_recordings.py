@@ -7,6 +7,7 @@ import json
 import os
 
 import pytest
+from no_rights_of_root import rights
 
 from tire_pipeline.datasets import RecordingFolderDataset
 from tire_pipeline.errors import RecordingError
@@ -29,6 +30,33 @@ def test_odd_entries_beside_recordings_are_told(tmp_path):
         found["a/pipe.csv"]()
     with pytest.raises(RecordingError, match=r"no \.tir file"):
         found["a/run.csv"]()
+
+
+def _explained(tasks, recording):
+    (task,) = (each for each in tasks.values() if each.name == recording)
+    return json.loads(unpack(task())["row.json"])["problem"]
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="needs root to drop rights")
+def test_a_folder_that_may_not_be_listed_or_entered_stops_no_other_recording(tmp_path):
+    for folder in ("listed", "entered", "linking", "good"):
+        (tmp_path / folder).mkdir()
+        for name in ("run.csv", "model.tir"):
+            (tmp_path / folder / name).write_text("time,slip_angle\n0,0.1\n")
+    (tmp_path / "linking/link.csv").symlink_to("../entered/run.csv")
+    (tmp_path / "good/other.tir").symlink_to("../listed/model.tir")
+    (tmp_path / "listed").chmod(0o444)
+    (tmp_path / "entered").chmod(0o111)
+    with rights(of_root=False):
+        found = RecordingFolderDataset(path=str(tmp_path)).load()
+        tasks = explain_each(found, ExplainParameters())
+        assert {"entered/run.csv", "listed/run.csv"} < set(found)
+        assert "may not be listed (Permission denied)" in _explained(tasks, "entered/run.csv")
+        assert "may not be looked at (Permission denied)" in _explained(tasks, "listed/run.csv")
+        assert "2 .tir files could belong" in _explained(tasks, "good/run.csv")
+        assert "model.tir" in _explained(tasks, "linking/run.csv")  # it was read, and is no tire
+    for folder in ("listed", "entered"):
+        (tmp_path / folder).chmod(0o755)
 
 
 def test_a_recording_that_a_reader_fails_on_stops_no_other():

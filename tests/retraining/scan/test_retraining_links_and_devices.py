@@ -10,7 +10,7 @@ import pytest
 from retraining_files import ingest_all, put, tir_text, update_store
 
 from tire_pipeline.datasets import TirFolderDataset
-from tire_pipeline.errors import TirError
+from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.files.folder_walk import walk
 from tire_pipeline.files.regular_file import NotRegularError, open_regular
 from tire_pipeline.retraining import look_at
@@ -57,6 +57,33 @@ def test_what_lies_elsewhere_is_taken_once_by_the_first_link(folder, tmp_path):
     assert walk(folder, lambda name: True).again == {"D": "C/deep/", "E": "C/", "A/y.tir": "A/x.tir"}
     (tmp_path / "store/back").symlink_to(folder)  # and from there back again
     assert list(look_at(folder)) == ["A/1.tir", "A/x.tir", "B/2.tir", "C/deep/3.tir"]
+
+
+def test_a_link_that_brings_in_more_that_is_no_tire_file_than_there_are_files_stops_nothing(folder, tmp_path):
+    """A project's folder, a home or /proc: links that lead nowhere, and none is called .tir."""
+    (tmp_path / "project").mkdir()
+    for number in range(50):
+        (tmp_path / f"project/tool{number}").symlink_to("absent")
+        (tmp_path / f"project/all{number}").symlink_to(folder)
+    (folder / "B/project").symlink_to(tmp_path / "project")
+    partitions = TirFolderDataset(path=str(folder)).load()
+    _, report, summary = ingest_all(partitions, IngestParameters())
+    assert (summary["read"], summary["set_aside"]) == (2, 50)
+    assert (report["status"] == "set aside").sum() == 50
+    for name in ("1.tir", "3.tir", "4.tir"):
+        put(folder, f"A/{name}", "no tire")
+    with pytest.raises(DomainError, match=r"3 of 4 files cannot be read; the first: A/1\.tir"):
+        ingest_all(TirFolderDataset(path=str(folder)).load(), IngestParameters())
+
+
+def test_links_to_what_is_taken_are_named_in_the_log_up_to_twenty(folder, caplog):
+    for number in range(25):
+        (folder / f"again{number}").symlink_to(folder)
+    with caplog.at_level("INFO"):
+        TirFolderDataset(path=str(folder)).load()
+    said = [record.getMessage() for record in caplog.records]
+    assert sum("taken already." in line for line in said) == 21
+    assert said[-1] == "5 more links lead to what is taken already."
 
 
 def test_fifos_sockets_and_devices_are_told_and_never_opened(folder, tmp_path):

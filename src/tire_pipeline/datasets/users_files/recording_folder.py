@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import stat
 import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -115,8 +116,12 @@ class RecordingLoader:
             As for :func:`read_pair`.
         """
         stated = [self.path.parent / tir, self.root / tir] if tir else []
-        beside = sorted(p for p in self.path.parent.iterdir() if p.suffix.lower() == ".tir")
         total = hashlib.sha256()
+        try:
+            beside = _named_tir(self.path.parent)
+        except OSError as error:  # reading the recording says so, and stops no other one
+            beside = []
+            total.update(f"errno {error.errno}".encode())
         total.update(_content_hash(self.path, most_bytes()).encode())
         for path in (*stated, *beside):
             for each in (path, Path(f"{path}.sidecar.json")):
@@ -241,7 +246,7 @@ def read_pair(
                 todo="state its path relative to the recording's folder or to the folder of all recordings",
             )
         return read_tir(stated), recording
-    tirs = sorted(p for p in path.parent.iterdir() if p.suffix.lower() == ".tir" and p.is_file())
+    tirs = _tirs_beside(path)
     same = [p for p in tirs if p.stem == path.stem]
     chosen = same or tirs
     if len(chosen) == 1:
@@ -255,6 +260,32 @@ def read_pair(
         where=str(path),
         todo=f"put one .tir beside it, or name it {path.stem}.tir",
     )
+
+
+def _named_tir(folder: Path) -> list[Path]:
+    """Entries of a folder that are called as a ``.tir`` file is."""
+    return sorted(each for each in folder.iterdir() if each.suffix.lower() == ".tir")
+
+
+def _tirs_beside(recording: Path) -> list[Path]:
+    """Models beside a recording; also those that may not be looked at, which say so when they are read."""
+    try:
+        return [each for each in _named_tir(recording.parent) if _may_be_file(each)]
+    except OSError as error:
+        raise RecordingError(
+            f"its folder may not be listed ({error.strerror}), so no .tir file is found",
+            where=str(recording),
+            todo="allow listing it, or state the recording's .tir file",
+        ) from error
+
+
+def _may_be_file(path: Path) -> bool:
+    try:
+        return stat.S_ISREG(path.stat().st_mode)
+    except PermissionError:
+        return True
+    except OSError:
+        return False
 
 
 def _refuse(path: str, reason: str, **_: object) -> NoReturn:

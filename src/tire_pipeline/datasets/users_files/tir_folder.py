@@ -6,6 +6,7 @@ import logging
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any, NoReturn
 
 from kedro_datasets.partitions import PartitionedDataset
@@ -14,11 +15,12 @@ from tire_pipeline.datasets.users_files.tir_file import TirDataset
 from tire_pipeline.errors import DomainError, TirError
 from tire_pipeline.file_names import shown_name
 from tire_pipeline.files.folder_walk import walk
-from tire_pipeline.files.objects import Objects, no_place
+from tire_pipeline.files.objects import Objects, no_place, refuse_keys
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.tir import read_tir
 from tire_pipeline.tir.sidecar import SUFFIX
 from tire_pipeline.tire_table.object_files import read_object
+from tire_pipeline.tire_table.read_files import NAMED_IN_LOG
 
 _LOG = logging.getLogger(__name__)
 
@@ -43,12 +45,13 @@ class TirFolderDataset(PartitionedDataset):
     Raises
     ------
     DomainError
-        The folder is absent or empty, or may not be read itself.
+        The folder is absent or empty, or may not be read itself; or keys stand in its address.
     """
 
     def __init__(
         self, *, path: str, may_be_absent: bool = False, metadata: dict[str, Any] | None = None
     ) -> None:
+        refuse_keys(path)
         super().__init__(path=path, dataset={"type": TirDataset}, metadata=metadata)
         self._may_be_absent = may_be_absent
 
@@ -68,8 +71,10 @@ class TirFolderDataset(PartitionedDataset):
         if not os.path.isdir(self._path):
             return {}
         found = walk(self._path, _is_tir)
-        for name, other in found.again.items():
+        for name, other in islice(found.again.items(), NAMED_IN_LOG):
             _LOG.info("%s is a link to %s, which is taken already.", name, other)
+        if (more := len(found.again) - NAMED_IN_LOG) > 0:
+            _LOG.info("%d more links lead to what is taken already.", more)
         partitions: dict[str, Callable[[], Any]] = {
             name: TirLoader(path) for name, path in found.files.items()
         }
