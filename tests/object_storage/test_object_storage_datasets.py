@@ -75,7 +75,7 @@ def test_keys_are_neither_taken_from_an_address_nor_told(bucket, monkeypatch):
 @pytest.mark.parametrize("dataset", [Objects, lambda path: TirFolderDataset(path=path)])
 @pytest.mark.parametrize("secret", ["seCret", "seC/ret", "seC/r@t", "/seCret"])
 def test_a_secret_key_with_a_slash_is_not_told_either(dataset, secret):
-    with pytest.raises(DomainError, match="may not hold keys") as found:
+    with pytest.raises(DomainError, match="must not contain keys") as found:
         dataset(f"s3://{KEY}:{secret}@bucket/tires")
     assert "seC" not in str(found.value)
     assert KEY not in str(found.value)
