@@ -79,7 +79,7 @@ def _log_spread(
 ) -> float:
     data, time = products.data, products.data.time
     assert time is not None  # the effect needs a time line
-    only = [(moment,) if j == i else () for j in range(len(changes))]
+    only: list[tuple[str, ...]] = [(moment,) if j == i else () for j in range(len(changes))]
     labels, columns = columns_of(data, changes, only)
     _, wide = learnt_prior(data, likelihood, changes, labels)
     rest = residual(data, changes)
@@ -107,6 +107,6 @@ def _moments(changes: Sequence[Change], free: Free) -> list[tuple[int, str]]:
 
 def _with_moment(changes: Sequence[Change], i: int, moment: str, later: float, time: Array) -> list[Change]:
     """Return the same with a moment of one effect later by some seconds, within the recording."""
-    out: list[Change] = [(name, dict(p)) for name, p in changes]
-    out[i][1][moment] = float(np.clip(out[i][1][moment] + later, time[0], time[-1]))
-    return out
+    name, p = changes[i]
+    there = float(np.clip(p[moment] + later, time[0], time[-1]))
+    return [*changes[:i], (name, {**p, moment: there}), *changes[i + 1 :]]
