@@ -144,6 +144,13 @@ def test_show_says_version_ranges_and_what_is_missing(folder):
     assert "largest lateral friction" in html
 
 
+def test_a_line_break_in_a_name_begins_no_line(folder):
+    (folder / "a.tir").rename("a\n0 errors.tir")
+    lines = run("show", "a\n0 errors.tir", "--no-page").stdout.splitlines()
+    assert "a⟨U+000A⟩0 errors.tir" in lines[0]
+    assert not any(line.startswith("0 errors") for line in lines)
+
+
 def test_a_warning_is_a_line_and_said_once(capsys):
     show = WarningsInOneLine()
     for text in ("one\nthing", "one\nthing", "another"):

@@ -99,9 +99,9 @@ def _print(outcome: CommandOutcome, written: Sequence[str]) -> None:
     console = Console(highlight=False)
     if not console.is_terminal and "COLUMNS" not in os.environ:
         console.width = _WIDTH_OF_A_FILE  # a file or a pipe: what reads it wraps lines itself
-    console.print(Text(visible(outcome.title), style="bold"))
+    console.print(_line(outcome.title, style="bold"))
     for line in outcome.lines:
-        console.print(Text(visible(line)))
+        console.print(_line(line))
     for grid in outcome.grids:
         table = Table(box=None, pad_edge=False)
         numbers = [any(_right_aligned(row[k]) for row in grid.rows) for k in range(len(grid.header))]
@@ -111,15 +111,22 @@ def _print(outcome: CommandOutcome, written: Sequence[str]) -> None:
             table.add_row(*(Text(visible(digits(cell))) for cell in row))
         console.print()
         if grid.title:
-            console.print(Text(visible(grid.title), style="italic"))
+            console.print(_line(grid.title, style="italic"))
         console.print(table)
     if outcome.notes:
         console.print()
     for note in outcome.notes:
-        console.print(Text(visible(f"note: {note}")))
+        console.print(_line(f"note: {note}"))
     if written:
         console.print()
-        console.print(Text(visible(f"written: {', '.join(written)}")))
+        console.print(_line(f"written: {', '.join(written)}"))
+
+
+def _line(text: str, style: str = "") -> Any:
+    """Return a text as one line, whatever a file's name holds."""
+    from rich.text import Text
+
+    return Text(visible(text).replace("\n", "⟨U+000A⟩"), style=style)
 
 
 def _right_aligned(value: Any) -> bool:
