@@ -60,7 +60,9 @@ def record(name: str, *, seed: int = 0, friction: float = 1.0, seconds: float = 
 
 
 def run(*arguments: str, code: int = 0):
-    result = CliRunner().invoke(tire, [str(each) for each in arguments], catch_exceptions=False)
+    leftovers = dict.fromkeys(("COLUMNS", "FORCE_COLOR", "TTY_COMPATIBLE"))  # of other tests
+    each = [str(argument) for argument in arguments]
+    result = CliRunner(env=leftovers).invoke(tire, each, catch_exceptions=False)
     assert result.exit_code == code, result.output
     return result
 

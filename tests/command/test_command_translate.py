@@ -57,7 +57,9 @@ def folder(tmp_path, monkeypatch, fleet, translator):
 
 
 def run(*arguments: str, code: int = 0):
-    result = CliRunner().invoke(tire, [str(each) for each in arguments], catch_exceptions=False)
+    leftovers = dict.fromkeys(("COLUMNS", "FORCE_COLOR", "TTY_COMPATIBLE"))  # of other tests
+    each = [str(argument) for argument in arguments]
+    result = CliRunner(env=leftovers).invoke(tire, each, catch_exceptions=False)
     assert result.exit_code == code, result.output
     return result
 
@@ -161,7 +163,7 @@ def test_other_places_of_a_model(folder, translator):
     damaged.write_bytes(damaged.read_bytes()[:-200])
     assert "damaged" in run("translate", "A/tire.tir", "--model", "released", code=2).stderr
     (folder / "other.npz").write_bytes(pack_state({"classifier": "random_forest"}))
-    assert "no translator" in run("translate", "A/tire.tir", "--model", "other.npz", code=2).stderr
+    assert "not a translator" in run("translate", "A/tire.tir", "--model", "other.npz", code=2).stderr
 
 
 def test_its_page_is_read_in_a_browser(folder):

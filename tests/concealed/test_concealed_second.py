@@ -143,7 +143,7 @@ def test_places_are_those_of_the_tire() -> None:
 NOT_BRAKED, BRAKED = 9, pytest.param(41, marks=pytest.mark.ci)
 
 
-@pytest.mark.parametrize("seed", [NOT_BRAKED, pytest.param(BRAKED, marks=pytest.mark.ci)])
+@pytest.mark.parametrize("seed", [NOT_BRAKED, BRAKED])
 @pytest.mark.parametrize("name", CAUSES)
 def test_a_cause_changes_the_forces_by_the_size_asked_for(name: str, seed: int) -> None:
     """With no longitudinal force none leaks into the lateral one, and the truth says so."""

@@ -37,7 +37,7 @@ class Counted:
     [
         check_recording,
         lambda frame: explain_mismatch(None, frame),
-        lambda frame: check.outcome(Path("wide.csv"), frame, [], None),
+        lambda frame: check.outcome(Path("wide.csv"), frame, []),
     ],
 )
 def test_what_is_known_of_all_channels_is_not_copied_for_each(tmp_path, look):

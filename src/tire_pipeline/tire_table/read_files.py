@@ -82,6 +82,16 @@ def join_files(
     aside = report[report["status"] == "set aside"]
     for file, reason in aside[["file", "reason"]].head(NAMED_IN_LOG).itertuples(index=False):
         _LOG.warning("%s is set aside: %s", file, reason)
+    _refuse_mostly_unread(report, parameters)
+    return TableInPieces(tuple(pieces)), report, summary
+
+
+def _table_of(read: Callable[[], bytes]) -> pd.DataFrame:
+    return table_of(read())
+
+
+def _refuse_mostly_unread(report: pd.DataFrame, parameters: IngestParameters) -> None:
+    """Raise where more of the files called ``.tir`` cannot be read than the parameters allow."""
     files = _called_tir(report)
     failed = files[files["status"] == "set aside"]
     if len(failed) > parameters.most_failed_share * len(files):
@@ -91,11 +101,6 @@ def join_files(
             where="ingest_tir",
             todo="correct or remove those files, or raise ingest_tir.most_failed_share",
         )
-    return TableInPieces(tuple(pieces)), report, summary
-
-
-def _table_of(read: Callable[[], bytes]) -> pd.DataFrame:
-    return table_of(read())
 
 
 def _called_tir(report: pd.DataFrame) -> pd.DataFrame:
