@@ -19,7 +19,7 @@ from conftest_kedro import ROOT, kedro_here
 
 from tire_pipeline.translation.judge.effects import KEY_PARTS
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error::pandas.errors.PerformanceWarning")]
 PUBLIC = sorted((ROOT.parent / "shared" / "tir").glob("*.tir"))
 KNOWN = ("A", "B", "C", "D", "E", "F")
 VERDICTS = {"translated", "already unbiased", "left alone", "refused", "unknown supplier"}

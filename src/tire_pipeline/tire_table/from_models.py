@@ -129,7 +129,7 @@ def as_in_whole(part: pd.DataFrame, numbers: Iterable[str]) -> pd.DataFrame:
         Number columns of the whole.
     """
     columns = [*TEXTS, *_column_order([tuple(numbers)])]
-    whole = part.reindex(columns=columns)
+    whole = part.reindex(columns=columns).copy()  # in one piece: pandas warns of columns put in one by one
     whole["date"] = whole["date"].fillna("").astype("str")  # a table of before there were dates has none
     whole["tire_id"] = physical_tire_ids(whole)
     return whole
