@@ -9,15 +9,12 @@ import numpy as np
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 from tire_pipeline.mismatch.inference.evidence.products import RecordingProducts
-from tire_pipeline.mismatch.inference.linearised_set import columns_of
 from tire_pipeline.mismatch.inference.sets.objective import (
-    learnt_prior,
     negative_log_posterior,
     normal_equations,
 )
 from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.model.forces import Change
-from tire_pipeline.mismatch.model.residual import residual
 
 Array = np.ndarray
 Free = Sequence[tuple[str, ...]]
@@ -80,24 +77,20 @@ def _log_spread(
     data, time = products.data, products.data.time
     assert time is not None  # the effect needs a time line
     only: list[tuple[str, ...]] = [(moment,) if j == i else () for j in range(len(changes))]
-    labels, columns = columns_of(data, changes, only)
-    _, wide = learnt_prior(data, likelihood, changes, labels)
-    rest = residual(data, changes)
-    found = products.of({o: np.column_stack([columns[o] * wide, r]) for o, r in rest.items()})
-    weights = likelihood.evidence(found, np.ones(1)).weights
-    information = float(normal_equations(weights, found, 1)[0][0, 0]) + 1.0  # with the prior's
-    near, at = likelihood.at(weights), changes[i][1][moment]
+    at = normal_equations(products, likelihood, changes, only)
+    information = float(at.inner[0, 0]) + 1.0  # with the prior's
+    near, here = likelihood.at(at.weights), changes[i][1][moment]
     best = negative_log_posterior(products, near, changes, only)
     odds = {0.0: 1.0}
     for step in (-data.sampling, data.sampling):
         last, later = 1.0, step
-        while last > CHANCE and time[0] < at + later < time[-1]:
+        while last > CHANCE and time[0] < here + later < time[-1]:
             trial = _with_moment(changes, i, moment, later, time)
             last = odds[later] = float(np.exp(best - negative_log_posterior(products, near, trial, only)))
             later += later
     seconds = np.array(sorted(odds))
     mass = float(np.trapezoid([odds[s] for s in seconds], seconds))
-    return float(np.log(mass * np.sqrt(information / (2.0 * np.pi)) / wide[0]))
+    return float(np.log(mass * np.sqrt(information / (2.0 * np.pi)) / at.wide[0]))
 
 
 def _moments(changes: Sequence[Change], free: Free) -> list[tuple[int, str]]:
