@@ -16,6 +16,7 @@ from tire_pipeline.mismatch.model.channels import CHANCE
 from tire_pipeline.mismatch.unnamed_physics.choose import ChosenModels, choose
 from tire_pipeline.mismatch.unnamed_physics.evidence import MOST_TERMS, coefficients
 from tire_pipeline.mismatch.unnamed_physics.library import WAY, Term
+from tire_pipeline.mismatch.unnamed_physics.problem import Unexplained
 from tire_pipeline.mismatch.unnamed_physics.products import FOLDS, Columns
 
 Array = np.ndarray
@@ -112,25 +113,26 @@ def judged(columns: Columns, predicted: Mapping[str, Array], choices: int) -> Pr
     return Proven(predicted, choices, better, sweeps, max(chance[o] for o in good), share, good)
 
 
-def surely_less(
-    before: Mapping[str, Array], after: Mapping[str, Array], largest: Mapping[str, float], sweep: Array
-) -> bool:
+def surely_less(problem: Unexplained, before: Mapping[str, Array], after: Mapping[str, Array]) -> bool:
     """Whether all forces together surely have a smaller error on sweeps that are predicted without them.
 
     Surely: the mean gain of a sweep is above zero by a one-sided t test over the sweeps. A gain that a few
-    sweeps make and others lose is no gain elsewhere.
+    sweeps make and others lose is no gain elsewhere. And the gain is as large a part of the squared mismatch
+    as an equation has to remove at all: what says the same in another form differs surely, but by little.
 
     Parameters
     ----------
+    problem : Unexplained
     before, after : mapping of ndarray, shape (n,)
-        Output -> residual, N.
-    largest : mapping of float
-        Output -> largest force, N: each force counts over its largest.
-    sweep : ndarray of int, shape (n,)
-        Sweep of each sample.
+        Output -> residual, N. Each force counts over its largest.
     """
-    gain = np.bincount(sweep, sum((before[o] ** 2 - after[o] ** 2) / largest[o] ** 2 for o in after))
-    return chance_of_no_gain(gain) < CHANCE
+
+    def squared(left: Mapping[str, Array]) -> Array:
+        return np.sum([(left[o] / problem.largest[o]) ** 2 for o in after], axis=0)
+
+    gain = squared(before) - squared(after)
+    enough = gain.mean() >= _LEAST_GONE * squared(problem.rest).mean()
+    return bool(enough) and chance_of_no_gain(np.bincount(problem.block, gain)) < CHANCE
 
 
 def chance_of_no_gain(gain: Array) -> float:

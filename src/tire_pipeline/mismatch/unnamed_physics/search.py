@@ -116,16 +116,13 @@ def _better(
     choice = choose(columns)
     models = [m for k in range(MOST_TERMS) if (m := choice.best(k + 1)) is not None]
     if not any(
-        surely_less(
-            rival, _left(problem, forces_of(columns, choice, m.terms)), problem.largest, problem.block
-        )
-        for m in models
+        surely_less(problem, rival, _left(problem, forces_of(columns, choice, m.terms))) for m in models
     ):
         return None, {}  # not even where it was fitted
     parts = _parts([(columns, choice, proven(columns))])
     left = _left(problem, _added(parts))
     found = _reported(problem, parts)
-    if not surely_less(rival, left, problem.largest, problem.block):
+    if not surely_less(problem, rival, left):
         return None, {}
     if found.physics is None or "t" in found.physics.ranges:
         return None, {}  # an equation in time, or the way rolled, ends with its recording; a name does not
