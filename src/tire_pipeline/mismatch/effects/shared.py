@@ -124,6 +124,23 @@ def safe_log1p(x: np.ndarray | float) -> np.ndarray | float:
     return np.log(np.maximum(1.0 + np.asarray(x), 0.05))
 
 
+def beyond_known(load: np.ndarray, known: tuple[float, float]) -> bool:
+    """Whether some loads lie farther outside of the range that a file states than that range is wide.
+
+    No tire's friction and stiffness are known so far from the loads they were fitted to (Pacejka, 3rd ed.,
+    4.3.2: PDY2 and PKY2 take several loads).
+
+    Parameters
+    ----------
+    load : ndarray, shape (n,)
+        Normal load, N.
+    known : (low, high)
+        Least and largest load that the file holds for, N.
+    """
+    low, high = known
+    return bool(max(low - np.min(load), np.max(load) - high) > high - low)
+
+
 def relaxation_lengths(tire: TireModel) -> dict[str, float]:
     """Return the relaxation lengths of a tire model at its nominal load, by the model's own formula.
 

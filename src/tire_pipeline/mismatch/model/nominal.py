@@ -104,8 +104,7 @@ class NominalConditions:
     @property
     def load_range(self) -> tuple[float, float]:
         """Least and largest load that the file says it holds for, N; infinite where it gives no range."""
-        *_, low, high = self.tire.ranges.get("normal_load", (-np.inf, np.inf))
-        return low, high
+        return loads_of_file(self.tire)
 
     @cached_property
     def radius(self) -> float:
@@ -206,6 +205,12 @@ class NominalConditions:
     def knows_camber(self) -> bool:
         """Whether the model's lateral force answers to camber."""
         return any(self.coefficients.get(key, 0.0) for key in OF_CAMBER["fy"])
+
+
+def loads_of_file(tire: TireModel) -> tuple[float, float]:
+    """Return the least and the largest load that a file says it holds for, N; infinite without a range."""
+    *_, low, high = tire.ranges.get("normal_load", (-np.inf, np.inf))
+    return low, high
 
 
 def most_common(x: Array) -> float:

@@ -10,8 +10,9 @@ import numpy as np
 import scipy
 
 from tire_pipeline.channels import SLIP_AND_LOAD, SLIP_OF_FORCE
-from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES
+from tire_pipeline.mismatch.effects.shared import INDEPENDENT_STRETCHES, beyond_known
 from tire_pipeline.mismatch.model.channels import ENOUGH_ROWS, least_spread, moves
+from tire_pipeline.mismatch.model.nominal import loads_of_file
 from tire_pipeline.mismatch.model.plain_forces import plain_forces, slip_at_peak
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.recording.usable import LEAST, Drive, drives
@@ -59,18 +60,25 @@ class Figures:
         bend); NaN where the recording does not tell.
     removed : float
         Share of the squared mismatch that is gone with them, of what the recorded states leave.
+    known : ndarray of bool, shape (5,)
+        Which of them the file can know: from one load it does not know how the others change with load.
     """
 
     output: str
     values: Array
     errors: Array
     removed: float
+    known: Array
 
     @property
     def off(self) -> Array:
         """Which figures are off, bool."""
         size = np.abs(np.nan_to_num(self.values))
-        return (size > np.array(TOLERANCE)) & (size > _ERRORS_OFF * np.nan_to_num(self.errors, nan=np.inf))
+        return (
+            self.known
+            & (size > np.array(TOLERANCE))
+            & (size > _ERRORS_OFF * np.nan_to_num(self.errors, nan=np.inf))
+        )
 
     @property
     def another(self) -> bool:
@@ -169,7 +177,9 @@ def figures(
     errors, values = np.full(free.size, np.nan), np.where(free, p, np.nan)
     errors[free] = np.sqrt(np.maximum(np.diag(inverse @ (score @ score.T) @ inverse), 0.0))[:-1]
     removed = 1.0 - float(left @ left) / max(float(before @ before), 1e-300)
-    return Figures(output, values[:count], errors[:count], removed)
+    known = np.ones(count, bool)
+    known[list(_LOADED)] = not beyond_known(a["normal_load"], loads_of_file(tire))
+    return Figures(output, values[:count], errors[:count], removed, known)
 
 
 class _Similar:

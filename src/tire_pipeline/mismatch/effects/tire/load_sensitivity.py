@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.mismatch.effects.base import Effect, Parameter, Parameters, State
 from tire_pipeline.mismatch.effects.context import Context
-from tire_pipeline.mismatch.effects.shared import safe_log1p
+from tire_pipeline.mismatch.effects.shared import beyond_known, safe_log1p
 
 
 class LoadSensitivity(Effect):
@@ -51,13 +49,8 @@ class LoadSensitivity(Effect):
         return ("rate", "stiffness", "lateral_stiffness") if both else ("rate", "stiffness")
 
     def expected(self, data: Context) -> bool:
-        """The recording's loads reach farther outside of the file's range than that range is wide.
-
-        No tire's friction and stiffness are known so far from the loads they were fitted to (Pacejka, 3rd
-        ed., 4.3.2: PDY2 and PKY2 take several loads).
-        """
-        (low, high), load = data.nominal.load_range, data.get("normal_load")
-        return bool(max(low - np.min(load), np.max(load) - high) > high - low)
+        """The file does not know the recording's loads."""
+        return beyond_known(data.get("normal_load"), data.nominal.load_range)
 
     def tire(self, state: State, data: Context, p: Parameters) -> None:
         """Scale friction and stiffness with load."""
