@@ -11,7 +11,7 @@ import scipy
 from tire_pipeline.mismatch.unnamed_physics.evidence import (
     MOST_TERMS,
     Model,
-    cost,
+    costs,
     enumerate_models,
     gains,
     shortest,
@@ -99,7 +99,7 @@ def _screened(columns: Columns, terms: Sequence[Term], inflation: float, kept: A
     if not live:
         return []
     score = gains(reduced, np.arange(len(live))[:, None])
-    score = score - np.array([cost([t], len(live)) for t in live])
+    score = score - costs(live, len(live), np.arange(len(live))[:, None])
     return [(float(score[i]), live[i]) for i in np.argsort(-score)]
 
 

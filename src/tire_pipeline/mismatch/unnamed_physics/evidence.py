@@ -30,11 +30,24 @@ class Model:
     score: float
 
 
-def cost(terms: Sequence[Term], library: int) -> float:
-    """Minus log prior of a set: which term of the library, how long, how many drivers."""
-    drivers = frozenset[str]().union(*(t.drivers for t in terms))
-    each = sum(t.cost for t in terms) + len(terms) * math.log(max(library, 2))
-    return each + EACH_DRIVER * len(drivers)
+def costs(terms: Sequence[Term], library: int, sets: Array) -> Array:
+    """Minus log prior of sets: which terms of the library, how long, how many drivers; shape (sets,).
+
+    Parameters
+    ----------
+    terms : sequence of Term
+    library : int
+        Terms to choose from.
+    sets : ndarray of int, shape (sets, k)
+        Numbers of terms.
+    """
+    number = {d: k for k, d in enumerate(sorted(frozenset[str]().union(*(t.drivers for t in terms))))}
+    has = np.zeros((len(terms), len(number)), bool)
+    for i, term in enumerate(terms):
+        has[i, [number[d] for d in term.drivers]] = True
+    each = np.array([t.cost for t in terms])[sets].sum(axis=1)
+    drivers = np.any(has[sets], axis=1).sum(axis=1)
+    return each + sets.shape[1] * math.log(max(library, 2)) + EACH_DRIVER * drivers
 
 
 def gains(reduced: Sequence[Reduced], sets: Array) -> Array:
@@ -109,12 +122,12 @@ def enumerate_models(terms: Sequence[Term], reduced: Sequence[Reduced], triples_
 
 def _judged(terms: Sequence[Term], reduced: Sequence[Reduced], sets: Array) -> list[Model]:
     found = gains(reduced, sets)
+    score = found - costs(terms, len(terms), sets)
     models = [
-        Model(tuple(int(i) for i in row), float(g), float(g - cost([terms[i] for i in row], len(terms))))
-        for row, g in zip(sets, found, strict=True)
-        if np.isfinite(g)
+        Model(tuple(row), g, s)
+        for row, g, s in zip(sets.tolist(), found.tolist(), score.tolist(), strict=True)
     ]
-    return sorted(models, key=lambda m: -m.score)
+    return sorted((m for m in models if math.isfinite(m.evidence)), key=lambda m: -m.score)
 
 
 def tolerance(models: Sequence[Model]) -> float:
@@ -141,6 +154,8 @@ def shortest(models: Sequence[Model], terms: Sequence[Term], most_terms: int = M
     if not able:
         return None
     most, near = able[0], tolerance(able)
+    worth = near * (0.5 * (len(most.terms) - 1) + len(drivers_of(most, terms)))
+    able = [m for m in able if most.score - m.score <= worth]  # no shortness is worth more
 
     def price(m: Model) -> float:
         """What it lacks, less what its shortness is worth: forms are never quite right."""

@@ -20,6 +20,7 @@ import numpy as np
 
 from tire_pipeline.mismatch.discrepancy.nuisance.columns import Sizes
 from tire_pipeline.mismatch.discrepancy.nuisance.sizes import nuisance_scale
+from tire_pipeline.mismatch.inference.evidence.summed import summed
 from tire_pipeline.mismatch.inference.learnt.sizes import LearntSizes
 from tire_pipeline.mismatch.inference.one_sided import log_possible
 from tire_pipeline.mismatch.inference.tails import log_correction, widening
@@ -275,17 +276,16 @@ class Likelihood:
             inner, aim = np.eye(scale.size), np.zeros(scale.size)
             total, power = 0.0, 0.0
             weights, errors = {}, {}
+            u = np.append(-z * scale, 1.0)
             for o, own in known.own.items():
-                u = np.r_[-z * scale, 1.0]
-                values = self._values(o, float(u @ own @ u), known.parts[o] @ u, wide=wide)
-                k, j = np.unravel_index(int(np.argmax(values)), values.shape)
-                weights[o] = Weights(self.count[o] / ERRORS[j] ** 2, *self._cells[o][k], int(k))
+                grid, parts = self._grid[o], np.ascontiguousarray(known.parts[o])
+                value, k, j, reduced = summed(own, parts, u, *grid, self._error_priors[o, wide])
+                weights[o] = Weights(self.count[o] / ERRORS[j] ** 2, *self._cells[o][k], k)
                 errors[o] = float(ERRORS[j])
-                reduced = weights[o].shrunk(own, known.parts[o][k])
                 inner += reduced[:-1, :-1] * spread[:, None] * spread[None, :]
                 aim += reduced[:-1, -1] * spread
                 power += float(reduced[-1, -1])
-                total += _log_sum(values) + 0.5 * float(u @ reduced @ u)
+                total += value + 0.5 * float(u @ reduced @ u)
             before, z = z, times * np.linalg.solve(inner, aim)
             if np.max(np.abs(z - before), initial=0.0) < _MODE_TOLERANCE:
                 break
@@ -296,17 +296,15 @@ class Likelihood:
         return Evidence(value, z * scale, covariance, weights, errors), least_squares
 
     @cached_property
-    def _grid(self) -> Mapping[str, tuple[Array, Array]]:
-        """For each output what does not depend on a residual, over sizes of misfit and error.
-
-        Weights of its squared parts, shape (cells, errors, q), and what stands before, shape (cells, errors).
-        """
+    def _grid(self) -> Mapping[str, tuple[Array, Array, Array, Array]]:
+        """For each output what :func:`summed` needs and no residual changes."""
         out = {}
         for o, cells in self._cells.items():
-            precision = self.count[o] / ERRORS**2
-            inner = 1.0 + precision[None, :, None] * np.array([v for v, _ in cells])[:, None, :]
+            precision, eigenvalues = self.count[o] / ERRORS**2, np.array([v for v, _ in cells])
+            inner = 1.0 + precision[None, :, None] * eigenvalues[:, None, :]
             size = 0.5 * np.log(inner).sum(axis=2) + self.count[o] * np.log(ERRORS)
-            out[o] = (0.5 * precision[None, :, None] ** 2 / inner, -size - np.log(len(cells)))
+            explains = 0.5 * precision[None, :, None] ** 2 / inner
+            out[o] = (eigenvalues, explains, -size - np.log(len(cells)), 0.5 * precision)
         return out
 
     @cached_property
@@ -317,19 +315,3 @@ class Likelihood:
             for o in self._cells
             for wide in (False, True)
         }
-
-    def _values(self, o: str, power: float, seen: Array, *, wide: bool) -> Array:
-        """Return the log likelihood for each size of misfit and error, shape (cells, errors).
-
-        ``power`` is the squared size of a residual, ``seen`` (cells, q) its parts along the eigenvectors.
-        """
-        weights, before = self._grid[o]
-        explained = (weights @ (seen**2)[:, :, None])[:, :, 0]
-        prior = self._error_priors[o, wide]
-        return np.asarray(before + prior - 0.5 * self.count[o] / ERRORS**2 * power + explained)
-
-
-def _log_sum(values: Array) -> float:
-    """Logarithm of a sum of exponentials."""
-    top = float(values.max())
-    return top + float(np.log(np.exp(values - top).sum()))
