@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import inspect
-from functools import cache
+from typing import Any, TypeVar
 
 import torch
-from torch.optim import Optimizer
+
+_Optimizer = TypeVar("_Optimizer", bound=torch.optim.Optimizer)
 
 
-@cache
-def uncompiled(kind: type[Optimizer]) -> type[Optimizer]:
+def uncompiled(kind: type[_Optimizer]) -> type[_Optimizer]:
     """The same optimiser, whose methods do not import torch's compiler.
 
     torch wraps them to tell its compiler to keep out, and imports it for that: each process that trains a
@@ -36,4 +36,6 @@ def uncompiled(kind: type[Optimizer]) -> type[Optimizer]:
     0.0
     """
     plain = {name: inspect.unwrap(getattr(kind, name)) for name in ("add_param_group", "zero_grad", "step")}
-    return type(kind.__name__, (kind,), {**plain, "step": torch.no_grad()(plain["step"])})
+    own: Any = type(kind.__name__, (kind,), {**plain, "step": torch.no_grad()(plain["step"])})
+    found: type[_Optimizer] = own
+    return found
