@@ -61,6 +61,7 @@ _LONGEST_FIRST = (
     "concealed/test_concealed_cases.py",
     "concealed/test_concealed_baselines.py",
     "command/test_command.py",
+    "command/test_command_explain.py",
     "command/test_command_translate.py",
     "mismatch/effects/test_mismatch_lags.py",
     "mismatch/recording/test_mismatch_another_tire.py",

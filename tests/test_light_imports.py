@@ -56,6 +56,21 @@ def test_a_run_loads_what_trains_and_draws_only_in_the_nodes_that_need_it():
     )
 
 
+@pytest.mark.slow
+def test_what_trains_a_network_leaves_the_compiler_of_torch_alone():
+    """It takes two seconds to import, in each process that trains."""
+    modules = loaded(
+        "import numpy as np\n"
+        "from tire_pipeline.classifiers.methods.ann import Ann\n"
+        "from tire_pipeline.representations.autoencoder import train_autoencoder\n"
+        "rows = np.arange(20.0).reshape(10, 2)\n"
+        "Ann(epochs=1, smote=False).fit(rows, np.array(list('ab') * 5), seed=0)\n"
+        "train_autoencoder(rows, n_features=1, epochs=1, batch_size=5, learning_rate=1e-3, seed=0)"
+    )
+    assert "torch.optim" in modules
+    assert "torch._dynamo" not in modules
+
+
 def test_a_run_says_that_it_starts_before_what_is_slow_is_imported():
     """Kedro imports these two before it calls the project's ``run``, which says so first."""
     modules = loaded("import tire_pipeline.settings, tire_pipeline.cli")

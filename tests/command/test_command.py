@@ -2,79 +2,20 @@
 
 from __future__ import annotations
 
-import json
 import re
 import subprocess
 import sys
 from contextlib import contextmanager
 
 import numpy as np
-import pandas as pd
 import pytest
-from click.testing import CliRunner
+from command_line import COEFFICIENTS, page, run, told
 
-from tire_pipeline.command.cli import COMMANDS, WarningsInOneLine, tire
+from tire_pipeline.command.cli import COMMANDS, WarningsInOneLine
 from tire_pipeline.magic_formula import TireModel
-from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
 from tire_pipeline.tir import read_tir, write_tir
 
 pytestmark = pytest.mark.slow
-
-COEFFICIENTS = {
-    "FNOMIN": 4000.0,
-    "UNLOADED_RADIUS": 0.32,
-    "LONGVL": 16.7,
-    "PCY1": 1.35,
-    "PDY1": 1.02,
-    "PDY2": -0.1,
-    "PEY1": -1.2,
-    "PKY1": -22.0,
-    "PKY2": 2.1,
-    "PCX1": 1.6,
-    "PDX1": 1.1,
-    "PKX1": 22.0,
-    "PHY3": 0.01,
-}
-
-
-@pytest.fixture
-def folder(tmp_path, monkeypatch):
-    """An empty folder to work in, with a tire."""
-    monkeypatch.chdir(tmp_path)
-    write_tir(TireModel.from_coefficients(COEFFICIENTS), "a.tir")
-    return tmp_path
-
-
-def record(name: str, *, seed: int = 0, friction: float = 1.0, seconds: float = 80.0) -> None:
-    rng = np.random.default_rng(seed)
-    time = np.arange(0.0, seconds, 0.02)
-    angle = 0.16 * np.sin(2.0 * np.pi * time / 7.0)
-    load = np.array([2500.0, 4500.0, 6000.0])[(time // 14.0).astype(int) % 3]
-    fy = (
-        friction
-        * TireModel.from_coefficients(COEFFICIENTS).forces(slip_angle=angle / friction, normal_load=load).fy
-    )
-    columns = {"time": time, "slip_angle": angle, "normal_load": load}
-    noise = 25.0 * rng.standard_normal(time.size)
-    pd.DataFrame({**columns, "fy": fy + noise}).to_csv(name, index=False)
-
-
-def run(*arguments: str, code: int = 0):
-    leftovers = dict.fromkeys(("COLUMNS", "FORCE_COLOR", "TTY_COMPATIBLE"))  # of other tests
-    each = [str(argument) for argument in arguments]
-    result = CliRunner(env=leftovers).invoke(tire, each, catch_exceptions=False)
-    assert result.exit_code == code, result.output
-    return result
-
-
-def told(*arguments: str, code: int = 0):
-    return json.loads(run(*arguments, "--json", code=code).stdout)
-
-
-def page(path) -> str:
-    text = path.read_text(encoding="utf-8")
-    assert not re.search(r"""(src|href)\s*=\s*["'](?!#|data:)""", text.replace("xlink:href", "href"))
-    return text
 
 
 def test_help_names_every_subcommand_and_imports_none():
@@ -225,174 +166,11 @@ def test_convert_keeps_the_forces_and_says_what_it_cannot_keep(folder):
     run("convert", "a.tir", "--to", "6.1", "--overwrite", "--no-page")
 
 
-def test_fit_writes_what_was_measured(folder):
-    record("run.csv")
-    before = (folder / "run.csv").read_bytes()
-    found = told("fit", "run.csv", "-o", "out.tir", "--unloaded-radius", "0.305")
-    fitted = read_tir("out.tir")
-    assert fitted.value("UNLOADED_RADIUS") == 0.305
-    assert (folder / "run.csv").read_bytes() == before
-    assert fitted.coefficients["PDY1"] == pytest.approx(found["coefficients"]["PDY1"])
-    assert found["relative_rms"]["fy"] < 0.01
-    angles = pd.read_csv("run.csv")["slip_angle"]
-    assert fitted.ranges["slip_angle"][2:] == pytest.approx((angles.min(), angles.max()), abs=1e-6)
-    assert "camber" not in fitted.ranges, "one camber is no range"
-    there = read_tir("a.tir").forces(slip_angle=0.1, normal_load=4500.0).fy
-    assert fitted.forces(slip_angle=0.1, normal_load=4500.0).fy == pytest.approx(there, rel=0.02)
-    assert "Points: measured at pure slip" in page(folder / "out_fit.html")
-    assert "out.tir" in run("fit", "run.csv", "-o", "out.tir", code=2).stderr
-
-
-def test_fit_gives_no_residual_of_a_force_that_it_could_not_fit(folder):
-    record("run.csv", seconds=30.0)
-    pd.read_csv("run.csv").assign(fx=12.0).to_csv("run.csv", index=False)
-    found = told("fit", "run.csv", "-o", "out.tir", "--no-page")
-    assert "fx" in found["not_fitted"]
-    assert "fx" not in found["relative_rms"]
-    assert "Fx: recorded, but" in run("fit", "run.csv", "-o", "out2.tir", "--no-page").stdout
-    assert "There is no longitudinal force" in run("show", "out.tir", "--no-page").stdout
-
-
-def test_a_poor_fit_does_not_look_like_a_success(folder):
-    record("run.csv", seconds=30.0)
-    degrees = pd.read_csv("run.csv").assign(slip_angle=lambda r: np.degrees(r["slip_angle"]))
-    degrees.to_csv("run.csv", index=False)
-    result = run("fit", "run.csv", "-o", "out.tir")
-    lines = result.stdout.split("\n")
-    assert lines[1].startswith("POOR FIT of Fy, not to be used:")
-    assert "slip_angle looks like degrees" in result.stdout.replace("\n", " ")
-    assert "POOR FIT of Fy, not to be used" in page(folder / "out_fit.html")
-    assert "POOR FIT of Fy, not to be used" in (folder / "out.tir").read_text()
-
-
-def test_fit_takes_several_recordings_together(folder):
-    record("run1.csv", seconds=30.0)
-    record("run2.csv", seed=1, seconds=30.0)
-    found = told("fit", "run1.csv", "run2.csv", "-o", "out.tir", "--start", "a.tir", "--no-page")
-    assert found["recordings"] == ["run1.csv", "run2.csv"]
-    assert any("joined" in note for note in found["notes"])
-
-
-def test_explain_several_together_and_one_held_out(folder):
-    for k, name in enumerate(("one.csv", "two.csv", "three.csv")):
-        record(name, seed=k, friction=0.88)
-    result = told(
-        "explain", "a.tir", "one.csv", "two.csv", "three.csv", "--hold-out", "two.csv", "-o", "report.html",
-        "--corrected", "corrected.tir",
-    )  # fmt: skip
-    assert [effect["name"] for effect in result["effects"]] == ["friction_scale"]
-    assert result["recordings"] == ["one.csv", "three.csv"]
-    error = result["held_out"]["errors"]["fy"]
-    assert error["rms_after"] < 0.5 * error["rms_before"]
-    assert read_tir("corrected.tir").coefficients["LMUY"] == pytest.approx(0.88, abs=0.02)
-    assert "Tested on a held-out recording" in page(folder / "report.html")
-    assert result["written"] == ["corrected.tir", "report.html"]
-
-
-def test_a_held_out_recording_need_not_be_among_the_explained(folder):
-    record("one.csv", friction=0.88, seconds=45.0)
-    record("two.csv", seed=1, friction=0.88, seconds=45.0)
-    without = {name: value for name, value in COEFFICIENTS.items() if name != "UNLOADED_RADIUS"}
-    write_tir(TireModel.from_coefficients(without), "b.tir")
-    text = run("explain", "b.tir", "one.csv", "--hold-out", "two.csv", "--no-page").stdout
-    assert "On two.csv, which was held out" in text
-    assert f"no UNLOADED_RADIUS, and {ASSUMED_RADIUS} m is taken for it" in " ".join(text.split())
-
-
-def test_what_was_found_is_told_though_no_corrected_file_may_be_written(folder):
-    record("run.csv", seconds=30.0)
-    wrong = pd.read_csv("run.csv")
-    wrong.assign(fy=-wrong["fy"]).to_csv("wrong.csv", index=False)
-    result = run("explain", "a.tir", "wrong.csv", "--corrected", "corrected.tir", code=2)
-    found = "the recording agrees with the model only in other axes"
-    assert "a.tir and wrong.csv: explained, axes open" in result.stdout
-    assert re.search(r"sign_convention of (fy|slip_angle)", result.stdout)
-    assert found in " ".join(result.stdout.split())
-    assert "corrected.tir: nothing corrected is written" in result.stderr
-    assert found in page(folder / "a_explain.html")
-    assert not (folder / "corrected.tir").exists()
-
-
 def test_a_difference_larger_than_the_force_has_no_exponent(folder):
     write_tir(read_tir("a.tir").replace(PDY1=6.0, PKY1=-130.0), "b.tir")
     text = run("compare", "a.tir", "b.tir", "--no-page").stdout
     assert re.search(r"Fy \d\d\d%", text)
     assert "e+" not in text
-
-
-def test_a_file_or_a_pipe_gets_whole_names(folder):
-    """Tables were 80 columns wide there, and broke the names of channels."""
-    record("run.csv")
-    rows = pd.read_csv("run.csv").assign(tread_temperature=60.0, simulated_forces_of_the_other_program=1.0)
-    rows.to_csv("run.csv", index=False)
-    assert "simulated_forces_of_the_other_program" in run("check", "run.csv", "--no-page").stdout
-    (line,) = (e for e in run("check", "run.csv").stdout.splitlines() if e.startswith("tread_temperature "))
-    assert len(line) < 200
-
-
-def test_check_lists_channels_and_fails_on_what_cannot_be_explained(folder):
-    record("run.csv")
-    found = told("check", "run.csv")
-    assert found["usable"]
-    assert found["channels"]["fy"]["unit"] == "N"
-    assert "<svg" in page(folder / "run_check.html")
-    pd.read_csv("run.csv").drop(columns="fy").to_csv("none.csv", index=False)
-    assert "cannot be explained" in run("check", "none.csv", "--no-page", code=1).stdout
-    renamed = pd.read_csv("run.csv").rename(columns={"fy": "Querkraft"})
-    renamed["slip_angle"] = np.degrees(renamed["slip_angle"])
-    renamed.to_csv("own.csv", index=False)
-    own = told("check", "own.csv", "--name", "Querkraft=fy", "--unit", "slip_angle=deg", "--no-page")
-    assert own["channels"]["fy"]["channel"] == "Querkraft"
-    assert own["channels"]["slip_angle"]["highest"] == pytest.approx(0.16, abs=1e-3)
-
-
-def test_check_shows_no_digits_below_those_of_the_channel(folder):
-    table = pd.DataFrame({"time": np.arange(50) / 50.0, "slip_angle": np.linspace(-0.2, 0.2, 50) + 3e-9})
-    table.assign(normal_load=4000.0, fy=-1e4 * table["slip_angle"]).to_csv("run.csv", index=False)
-    row = next(line for line in run("check", "run.csv").stdout.splitlines() if line.startswith("slip_angle"))
-    assert row.split()[3:] == ["-0.2", "0", "0.2", "0"]
-    assert told("check", "run.csv")["channels"]["slip_angle"]["median"] == pytest.approx(3e-9)
-
-
-def test_check_has_one_sign_for_what_has_no_unit(folder):
-    """It was "-" for a ratio, "none" as the file wrote it, and nothing where no unit was stated."""
-    record("run.csv", seconds=5.0)
-    rows = pd.read_csv("run.csv").rename(columns={"fy": "fy [N]"}).assign(slip_ratio=0.0, RUN=18.0)
-    rows["ratio [none]"] = 0.1
-    rows.to_csv("run.csv", index=False)
-    shown = {line.split()[0]: line.split() for line in run("check", "run.csv").stdout.splitlines() if line}
-    units = {name: row[-5] for name, row in shown.items() if len(row) > 4}
-    assert units["fy"] == "N"
-    assert {units["slip_ratio"], units["RUN"], units["ratio"]} == {"-"}
-
-
-def test_the_page_of_a_check_has_the_digits_of_each_channel(folder):
-    """The median of a speed of 22.18 to 22.26 m/s was 22, because pressures stand in the same column."""
-    record("run.csv", seconds=5.0)
-    rows = pd.read_csv("run.csv")
-    rows.assign(speed=np.linspace(22.18, 22.26, len(rows)), pressure=250000.0).to_csv("run.csv", index=False)
-    run("check", "run.csv")
-    (row,) = re.findall(r"<tr><td>speed</td>.*?</tr>", page(folder / "run_check.html"))
-    assert re.findall(r">([\d.]+)<", row) == ["22.18", "22.22", "22.26", "0"]
-
-
-def test_check_says_that_names_tell_the_axes(folder):
-    """A TYDEX file was "read as ISO, which is assumed", though its channels name their axes."""
-    record("run.csv", seconds=5.0)
-    names = {"fy": "FYW", "normal_load": "FZW", "slip_angle": "SLIPANGL"}
-    pd.read_csv("run.csv").rename(columns=names).to_csv("tydex.csv", index=False)
-    assert (
-        "Read with axes by the names of the channels (TYDEX): at a positive"
-        in run("check", "tydex.csv").stdout
-    )
-    assert "Read with ISO W axes, which were not stated: at a positive" in run("check", "run.csv").stdout
-    assert "Read with SAE axes, as stated: at a positive" in run("check", "run.csv", "--axes", "SAE").stdout
-
-
-def test_check_says_what_to_do_about_a_file_of_another_format_or_unit(folder):
-    record("run.csv", seconds=1.0)
-    assert "-> save it again" in run("check", "run.csv", "--format", "MAT", code=2).stderr
-    assert "--unit 'fy=N'" in run("check", "run.csv", "--unit", "fy=deg", code=2).stderr
 
 
 @pytest.mark.parametrize(

@@ -8,9 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import run
 
-from tire_pipeline.command.cli import tire
 from tire_pipeline.files.state_files import pack_state
 from tire_pipeline.fleet import FleetSettings, make_fleet
 from tire_pipeline.representations.coefficients import LATERAL_WITHOUT_CAMBER
@@ -54,14 +53,6 @@ def folder(tmp_path, monkeypatch, fleet, translator):
         place.parent.mkdir(parents=True)
         place.write_bytes(content)
     return tmp_path
-
-
-def run(*arguments: str, code: int = 0):
-    leftovers = dict.fromkeys(("COLUMNS", "FORCE_COLOR", "TTY_COMPATIBLE"))  # of other tests
-    each = [str(argument) for argument in arguments]
-    result = CliRunner(env=leftovers).invoke(tire, each, catch_exceptions=False)
-    assert result.exit_code == code, result.output
-    return result
 
 
 def test_a_file_is_translated_as_the_translator_itself_does(folder, translator):
@@ -155,7 +146,8 @@ def test_other_places_of_a_model(folder, translator):
     (released / "models" / "m2.npz").write_bytes(pack_state(state))
     (released / "record.json").write_text(json.dumps({"models": ["m1", "m2"]}))
     for place in ("released", "released/models/m2.npz", "released/models", "06_models"):
-        said = json.loads(run("translate", "A/tire.tir", "--model", place, "--overwrite", "--json").stdout)
+        call = ("translate", "A/tire.tir", "--model", place, "--overwrite", "--no-page", "--json")
+        said = json.loads(run(*call).stdout)
         assert said["verdict"] == "translated"
     (folder / "06_models" / "agent.npz").write_bytes(b"another model")
     run("translate", "A/tire.tir", "--model", "06_models", "--overwrite", "--no-page")

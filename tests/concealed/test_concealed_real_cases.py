@@ -1,6 +1,7 @@
 """Cases from real recordings: which sweeps they are made from, and what is put into them."""
 
 import os
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -58,8 +59,13 @@ def test_every_listed_sweep_exists_and_is_never_sealed(recordings):
         assert len(here) + len(pool(recordings, source, "development")) == len(sweeps(recordings, source))
 
 
-@pytest.mark.parametrize("count", [4, pytest.param(12, marks=pytest.mark.long)])
-@pytest.mark.parametrize("source", SOURCES)
+@pytest.mark.parametrize(
+    ("source", "count"),
+    [
+        pytest.param(source, count, marks=pytest.mark.long if count == 12 or source == "calspan" else ())
+        for source, count in product(SOURCES, (4, 12))
+    ],
+)
 def test_a_case_shows_and_holds_out_different_sweeps_of_its_pool(recordings, source, count):
     allowed = {s.sha256 for s in pool(recordings, source, "sealed")}
     for plan in real_plan(count, 3, source=source):

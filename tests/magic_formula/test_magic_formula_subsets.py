@@ -110,7 +110,7 @@ def test_loads_left_out_are_met_as_well_as_by_the_best_of_random_starts(subsets,
     assert over(there, fit, best) <= 1.2
 
 
-@pytest.mark.parametrize("number", [1, 10, 22])
+@pytest.mark.parametrize("number", [1, *(pytest.param(each, marks=pytest.mark.long) for each in (10, 22))])
 def test_a_richer_formula_leaves_no_more(subsets, number):
     part = subsets.subset(number)
     rows = kept(part, ("fy",))

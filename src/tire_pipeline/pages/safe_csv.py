@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import pandas as pd
@@ -53,8 +54,10 @@ def original_table(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def _each_text(table: pd.DataFrame, change: Callable[[str], str]) -> pd.DataFrame:
+    once = cache(change)  # most texts stand in many rows
+
     def changed(value: Any) -> Any:
-        return change(value) if isinstance(value, str) else value
+        return once(value) if isinstance(value, str) else value
 
     out = table.copy(deep=False)
     for i, kind in enumerate(table.dtypes):

@@ -2,12 +2,13 @@
 
 from tire_pipeline.pages.drawing import COLOURS, MARKERS, colour_of, inline_svg, new_figure
 from tire_pipeline.reporting.front import front_page
-from tire_pipeline.reporting.page_parts import HOME, Figure, Links, Part, Table, Text, render_page
+from tire_pipeline.reporting.page_parts import HOME, Drawing, Figure, Links, Part, Table, Text, render_page
 
 __all__ = [
     "COLOURS",
     "HOME",
     "MARKERS",
+    "Drawing",
     "Figure",
     "Links",
     "Part",

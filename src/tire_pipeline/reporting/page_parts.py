@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import repeat
 from typing import TYPE_CHECKING
 from urllib.parse import quote
@@ -116,31 +117,47 @@ class Table:
 
 
 @dataclass(frozen=True)
+class Drawing:
+    """A figure that has been drawn, for whoever shows it in several places.
+
+    Attributes
+    ----------
+    svg : str
+        An SVG element.
+    tall : bool
+        Whether it is higher than wide: printed, it may fill a page.
+    """
+
+    svg: Markup
+    tall: bool = False
+
+    @classmethod
+    def of(cls, figure: MplFigure) -> Drawing:
+        """Draw a figure; that takes about half a second."""
+        width, height = figure.get_size_inches()
+        return cls(inline_svg(figure), bool(height > width))
+
+
+@dataclass(frozen=True)
 class Figure:
     """A figure with a caption, drawn as inline SVG.
 
     Attributes
     ----------
-    figure : matplotlib.figure.Figure
+    figure : matplotlib.figure.Figure or Drawing
     caption : str
     heading : str
     """
 
-    figure: MplFigure
+    figure: MplFigure | Drawing
     caption: str = ""
     heading: str = ""
     kind: str = field(default="figure", init=False)
 
-    @property
-    def svg(self) -> Markup:
-        """The drawing."""
-        return inline_svg(self.figure)
-
-    @property
-    def tall(self) -> bool:
-        """Whether it is higher than wide: printed, it may fill a page."""
-        width, height = self.figure.get_size_inches()
-        return bool(height > width)
+    @cached_property
+    def drawing(self) -> Drawing:
+        """The figure, drawn when a page shows it."""
+        return self.figure if isinstance(self.figure, Drawing) else Drawing.of(self.figure)
 
 
 @dataclass(frozen=True)

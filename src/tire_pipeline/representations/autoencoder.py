@@ -6,6 +6,8 @@ import numpy as np
 import torch
 from torch import nn
 
+from tire_pipeline.optimizers import uncompiled
+
 
 def train_autoencoder(
     curves: np.ndarray,
@@ -39,7 +41,7 @@ def train_autoencoder(
             nn.Linear(128, width),
         )  # fmt: skip
     data = torch.as_tensor(curves, dtype=torch.float32)
-    optimizer = torch.optim.Adam(network.parameters(), lr=learning_rate, fused=True)
+    optimizer = uncompiled(torch.optim.Adam)(network.parameters(), lr=learning_rate, fused=True)
     loss_function = nn.MSELoss()
     for _ in range(epochs):
         for batch in torch.randperm(len(data), generator=generator).split(batch_size):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -52,10 +52,13 @@ class Results:
         ``classifier_experiments`` and ``agents``.
     facts : mapping
         ``target, files, seeds, trainings, further_trainings, sets``.
+    drawings : dict
+        Figures that have been drawn, by file name: the page and the files show the same ones.
     """
 
     frames: Mapping[str, pd.DataFrame]
     facts: Mapping[str, Any]
+    drawings: dict[str, Any] = field(default_factory=dict, repr=False, compare=False)
 
     def __getitem__(self, name: str) -> pd.DataFrame:
         return self.frames[name]

@@ -258,7 +258,7 @@ def test_hypotheses_without_mass_change_no_score(cases, tuning):
         assert log_scores([kept], learnt()) == pytest.approx(log_scores([whole], learnt()), abs=1e-3)
 
 
-@pytest.mark.parametrize("seed", range(2, 5))
+@pytest.mark.parametrize("seed", [2, *(pytest.param(seed, marks=pytest.mark.long) for seed in (3, 4))])
 def test_a_prior_of_the_user_takes_the_place_of_the_stated_one(tire, record, seed):
     recording, alone = record(seed, friction=0.88), ("friction_scale",)
     stated = Explainer(without=OTHERS).weigh(tire, recording).answer

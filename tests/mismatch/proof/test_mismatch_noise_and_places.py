@@ -29,7 +29,12 @@ def axle(folder, number=0):
 
 
 @pytest.mark.parametrize(
-    ("folder", "number"), [("free_driving", 0), ("second_session", 0), ("second_session", 1)]
+    ("folder", "number"),
+    [
+        ("free_driving", 0),
+        ("second_session", 0),
+        pytest.param("second_session", 1, marks=pytest.mark.long),
+    ],
 )
 def test_noise_is_no_larger_than_what_is_left(folder, number):
     """It was 0.32 N beside an error of 0.19 N: the uncertainty of marker and masses was taken for noise."""

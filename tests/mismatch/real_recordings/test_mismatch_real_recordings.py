@@ -123,7 +123,7 @@ def _short(fitted: int, why: str) -> object:
     [
         (0, 0.55),
         _short(0, "62% are gone, not 65%"),
-        (1, 0.65),
+        pytest.param(1, 0.65, marks=pytest.mark.long),
     ],
 )
 def test_dart_second_session_is_located_explained_and_repaired(real, fitted, gone):

@@ -185,7 +185,7 @@ def test_a_doubt_about_axes_that_the_forces_do_not_settle_stays_open(tire, recor
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("gain", [1.0, 1.07])
+@pytest.mark.parametrize("gain", [1.0, pytest.param(1.07, marks=pytest.mark.long)])
 def test_a_real_rig_file_in_sae_axes_is_not_explained_by_camber(gain, tmp_path):
     """Read as ISO with a gain it was "explained: camber", and a corrected file was written."""
     file = shared("recordings/calspan") / "cornering_part.mat"

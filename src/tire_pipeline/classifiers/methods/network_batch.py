@@ -16,6 +16,7 @@ import numpy as np
 import torch
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.optimizers import uncompiled
 from tire_pipeline.progress import track
 
 HIDDEN_LAYERS = (128, 128, 64)
@@ -24,9 +25,9 @@ HIDDEN_LAYERS = (128, 128, 64)
 LOSSES = ("CrossEntropyLoss", "NLLLoss", "MSELoss")
 
 _OPTIMIZERS: dict[str, tuple[Any, dict[str, bool]]] = {
-    "AdamW": (torch.optim.AdamW, {"fused": True}),
-    "SGD": (torch.optim.SGD, {"fused": True}),
-    "RMSprop": (torch.optim.RMSprop, {}),
+    "AdamW": (uncompiled(torch.optim.AdamW), {"fused": True}),
+    "SGD": (uncompiled(torch.optim.SGD), {"fused": True}),
+    "RMSprop": (uncompiled(torch.optim.RMSprop), {}),
 }
 
 Layers = list[tuple[np.ndarray, np.ndarray]]

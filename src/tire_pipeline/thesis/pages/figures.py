@@ -11,6 +11,7 @@ import pandas as pd
 from tire_pipeline.classifiers.score_on_splits import SPLITS
 from tire_pipeline.pages.drawing import MARKERS, colour_of, name_ticks, new_figure
 from tire_pipeline.progress import track
+from tire_pipeline.reporting import Drawing
 from tire_pipeline.thesis.pages.agent_figures import AGENT_FIGURES
 from tire_pipeline.thesis.result_tables import Results, in_words
 
@@ -25,14 +26,26 @@ BIN_FIGURES = {
 }
 
 
-def all_figures(results: Results) -> dict[str, MplFigure]:
+def all_drawings(results: Results) -> dict[str, Drawing]:
     """Draw every figure for which there are results."""
-    made = {}
-    for name, draw in track({**CLASSIFIER_FIGURES, **AGENT_FIGURES}.items(), "drawing figures of the thesis"):
-        figure = draw(results)
-        if figure is not None:
-            made[name] = figure
-    return made
+    names = track([*CLASSIFIER_FIGURES, *AGENT_FIGURES], "drawing figures of the thesis")
+    return {name: drawn for name in names if (drawn := drawing(results, name)) is not None}
+
+
+def drawing(results: Results, name: str) -> Drawing | None:
+    """One figure; it is drawn once. None if there are no results for it.
+
+    Parameters
+    ----------
+    results : Results
+    name : str
+        File name: ``figure_5_1`` ..., ``reliability``.
+    """
+    if name not in results.drawings:
+        figure = {**CLASSIFIER_FIGURES, **AGENT_FIGURES}[name](results)
+        results.drawings[name] = None if figure is None else Drawing.of(figure)
+    found: Drawing | None = results.drawings[name]
+    return found
 
 
 def class_figure(results: Results, columns: tuple[str, ...]) -> MplFigure:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pandas as pd
 
 from tire_pipeline.reporting import Figure, Part, Table, Text
-from tire_pipeline.thesis.pages.agent_figures import AGENT_FIGURES, FORCE_FIGURES, shown
+from tire_pipeline.thesis.pages.agent_figures import FORCE_FIGURES, shown
+from tire_pipeline.thesis.pages.figures import drawing
 from tire_pipeline.thesis.pages.words import agreement, listed, number, plus_minus, rank_agreement
 from tire_pipeline.thesis.published import AGENT_TABLES, published_figure, published_table
 from tire_pipeline.thesis.result_tables import BETTER, CELL, Results, in_words, over_seeds
@@ -37,7 +38,7 @@ def agent_parts(results: Results) -> list[Part]:
 def _figure(results: Results, name: str, words: list[str], caption: str) -> list[Part]:
     number_of = name.removeprefix("figure_").replace("_", ".")
     published = published_figure(number_of)
-    drawn = AGENT_FIGURES[name](results)
+    drawn = drawing(results, name)
     missing = [] if drawn is not None else ["Ours: this cell was not run."]
     lines = [f"Thesis: {published.says}", *words, *missing]
     parts: list[Part] = [Text(lines, heading=f"Figure {number_of}: {published.caption}")]

@@ -10,7 +10,7 @@ from tire_pipeline.classifiers.tuning import ANN_GRID
 from tire_pipeline.progress import track
 from tire_pipeline.reporting import Figure, Part, Table, Text
 from tire_pipeline.thesis.pages.class_scores import per_class_table
-from tire_pipeline.thesis.pages.figures import BIN_FIGURES, CLASSIFIER_FIGURES, SPLITS
+from tire_pipeline.thesis.pages.figures import BIN_FIGURES, SPLITS, drawing
 from tire_pipeline.thesis.pages.words import least_within, listed, number, plus_minus, points
 from tire_pipeline.thesis.published import published_figure, published_table
 from tire_pipeline.thesis.result_tables import Results, in_words, over_trainings
@@ -44,7 +44,7 @@ def classifier_parts(results: Results) -> list[Part]:
 def figure_part(results: Results, name: str, number: str, words: list[str]) -> list[Part]:
     """A figure of ours under the thesis' words on its own."""
     published = published_figure(number)
-    drawn = CLASSIFIER_FIGURES[name](results)
+    drawn = drawing(results, name)
     heading = f"Figure {number}: {published.caption}"
     parts: list[Part] = [Text([f"Thesis: {published.says}", *words], heading=heading)]
     if drawn is not None:
@@ -362,7 +362,7 @@ def _calibration(results: Results) -> list[Part]:
         f"({'with' if best.loc[split, 'smote'] else 'without'} SMOTE) with {best.loc[split, 'ece']:.3f}."
         for split in SPLITS
     ]
-    drawn = CLASSIFIER_FIGURES["reliability"](results)
+    drawn = drawing(results, "reliability")
     parts: list[Part] = [Text(lines, heading="Reliability of the probabilities"), Table(table)]
     if drawn is not None:
         said = (

@@ -6,6 +6,8 @@ import numpy as np
 import torch
 from torch import nn
 
+from tire_pipeline.optimizers import uncompiled
+
 
 class Curiosity:
     """Bonus: error of a network that learns to give what a fixed random network gives.
@@ -23,7 +25,7 @@ class Curiosity:
         generator = torch.Generator().manual_seed(seed)
         self.random, self.learner = (_network(size, generator) for _ in range(2))
         self.random.requires_grad_(False)
-        self.optimizer = torch.optim.Adam(self.learner.parameters(), lr=1e-3)
+        self.optimizer = uncompiled(torch.optim.Adam)(self.learner.parameters(), lr=1e-3)
         self.weight, self.usual = weight, 1.0
 
     def __call__(self, seen: np.ndarray) -> np.ndarray:

@@ -15,6 +15,7 @@ import pandas as pd
 import torch
 from torch import nn
 
+from tire_pipeline.optimizers import uncompiled
 from tire_pipeline.row_products import by_row
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
 from tire_pipeline.translation.predict.likelihood_environment import Situation, situation_of
@@ -104,8 +105,9 @@ def _train(
         width = here.shape[1]
         go, back = (_network(width, scores, 64, still=True) for _ in range(2))
         critics = [_network(width, 1, 64) for _ in range(2)]
-        moving = torch.optim.Adam([*go.parameters(), *back.parameters()], lr=1e-3, betas=(0.5, 0.9))
-        judging = torch.optim.Adam([w for c in critics for w in c.parameters()], lr=1e-3, betas=(0.5, 0.9))
+        adam = uncompiled(torch.optim.Adam)
+        moving = adam([*go.parameters(), *back.parameters()], lr=1e-3, betas=(0.5, 0.9))
+        judging = adam([w for c in critics for w in c.parameters()], lr=1e-3, betas=(0.5, 0.9))
         generator = torch.Generator().manual_seed(seed)
         for _ in range(rounds):
             a = here[torch.randint(len(here), (BATCH,), generator=generator)]

@@ -12,6 +12,7 @@ import torch
 from stable_baselines3 import PPO
 from torch import nn
 
+from tire_pipeline.optimizers import uncompiled
 from tire_pipeline.row_products import by_row
 from tire_pipeline.training_progress import learn
 from tire_pipeline.translation.population.model import CurveMixedModel, Prediction
@@ -70,7 +71,12 @@ class PolicyPredictor:
                 gamma=1.0,
                 gae_lambda=0.9,
                 ent_coef=0.0,
-                policy_kwargs={"log_std_init": -1.2, "net_arch": [64], "activation_fn": nn.Tanh},
+                policy_kwargs={
+                    "log_std_init": -1.2,
+                    "net_arch": [64],
+                    "activation_fn": nn.Tanh,
+                    "optimizer_class": uncompiled(torch.optim.Adam),
+                },
                 seed=seed,
                 device="cpu",
             )

@@ -82,13 +82,19 @@ def train_agent(
 def make_model(env: object, *, algorithm: str, seed: int, n_steps: int = N_STEPS) -> Any:
     """Return an untrained PPO or A2C with the thesis' settings."""
     import stable_baselines3
+    import torch
+
+    from tire_pipeline.optimizers import uncompiled
 
     if algorithm not in ALGORITHMS:
         raise DomainError(
             f"there is no algorithm {algorithm!r}", todo=f"choose one of {', '.join(ALGORITHMS)}"
         )
     cls: Any = getattr(stable_baselines3, algorithm)
-    return cls("MlpPolicy", env, n_steps=n_steps, seed=seed, device="cpu", verbose=0)
+    options: dict[str, Any] = {}
+    if algorithm == "PPO":  # A2C brings an optimiser of its own
+        options["policy_kwargs"] = {"optimizer_class": uncompiled(torch.optim.Adam)}
+    return cls("MlpPolicy", env, n_steps=n_steps, seed=seed, device="cpu", verbose=0, **options)
 
 
 @contextmanager

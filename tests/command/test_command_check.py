@@ -1,0 +1,87 @@
+"""``tire check``: the channels of a recording, and what cannot be explained."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+from command_line import page, record, run, told
+
+pytestmark = pytest.mark.slow
+
+
+def test_a_file_or_a_pipe_gets_whole_names(folder):
+    """Tables were 80 columns wide there, and broke the names of channels."""
+    record("run.csv")
+    rows = pd.read_csv("run.csv").assign(tread_temperature=60.0, simulated_forces_of_the_other_program=1.0)
+    rows.to_csv("run.csv", index=False)
+    assert "simulated_forces_of_the_other_program" in run("check", "run.csv", "--no-page").stdout
+    (line,) = (e for e in run("check", "run.csv").stdout.splitlines() if e.startswith("tread_temperature "))
+    assert len(line) < 200
+
+
+def test_check_lists_channels_and_fails_on_what_cannot_be_explained(folder):
+    record("run.csv")
+    found = told("check", "run.csv")
+    assert found["usable"]
+    assert found["channels"]["fy"]["unit"] == "N"
+    assert "<svg" in page(folder / "run_check.html")
+    pd.read_csv("run.csv").drop(columns="fy").to_csv("none.csv", index=False)
+    assert "cannot be explained" in run("check", "none.csv", "--no-page", code=1).stdout
+    renamed = pd.read_csv("run.csv").rename(columns={"fy": "Querkraft"})
+    renamed["slip_angle"] = np.degrees(renamed["slip_angle"])
+    renamed.to_csv("own.csv", index=False)
+    own = told("check", "own.csv", "--name", "Querkraft=fy", "--unit", "slip_angle=deg", "--no-page")
+    assert own["channels"]["fy"]["channel"] == "Querkraft"
+    assert own["channels"]["slip_angle"]["highest"] == pytest.approx(0.16, abs=1e-3)
+
+
+def test_check_shows_no_digits_below_those_of_the_channel(folder):
+    table = pd.DataFrame({"time": np.arange(50) / 50.0, "slip_angle": np.linspace(-0.2, 0.2, 50) + 3e-9})
+    table.assign(normal_load=4000.0, fy=-1e4 * table["slip_angle"]).to_csv("run.csv", index=False)
+    row = next(line for line in run("check", "run.csv").stdout.splitlines() if line.startswith("slip_angle"))
+    assert row.split()[3:] == ["-0.2", "0", "0.2", "0"]
+    assert told("check", "run.csv")["channels"]["slip_angle"]["median"] == pytest.approx(3e-9)
+
+
+def test_check_has_one_sign_for_what_has_no_unit(folder):
+    """It was "-" for a ratio, "none" as the file wrote it, and nothing where no unit was stated."""
+    record("run.csv", seconds=5.0)
+    rows = pd.read_csv("run.csv").rename(columns={"fy": "fy [N]"}).assign(slip_ratio=0.0, RUN=18.0)
+    rows["ratio [none]"] = 0.1
+    rows.to_csv("run.csv", index=False)
+    shown = {line.split()[0]: line.split() for line in run("check", "run.csv").stdout.splitlines() if line}
+    units = {name: row[-5] for name, row in shown.items() if len(row) > 4}
+    assert units["fy"] == "N"
+    assert {units["slip_ratio"], units["RUN"], units["ratio"]} == {"-"}
+
+
+def test_the_page_of_a_check_has_the_digits_of_each_channel(folder):
+    """The median of a speed of 22.18 to 22.26 m/s was 22, because pressures stand in the same column."""
+    record("run.csv", seconds=5.0)
+    rows = pd.read_csv("run.csv")
+    rows.assign(speed=np.linspace(22.18, 22.26, len(rows)), pressure=250000.0).to_csv("run.csv", index=False)
+    run("check", "run.csv")
+    (row,) = re.findall(r"<tr><td>speed</td>.*?</tr>", page(folder / "run_check.html"))
+    assert re.findall(r">([\d.]+)<", row) == ["22.18", "22.22", "22.26", "0"]
+
+
+def test_check_says_that_names_tell_the_axes(folder):
+    """A TYDEX file was "read as ISO, which is assumed", though its channels name their axes."""
+    record("run.csv", seconds=5.0)
+    names = {"fy": "FYW", "normal_load": "FZW", "slip_angle": "SLIPANGL"}
+    pd.read_csv("run.csv").rename(columns=names).to_csv("tydex.csv", index=False)
+    assert (
+        "Read with axes by the names of the channels (TYDEX): at a positive"
+        in run("check", "tydex.csv").stdout
+    )
+    assert "Read with ISO W axes, which were not stated: at a positive" in run("check", "run.csv").stdout
+    assert "Read with SAE axes, as stated: at a positive" in run("check", "run.csv", "--axes", "SAE").stdout
+
+
+def test_check_says_what_to_do_about_a_file_of_another_format_or_unit(folder):
+    record("run.csv", seconds=1.0)
+    assert "-> save it again" in run("check", "run.csv", "--format", "MAT", code=2).stderr
+    assert "--unit 'fy=N'" in run("check", "run.csv", "--unit", "fy=deg", code=2).stderr

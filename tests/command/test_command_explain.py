@@ -1,0 +1,57 @@
+"""``tire explain``: what was found, on what it was tested, and what is written."""
+
+from __future__ import annotations
+
+import re
+
+import pandas as pd
+import pytest
+from command_line import COEFFICIENTS, page, record, run, told
+
+from tire_pipeline.magic_formula import TireModel
+from tire_pipeline.magic_formula.parameters.assumed_radius import ASSUMED_RADIUS
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.tir import read_tir, write_tir
+
+pytestmark = pytest.mark.slow
+
+
+def test_explain_several_together_and_one_held_out(folder):
+    for k, name in enumerate(("one.csv", "two.csv", "three.csv")):
+        record(name, seed=k, friction=0.88)
+    result = told(
+        "explain", "a.tir", "one.csv", "two.csv", "three.csv", "--hold-out", "two.csv", "-o", "report.html",
+        "--corrected", "corrected.tir",
+    )  # fmt: skip
+    assert [effect["name"] for effect in result["effects"]] == ["friction_scale"]
+    assert result["recordings"] == ["one.csv", "three.csv"]
+    error = result["held_out"]["errors"]["fy"]
+    assert error["rms_after"] < 0.5 * error["rms_before"]
+    assert read_tir("corrected.tir").coefficients["LMUY"] == pytest.approx(0.88, abs=0.02)
+    assert "Tested on a held-out recording" in page(folder / "report.html")
+    assert result["written"] == ["corrected.tir", "report.html"]
+
+
+def test_a_held_out_recording_need_not_be_among_the_explained(folder):
+    record("one.csv", friction=0.88, seconds=45.0)
+    record("two.csv", seed=1, friction=0.88, seconds=45.0)
+    without = {name: value for name, value in COEFFICIENTS.items() if name != "UNLOADED_RADIUS"}
+    write_tir(TireModel.from_coefficients(without), "b.tir")
+    few = [part for name in sorted(set(catalogue()) - {"friction_scale"}) for part in ("--without", name)]
+    text = run("explain", "b.tir", "one.csv", "--hold-out", "two.csv", "--no-page", *few).stdout
+    assert "On two.csv, which was held out" in text
+    assert f"no UNLOADED_RADIUS, and {ASSUMED_RADIUS} m is taken for it" in " ".join(text.split())
+
+
+def test_what_was_found_is_told_though_no_corrected_file_may_be_written(folder):
+    record("run.csv", seconds=30.0)
+    wrong = pd.read_csv("run.csv")
+    wrong.assign(fy=-wrong["fy"]).to_csv("wrong.csv", index=False)
+    result = run("explain", "a.tir", "wrong.csv", "--corrected", "corrected.tir", code=2)
+    found = "the recording agrees with the model only in other axes"
+    assert "a.tir and wrong.csv: explained, axes open" in result.stdout
+    assert re.search(r"sign_convention of (fy|slip_angle)", result.stdout)
+    assert found in " ".join(result.stdout.split())
+    assert "corrected.tir: nothing corrected is written" in result.stderr
+    assert found in page(folder / "a_explain.html")
+    assert not (folder / "corrected.tir").exists()
