@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from tire_pipeline.datasets.tables.frame_parts import FramePartsDataset
     from tire_pipeline.datasets.tables.ingest_store import IngestStoreDataset
     from tire_pipeline.datasets.tables.previewed import ParquetTableDataset
+    from tire_pipeline.datasets.tables.report_parts import ReportPartsDataset
     from tire_pipeline.datasets.tables.table_parts import TablePartsDataset
     from tire_pipeline.datasets.text_files.computed_folder import ComputedFolderDataset
     from tire_pipeline.datasets.text_files.html_page import HtmlPageDataset
@@ -35,6 +36,7 @@ _MODULE_OF_DATASET = {
     "ParquetTableDataset": "tables.previewed",
     "RecordingFolderDataset": "users_files.recording_folder",
     "ReleaseDataset": "trained_models.release",
+    "ReportPartsDataset": "tables.report_parts",
     "StateDataset": "trained_models.model_state",
     "TablePartsDataset": "tables.table_parts",
     "TextFolderDataset": "text_files.text_folder",
@@ -54,6 +56,7 @@ __all__ = [
     "ParquetTableDataset",
     "RecordingFolderDataset",
     "ReleaseDataset",
+    "ReportPartsDataset",
     "StateDataset",
     "TablePartsDataset",
     "TextFolderDataset",
