@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from tire_pipeline.datasets.tables.table_parts import TablePartsDataset
     from tire_pipeline.datasets.text_files.computed_folder import ComputedFolderDataset
     from tire_pipeline.datasets.text_files.html_page import HtmlPageDataset
-    from tire_pipeline.datasets.text_files.json_file import JsonFileDataset
+    from tire_pipeline.datasets.text_files.json_file import JsonFileDataset, JsonItemsDataset
     from tire_pipeline.datasets.text_files.made_files import MadeFilesDataset
     from tire_pipeline.datasets.text_files.text_folder import TextFolderDataset
     from tire_pipeline.datasets.trained_models.model_state import StateDataset
@@ -32,6 +32,7 @@ _MODULE_OF_DATASET = {
     "HtmlPageDataset": "text_files.html_page",
     "IngestStoreDataset": "tables.ingest_store",
     "JsonFileDataset": "text_files.json_file",
+    "JsonItemsDataset": "text_files.json_file",
     "MadeFilesDataset": "text_files.made_files",
     "ParquetTableDataset": "tables.previewed",
     "RecordingFolderDataset": "users_files.recording_folder",
@@ -52,6 +53,7 @@ __all__ = [
     "HtmlPageDataset",
     "IngestStoreDataset",
     "JsonFileDataset",
+    "JsonItemsDataset",
     "MadeFilesDataset",
     "ParquetTableDataset",
     "RecordingFolderDataset",
