@@ -6,11 +6,11 @@ import json
 from collections.abc import Iterator, Mapping
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tire_pipeline.datasets import JsonFileDataset, JsonItemsDataset
-from tire_pipeline.datasets.text_files.json_file import _texts_of
+from tire_pipeline.datasets.text_files.json_file import item_texts
 
 _VALUES = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text(),
@@ -19,9 +19,10 @@ _VALUES = st.recursive(
 )
 
 
+@settings(deadline=None)
 @given(st.dictionaries(st.text(), _VALUES, max_size=4), st.integers(0, 3))
 def test_the_text_is_that_of_the_whole(data, indent):
-    assert "".join(_texts_of(data, indent)) == json.dumps(data, indent=indent)
+    assert "".join(item_texts(data, indent)) == json.dumps(data, indent=indent)
 
 
 class _OneAtATime(Mapping):

@@ -30,12 +30,12 @@ class JsonItemsDataset(JsonFileDataset):
         """Write each item in turn."""
         place = get_filepath_str(self._get_save_path(), self._protocol)
         with self._fs.open(place, **self._fs_open_args_save) as stream:
-            for text in _texts_of(data, self._save_args["indent"]):
+            for text in item_texts(data, self._save_args["indent"]):
                 stream.write(text)
         self._invalidate_cache()
 
 
-def _texts_of(data: Mapping[str, Any], indent: int) -> Iterator[str]:
+def item_texts(data: Mapping[str, Any], indent: int) -> Iterator[str]:
     """``json.dumps(data, indent=indent)``, an item at a time; no text of JSON has a line break within."""
     before, line = "{", "\n" + " " * indent
     for name, value in data.items():
