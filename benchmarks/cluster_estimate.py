@@ -25,7 +25,12 @@ from bench_cluster import EMPTY, PAGE, ROOT, make_jobs
 from doc_tables import write_between
 
 from tire_pipeline.cluster import ClusterHooks
-from tire_pipeline.datasets import ComputedFolderDataset, CsvTableDataset, TablePartsDataset, TirFolderDataset
+from tire_pipeline.datasets import (
+    ComputedFolderDataset,
+    ReportPartsDataset,
+    TablePartsDataset,
+    TirFolderDataset,
+)
 from tire_pipeline.files.atomic import write_bytes
 from tire_pipeline.tasks import all_done, in_processes
 from tire_pipeline.tire_table.in_pieces import PIECE_ROWS
@@ -85,7 +90,10 @@ def _run_alone(out: Path, place: Path, parts: Mapping[str, bytes]) -> dict[str, 
     del files, blocks
     table, report, _ = join_files(stored.load(), IngestParameters())
     TablePartsDataset(filepath=str(out / "raw.json")).save(table)
-    CsvTableDataset(filepath=str(out / "report.csv"), save_args={"index": False}).save(report)
+    stored_report = ReportPartsDataset(filepath=str(out / "report.json"))
+    stored_report.save(report)
+    with open(out / "report.csv", "w", encoding="utf-8", newline="") as stream:
+        stored_report.write_plain(stream)
     return {LOOK: looked - began, JOIN: time.process_time() - looked}
 
 
@@ -124,7 +132,7 @@ def memory(alone: dict[str, Any]) -> str:
     """What the run of ``ingest_tir`` holds."""
     fewer, more = map(int, alone["most_bytes"])
     return (
-        "`ingest_tir` holds name, reader, place in a block and row of the report of every file: "
+        "`ingest_tir` holds name, reader and place in a block of every file: "
         f"{_bytes_a_file(alone) / 1e3:.2g} kB a file, measured on {fewer:,} and {more:,} files "
         "with names such as `A/123.tir`."
     )

@@ -18,8 +18,8 @@ install() {
 	"$python" -m pip install --quiet --disable-pip-version-check "$1"
 }
 
-if [ ! -x "$python" ]; then
-	"${PYTHON:-python3}" -m venv "$environment" || not_run "no environment can be made in $environment"
+if ! "$python" -c "import pip" >/dev/null 2>&1; then # none, or one whose making was interrupted
+	"${PYTHON:-python3}" -m venv --clear "$environment" || not_run "no environment can be made in $environment"
 fi
 install packaging==26.3 || not_run "packaging cannot be installed into $environment"
 if [ -z "$1" ]; then

@@ -19,6 +19,7 @@ from retraining_files import put, tir_text
 from tire_pipeline.cluster import ClusterHooks, work_map
 from tire_pipeline.command.stored import translator_state
 from tire_pipeline.datasets import ComputedFolderDataset, RecordingFolderDataset, TirFolderDataset
+from tire_pipeline.files.rows_on_disk import joined
 from tire_pipeline.reporting.mismatch.explained_recordings import (
     ExplainParameters,
     collect_explained,
@@ -89,7 +90,7 @@ def _stored(raw: Path, folder: Path) -> dict[str, bytes]:
     blocks.save(read_files(files))
     table, report, _ = join_files(blocks.load(), IngestParameters())
     assert list(table.frame()["file"]) == sorted(f for f in files if "bad" not in f)
-    assert (report["status"] == "set aside").sum() == 3
+    assert (joined(report)["status"] == "set aside").sum() == 3
     _translate(files, folder / "translated")
     explained = ComputedFolderDataset(path=str(folder / "explained"))
     explained.save(explain_each(recordings, ExplainParameters()))
@@ -171,7 +172,7 @@ def test_a_file_that_ends_its_reader_is_in_the_report_by_name(tmp_path, chosen):
     table, report, summary = join_files(dataset.load(), IngestParameters())
     assert table.frame()["file"].tolist() == ["A/0.tir", "A/1.tir", "A/2.tir"]
     assert summary["set_aside"] == 1
-    row = report.set_index("file").loc["A/killer.tir"]
+    row = joined(report).set_index("file").loc["A/killer.tir"]
     assert row["status"] == "set aside"
     assert "died three times" in row["reason"]
     (tmp_path / "log").unlink()

@@ -105,7 +105,7 @@ def test_a_binary_file_is_set_aside_and_the_run_goes_on(tmp_path, small_fleet):
     (folder / "data/01_raw/tir/A/bad.tir").write_bytes(bytes(range(256)) * 20)
     done = kedro_here(folder, *INGEST)
     assert done.returncode == 0, done.stdout + done.stderr
-    report = next((folder / "data/02_intermediate/ingest_report.csv").rglob("*.csv")).read_text()
+    report = (folder / "data/08_reporting/tables/ingest_report.csv").read_text()
     assert [line for line in report.splitlines() if line.startswith("A/bad.tir,A,set aside")]
 
 

@@ -93,7 +93,7 @@ def test_the_page_begins_and_the_run_ends_with_what_the_files_became(small_run):
 def test_the_newest_tables_lie_as_plain_files_and_the_page_links_them(small_run):
     reports = small_run / "data" / "08_reporting"
     for layer, name in (
-        ("02_intermediate", "ingest_report.csv"),
+        ("05_model_input", "splits.csv"),
         ("07_model_output", "evaluation_table.csv"),
     ):
         assert (reports / "tables" / name).read_bytes() == _latest(small_run, layer, name).read_bytes()

@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.rows_on_disk import joined
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.representations.encoded_tires import RepresentParameters, needed_coefficients
 from tire_pipeline.representations.usable_tires import DedupeFilterParameters, keep_usable
@@ -27,7 +28,8 @@ def _files(without_radius: str = "") -> TableInPieces:
 
 def _keep(minimum: int, target: str = "a_lab", **files: str) -> tuple[pd.DataFrame, pd.DataFrame]:
     parameters = DedupeFilterParameters(minimum_per_category=minimum)
-    return keep_usable(_files(**files), parameters, RepresentParameters(), target)
+    kept, report = keep_usable(_files(**files), parameters, RepresentParameters(), target)
+    return kept, joined(report)
 
 
 def test_a_file_without_radius_does_not_stop_the_others():

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from tire_pipeline.files.rows_on_disk import joined
 from tire_pipeline.retraining import Store, difference, ingest
 from tire_pipeline.tire_table.read_files import IngestParameters, join_files, read_files
 
@@ -71,4 +72,5 @@ def update_store(folder: Path, store: Store | None = None) -> tuple[Store, dict[
 
 def ingest_all(partitions: dict, parameters: IngestParameters):
     """Read all files as the pipeline ``ingest_tir`` does."""
-    return join_files(read_files(partitions), parameters)
+    table, report, summary = join_files(read_files(partitions), parameters)
+    return table, joined(report), summary

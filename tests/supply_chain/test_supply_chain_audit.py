@@ -167,7 +167,9 @@ def environment(folder: Path, pip: int) -> Path:
     """An environment of the audit whose pip installs nothing and ends with this code."""
     python = folder / "audit" / "bin" / "python"
     python.parent.mkdir(parents=True)
-    python.write_text(f'#!/bin/sh\n[ "$1" = -m ] && exit {pip}\nexec {sys.executable} "$@"\n')
+    python.write_text(
+        f'#!/bin/sh\n[ "$1" = -m ] && exit {pip}\n[ "$1" = -c ] && exit 0\nexec {sys.executable} "$@"\n'
+    )
     python.chmod(0o755)
     return folder
 
@@ -204,3 +206,18 @@ def test_a_user_can_tell_the_outcomes_apart(tmp_path, affected, old, pip, code, 
         assert said.splitlines()[-1].startswith(f"{outcome}: ")
     assert made.returncode == (2 if code else 0)
     assert f"Error {code}" in made.stderr or code == 0
+
+
+def test_an_environment_whose_making_was_interrupted_is_made_again(tmp_path):
+    """It has no pip: the audit said *not run* from then on."""
+    whole = environment(tmp_path / "whole", 0) / "audit"
+    half = environment(tmp_path, 0) / "audit" / "bin" / "python"
+    half.write_text("#!/bin/sh\nexit 1\n")
+    maker = tmp_path / "python3"
+    maker.write_text(f'#!/bin/sh\n[ "$*" = "-m venv --clear {half.parents[1]}" ] && cp -r {whole}/. "$4"\n')
+    maker.chmod(0o755)
+    given = tmp_path / "given.json"
+    now = datetime.datetime.now(datetime.UTC).isoformat()
+    given.write_text(json.dumps({**record("jinja2", **NONE_HIT), "modified": now}))
+    done = ended("tools/audit.sh", str(given), VENV=str(tmp_path), PYTHON=str(maker))
+    assert (done.returncode, done.stdout.splitlines()[-1][:6]) == (0, "clean:")

@@ -9,6 +9,7 @@ from kedro.io import Version
 
 from tire_pipeline.datasets import TablePartsDataset
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.rows_on_disk import joined
 from tire_pipeline.tire_table import (
     OVER_MOST,
     Piece,
@@ -50,7 +51,7 @@ def test_the_same_files_are_usable_as_of_the_whole(features):
     kept, report = usable_files(_table(parts), minimum_per_category=5, features=features, most_files=1000)
     expected, dropped = dedupe_and_filter(whole, 5, features)
     pd.testing.assert_frame_equal(kept, expected)
-    pd.testing.assert_frame_equal(report, dropped)
+    pd.testing.assert_frame_equal(joined(report), dropped)
     assert 0 < len(kept) < len(whole)
 
 
@@ -69,7 +70,8 @@ def test_what_is_kept_is_bounded_and_small_categories_keep_their_files():
     all_of_them, _ = usable_files(_table(parts), minimum_per_category=1, features=(), most_files=1000)
     most = len(all_of_them) // 2
     kept, report = usable_files(_table(parts), minimum_per_category=1, features=(), most_files=most)
-    more = report[report["reason"] == OVER_MOST]
+    dropped = joined(report)
+    more = dropped[dropped["reason"] == OVER_MOST]
     assert len(kept) <= most
     assert len(kept) + len(more) == len(all_of_them)
     assert (kept["category"].value_counts().sort_index() == _bounded(all_of_them, most)).all()

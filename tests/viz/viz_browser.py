@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import os
 import shutil
 import socket
@@ -13,7 +14,11 @@ import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
 
+import pandas as pd
 import pytest
+from kedro.io import Version
+
+from tire_pipeline.datasets import ReportPartsDataset
 
 ROOT = Path(__file__).resolve().parents[2]
 CHROMIUM = next((p for p in map(shutil.which, ("chromium", "chromium-browser", "google-chrome")) if p), None)
@@ -35,9 +40,9 @@ def small_project(folder: Path) -> Path:
     shutil.copy(ROOT / "pyproject.toml", folder)
     shutil.copytree(ROOT / "conf", folder / "conf")
     (folder / "src").mkdir()  # the installed package is used
-    result = folder / "data/02_intermediate/ingest_report.csv/2026-01-01T00.00.00.000Z/ingest_report.csv"
-    result.parent.mkdir(parents=True)
-    result.write_text(REPORT)
+    place, day = folder / "data/02_intermediate/ingest_report.json", "2026-01-01T00.00.00.000Z"
+    report = [pd.read_csv(io.StringIO(REPORT))]
+    ReportPartsDataset(filepath=str(place), version=Version(None, day)).save(report)
     return folder
 
 

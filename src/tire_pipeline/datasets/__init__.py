@@ -10,10 +10,11 @@ if TYPE_CHECKING:
     from tire_pipeline.datasets.tables.frame_parts import FramePartsDataset
     from tire_pipeline.datasets.tables.ingest_store import IngestStoreDataset
     from tire_pipeline.datasets.tables.previewed import ParquetTableDataset
+    from tire_pipeline.datasets.tables.report_parts import ReportPartsDataset
     from tire_pipeline.datasets.tables.table_parts import TablePartsDataset
     from tire_pipeline.datasets.text_files.computed_folder import ComputedFolderDataset
     from tire_pipeline.datasets.text_files.html_page import HtmlPageDataset
-    from tire_pipeline.datasets.text_files.json_file import JsonFileDataset
+    from tire_pipeline.datasets.text_files.json_file import JsonFileDataset, JsonItemsDataset
     from tire_pipeline.datasets.text_files.made_files import MadeFilesDataset
     from tire_pipeline.datasets.text_files.text_folder import TextFolderDataset
     from tire_pipeline.datasets.trained_models.model_state import StateDataset
@@ -31,10 +32,12 @@ _MODULE_OF_DATASET = {
     "HtmlPageDataset": "text_files.html_page",
     "IngestStoreDataset": "tables.ingest_store",
     "JsonFileDataset": "text_files.json_file",
+    "JsonItemsDataset": "text_files.json_file",
     "MadeFilesDataset": "text_files.made_files",
     "ParquetTableDataset": "tables.previewed",
     "RecordingFolderDataset": "users_files.recording_folder",
     "ReleaseDataset": "trained_models.release",
+    "ReportPartsDataset": "tables.report_parts",
     "StateDataset": "trained_models.model_state",
     "TablePartsDataset": "tables.table_parts",
     "TextFolderDataset": "text_files.text_folder",
@@ -50,10 +53,12 @@ __all__ = [
     "HtmlPageDataset",
     "IngestStoreDataset",
     "JsonFileDataset",
+    "JsonItemsDataset",
     "MadeFilesDataset",
     "ParquetTableDataset",
     "RecordingFolderDataset",
     "ReleaseDataset",
+    "ReportPartsDataset",
     "StateDataset",
     "TablePartsDataset",
     "TextFolderDataset",

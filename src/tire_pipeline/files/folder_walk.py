@@ -10,14 +10,7 @@ from dataclasses import dataclass, field
 
 from tire_pipeline.errors import DomainError
 from tire_pipeline.file_names import shown_name
-
-_KINDS_OF_FILE = {
-    stat.S_IFIFO: "a FIFO",
-    stat.S_IFSOCK: "a socket",
-    stat.S_IFCHR: "a device",
-    stat.S_IFBLK: "a device",
-    stat.S_IFDIR: "a folder",
-}
+from tire_pipeline.files.regular_file import LINK_TO_ITSELF, other_kind
 
 
 @dataclass
@@ -163,12 +156,12 @@ class _Search:
         except OSError as error:
             if error.errno != errno.ELOOP:
                 raise
-            self.found.aside[inner.name] = "a link that leads to itself"
+            self.found.aside[inner.name] = LINK_TO_ITSELF
         else:
             if stat.S_ISDIR(mode):
                 self.folder_links[inner.name] = inner
             elif self.wanted(name):
-                if stat.S_ISREG(mode):
+                if not other_kind(mode):
                     self.file_links[inner.name] = inner.path
                 else:
                     self._not_regular(inner, mode)
@@ -210,8 +203,7 @@ class _Search:
         return name if real.startswith(above) and self.found.may_be_there(name) else ""
 
     def _not_regular(self, inner: _WalkedEntry, mode: int) -> None:
-        kind = _KINDS_OF_FILE.get(stat.S_IFMT(mode), "of an unknown kind")
-        self.found.aside[inner.name] = f"{kind}, not a regular file"
+        self.found.aside[inner.name] = f"{other_kind(mode)}, not a regular file"
 
     def _unknown(self, inner: _WalkedEntry, error: OSError) -> None:
         self.found.aside[inner.name] = f"cannot be looked at ({error.strerror})"

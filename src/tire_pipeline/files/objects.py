@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from tire_pipeline.errors import DomainError
@@ -190,6 +191,12 @@ class Objects:
         check_now()
         with self._plain_errors(name, bucket_only=True):
             self._fs.pipe_file(self._key(name), content)
+
+    def write_file(self, name: str, path: Path) -> None:
+        """Put an object in place with the content of a local file, which is not read into memory at once."""
+        check_now()
+        with self._plain_errors(name, bucket_only=True):
+            self._fs.put_file(str(path), self._key(name))
 
     def write_many(self, contents: Mapping[str, bytes]) -> None:
         """Put objects in place, many at once; a kill leaves any of them."""

@@ -1,4 +1,4 @@
-"""Opening files of unknown folders: regular ones only, without ever waiting."""
+"""Files of unknown folders: whether there is one, and opening it without ever waiting; regular ones only."""
 
 from __future__ import annotations
 
@@ -12,6 +12,16 @@ if TYPE_CHECKING:
     from _typeshed import WriteableBuffer as Buffer
 
 
+A_FOLDER, LINK_TO_ITSELF = "a folder", "a link that leads to itself"
+_OTHER_KINDS = {
+    stat.S_IFIFO: "a FIFO",
+    stat.S_IFSOCK: "a socket",
+    stat.S_IFCHR: "a device",
+    stat.S_IFBLK: "a device",
+    stat.S_IFDIR: A_FOLDER,
+}
+
+
 class NotRegularError(OSError):
     """A FIFO, socket, device or folder stands where a file should be."""
 
@@ -21,6 +31,38 @@ class NotRegularError(OSError):
     def __reduce__(self) -> tuple[type[NotRegularError], tuple[str]]:
         """Pickled, it is made again from the path."""
         return NotRegularError, (str(self.filename),)
+
+
+def other_kind(mode: int) -> str:
+    """What an entry of a folder is instead of a regular file, in words; empty if it is one.
+
+    Parameters
+    ----------
+    mode : int
+        ``st_mode`` of what :func:`os.stat` gives.
+    """
+    return "" if stat.S_ISREG(mode) else _OTHER_KINDS.get(stat.S_IFMT(mode), "of an unknown kind")
+
+
+def no_regular_file(path: str | os.PathLike[str]) -> str:
+    """Why there is no regular file at a path; empty if there is one. Nothing is opened.
+
+    Raises
+    ------
+    OSError
+        It may not be looked at: there may be one.
+    """
+    try:
+        kind = other_kind(os.stat(path).st_mode)
+    except (FileNotFoundError, NotADirectoryError, ValueError):
+        return "no such file"
+    except OSError as error:
+        if error.errno != errno.ELOOP:
+            raise
+        return LINK_TO_ITSELF
+    if kind == A_FOLDER:
+        return f"this is {kind}"
+    return f"this is {kind}, not a regular file" if kind else ""
 
 
 def open_regular(path: str | os.PathLike[str]) -> io.BufferedReader:
@@ -34,7 +76,7 @@ def open_regular(path: str | os.PathLike[str]) -> io.BufferedReader:
         It cannot be opened.
     """
     stream = _WithoutWaiting(os.fspath(path), "rb", opener=_without_waiting)
-    if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
+    if other_kind(os.fstat(stream.fileno()).st_mode):
         stream.close()
         raise NotRegularError(os.fspath(path))
     return io.BufferedReader(stream)

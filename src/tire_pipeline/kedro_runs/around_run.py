@@ -17,7 +17,7 @@ from tire_pipeline.errors import DomainError
 from tire_pipeline.files.atomic import check_before_replacing
 from tire_pipeline.files.objects import Objects
 from tire_pipeline.kedro_runs.data_place import data_place
-from tire_pipeline.kedro_runs.newest_tables import tables_place
+from tire_pipeline.kedro_runs.newest_tables import plain_name, tables_place
 from tire_pipeline.pages.visible_text import visible
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.runs import (
@@ -277,6 +277,6 @@ class OutcomeHooks:
                     continue
                 place = str(getattr(dataset, "_filepath", None) or getattr(dataset, "_path", None))
                 protocol = getattr(dataset, "_protocol", "file")
-                if place.endswith(".csv"):
-                    place = f"{self._tables}/{place.rsplit('/', 1)[-1]}"
+                if plain := plain_name(dataset):
+                    place, protocol = f"{self._tables}/{plain}", "file"
                 print(f"{what}: {place if protocol == 'file' or '://' in place else f'{protocol}://{place}'}")

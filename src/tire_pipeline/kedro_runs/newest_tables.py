@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -40,14 +41,41 @@ class NewestTablesHooks:
         if self._folder is None:
             return
         for name in sorted(pipeline.all_outputs()):
-            if isinstance(self._folder, Objects):
-                _copy_object(catalog.get(name) if name in catalog else None, self._folder)
+            dataset = catalog.get(name) if name in catalog else None
+            if hasattr(dataset, "write_plain"):
+                _write_plain(dataset, self._folder)
                 continue
-            newest = _newest_csv(catalog.get(name)) if name in catalog else None
+            if isinstance(self._folder, Objects):
+                _copy_object(dataset, self._folder)
+                continue
+            newest = _newest_csv(dataset)
             if newest is not None:
                 self._folder.mkdir(parents=True, exist_ok=True)
                 with replaced_file(str(self._folder / newest.name)) as temporary:
                     shutil.copyfile(newest, temporary)
+
+
+def plain_name(dataset: Any) -> str | None:
+    """The name that a table has among the newest; None of what is no table for a person."""
+    place = str(getattr(dataset, "_filepath", ""))
+    return getattr(dataset, "plain_name", place.rsplit("/", 1)[-1] if place.endswith(".csv") else None)
+
+
+def _write_plain(dataset: Any, folder: Path | Objects) -> None:
+    """Write a report that is stored in parts as one CSV, one part after the other."""
+    if isinstance(folder, Path):
+        with replaced_file(folder / dataset.plain_name) as temporary:
+            _write_csv(dataset, temporary)
+        return
+    with tempfile.TemporaryDirectory() as scratch:
+        written = Path(scratch, "plain.csv")
+        _write_csv(dataset, written)
+        folder.write_file(dataset.plain_name, written)
+
+
+def _write_csv(dataset: Any, path: Path) -> None:
+    with path.open("w", encoding="utf-8", newline="") as stream:
+        dataset.write_plain(stream)
 
 
 def _copy_object(dataset: Any, folder: Objects) -> None:

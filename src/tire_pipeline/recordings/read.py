@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import stat
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
@@ -10,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import RecordingError
+from tire_pipeline.files.regular_file import no_regular_file
 from tire_pipeline.recordings.conventions.canonical import RawRecording, canonical_frame
 from tire_pipeline.recordings.conventions.units_in_names import split_unit
 from tire_pipeline.recordings.readers.csv_file import read_csv
@@ -119,14 +119,9 @@ def read_recording(
 def _no_recording(file: Path) -> str:
     """Why nothing can be read there; empty if it is a regular file."""
     try:
-        mode = file.stat().st_mode
-    except (FileNotFoundError, NotADirectoryError, ValueError):
-        return "no such file"
+        return no_regular_file(file)
     except OSError as error:
         return f"it may not be looked at ({error.strerror})"
-    if stat.S_ISDIR(mode):
-        return "this is a folder"
-    return "" if stat.S_ISREG(mode) else "this is not a regular file"
 
 
 def _format(file: Path, format: str | None) -> str:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable
+
 import pandas as pd
 from pydantic import Field
 
@@ -34,7 +37,7 @@ def keep_usable(
     parameters: DedupeFilterParameters,
     represent: RepresentParameters,
     target_category: str,
-) -> tuple[pd.DataFrame, pd.DataFrame]:
+) -> tuple[pd.DataFrame, Iterable[pd.DataFrame]]:
     """Keep the files that can be learned from.
 
     Parameters
@@ -50,8 +53,8 @@ def keep_usable(
     Returns
     -------
     kept : DataFrame
-    report : DataFrame
-        One row a dropped file, with the reason.
+    report : iterable of DataFrame
+        One row a dropped file, with the reason; some thousand at a time.
 
     Raises
     ------
@@ -68,10 +71,12 @@ def keep_usable(
     return kept, report
 
 
-def _check_categories(kept: pd.DataFrame, report: pd.DataFrame, target_category: str) -> None:
+def _check_categories(kept: pd.DataFrame, report: Iterable[pd.DataFrame], target_category: str) -> None:
     """Raise if fewer than two categories remain, or the target is not among them."""
     have = kept.groupby("category").size().to_dict()
-    small = report[report["reason"] == TOO_SMALL].groupby("category")["detail"].first().to_dict()
+    if len(have) >= 2 and target_category in have:
+        return
+    small = _too_small(report)
     remains = f"what remains: {_listed(have)}"
     if small:
         remains += f"; too small: {_listed(small)}"
@@ -83,21 +88,32 @@ def _check_categories(kept: pd.DataFrame, report: pd.DataFrame, target_category:
             where="dedupe_filter",
             todo=more if small else "add files of a second organisation",
         )
-    if target_category not in have:
-        raise DomainError(
-            f"the target category {target_category!r} has no usable files; {remains}",
-            where="dedupe_filter",
-            todo=more if target_category in small else "set target_category to one of those that remain",
-        )
+    raise DomainError(
+        f"the target category {target_category!r} has no usable files; {remains}",
+        where="dedupe_filter",
+        todo=more if target_category in small else "set target_category to one of those that remain",
+    )
 
 
-def _not_used(report: pd.DataFrame) -> str:
+def _too_small(report: Iterable[pd.DataFrame]) -> dict[str, object]:
+    """The detail of each category that is too small."""
+    found: dict[str, object] = {}
+    for frame in report:
+        rows = frame[frame["reason"] == TOO_SMALL].groupby("category")["detail"].first()
+        found = rows.to_dict() | found
+    return dict(sorted(found.items()))
+
+
+def _not_used(report: Iterable[pd.DataFrame]) -> str:
     """Say which files do not count and why: a run that stops here writes no report of it."""
-    reasons = report[report["reason"] != TOO_SMALL].groupby("reason", sort=False)
+    counts, firsts = Counter[str](), dict[str, str]()
+    for frame in report:
+        for reason, rows in frame[frame["reason"] != TOO_SMALL].groupby("reason", sort=False):
+            counts[str(reason)] += len(rows)
+            firsts.setdefault(str(reason), f"{rows['file'].iloc[0]}: {rows['detail'].iloc[0]}")
     said = [
-        f"{reason} ({len(rows)} {'file' if len(rows) == 1 else 'files, such as'} "
-        f"{rows['file'].iloc[0]}: {rows['detail'].iloc[0]})"
-        for reason, rows in reasons
+        f"{reason} ({count} {'file' if count == 1 else 'files, such as'} {firsts[reason]})"
+        for reason, count in counts.items()
     ]
     return f"; not used: {'; '.join(said)}" if said else ""
 

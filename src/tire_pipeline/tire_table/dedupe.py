@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import pandas as pd
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.rows_on_disk import FramesOfRows, RowsOnDisk, joined
 from tire_pipeline.tire_table.in_pieces import TableInPieces
 
 IDENTICAL = "identical coefficients"
@@ -20,6 +21,10 @@ OVER_MOST = "more files than training takes"
 
 LARGEST_TO_SQUARE = float(np.sqrt(np.finfo(np.float32).max))
 """Larger values overflow where they are squared in single precision."""
+_MARKED = ["place", "file", "category", "equal", "chance", "missing", "overflow", "reason", "detail"]
+_REPORT_TYPES = {"file": "str", "category": "str", "reason": "str", "detail": "str"}
+_STAYS = "reason = ''"
+_USABLE_OF_EACH = f"select category, count(*) from rows where {_STAYS} group by category"
 _NAME_OF_FORCE_COLUMN = re.compile(r"[PQRS][A-Z]+\d+|L[A-Z]{2,4}|FNOMIN").fullmatch
 
 
@@ -61,16 +66,17 @@ def dedupe_and_filter(
     _refuse_unknown(features, table.columns)
     force = [name for name in table.columns if _NAME_OF_FORCE_COLUMN(name)]
     keys = _keys(table, force, list(features))
-    reason, detail = _marks(keys, minimum_per_category)
-    return table[(reason == "").to_numpy()].reset_index(drop=True), _report(keys, reason, detail)
+    marked = _marked([keys.assign(place=np.arange(len(keys)))], minimum_per_category)
+    kept = [place for (place,) in marked.do(f"select place from rows where {_STAYS} order by place")]
+    return table.iloc[kept].reset_index(drop=True), joined(_report(marked))
 
 
 def usable_files(
     table: TableInPieces, *, minimum_per_category: int, features: Sequence[str], most_files: int
-) -> tuple[pd.DataFrame, pd.DataFrame]:
+) -> tuple[pd.DataFrame, FramesOfRows]:
     """The same of a table that need not fit into memory; what stays is held whole, so it is bounded.
 
-    Of each file its name, category and a hash of its coefficients are held, about 0.3 kB.
+    Name, category and a hash of the coefficients of each file are compared on the disk.
 
     Parameters
     ----------
@@ -85,17 +91,17 @@ def usable_files(
 
     Returns
     -------
-    kept, report : DataFrame
-        As in :func:`dedupe_and_filter`, in the order of ``file``.
+    kept : DataFrame
+    report : iterable of DataFrame
+        As in :func:`dedupe_and_filter`, in the order of ``file``; the report some thousand rows at a time.
     """
     _refuse_unknown(features, table.numbers)
     force = sorted(name for name in table.numbers if _NAME_OF_FORCE_COLUMN(name))
-    parts = [_keys(part, force, list(features)) for part in table]
-    keys = pd.concat(parts or [_keys(table.frame(), force, list(features))], ignore_index=True)
-    keys = keys.sort_values("file", ignore_index=True)
-    reason, detail = _marks(keys, minimum_per_category)
-    _mark_more(keys, most_files, reason, detail)
-    return table.rows_of(set(keys["file"][reason == ""])), _report(keys, reason, detail)
+    parts = (_keys(part, force, list(features)) for part in table)
+    marked = _marked((keys.assign(place=keys["file"]) for keys in parts), minimum_per_category)
+    _mark_more(marked, most_files)
+    kept = {file for (file,) in marked.do(f"select file from rows where {_STAYS}")}
+    return table.rows_of(kept), _report(marked)
 
 
 def _refuse_unknown(features: Sequence[str], columns: Sequence[str] | pd.Index) -> None:
@@ -113,7 +119,8 @@ def _keys(table: pd.DataFrame, force: list[str], features: list[str]) -> pd.Data
     values[np.isnan(values)] = np.nan  # and one NaN
     keys = table[["file", "category"]].reset_index(drop=True)
     keys["equal"] = [hashlib.blake2b(row.tobytes(), digest_size=16).digest() for row in values]
-    keys["tire"] = table["tire_id"].to_numpy() if "tire_id" in table else ""
+    tires = table["tire_id"] if "tire_id" in table else [""] * len(table)
+    keys["chance"] = [hashlib.sha256(tire.encode()).digest() for tire in tires]
     empty = table[features].isna().to_numpy()
     keys["missing"] = _named(features, empty)
     sizes = table.select_dtypes("number").abs()
@@ -130,42 +137,47 @@ def _named(columns: Sequence[str], marked: np.ndarray) -> list[str]:
     return [", ".join(names[row]) if row.any() else "" for row in marked]
 
 
-def _marks(keys: pd.DataFrame, minimum: int) -> tuple[pd.Series, pd.Series]:
-    """Why each file is dropped, empty if it is not, and the detail."""
-    reason = pd.Series("", index=keys.index, dtype="str")
-    detail = reason.copy()
-    _mark_identical(keys, reason, detail)
+def _marked(keys: Iterable[pd.DataFrame], minimum: int) -> RowsOnDisk:
+    """Each file with its reason, empty if it is not dropped, and the detail; ``place`` orders the files."""
+    rows = RowsOnDisk(_MARKED)
+    for frame in keys:
+        rows.add(frame.assign(reason="", detail="")[_MARKED].astype(object).itertuples(index=False))
+    _mark_identical(rows)
     for column, why in (("missing", NO_VALUE), ("overflow", OVERFLOWS)):
-        here = (keys[column] != "") & (reason == "")
-        reason[here] = why
-        detail[here] = keys[column][here]
-    _mark_small(keys, minimum, reason, detail)
-    return reason, detail
+        _mark(rows, why, column, f"{column} <> ''")
+    for category, count in rows.do(_USABLE_OF_EACH).fetchall():
+        if count < minimum:
+            _mark(rows, TOO_SMALL, "?", "category = ?", f"{count} usable, {minimum} needed", category)
+    return rows
 
 
-def _report(keys: pd.DataFrame, reason: pd.Series, detail: pd.Series) -> pd.DataFrame:
-    dropped = reason != ""
-    report = keys.loc[dropped, ["file", "category"]].assign(reason=reason[dropped], detail=detail[dropped])
-    return report.reset_index(drop=True)
+def _mark(rows: RowsOnDisk, why: str, detail: str, where: str, *values: str) -> None:
+    rows.do(f"update rows set reason = '{why}', detail = {detail} where {_STAYS} and {where}", values)
 
 
-def _mark_identical(keys: pd.DataFrame, reason: pd.Series, detail: pd.Series) -> None:
-    first = keys.groupby("equal", sort=False)["file"].transform("first")
-    double = first != keys["file"]
-    reason[double] = IDENTICAL
-    detail[double] = "as " + first[double]
+def _report(marked: RowsOnDisk) -> FramesOfRows:
+    query = f"select {', '.join(_REPORT_TYPES)} from rows where not {_STAYS} order by place"
+    return marked.table(query, _REPORT_TYPES)
 
 
-def _mark_more(keys: pd.DataFrame, most: int, reason: pd.Series, detail: pd.Series) -> None:
-    usable = keys[reason == ""]
-    if len(usable) <= most:
+def _mark_identical(rows: RowsOnDisk) -> None:
+    """With ``min``, SQLite gives the file of the row that has it."""
+    first = "select equal, file, min(place) as place from rows group by equal having count(*) > 1"
+    rows.do(
+        f"update rows set reason = '{IDENTICAL}', detail = 'as ' || first.file from ({first}) as first "
+        "where rows.equal = first.equal and rows.place <> first.place"
+    )
+
+
+def _mark_more(rows: RowsOnDisk, most: int) -> None:
+    counts = sorted(count for _, count in rows.do(_USABLE_OF_EACH))
+    if sum(counts) <= most:
         return
-    each = _most_of_each(sorted(usable.groupby("category").size()), most)
-    place = usable["tire"].map(lambda tire: hashlib.sha256(tire.encode()).digest())
-    rank = usable.assign(place=place).sort_values(["place", "file"]).groupby("category").cumcount()
-    more = rank.index[rank >= each]
-    reason[more] = OVER_MOST
-    detail[more] = f"{each} of its category are taken"
+    each = _most_of_each(counts, most)
+    rank = "row_number() over (partition by category order by chance, file)"
+    ranked = f"select place, {rank} as rank from rows where {_STAYS}"
+    more = f"place in (select place from ({ranked}) where rank > {each})"
+    _mark(rows, OVER_MOST, "?", more, f"{each} of its category are taken")
 
 
 def _most_of_each(counts: Sequence[int], most: int) -> int:
@@ -177,11 +189,3 @@ def _most_of_each(counts: Sequence[int], most: int) -> int:
             return each
         left -= count
     return most
-
-
-def _mark_small(keys: pd.DataFrame, minimum: int, reason: pd.Series, detail: pd.Series) -> None:
-    left = keys.loc[reason == "", "category"]
-    counts = left.map(left.value_counts())
-    small = counts.index[counts < minimum]
-    reason[small] = TOO_SMALL
-    detail[small] = [f"{count} usable, {minimum} needed" for count in counts[small]]

@@ -5,12 +5,14 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Mapping
 from functools import partial
+from operator import itemgetter
 from typing import Any
 
 import pandas as pd
 from pydantic import Field
 
 from tire_pipeline.errors import DomainError
+from tire_pipeline.files.rows_on_disk import FramesOfRows, RowsOnDisk
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.parameters import Parameters
 from tire_pipeline.progress import track
@@ -20,6 +22,20 @@ from tire_pipeline.tire_table.read_blocks import ReadBlock, blocks_of, rows_of, 
 _LOG = logging.getLogger(__name__)
 NAMED_IN_LOG = 20
 """So many of the files that are set aside are named in the log; the report has them all."""
+REPORT_COLUMNS = {
+    "file": "str",
+    "category": "str",
+    "status": "str",
+    "version": "str",
+    "line": "Int64",
+    "reason": "str",
+    "defaulted": "str",
+    "notes": "str",
+}
+"""Columns of the report of all files, and their types."""
+_GOOD = "status = 'read'"
+_SELECT_ASIDE = "select file, reason from rows where status = 'set aside'"
+_CALLED_TIR = "file like '%.tir'"
 
 
 class IngestParameters(Parameters):
@@ -47,7 +63,7 @@ def read_files(tir_files: Mapping[str, Callable[[], TireModel]]) -> dict[str, Re
 
 def join_files(
     blocks: Mapping[str, Callable[[], bytes]], parameters: IngestParameters
-) -> tuple[TableInPieces, pd.DataFrame, dict[str, Any]]:
+) -> tuple[TableInPieces, FramesOfRows, dict[str, Any]]:
     """Join the blocks of files that were read: one table, one report.
 
     Parameters
@@ -60,8 +76,9 @@ def join_files(
     -------
     table : TableInPieces
         The tire table (docs/reference/architecture.md), a piece a block.
-    report : DataFrame
-        One row a file: ``file, category, status, version, line, reason, defaulted, notes``.
+    report : iterable of DataFrame
+        One row a file, sorted: ``file, category, status, version, line, reason, defaulted, notes``; read from
+        the disk some thousand rows at a time.
     summary : dict
         How many of how many were read, by category.
 
@@ -70,51 +87,54 @@ def join_files(
     DomainError
         If more than ``most_failed_share`` of the files called ``.tir`` cannot be read.
     """
-    pieces: list[Piece] = []
-    rows: list[dict[str, Any]] = []
+    pieces, rows = list[Piece](), RowsOnDisk(REPORT_COLUMNS)
     for read in track(blocks.values(), "joining what was read", total=len(blocks)):
         part = read()
         count, columns = shape_of(part)
-        rows += rows_of(part)
+        rows.add(map(itemgetter(*REPORT_COLUMNS), rows_of(part)))
         pieces.append(Piece(count, numbers_of(columns), partial(_table_of, read)))
-    report = pd.DataFrame(rows).sort_values("file", ignore_index=True)
-    summary = _summary(report)
-    aside = report[report["status"] == "set aside"]
-    for file, reason in aside[["file", "reason"]].head(NAMED_IN_LOG).itertuples(index=False):
+    for file, reason in rows.do(f"{_SELECT_ASIDE} order by file limit {NAMED_IN_LOG}"):
         _LOG.warning("%s is set aside: %s", file, reason)
-    _refuse_mostly_unread(report, parameters)
-    return TableInPieces(tuple(pieces)), report, summary
+    _refuse_mostly_unread(rows, parameters)
+    report = rows.table("select * from rows order by file", REPORT_COLUMNS)
+    return TableInPieces(tuple(pieces)), report, _summary(rows)
 
 
 def _table_of(read: Callable[[], bytes]) -> pd.DataFrame:
     return table_of(read())
 
 
-def _refuse_mostly_unread(report: pd.DataFrame, parameters: IngestParameters) -> None:
-    """Raise where more of the files called ``.tir`` cannot be read than the parameters allow."""
-    files = _called_tir(report)
-    failed = files[files["status"] == "set aside"]
-    if len(failed) > parameters.most_failed_share * len(files):
+def _refuse_mostly_unread(rows: RowsOnDisk, parameters: IngestParameters) -> None:
+    """Raise where more of the files called ``.tir`` cannot be read than the parameters allow.
+
+    Folders and links that lead nowhere do not count, however many one link brings in.
+    """
+    (named,) = rows.do(f"select count(*) from rows where {_CALLED_TIR}").fetchone()
+    counted = _CALLED_TIR if named else "true"
+    (files,) = rows.do(f"select count(*) from rows where {counted}").fetchone()
+    (failed,) = rows.do(f"select count(*) from ({_SELECT_ASIDE} and {counted})").fetchone()
+    if failed > parameters.most_failed_share * files:
+        file, reason = rows.do(f"{_SELECT_ASIDE} and {counted} order by file limit 1").fetchone()
         raise DomainError(
-            f"{len(failed)} of {len(files)} files cannot be read; the first: "
-            f"{failed.iloc[0]['file']}: {failed.iloc[0]['reason']}",
+            f"{failed} of {files} files cannot be read; the first: {file}: {reason}",
             where="ingest_tir",
             todo="correct or remove those files, or raise ingest_tir.most_failed_share",
         )
 
 
-def _called_tir(report: pd.DataFrame) -> pd.DataFrame:
-    """What counts as a file: folders and links that lead nowhere do not, however many one link brings in."""
-    named = report[report["file"].str.lower().str.endswith(".tir")]
-    return report if named.empty else named
-
-
-def _summary(report: pd.DataFrame) -> dict[str, Any]:
-    good = report["status"] == "read"
+def _summary(rows: RowsOnDisk) -> dict[str, Any]:
+    (files,) = rows.do("select count(*) from rows").fetchone()
+    (good,) = rows.do(f"select count(*) from rows where {_GOOD}").fetchone()
     return {
-        "files": len(report),
-        "read": int(good.sum()),
-        "set_aside": int((~good).sum()),
-        "read_by_category": {str(k): int(v) for k, v in report[good].groupby("category").size().items()},
-        "versions": {str(k): int(v) for k, v in report[good].groupby("version").size().items()},
+        "files": files,
+        "read": good,
+        "set_aside": files - good,
+        "read_by_category": _good_by(rows, "category"),
+        "versions": _good_by(rows, "version"),
     }
+
+
+def _good_by(rows: RowsOnDisk, column: str) -> dict[str, int]:
+    """How many files were read of each category or version."""
+    query = f"select {column}, count(*) from rows where {_GOOD} group by {column} order by {column}"
+    return dict(rows.do(query).fetchall())

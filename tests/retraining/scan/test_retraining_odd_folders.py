@@ -13,6 +13,7 @@ import pytest
 from retraining_files import put, put_fleet, tir_text, update_store
 
 from tire_pipeline.datasets import TirFolderDataset
+from tire_pipeline.files.rows_on_disk import joined
 from tire_pipeline.tire_table.read_files import IngestParameters, join_files, read_files
 
 
@@ -20,7 +21,8 @@ def _ingested(folder: Path) -> tuple[list[str], dict[str, str]]:
     """What ``ingest_tir`` reads, and what it sets aside with the reasons."""
     blocks = read_files(TirFolderDataset(path=str(folder)).load())
     done = {name: partial(bytes, block()) for name, block in blocks.items()}
-    table, report, _ = join_files(done, IngestParameters(most_failed_share=1.0))
+    table, reported, _ = join_files(done, IngestParameters(most_failed_share=1.0))
+    report = joined(reported)
     aside = report[report["status"] == "set aside"]
     return sorted(table.frame()["file"]), dict(zip(aside["file"], aside["reason"], strict=True))
 

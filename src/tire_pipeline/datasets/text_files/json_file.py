@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator, Mapping
+from typing import Any, ClassVar
 
+from kedro.io.core import get_filepath_str
 from kedro_datasets._typing import JSONPreview
 from kedro_datasets.json import JSONDataset
 
@@ -16,3 +19,27 @@ class JsonFileDataset(JSONDataset):
     def preview(self) -> JSONPreview:
         """Return all of it, its keys and texts by :func:`visible`."""
         return JSONPreview(json.dumps(visible_texts(json.loads(super().preview()))))
+
+
+class JsonItemsDataset(JsonFileDataset):
+    """A dictionary whose values are asked for one at a time when it is saved."""
+
+    DEFAULT_SAVE_ARGS: ClassVar[dict[str, Any]] = {"indent": 1}
+
+    def save(self, data: Mapping[str, Any]) -> None:
+        """Write each item in turn."""
+        place = get_filepath_str(self._get_save_path(), self._protocol)
+        with self._fs.open(place, **self._fs_open_args_save) as stream:
+            for text in item_texts(data, self._save_args["indent"]):
+                stream.write(text)
+        self._invalidate_cache()
+
+
+def item_texts(data: Mapping[str, Any], indent: int) -> Iterator[str]:
+    """``json.dumps(data, indent=indent)``, an item at a time; no text of JSON has a line break within."""
+    before, line = "{", "\n" + " " * indent
+    for name, value in data.items():
+        content = json.dumps(value, indent=indent).replace("\n", line)
+        yield f"{before}{line}{json.dumps(name)}: {content}"
+        before = ","
+    yield "\n}" if before == "," else "{}"

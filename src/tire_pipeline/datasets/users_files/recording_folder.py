@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import stat
 import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -20,7 +19,7 @@ from tire_pipeline.errors import DomainError, RecordingError, TirePipelineError
 from tire_pipeline.file_names import shown_name
 from tire_pipeline.files.folder_walk import walk
 from tire_pipeline.files.objects import Objects, is_remote, no_place
-from tire_pipeline.files.regular_file import open_regular
+from tire_pipeline.files.regular_file import no_regular_file, open_regular
 from tire_pipeline.magic_formula import TireModel
 from tire_pipeline.recordings import read_recording
 from tire_pipeline.recordings.read import SUFFIXES
@@ -281,11 +280,9 @@ def _tirs_beside(recording: Path) -> list[Path]:
 
 def _may_be_file(path: Path) -> bool:
     try:
-        return stat.S_ISREG(path.stat().st_mode)
-    except PermissionError:
-        return True
+        return not no_regular_file(path)
     except OSError:
-        return False
+        return True
 
 
 def _refuse(path: str, reason: str, **_: object) -> NoReturn:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -93,7 +95,7 @@ def _lateral_force(row: pd.DataFrame) -> np.ndarray:
 def build_report(
     outcome: list[str],
     ingest_summary: dict[str, Any],
-    filter_report: pd.DataFrame,
+    filter_report: Iterable[pd.DataFrame],
     tire_table: pd.DataFrame,
     classifier_scores: pd.DataFrame,
     classifier_per_class: pd.DataFrame,
@@ -148,7 +150,7 @@ def _forces(table: pd.DataFrame, references: pd.DataFrame, best: dict[str, Any],
     )
 
 
-def _files(ingest: dict[str, Any], dropped: pd.DataFrame, table: pd.DataFrame) -> list[Part]:
+def _files(ingest: dict[str, Any], dropped: Iterable[pd.DataFrame], table: pd.DataFrame) -> list[Part]:
     counts = table.groupby("category").agg(files=("file", "size"), tires=("tire_id", "nunique")).reset_index()
     parts: list[Part] = [
         Text(
@@ -160,8 +162,9 @@ def _files(ingest: dict[str, Any], dropped: pd.DataFrame, table: pd.DataFrame) -
         ),
         Table(counts, "Files and physical tires that remain, by category."),
     ]
-    if len(dropped):
-        reasons = dropped.groupby("reason").size().rename("files").reset_index()
+    counted = Counter(str(reason) for frame in dropped for reason in frame["reason"])
+    if counted:
+        reasons = pd.DataFrame(sorted(counted.items()), columns=["reason", "files"])
         parts.append(Table(reasons, "Why files were removed; filter_report.csv names each."))
     if ingest["set_aside"]:
         text = f"{ingest['set_aside']:,} files could not be read; ingest_report.csv gives line and reason."

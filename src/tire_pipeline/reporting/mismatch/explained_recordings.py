@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from fnmatch import fnmatch
 from functools import partial
 from pathlib import PurePosixPath
@@ -14,7 +15,7 @@ from pydantic import Field
 
 from tire_pipeline.code_hash import code_hash
 from tire_pipeline.errors import RecordingError, did_you_mean
-from tire_pipeline.files.packed import unpack
+from tire_pipeline.files.packed import member, unpack
 from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.learnt.sizes import learnt
 from tire_pipeline.parameters import Parameters, Several
@@ -23,6 +24,7 @@ from tire_pipeline.recordings.groups import by_folder, matching
 from tire_pipeline.reporting.mismatch.explain_task import COLUMNS, PAGE, ExplainTask, Load, corrected_files
 from tire_pipeline.reporting.mismatch.result_names import result_place
 
+_REPORT = "report.json"
 _MOST_TOLD = 3
 """Recordings whose problem an error names."""
 
@@ -136,7 +138,7 @@ def explain_each(recordings: Pairs, parameters: ExplainParameters) -> dict[str, 
 
 def collect_explained(
     explained: Mapping[str, Read],
-) -> tuple[dict[str, Any], pd.DataFrame, dict[str, Read], dict[str, Read | None]]:
+) -> tuple[ReportsByName, pd.DataFrame, dict[str, Read], dict[str, Read | None]]:
     """Collect what was found in each recording.
 
     Parameters
@@ -146,8 +148,8 @@ def collect_explained(
 
     Returns
     -------
-    reports : dict
-        ``MismatchReport.to_dict()`` by recording, or ``folder/together``.
+    reports : mapping
+        ``MismatchReport.to_dict()`` by recording, or ``folder/together``; read when it is asked for.
     overview : DataFrame
         ``recording, verdict, summary, effects, alternatives, held_out, problem``.
     pages : dict
@@ -162,21 +164,45 @@ def collect_explained(
     RecordingError
         If not one recording could be explained.
     """
-    reports, rows = dict[str, Any](), list[dict[str, str]]()
+    reports, rows = ReportsByName(), list[dict[str, str]]()
     pages, corrected = dict[str, Read](), dict[str, Read | None]()
     for read in track(explained.values(), "collecting reports", total=len(explained)):
         members = unpack(read())
-        row, report = json.loads(members.pop("row.json")), json.loads(members.pop("report.json"))
+        row, report = json.loads(members.pop("row.json")), members.pop(_REPORT)
         rows.append(row)
-        if report is None:
+        if json.loads(report) is None:
             continue
-        reports[row["recording"]] = report
+        reports.read[row["recording"]] = read
         del members[PAGE]
         pages[result_place(row["recording"], ".html")] = partial(_member, read, PAGE)
         corrected |= dict.fromkeys(corrected_files(row["recording"]))
         corrected |= {name: partial(_member, read, name) for name in members}
     _check_any(reports, rows)
     return reports, pd.DataFrame(rows, columns=list(COLUMNS)), pages, corrected
+
+
+@dataclass(frozen=True)
+class ReportsByName(Mapping[str, Any]):
+    """Reports, each read when it is asked for: they are never in memory together.
+
+    Attributes
+    ----------
+    read : dict
+        Name -> the function that reads what was found.
+    """
+
+    read: dict[str, Read] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> Any:
+        """The report of a recording."""
+        return json.loads(_member(self.read[name], _REPORT))
+
+    def __iter__(self) -> Iterator[str]:
+        """Names, in the order of the recordings."""
+        return iter(self.read)
+
+    def __len__(self) -> int:
+        return len(self.read)
 
 
 def _check_any(reports: Mapping[str, Any], rows: list[dict[str, str]]) -> None:
@@ -190,7 +216,7 @@ def _check_any(reports: Mapping[str, Any], rows: list[dict[str, str]]) -> None:
 
 
 def _member(read: Read, name: str) -> bytes:
-    return unpack(read())[name]
+    return member(read(), name)
 
 
 def check_effects(names: Iterable[str], where: str) -> None:

@@ -1,0 +1,92 @@
+"""Rows of any number on the disk, read back in an order, some thousand at a time."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import pandas as pd
+
+REPORT_ROWS = 5_000
+"""Most rows of a report that are in memory at a time: a megabyte or two."""
+
+
+class RowsOnDisk:
+    """A table ``rows`` of a database that has no name: its file goes with the process.
+
+    SQLite sorts and counts on the disk, with a few megabytes of memory.
+
+    Parameters
+    ----------
+    columns : iterable of str
+    """
+
+    def __init__(self, columns: Iterable[str]) -> None:
+        names = [quoted(name) for name in columns]
+        self._database = sqlite3.connect("", check_same_thread=False)
+        for setting in ("journal_mode = off", "synchronous = off", "temp_store = 1"):
+            self.do(f"pragma {setting}")
+        self.do(f"create table rows ({', '.join(names)})")
+        self._insert = f"insert into rows values ({', '.join('?' * len(names))})"
+
+    def add(self, rows: Iterable[Sequence[Any]]) -> None:
+        """Append rows, their values in the order of the columns."""
+        self._database.executemany(self._insert, rows)
+
+    def do(self, statement: str, values: Sequence[Any] = ()) -> sqlite3.Cursor:
+        """Do a statement of SQL; its result is read as it is found."""
+        return self._database.execute(statement, values)
+
+    def table(self, query: str, columns: Mapping[str, str]) -> FramesOfRows:
+        """What a query selects.
+
+        Parameters
+        ----------
+        query : str
+        columns : mapping of str to str
+            Name and pandas' type of each column that it selects.
+        """
+        return FramesOfRows(self, query, columns)
+
+
+@dataclass(frozen=True)
+class FramesOfRows:
+    """What a query selects, as tables of at most ``REPORT_ROWS`` rows; at least one, which may be empty.
+
+    Attributes
+    ----------
+    rows : RowsOnDisk
+    query : str
+    columns : mapping of str to str
+        Name and pandas' type of each column.
+    """
+
+    rows: RowsOnDisk
+    query: str
+    columns: Mapping[str, str]
+
+    def __iter__(self) -> Iterator[pd.DataFrame]:
+        """Each table, as often as they are asked for."""
+        found = self.rows.do(self.query)
+        some = found.fetchmany(REPORT_ROWS)
+        while True:
+            yield pd.DataFrame(some, columns=list(self.columns)).astype(dict(self.columns))
+            some = found.fetchmany(REPORT_ROWS)
+            if not some:
+                return
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> FramesOfRows:
+        """Itself: nothing changes it."""
+        return self
+
+
+def joined(frames: Iterable[pd.DataFrame]) -> pd.DataFrame:
+    """All of it as one table: for what is known to be small."""
+    return pd.concat(frames, ignore_index=True)
+
+
+def quoted(name: str) -> str:
+    """A column's name in SQL."""
+    return '"' + name.replace('"', '""') + '"'
