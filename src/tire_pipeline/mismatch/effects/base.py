@@ -254,7 +254,7 @@ class Effect:
         return False
 
     def drivers(self, output: str) -> tuple[str, ...]:
-        """Return the channels whose value decides how much of it there is in a force; none if it lives in time."""
+        """Return the channels whose values decide how large it is in a force; none if time does."""
         return () if self.needs_time else self.channels
 
     def blind(self, data: Context) -> bool:

@@ -63,9 +63,7 @@ def _of_the_effects(
 
     A tread warms up in each sweep: what a camber does is also found at some tread temperature.
     """
-    axes = {
-        axis for effect in effects for axis in _drivers(effect, ranges) or _narrow_axes(effect, ranges)
-    }
+    axes = {axis for effect in effects for axis in _drivers(effect, ranges) or _narrow_axes(effect, ranges)}
     return [f for f in located if f.axis in axes] if axes else located
 
 
