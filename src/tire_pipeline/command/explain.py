@@ -107,11 +107,8 @@ def _among(hold_out: Path, runs: tuple[Path, ...]) -> Path:
 
 def _rows(effect: EffectReport) -> list[tuple[str, ...]]:
     """One row a parameter of an effect, or one without; a fault found without a fit names its channel."""
-    from tire_pipeline.mismatch.effects.amounts import amount_with_error
-
     name = f"{effect.name} of {effect.output}" if "found" in effect.evidence else effect.name
-    sizes = [(key.replace("_", " "), *amount_with_error(*size)) for key, size in effect.parameters.items()]
-    return [(name, effect.kind, *row) for row in sizes or [("", "", "")]]
+    return [(name, effect.kind, *row) for row in effect.rows() or [("", "", "", "")]]
 
 
 def _outcome(report: MismatchReport, file: Path, written: list[Path]) -> CommandOutcome:
@@ -157,10 +154,10 @@ def _errors(report: MismatchReport) -> Grid:
 
 def _found(effects: list[EffectReport]) -> Grid:
     return Grid(
-        ("effect", "kind", "parameter", "value", "standard error"),
+        ("effect", "kind", "parameter", "value", "95% interval", ""),
         [row for effect in effects for row in _rows(effect)],
-        "Found: parameters of the effects' equations, which the page shows. Parameters of one effect can act "
-        "alike; then each alone is uncertain",
+        "Found: parameters of the effects' equations, which the page shows. Where parameters of one "
+        "effect act alike, each alone is less certain than the effect",
     )
 
 

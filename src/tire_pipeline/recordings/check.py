@@ -11,6 +11,7 @@ import pandas as pd
 
 from tire_pipeline.channels import INPUT_CHANNELS, RECORDED_CHANNELS, TANGENTIAL_FORCES
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL
+from tire_pipeline.recordings.conventions.drive_columns import reader_of_drive
 from tire_pipeline.recordings.conventions.plausible import (
     FORCE_OVER_LOAD,
     PLAUSIBLE_VALUES,
@@ -133,7 +134,8 @@ def _columns(frame: pd.DataFrame) -> list[Issue]:
                 "no_force_channel",
                 "error",
                 f"columns {', '.join(map(str, frame.columns[:12]))}",
-                "nothing to compare with: say which column is the force: --name 'its name=fy', in Python "
+                reader_of_drive({*map(str, frame.columns), *frame.attrs.get("channels", {}).values()})
+                or "nothing to compare with: say which column is the force: --name 'its name=fy', in Python "
                 "names={'its name': 'fy'}",
             )
         )

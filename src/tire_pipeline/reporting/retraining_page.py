@@ -9,9 +9,19 @@ import pandas as pd
 
 from tire_pipeline.reporting import HOME, Part, Table, Text, render_page
 from tire_pipeline.retraining import ModelRegistry
-from tire_pipeline.retraining.drift import DRIFT
+from tire_pipeline.retraining.drift import DRIFT, PSI_LIMIT, RISK
 from tire_pipeline.retraining.release import history_rows
 
+_MOST_SHOWN = 20
+_IN_WORDS = {
+    "earlier": "earlier files",
+    "incoming": "incoming files",
+    "psi": "population stability index",
+    "ks": "Kolmogorov-Smirnov distance",
+    "p_adjusted": "adjusted p",
+    "candidate": "balanced accuracy, candidate",
+    "released": "balanced accuracy, released",
+}
 _HAPPENED = {
     "released": "The new model (candidate) was released",
     "refused": "The new model (candidate) was not released",
@@ -35,19 +45,34 @@ def build_retraining_report(
             Table(
                 comparison,
                 heading="Candidate and released model on the same held-out tires",
-                caption="Share of files whose category is recognised. Decided by the mean over categories; "
-                "no held-out tire was in the training of either model.",
+                caption="Accuracy: share of files whose category is predicted correctly. Balanced: its mean "
+                "over the categories, which decides. No held-out tire was in the training of either model.",
             ),
             *_drift(drift),
             Table(
-                files[files["status"] != "read"],
-                heading="Files that wait, cannot be read or are gone",
-                caption="A file that cannot be read is tried again when its content changes.",
+                _without_paths(files[files["status"] != "read"]),
+                heading="Files that were not read",
+                caption="Pending: it cannot be read, and is tried again when its content changes. Set aside: "
+                "it is no regular file. Taken already: the same file was read under another name. Removed: "
+                "it is gone from the folder.",
             ),
-            Table(_to_the_minute(history_rows(registry.release)), heading="History"),
+            Table(
+                _to_the_minute(history_rows(registry.release)).rename(columns=_IN_WORDS),
+                heading="History",
+                caption="The newest first. A dash: there was no released model to compare with.",
+            ),
         ],
         pages=HOME,
     )
+
+
+def _without_paths(files: pd.DataFrame) -> pd.DataFrame:
+    """Reasons without the path of the file, which stands in the row."""
+    reasons = [
+        str(reason).rpartition(f"{file}: ")[2] if isinstance(reason, str) else reason
+        for file, reason in zip(files["file"], files["reason"], strict=True)
+    ]
+    return files.assign(reason=reasons)
 
 
 def _to_the_minute(history: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
@@ -78,10 +103,17 @@ def _drift(drift: pd.DataFrame) -> list[Part]:
     seen = f"{len(moved)} of {len(drift)} comparisons show drift."
     said = Text(
         [
-            f"{seen} psi: population stability index; ks: Kolmogorov-Smirnov distance; p is adjusted "
-            "for the number of comparisons. Features are Magic Formula coefficients at one nominal "
-            "load unless another representation was chosen."
+            f"{seen} The values of each feature in the incoming files are compared with those in the "
+            "earlier ones of the same category. Drift: p, adjusted for the number of comparisons, is below "
+            f"{RISK:g}, and the population stability index is above {PSI_LIMIT:g}. Features are Magic "
+            "Formula coefficients at one nominal load unless another representation was chosen."
         ],
         heading=heading,
     )
-    return [said, Table(moved if len(moved) else drift.head(20))]
+    shown = moved if len(moved) else drift.nlargest(_MOST_SHOWN, "psi")
+    fewer = (
+        ""
+        if len(moved) or len(shown) == len(drift)
+        else f"The {len(shown)} largest differences of {len(drift)}."
+    )
+    return [said, Table(shown.rename(columns=_IN_WORDS), caption=fewer)]

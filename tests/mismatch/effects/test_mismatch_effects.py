@@ -5,7 +5,7 @@ import pytest
 
 from tire_pipeline.mismatch import CorrectedModel
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.effects.amounts import amount_with_error
+from tire_pipeline.mismatch.effects.amounts import amount_with_interval
 from tire_pipeline.mismatch.effects.shared import harmonic_power
 from tire_pipeline.mismatch.model.candidates import derivatives
 from tire_pipeline.mismatch.model.forces import simulate
@@ -251,9 +251,9 @@ def test_friction_by_sliding_speed_shows_at_large_slip_only(tire, record):
 
 
 def test_a_parameter_has_two_digits_of_its_standard_error():
-    assert amount_with_error(-0.844, 0.191, "1") == ("-84%", "19%")
-    assert amount_with_error(0.0123, 0.0004, "s") == ("12.30 ms", "0.40 ms")
-    assert amount_with_error(1234.5, np.inf, "N") == ("1,230 N", "inf N")
+    assert amount_with_interval(-0.844, 0.191, (-1.218, -0.47), "1") == ("-84%", "-122% to -47%")
+    assert amount_with_interval(0.0123, 0.0004, (0.0115, 0.0131), "s") == ("12.30 ms", "11.50 to 13.10 ms")
+    assert amount_with_interval(1234.5, np.inf, (0.0, np.inf), "N") == ("1,230 N", "unknown")
 
 
 def test_harmonic_power_is_the_plain_sum():

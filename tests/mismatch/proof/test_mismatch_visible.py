@@ -56,8 +56,8 @@ def test_what_is_named_has_a_row_with_its_interval(tire, record):
     without = all_but("friction_scale", "stiffness_scale", "force_offset")
     report = explain_mismatch(tire, record(22, friction=0.6).iloc[:1500], without=without)
     (row,) = (r for r in report.visible if r.name == "friction_scale")
-    value, error, _ = report.effects[0].parameters["friction"]
-    assert row.text.endswith(f"named, friction {100.0 * value:.2g}% ± {196.0 * error:.2g}%")
+    ((name, value, interval, _),) = report.effects[0].rows()
+    assert row.text.endswith(f"named, {name} {value} ({interval})")
     assert math.isnan(row.seen)
 
 

@@ -197,6 +197,36 @@ def test_the_place_is_on_the_axis_of_what_is_named():
     assert "At tread temperature between 56 and 58 degC" in unnamed
 
 
+TIMED = {"time": (0.0, 60.0), "pressure": (2e5, 3e5), "slip_ratio": (-0.2, 0.0), "slip_angle": (-0.1, 0.1)}
+IN_TIME = replace(PLACE, axis="time", low=22.5, high=37.6, mean=160.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "driver", "said"),
+    [
+        ("inflation_pressure", ("pressure", 2e5, 2.5e5), "At pressure below 250 kPa, Fy"),
+        ("combined_slip", ("slip_ratio", -0.2, -0.1), "At slip ratio below -0.1, Fy"),
+        ("sensor_drift", ("pressure", 2e5, 2.5e5), "Between 22.5 and 37.6 s, "),
+        ("wear", ("pressure", 2e5, 2.5e5), "Between 22.5 and 37.6 s, "),
+    ],
+)
+def test_what_a_channel_drives_is_placed_by_the_channel_and_what_lives_in_time_by_time(name, driver, said):
+    """A hidden pressure was placed between 22.5 and 37.6 s: the pressure was low in that time."""
+    axis, low, high = driver
+    there = replace(PLACE, axis=axis, low=low, high=high, mean=127.0)
+    effect = replace(EFFECT, name=name, when=[(20.0, 45.0)], where={axis: TIMED[axis]})
+    text = head("explained", [effect], FIT, [IN_TIME, there], NONE, "", TIMED).text
+    assert said in text
+    assert (" s," in text) == said.startswith("Between")
+
+
+def test_a_driver_that_did_not_vary_is_no_place():
+    effect = replace(EFFECT, name="inflation_pressure", where={"pressure": (2.5e5, 2.5e5)})
+    ranges = {"time": TIMED["time"]}
+    text = head("explained", [effect], FIT, [IN_TIME], NONE, "", ranges).text
+    assert "Between 22.5 and 37.6 s, Fy is on average 160 N" in text
+
+
 def test_what_is_off_throughout_is_at_no_place_of_an_effect():
     """A gain does most at large loads, and is everywhere."""
     ranges = {"normal_load": (1000.0, 6000.0)}

@@ -84,12 +84,34 @@ def test_the_page_of_a_first_run_says_that_there_is_nothing_to_compare():
         ModelRegistry(Release()),
     )
     assert "Nothing to compare" in page
-    assert "<th>psi</th>" not in page
+    assert "population stability index" not in page
     some = pd.DataFrame({"category": ["A"], "feature": ["PKY1"], "psi": [0.5], "verdict": ["drift"]})
     page = build_retraining_report(
         files, some, comparison, {"event": "released", "reason": "not worse"}, ModelRegistry(Release())
     )
     assert "1 of 1 comparisons show drift" in page
+
+
+def test_columns_are_in_words_and_what_is_left_out_is_counted():
+    files = pd.DataFrame(
+        {
+            "file": ["B/empty.tir"],
+            "status": ["pending"],
+            "reason": ["/data/tir/B/empty.tir: the file is empty"],
+        }
+    )
+    names = [f"P{k}" for k in range(25)]
+    drift = pd.DataFrame(
+        {"category": "A", "feature": names, "earlier": 13, "incoming": 9, "psi": np.arange(25.0), "ks": 0.3}
+    ).assign(p_adjusted=0.8, verdict=SAME)
+    comparison = pd.DataFrame({"model": ["candidate"], "accuracy": [0.75]})
+    outcome = {"event": "refused", "reason": "worse"}
+    page = build_retraining_report(files, drift, comparison, outcome, ModelRegistry(Release()))
+    assert not any(f">{name}<" in page.lower() for name in ("psi", "ks", "p_adjusted", "incoming"))
+    assert "The 20 largest differences of 25." in page
+    assert (">P24<" in page, ">P4<" in page) == (True, False)
+    assert ">the file is empty<" in page
+    assert "/data/tir" not in page
 
 
 def test_the_page_is_read_in_a_browser(tmp_path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 from tire_pipeline.unit_definitions import DEGREE
 
@@ -27,25 +28,26 @@ def amount(value: float, unit: str, digits: int = 2) -> str:
     return _joined(_rounded(value * factor, digits), name)
 
 
-def amount_with_error(value: float, error: float, unit: str) -> tuple[str, str]:
-    """Return a parameter and its standard error with the same decimals: two digits of the error.
+def amount_with_interval(value: float, error: float, ends: Iterable[float], unit: str) -> tuple[str, str]:
+    """Return a parameter and its interval with the same decimals: two digits of the standard error.
 
     Examples
     --------
-    >>> amount_with_error(-0.844, 0.191, "1"), amount_with_error(0.0123, 0.0004, "s")
-    (('-84%', '19%'), ('12.30 ms', '0.40 ms'))
-    >>> amount_with_error(1e-3, 0.0, "times")
+    >>> amount_with_interval(-0.844, 0.191, (-1.218, -0.47), "1")
+    ('-84%', '-122% to -47%')
+    >>> amount_with_interval(0.0123, 0.0004, (0.0115, 0.0131), "s")
+    ('12.30 ms', '11.50 to 13.10 ms')
+    >>> amount_with_interval(1e-3, 0.0, (1e-3, 1e-3), "times")
     ('0.001 times', 'exact')
     """
     if error == 0.0:
         return amount(value, unit, 3), "exact"
     if not (math.isfinite(error) and error > 0.0):
-        return amount(value, unit, 3), amount(error, unit)
+        return amount(value, unit, 3), "unknown"
     factor, name = _AMOUNTS.get(unit, (1.0, unit))
     decimals = max(0, 1 - math.floor(math.log10(error * factor)))
-    texts = (f"{each * factor:,.{decimals}f}" for each in (value, error))
-    own, other = (_joined(text, name) for text in texts)
-    return own, other
+    own, low, high = (f"{each * factor:,.{decimals}f}" for each in (value, *ends))
+    return _joined(own, name), f"{_joined(low, name) if name == '%' else low} to {_joined(high, name)}"
 
 
 def _rounded(value: float, digits: int) -> str:

@@ -253,6 +253,10 @@ class Effect:
         """Whether physics leaves no doubt of it: what it follows varied, and the file has no term."""
         return False
 
+    def drivers(self, output: str) -> tuple[str, ...]:
+        """Return the channels whose values decide how large it is in a force; none if time does."""
+        return () if self.needs_time else self.channels
+
     def blind(self, data: Context) -> bool:
         """Whether it is a state that is integrated for want of its channel."""
         return False

@@ -13,6 +13,7 @@ from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.inference.priors import prior
 from tire_pipeline.mismatch.inference.tails import widening
 from tire_pipeline.mismatch.model.candidates import derivatives
+from tire_pipeline.mismatch.model.channels import OF_INTERVAL
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.model.residual import residual
@@ -102,6 +103,31 @@ class Fit:
     def errors(self) -> Array:
         """Standard errors of the floating parameters, in the order of ``labels``."""
         return np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
+
+    @property
+    def intervals(self) -> Array:
+        """95% intervals of the floating parameters, within bounds, shape (k, 2), in the order of ``labels``.
+
+        What moves by factors has an interval that is even in its logarithm.
+        """
+        out = np.zeros((len(self.labels), 2))
+        for row, ((i, name), error) in enumerate(zip(self.labels, self.errors, strict=True)):
+            value, p = self.changes[i][1][name], catalogue()[self.changes[i][0]].parameter(name)
+            each_way = OF_INTERVAL * error * np.array([-1.0, 1.0])
+            if p.ratio:
+                whole = np.log(p.high / p.low)
+                ends = value * np.exp(np.clip(each_way / max(value, p.low), -whole, whole))
+            else:
+                ends = value + each_way
+            out[row] = np.clip(ends, min(p.low, value), max(p.high, value))
+        return out
+
+    @property
+    def undetermined(self) -> Array:
+        """Whether the priors say more of a floating parameter than the recording does, shape (k,)."""
+        if self.sweeps is None:
+            return np.zeros(len(self.labels), bool)
+        return np.asarray(self.errors**2 * self.sweeps.precision > 0.5)
 
 
 def linearised(

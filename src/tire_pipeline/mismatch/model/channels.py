@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Set
 from dataclasses import dataclass, field
 from functools import cached_property
+from statistics import NormalDist
 
 import numpy as np
 import scipy
@@ -33,6 +34,9 @@ ENOUGH_ROWS = 4000
 CHANCE = 0.05
 """Level of every test, and what an interval or a list leaves out: one in twenty. What changes odds, a count
 or a share by less has not changed it."""
+
+OF_INTERVAL = NormalDist().inv_cdf(1.0 - 0.5 * CHANCE)
+"""Standard errors to each end of an interval."""
 
 DOES_NOTHING = 1e-3
 """What does less than so much of what the largest of its kind does, does nothing."""

@@ -14,7 +14,7 @@ from statistics import NormalDist
 import numpy as np
 
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.effects.amounts import amount
+from tire_pipeline.mismatch.effects.amounts import amount, amount_with_interval
 from tire_pipeline.mismatch.effects.base import Parameter
 from tire_pipeline.mismatch.inference.analysis import Analysis
 from tire_pipeline.mismatch.inference.evidence.likelihood import Projected
@@ -24,7 +24,7 @@ from tire_pipeline.mismatch.inference.linearised_set import Fit
 from tire_pipeline.mismatch.inference.sets.enumerate import Enumerated
 from tire_pipeline.mismatch.inference.sets.screen import screened_forms
 from tire_pipeline.mismatch.model.candidates import Variant
-from tire_pipeline.mismatch.model.channels import CHANCE
+from tire_pipeline.mismatch.model.channels import CHANCE, OF_INTERVAL
 from tire_pipeline.mismatch.model.data import Data
 from tire_pipeline.mismatch.model.forces import Change, simulate
 from tire_pipeline.mismatch.proof.beside import Beside
@@ -33,7 +33,6 @@ from tire_pipeline.mismatch.proof.rivals import Rivals
 
 Array = np.ndarray
 _SEEN = NormalDist().inv_cdf(1.0 - CHANCE)
-_RULED_OUT = NormalDist().inv_cdf(1.0 - 0.5 * CHANCE)
 _SIZE_FACTOR = 1.2
 """Factor between the sizes that are tried beside an effect's rivals."""
 _MOST_FORMS = 3
@@ -79,7 +78,7 @@ class Sight:
     def ruled_out(self) -> float:
         """Size beyond which the 95% interval does not reach; infinite beyond the bounds."""
         value = max(self.value, 0.0) if self.parameter.one_sided else abs(self.value)
-        size = value + _RULED_OUT * self.error
+        size = value + OF_INTERVAL * self.error
         return size if size < largest(self.parameter) else np.inf
 
     def values(self, data: Data, size: float) -> dict[str, float]:
@@ -293,12 +292,12 @@ def visible(analysis: Analysis, enumerated: Enumerated, named: OfSet, *, unexpla
 def _named(name: str, values: dict[str, float], fit: Fit, index: int) -> list[Visible]:
     """Rows of an effect that is named."""
     effect, rows = catalogue()[name], []
-    for (i, parameter), error in zip(fit.labels, fit.errors, strict=True):
+    for (i, parameter), error, ends in zip(fit.labels, fit.errors, fit.intervals, strict=True):
         if i != index:
             continue
         unit = effect.parameter(parameter).unit
-        value = f"{amount(values[parameter], unit)} ± {amount(_RULED_OUT * error, unit)}"
-        text = f"{effect.title}: named, {parameter} {value}"
+        value, interval = amount_with_interval(values[parameter], error, ends, unit)
+        text = f"{effect.title}: named, {parameter} {value} ({interval})"
         rows.append(Visible(name, parameter, unit, np.nan, np.nan, text))
     return rows
 

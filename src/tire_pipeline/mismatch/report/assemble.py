@@ -319,11 +319,11 @@ def _following(it: Explained, verdict: str, plain: CorrectedModel) -> str:
 
 
 def _ranges(analysis: Analysis) -> dict[str, tuple[float, float]]:
-    """Lowest and highest value of each axis but for outliers."""
+    """Lowest and highest value of time and of each channel that varies, but for outliers."""
     data, out = analysis.data, {}
     for axis in ("time", *OPERATING_CHANNELS):
         values = data.time if axis == "time" else data.channels.get(axis)
-        if values is not None:
+        if values is not None and (axis == "time" or data.varies(axis)):
             out[axis] = span(values)
     return out
 

@@ -7,8 +7,11 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
+import numpy as np
+
 from tire_pipeline.mismatch.corrected.model import CorrectedModel
-from tire_pipeline.mismatch.effects.amounts import amount_with_error
+from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.effects.amounts import amount_with_interval
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder, Visible
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
@@ -99,6 +102,10 @@ class EffectReport:
         Name -> (value, standard error, unit).
     evidence : dict
         ``log_evidence``: how much the best set with it has above the best one without.
+    intervals : dict
+        Name of a parameter -> (low, high): its 95% interval within the parameter's bounds.
+    undetermined : tuple of str
+        Parameters of which the recording says less than what tires usually have (their priors).
 
     See Also
     --------
@@ -140,10 +147,26 @@ class EffectReport:
     source: str
     parameters: dict[str, tuple[float, float, str]]
     evidence: dict[str, float | str] = field(default_factory=dict)
+    intervals: dict[str, tuple[float, float]] = field(default_factory=dict)
+    undetermined: tuple[str, ...] = ()
+
+    def rows(self) -> list[tuple[str, str, str, str]]:
+        """Return of each parameter its name, value and 95% interval, and what to know about it, in words."""
+        return [(n.replace("_", " "), *self._sizes(n), self._doubt(n)) for n in self.parameters]
+
+    def _sizes(self, name: str) -> tuple[str, str]:
+        value, error, unit = self.parameters[name]
+        return amount_with_interval(value, error, self.intervals.get(name, (value, value)), unit)
+
+    def _doubt(self, name: str) -> str:
+        if name in self.undetermined:
+            return "not determined by this recording"
+        low, high = self.intervals.get(name, (np.nan, np.nan))
+        zero = catalogue()[self.name].parameter(name).zero if low < high else np.nan
+        return f"may be {zero:g}" if low <= zero <= high else ""
 
     def __repr__(self) -> str:
-        pairs = ((n, amount_with_error(v, e, unit)) for n, (v, e, unit) in self.parameters.items())
-        sizes = ", ".join(f"{name} {value} ± {error}" for name, (value, error) in pairs)
+        sizes = ", ".join(f"{name} {' ('.join(self._sizes(name))})" for name in self.parameters)
         instead = f", or {' or '.join(self.alternatives)}" if self.alternatives else ""
         named = f"{self.name}{instead}, confidence {self.confidence:.2g}"
         return f"EffectReport({named}: {sizes or 'no parameters'})"

@@ -55,11 +55,8 @@ def from_fit(analysis: Analysis, answer: SetAnswer, name: str, noise: Mapping[st
     part = {o: whole[o] - without[o] for o in data.outputs}
     output = max(data.outputs, key=lambda o: float(np.mean(part[o] ** 2)))
     units = {p.name: p.unit for p in effect.parameters}
-    parameters = {
-        n: (float(fit.changes[index][1][n]), float(error), units[n])
-        for (i, n), error in zip(fit.labels, fit.errors, strict=True)
-        if i == index
-    }
+    own = {n: row for row, (i, n) in enumerate(fit.labels) if i == index}
+    errors, ends, open_still = fit.errors, fit.intervals, fit.undetermined
     return EffectReport(
         name=name,
         kind=effect.kind,
@@ -72,8 +69,10 @@ def from_fit(analysis: Analysis, answer: SetAnswer, name: str, noise: Mapping[st
         share=_share(analysis, index, output),
         equation=effect.equation,
         source=effect.source,
-        parameters=parameters,
+        parameters={n: (float(fit.changes[index][1][n]), float(errors[k]), units[n]) for n, k in own.items()},
         evidence={"log_evidence": answer.gains.get(name, float("nan"))},
+        intervals={n: (float(ends[k, 0]), float(ends[k, 1])) for n, k in own.items()},
+        undetermined=tuple(n for n, k in own.items() if open_still[k]),
     )
 
 

@@ -11,7 +11,7 @@ from typing import Any
 from markupsafe import Markup
 
 from tire_pipeline.mismatch.effects import catalogue
-from tire_pipeline.mismatch.effects.amounts import amount, amount_with_error
+from tire_pipeline.mismatch.effects.amounts import amount
 from tire_pipeline.mismatch.proof.locate import Located
 from tire_pipeline.mismatch.proof.measured import Visible
 from tire_pipeline.mismatch.report.contents import EffectReport, ReportContents
@@ -117,10 +117,7 @@ def _effect(effect: EffectReport) -> dict[str, Any]:
     return {
         "it": effect,
         "certainty": _certainty(effect),
-        "parameters": [
-            (name.replace("_", " "), *amount_with_error(value, error, unit))
-            for name, (value, error, unit) in effect.parameters.items()
-        ],
+        "parameters": effect.rows(),
         "where": [interval(a, low, high) for a, (low, high) in effect.where.items()],
         "when": [f"{a:.1f} to {b:.1f} s" for a, b in effect.when[:12]],
         "more": max(0, len(effect.when) - 12),

@@ -10,18 +10,10 @@ from numpy.typing import NDArray
 
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.axle.vehicle import Vehicle
+from tire_pipeline.recordings.conventions.drive_columns import DART_CHANNELS, DART_COLUMNS, DART_POSE
 
 Array = NDArray[np.float64]
 _FRAME = 0.01  # s: the capture's own clock; the stamps are times of arrival
-_POSE = {"vicon x": "x", "vicon y": "y", "vicon yaw": "yaw"}
-_DART_CHANNELS = {
-    "vel encoder": "wheel_surface_speed",
-    "acc x (IMU)": "imu_ax",
-    "acc y (IMU)": "imu_ay",
-    "W (IMU)": "imu_yaw_rate",
-    "throttle": "throttle",
-    "steering": "steering_command",
-}
 _LONGEST_SENSOR_DELAY = 0.3  # s
 _ENCODER_STEP = 0.0413  # m/s: the smallest difference between its values
 # A frame that lies further than this from the middle of its neighbours is a mistaken marker: at
@@ -107,7 +99,7 @@ def read_dart(path: str | Path) -> pd.DataFrame:
     count = int(frames[-1]) + 1
     time = np.asarray(np.arange(count) * _FRAME, dtype=np.float64)
     out = pd.DataFrame({"time": time})
-    for theirs, ours in _POSE.items():
+    for theirs, ours in DART_POSE.items():
         values = raw[theirs].to_numpy()
         values = np.unwrap(values) if ours == "yaw" else values
         column = np.full(count, np.nan)
@@ -140,10 +132,12 @@ def _checked_drive(path: str | Path) -> pd.DataFrame:
         raw = pd.read_csv(path)
     except (OSError, ValueError, UnicodeDecodeError) as error:
         raise RecordingError(f"cannot be read ({error})", where=str(path)) from error
-    lacking = [c for c in ("vicon time", "elapsed time sensors", *_POSE, *_DART_CHANNELS) if c not in raw]
+    lacking = [c for c in DART_COLUMNS if c not in raw]
     if lacking:
         raise RecordingError(
-            f"no DART drive: {', '.join(lacking)} missing", where=str(path), todo="see its README"
+            f"no DART drive: {', '.join(lacking)} missing",
+            where=str(path),
+            todo="read other recordings with read_recording, other vehicles' logs with axle_recording",
         )
     try:
         raw = raw.astype(float)
@@ -199,6 +193,6 @@ def _add_own_channels(out: pd.DataFrame, raw: pd.DataFrame, stamp: Array, time: 
     delays = np.arange(0.0, _LONGEST_SENSOR_DELAY, 0.01)
     misfit = [np.std(own - np.interp(at - d, time, rate)) for d in delays]
     delay = float(delays[int(np.argmin(misfit))])
-    for theirs, ours in _DART_CHANNELS.items():
+    for theirs, ours in DART_CHANNELS.items():
         out[ours] = np.interp(time, at - delay, raw[theirs].to_numpy()[new])
     return delay

@@ -10,9 +10,9 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.axle.body_motion import BodyMotion, even_drive
 from tire_pipeline.recordings.axle.smoothing import Smoother, white_noise_std
 from tire_pipeline.recordings.axle.vehicle import Vehicle
+from tire_pipeline.recordings.conventions.drive_columns import MOTION_CHANNELS
 
 Array = NDArray[np.float64]
-_MOTION_CHANNELS = ("speed", "yaw_rate", "lateral_acceleration")
 # Straight running: below these the lateral speed is taken as zero.
 _STRAIGHT_YAW_RATE, _STRAIGHT_ACCELERATION, _STRAIGHT_SECONDS = 0.02, 0.2, 0.5
 
@@ -36,15 +36,15 @@ def from_sensors(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> Bod
     RecordingError
         A needed column is missing, or the lateral speed can be had in no way.
     """
-    lacking = [name for name in _MOTION_CHANNELS if name not in drive]
+    lacking = [name for name in MOTION_CHANNELS if name not in drive]
     if lacking:
         raise RecordingError(
             f"the drive has neither a pose nor {', '.join(lacking)}",
             todo="give x, y, yaw or speed, yaw_rate, lateral_acceleration",
         )
-    even = even_drive(drive, _MOTION_CHANNELS, bandwidth)
+    even = even_drive(drive, MOTION_CHANNELS, bandwidth)
     table, smoother = even.table, even.smoother
-    speed, rate, ay = (_filled(table[name]) for name in _MOTION_CHANNELS)
+    speed, rate, ay = (_filled(table[name]) for name in MOTION_CHANNELS)
     keep, slope = smoother.gain(0, 0), smoother.gain(0, 1)
     stds = [white_noise_std(s) for s in (speed, rate, ay)]
     vy, vy_std, how = _lateral_speed(table, speed, rate, ay, smoother, stds)

@@ -14,6 +14,7 @@ from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings.axle.body_motion import BodyMotion, evenly_spaced, from_pose
 from tire_pipeline.recordings.axle.sensor_motion import from_sensors
 from tire_pipeline.recordings.axle.vehicle import Vehicle
+from tire_pipeline.recordings.conventions.drive_columns import POSE_COLUMNS
 from tire_pipeline.unit_definitions import GRAVITY
 
 Array = NDArray[np.float64]
@@ -125,7 +126,7 @@ def axle_recording(
             "the front axle's slip angle needs the road-wheel angle",
             todo="give a column `steering` in rad, or take the rear axle",
         )
-    if {"x", "y", "yaw"} <= set(drive.columns):
+    if set(POSE_COLUMNS) <= set(drive.columns):
         motion = from_pose(drive, vehicle, bandwidth)
     else:
         motion = from_sensors(drive, vehicle, bandwidth)

@@ -13,6 +13,7 @@ from tire_pipeline.channels import SLIP_AND_LOAD
 from tire_pipeline.errors import RecordingError, did_you_mean
 from tire_pipeline.recordings.conventions.axis_systems import to_iso_w
 from tire_pipeline.recordings.conventions.channel_names import CANONICAL, FURTHER, Channel, find_channel
+from tire_pipeline.recordings.conventions.drive_columns import reader_of_drive
 from tire_pipeline.recordings.conventions.units import UNITS_BY_NAME, find_unit
 from tire_pipeline.recordings.conventions.unrecognised import may_be, of_a_wheel
 
@@ -87,7 +88,8 @@ def canonical_frame(
         raise RecordingError(
             f"no channel is recognised among {', '.join(map(_with_unit, raw.channels[:12]))}",
             where=source,
-            todo=wheels
+            todo=reader_of_drive({c.name for c in raw.channels}.union(map(_with_unit, raw.channels)))
+            or wheels
             or "name them with names={'their name': 'slip_angle', ...}, on the command line with --name "
             "'their name=slip_angle', in a pipeline as docs/how-to/state_axes_and_units.md shows",
         )

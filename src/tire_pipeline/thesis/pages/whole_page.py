@@ -40,8 +40,8 @@ def _main(results: Results) -> list[str]:
     ours = over_seeds(results["agents"])
     ours = ours[(ours["metric"] == "mean") & (ours["quantity"] == "ratio") & (ours["decoding"] == "tire")]
     lines = [
-        f"The thesis' forest names who measured a tire for 97.0% of its test files. Ours does so for "
-        f"{forest['random']:.1%} on a random split as in the thesis, and for "
+        "The thesis' forest predicts which organisation measured a tire for 97.0% of its test files. Ours "
+        f"does so for {forest['random']:.1%} on a random split as in the thesis, and for "
         f"{forest['by_tire']:.1%} on tires "
         "that it has not seen.",
     ]

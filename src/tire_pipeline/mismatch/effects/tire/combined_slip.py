@@ -68,6 +68,10 @@ class CombinedSlip(Effect):
         """The file's own coefficients, or what comes on top of them."""
         return _MORE_WEIGHT if start["more_x"] else _WEIGHT_COEFFICIENTS
 
+    def drivers(self, output: str) -> tuple[str, ...]:
+        """Return the other slip: it takes from the force."""
+        return ("slip_angle",) if output == "fx" else ("slip_ratio",)
+
     def zeros(self, data: Context) -> dict[str, float]:
         """Return the file's own values: there the effect is absent."""
         c = data.nominal.coefficients

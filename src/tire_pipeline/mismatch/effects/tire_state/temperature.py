@@ -105,6 +105,10 @@ class Temperature(Effect):
             return 0.5, _AROUND_BLIND
         return float(np.median(data.smooth("tread_temperature"))), _USUALLY_OFF
 
+    def drivers(self, output: str) -> tuple[str, ...]:
+        """Return the temperature; where it is not recorded, the effect is placed in time."""
+        return ("tread_temperature",)
+
     def blind(self, data: Context) -> bool:
         """Without a temperature channel, now or where the effect was found."""
         return "tread_temperature" not in data.measured

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from tire_pipeline.mismatch.effects import catalogue
 from tire_pipeline.mismatch.proof.locate import Located, Throughout
 from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.report.contents import EffectReport
@@ -20,11 +21,16 @@ _HARDLY = 0.2
 anything of it."""
 
 Ranges = Mapping[str, tuple[float, float]]
-"""Axis -> lowest and highest recorded value, SI."""
+"""Time and each channel that varies -> lowest and highest recorded value, SI."""
 
 
 def stretches_of(effect: EffectReport, ranges: Ranges) -> str:
-    """Return ``between 25 and 65 s``, or nothing where that is most of the time or many stretches."""
+    """Return ``between 25 and 65 s``; nothing where that is most of the time, many stretches, or came along.
+
+    What a channel drives is there while the channel has certain values: its time says how the rig was run.
+    """
+    if _drivers(effect, ranges):
+        return ""
     first, last = ranges.get("time", (0.0, 0.0))
     shows = sum(b - a for a, b in effect.when)
     if not 0 < len(effect.when) <= _FEW_STRETCHES or shows > _HALF * (last - first):
@@ -57,16 +63,25 @@ def _of_the_effects(
 
     A tread warms up in each sweep: what a camber does is also found at some tread temperature.
     """
-    axes = {axis for effect in effects for axis in _narrow_axes(effect, ranges)}
+    axes = {axis for effect in effects for axis in _drivers(effect, ranges) or _narrow_axes(effect, ranges)}
     return [f for f in located if f.axis in axes] if axes else located
 
 
+def _drivers(effect: EffectReport, ranges: Ranges) -> list[str]:
+    """Return the channels that decide how much of an effect there is, those of them that vary."""
+    return [axis for axis in catalogue()[effect.name].drivers(effect.output) if axis in ranges]
+
+
 def _narrow_axes(effect: EffectReport, ranges: Ranges) -> list[str]:
-    """Return the time, if an effect is seen in a part of it, and the channel of which it takes the least."""
+    """Return the axes of which an effect takes a part only: what drives it, if that varies.
+
+    Else the time, if the effect is seen in a part of it, and the channel of which it takes the least.
+    """
+    drivers = _drivers(effect, ranges)
     parts = {
         axis: (high - low) / (ranges[axis][1] - ranges[axis][0])
         for axis, (low, high) in effect.where.items()
-        if axis in ranges and ranges[axis][1] > ranges[axis][0]
+        if axis in (drivers or ranges) and ranges[axis][1] > ranges[axis][0]
     }
     narrow = [axis for axis, part in parts.items() if part < _HALF and part == min(parts.values())]
     return (["time"] if stretches_of(effect, ranges) else []) + narrow[:1]
