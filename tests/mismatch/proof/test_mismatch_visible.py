@@ -10,8 +10,9 @@ import pytest
 from recorded_sizes import NOISY, sizes
 from weighed import all_but
 
-from tire_pipeline.mismatch import explain_mismatch
+from tire_pipeline.mismatch import Explainer, explain_mismatch
 from tire_pipeline.mismatch.effects import catalogue
+from tire_pipeline.mismatch.inference.evidence.likelihood import Likelihood
 
 
 @pytest.fixture(scope="module")
@@ -83,3 +84,17 @@ def test_no_size_is_below_what_a_tire_can_have(tire, record):
     sight = found["relaxation_length", "length"]
     assert sight.seen >= 0.1 * tire.coefficients["UNLOADED_RADIUS"]
     assert all(s.told <= s.seen for s in found.values())
+
+
+def test_an_effect_that_gains_by_itself_takes_few_trials(tire, record, monkeypatch):
+    """A cause that is there and not named: halving its size to nothing took a thousand trials."""
+    unsaid = Explainer(without=all_but("friction_scale"), level=1.0)
+    report = unsaid.explain(tire, record(22, friction=0.6).iloc[:400])
+    trials, evidence = [], Likelihood.evidence
+    monkeypatch.setattr(
+        Likelihood, "evidence", lambda *args, **how: trials.append(1) or evidence(*args, **how)
+    )
+    (row,) = (r for r in report.visible if r.name == "friction_scale")
+    assert not report.effects
+    assert math.isfinite(row.seen)
+    assert len(trials) < 300

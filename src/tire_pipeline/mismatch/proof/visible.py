@@ -195,7 +195,7 @@ class _Recorded:
             if not 0.0 < high <= most:
                 return value, error, np.inf
             low, high = high, 2.0 * high
-        while high - low > CHANCE * high:
+        while high - low > CHANCE * max(high, error):  # what is left unexplained may gain by itself
             middle = 0.5 * (low + high)
             low, high = (low, middle) if gain(middle) > odds else (middle, high)
         return value, error, high + _SEEN * error
