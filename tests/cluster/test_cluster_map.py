@@ -49,16 +49,29 @@ def any_work(request):
     return in_processes(2) if request.param == "processes" else request.getfixturevalue("work")
 
 
+@pytest.fixture
+def tried_once(any_work, monkeypatch):
+    """The same, but in a process of its own a task is tried once: the last task left is tried three times."""
+    monkeypatch.setattr("tire_pipeline.tasks.DEATHS", 1)
+    return any_work
+
+
+IN_LONG_ON_A_CLUSTER = pytest.mark.parametrize(
+    "any_work", ["processes", pytest.param("cluster", marks=pytest.mark.long)], indirect=True
+)
+"""That a worker's death is found on a cluster, too, is shown by a task of its own."""
+
+
 def test_a_worker_that_dies_is_replaced_and_all_is_done(any_work, tmp_path):
     wanted = {str(n): partial(tasks.dies_once, tmp_path / "once", n) for n in range(20)}
     assert sorted(d.result() for d in any_work(wanted, "counting")) == list(range(20))
     assert (tmp_path / "once").read_text()
 
 
-def test_a_task_that_kills_its_worker_is_set_aside_by_its_name(any_work, tmp_path):
+def test_a_task_that_kills_its_worker_is_set_aside_by_its_name(tried_once, tmp_path):
     wanted = {str(n): partial(tasks.double, n) for n in range(20)}
     wanted["killer"] = partial(tasks.dies, tmp_path / "log")
-    done = all_done(any_work, wanted, "counting")
+    done = all_done(tried_once, wanted, "counting")
     assert [done[str(n)].result() for n in range(20)] == [2 * n for n in range(20)]
     assert isinstance(done["killer"].error, LostTaskError)
     assert "killer" in str(done["killer"].error)
@@ -76,10 +89,11 @@ def _reading(*names: str) -> dict:
     return {name: partial(read_tir, EXAMPLE) for name in names}
 
 
-def test_the_one_killer_of_a_block_is_found_and_the_others_are_done(any_work, tmp_path):
+@IN_LONG_ON_A_CLUSTER
+def test_the_one_killer_of_a_block_is_found_and_the_others_are_done(tried_once, tmp_path):
     killing = _reading("a", "b") | {"killer": partial(tasks.dies, tmp_path / "log")} | _reading("c")
     wanted = {"one": ReadTogether(killing), "other": ReadTogether(_reading("d", "e"))}
-    one, other = (done.result() for done in all_done(any_work, wanted, "reading").values())
+    one, other = (done.result() for done in all_done(tried_once, wanted, "reading").values())
     assert [(each.name, each.value) for each in one.done if not each.error] == [(n, True) for n in "abc"]
     (killer,) = [each for each in one.done if each.error]
     assert killer.name == "killer"
@@ -100,10 +114,11 @@ def test_a_block_is_what_its_files_are():
     assert list(whole.table["file"]) == ["a", "b"]
 
 
-def test_the_one_file_that_kills_while_it_is_hashed_is_found(any_work, tmp_path):
+@IN_LONG_ON_A_CLUSTER
+def test_the_one_file_that_kills_while_it_is_hashed_is_found(tried_once, tmp_path):
     names = ["a", "b", "killer", "c"]
     block = HashTogether(tasks.KillingPlace(tmp_path / "log"), names)
-    (done,) = any_work({"a": block}, "hashing")
+    (done,) = tried_once({"a": block}, "hashing")
     assert list(done.result()) == names
     assert done.result()["killer"].startswith(UNREADABLE)
     assert [done.result()[name] for name in "abc"] == ["hash of a", "hash of b", "hash of c"]
