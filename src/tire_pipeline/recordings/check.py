@@ -1,4 +1,4 @@
-"""What is wrong with a recording, before anything is explained from it."""
+"""Checks of a recording before it is explained."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _USED = {*INPUT_CHANNELS, *TANGENTIAL_FORCES, "time"}
 """Channels that a row must have to be used."""
 _UNIT_OF_CHANNEL = {c.name: c.unit for c in CANONICAL}
 LONG_GAP = 5.0
-"""Usual steps in one, over which a gap is said: states are unknown after it."""
+"""A step of more than so many usual ones is reported as a gap: states are unknown after it."""
 _WRITTEN_OUT = 1e3
 _NAN_BLOCK = 10
 
@@ -83,7 +83,7 @@ class Issue:
 
 
 def check_recording(recording: pd.DataFrame) -> list[Issue]:
-    """Look for what would spoil an explanation.
+    """Find the faults that would make an explanation wrong.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def check_recording(recording: pd.DataFrame) -> list[Issue]:
     Returns
     -------
     list of Issue
-        Empty if there is nothing. Errors come first.
+        Empty if no fault is found. Errors come first.
 
     See Also
     --------
@@ -118,7 +118,7 @@ def check_recording(recording: pd.DataFrame) -> list[Issue]:
 
 
 def repeated_channels(recording: pd.DataFrame) -> list[str]:
-    """Return the channels of which there are several columns."""
+    """Return the channels that have more than one column."""
     names = [str(n) for n in recording.columns]
     known = [n for n in names if n in RECORDED_CHANNELS or n.startswith("simulated_")]
     return [n for n in dict.fromkeys(known) if known.count(n) > 1]
@@ -166,7 +166,7 @@ def _columns(frame: pd.DataFrame) -> list[Issue]:
 
 
 def _whole_rows(frame: pd.DataFrame, held: set[str]) -> list[Issue]:
-    """Say that too few rows have a number in every channel."""
+    """Report an error if too few rows have a number in every channel."""
     used = [c for c in frame.columns if c in held and c in _USED and pd.api.types.is_numeric_dtype(frame[c])]
     if not used:
         return []
@@ -281,7 +281,7 @@ def unit_stated(frame: pd.DataFrame, column: str, unit: str) -> str:
 
 
 def _unit(frame: pd.DataFrame, column: str, values: np.ndarray) -> list[Issue]:
-    """Say that no tire has the values of a channel, and which unit would make them plausible."""
+    """Report values that no tire has, and the units that would make them plausible."""
     large = size(values)
     if plausible(column, large):
         return []
@@ -319,7 +319,7 @@ def _ask(frame: pd.DataFrame, column: str, units: list[str]) -> str:
 
 
 def _friction(frame: pd.DataFrame, forces: dict[str, np.ndarray], load: np.ndarray) -> list[Issue]:
-    """Say that a force is larger than any tire makes it at this load: the load is in another unit."""
+    """Report a force that is too large for its load: the load is probably in another unit."""
     large = size(load)
     sizes = {name: size(force) for name, force in forces.items()}
     name = max(sizes, key=lambda n: sizes[n], default="")
@@ -380,7 +380,7 @@ def _force_and_load(frame: pd.DataFrame) -> list[Issue]:
 
 
 def _numbers(frame: pd.DataFrame, column: str) -> np.ndarray:
-    """Return what is finite of a column; nothing of a column of text."""
+    """Return the finite values of a column; an empty array for a column of text."""
     values = pd.to_numeric(frame[column], errors="coerce").to_numpy(dtype=float)
     return values[np.isfinite(values)]
 

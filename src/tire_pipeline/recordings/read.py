@@ -1,4 +1,4 @@
-"""One way in for every format."""
+"""Reading a recording of any format."""
 
 from __future__ import annotations
 
@@ -52,8 +52,8 @@ def read_recording(
 ) -> pd.DataFrame:
     """Read a recording of any known format into canonical columns, in SI and ISO W axes.
 
-    A recording without `time` is a set of steady points. Nothing is guessed silently: where a
-    file gives no unit, SI is assumed and that is said in `attrs["notes"]`.
+    A recording without `time` is a set of steady points. Where a
+    file gives no unit, SI is assumed, and `attrs["notes"]` says so.
 
     Parameters
     ----------
@@ -85,8 +85,8 @@ def read_recording(
 
     See Also
     --------
-    check_recording : Looks for what would spoil an explanation.
-    join_recordings : Several of one tire.
+    check_recording : Finds faults of a recording.
+    join_recordings : Joins several recordings of one tire.
 
     Notes
     -----
@@ -121,7 +121,7 @@ def _no_recording(file: Path) -> str:
     try:
         return no_regular_file(file)
     except OSError as error:
-        return f"it may not be looked at ({error.strerror})"
+        return f"it cannot be accessed ({error.strerror})"
 
 
 def _format(file: Path, format: str | None) -> str:
@@ -160,7 +160,7 @@ def _format(file: Path, format: str | None) -> str:
 
 
 def _split_units(raw: RawRecording) -> dict[str, str]:
-    """Part units from names where the file has no other place for them; return names with and without."""
+    """Separate units from names where the file gives none elsewhere; return full name -> bare name."""
     bare = {}
     for channel in raw.channels:
         base, unit = split_unit(channel.name)

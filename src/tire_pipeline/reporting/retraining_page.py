@@ -13,7 +13,7 @@ from tire_pipeline.retraining.drift import DRIFT, PSI_LIMIT, RISK
 from tire_pipeline.retraining.release import history_rows
 
 _MOST_SHOWN = 20
-_IN_WORDS = {
+_TITLE_OF_COLUMN = {
     "earlier": "earlier files",
     "incoming": "incoming files",
     "psi": "population stability index",
@@ -57,7 +57,7 @@ def build_retraining_report(
                 "it is gone from the folder.",
             ),
             Table(
-                _to_the_minute(history_rows(registry.release)).rename(columns=_IN_WORDS),
+                _to_the_minute(history_rows(registry.release)).rename(columns=_TITLE_OF_COLUMN),
                 heading="History",
                 caption="The newest first. A dash: there was no released model to compare with.",
             ),
@@ -116,4 +116,4 @@ def _drift(drift: pd.DataFrame) -> list[Part]:
         if len(moved) or len(shown) == len(drift)
         else f"The {len(shown)} largest differences of {len(drift)}."
     )
-    return [said, Table(shown.rename(columns=_IN_WORDS), caption=fewer)]
+    return [said, Table(shown.rename(columns=_TITLE_OF_COLUMN), caption=fewer)]

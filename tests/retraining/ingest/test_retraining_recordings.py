@@ -52,7 +52,7 @@ def test_a_folder_that_may_not_be_listed_or_entered_stops_no_other_recording(tmp
         tasks = explain_each(found, ExplainParameters())
         assert {"entered/run.csv", "listed/run.csv"} < set(found)
         assert "may not be listed (Permission denied)" in _explained(tasks, "entered/run.csv")
-        assert "may not be looked at (Permission denied)" in _explained(tasks, "listed/run.csv")
+        assert "cannot be accessed (Permission denied)" in _explained(tasks, "listed/run.csv")
         assert "2 .tir files could belong" in _explained(tasks, "good/run.csv")
         assert "model.tir" in _explained(tasks, "linking/run.csv")  # it was read, and is no tire
     for folder in ("listed", "entered"):

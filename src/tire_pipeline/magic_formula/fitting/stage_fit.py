@@ -33,7 +33,7 @@ _EXACT_SHARE = 1e-4
 """A misfit below this share of the largest force is no misfit."""
 _POSITIVE_AT_EVERY_LOAD = 2.0
 """Largest PKY4 with which the cornering stiffness, a sine of PKY4 times an arc tangent of the load, is
-positive at every load: at one load the rows say nothing of it."""
+positive at every load: rows at a single load do not determine it."""
 _TYPICAL_OVER_LEAST = 1.5
 """What has to be positive and the recording's ranges cannot tell is no less than its typical value over this:
 with PKY2 below 1 the cornering stiffness would fall with load."""

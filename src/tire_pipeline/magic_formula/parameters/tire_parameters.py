@@ -196,4 +196,4 @@ class TireParameters:
 
 
 Tire = TypeVar("Tire", bound=TireParameters)
-"""What comes in as a model goes out as a model."""
+"""A function that takes a model returns a model."""

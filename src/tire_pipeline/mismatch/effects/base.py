@@ -1,4 +1,4 @@
-"""What every effect that a recording may hold beside the tire model has in common."""
+"""Base classes of the effects that can explain a difference between a recording and its tire model."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tire_pipeline.mismatch.effects.context import Context, Simulate
 Array = np.ndarray
 Parameters = Mapping[str, float]
 TOO_SMALL_TO_SEE = 1e-9
-"""A size too small to see. In a start it says that this parameter floats in the form that begins there."""
+"""A size that is too small to be seen. In a start it marks a parameter as free to be fitted."""
 _OF_UNIFORM = 12.0**-0.5
 """Standard deviation of a uniform distribution over its width."""
 _MEASURES: dict[str, Callable[[Context], float]] = {
@@ -22,7 +22,7 @@ _MEASURES: dict[str, Callable[[Context], float]] = {
     "radius": lambda data: data.nominal.radius,
     "sampling": lambda data: data.sampling,
 }
-"""What of a recording a prior may be a multiple of, in the parameter's unit."""
+"""Quantities of a recording that a prior may be a multiple of, in the parameter's unit."""
 
 
 @dataclass(frozen=True)
@@ -41,14 +41,14 @@ class Parameter:
     output : str, optional
         ``"fx"`` or ``"fy"`` if it acts on one output alone.
     ratio : bool
-        Whether it moves by factors: a fit changes it by no more than a factor of e in one step.
+        Whether a fit multiplies it by a factor, of at most e in one step, instead of adding to it.
     further : bool
-        Whether it only refines what the others do.
+        Whether it only refines the effect of the other parameters.
     form : bool
         Whether it says which form the effect has, not how large it is: a reference, a lag, a moment.
     prior : float
-        Standard deviation about ``zero`` that physics leaves to it where the effect is there; 0 says that
-        every value between the bounds is as likely.
+        Standard deviation about ``zero`` if the effect is present; with 0 every value between the bounds is
+        equally likely.
     prior_in : str
         What of the recording (``load_nominal``, ``radius``, ``sampling``) the prior is a multiple of; nothing
         if it is in the parameter's own unit.
@@ -69,13 +69,13 @@ class Parameter:
 
     @property
     def one_sided(self) -> bool:
-        """Whether it is never smaller than where its effect is absent."""
+        """Whether ``zero``, where the effect is absent, is its lower bound."""
         return self.low == self.zero
 
 
 @dataclass
 class State:
-    """A simulation on its way from the channels to the forces; effects change it in place.
+    """Intermediate values of a simulation, from channels to forces; effects change them in place.
 
     Similarity (Pacejka, Tire and Vehicle Dynamics, 3rd ed., section 4.2): a tire whose friction is m
     times and whose slip stiffness is k times the model's gives ``m F(slip k / m)``; effects add to
@@ -98,7 +98,7 @@ class State:
 
 @dataclass(frozen=True)
 class Finding:
-    """An artefact that shows without a fit: in which channel, how sure, and the repair.
+    """An artefact that is found without a fit: its channel, how certain it is, and the repair.
 
     Parameters
     ----------
@@ -106,17 +106,17 @@ class Finding:
     parameters : dict
         ``{name: (value, standard error, unit)}``.
     repaired : dict of ndarray
-        Channels to put in place of the recorded ones.
+        Channels that replace the recorded ones.
     bad : ndarray of bool, optional
-        Samples that no repair brings back.
+        Samples that cannot be repaired.
     evidence : float
         Between 0 and 1.
     span : (start, end), optional
         s, if it does not last the whole recording.
     alike : tuple of tuple of str
-        Other sets of channels of which the same would look the same.
+        Other sets of channels in which the same fault would look alike.
     axes : bool
-        Whether it may be that the recording has other axes than it was read in.
+        Whether the recording may have other axes than those it was read in.
     limits : tuple of float, optional
         Lowest and highest value that the channel can have, infinite where it has no limit.
     """
@@ -149,14 +149,14 @@ class Effect:
     used : tuple of str
         Channels that have to be there, but need not vary.
     family : str
-        Effects of one family are there a little in every recording, by about as much.
+        Effects of one family occur in every recording to a small extent, of about the same size.
     prior_source : str
         Where the priors of its parameters come from.
     needs_time : bool
     dynamic : bool
-        True if it lags or shifts in time, so that half a sample of it is a matter of how the rig samples.
+        True if it lags or shifts in time; half a sample of that can come from the sampling of the rig.
     needed : tuple of str
-        Parameters of which one always stays, however small: without any it is another effect.
+        Parameters of which at least one is always kept: without any of them it is another effect.
     scanned : tuple of str
         Parameters that the starts scan, so that the screen need not move them.
     stepped : tuple of str
@@ -204,7 +204,7 @@ class Effect:
     order = 50
 
     def absent(self, data: Context) -> str | None:
-        """Say why the effect cannot be looked for in this recording, or None if it can."""
+        """Return why the effect cannot be tested in this recording, or None if it can."""
         if self.needs_time and data.time is None:
             return "the recording has no time"
         for name in self.channels:
@@ -250,7 +250,7 @@ class Effect:
         return [self.zeros(data)]
 
     def expected(self, data: Context) -> bool:
-        """Whether physics leaves no doubt of it: what it follows varied, and the file has no term."""
+        """Whether physics requires it: its driver varied, and the file has no term for it."""
         return False
 
     def drivers(self, output: str) -> tuple[str, ...]:
@@ -258,7 +258,7 @@ class Effect:
         return () if self.needs_time else self.channels
 
     def blind(self, data: Context) -> bool:
-        """Whether it is a state that is integrated for want of its channel."""
+        """Whether its state is integrated because its channel is not recorded."""
         return False
 
     def other_forms(self, data: Context, p: Parameters) -> list[dict[str, float]]:

@@ -165,7 +165,7 @@ def judge(
     counted = judged(found)
     if not any(d.works for d in counted):
         worst = max(counted, key=lambda d: d.size)
-        why = f"the recording carries no answer: {described(worst)}"
+        why = f"the recording cannot be explained: {described(worst)}"
         return Question(why, look_at(worst, arrays), "unusable"), []
     for d in counted:
         if not d.works:

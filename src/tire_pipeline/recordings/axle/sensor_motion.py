@@ -34,7 +34,7 @@ def from_sensors(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> Bod
     Raises
     ------
     RecordingError
-        A needed column is missing, or the lateral speed can be had in no way.
+        A required column is missing, or the lateral speed cannot be computed.
     """
     lacking = [name for name in MOTION_CHANNELS if name not in drive]
     if lacking:
@@ -88,7 +88,7 @@ def _filled(column: pd.Series) -> Array:
 def _lateral_speed(
     table: pd.DataFrame, speed: Array, rate: Array, ay: Array, smoother: Smoother, stds: list[float]
 ) -> tuple[Array, Array, str]:
-    """Lateral speed, its standard deviation, and how it was had."""
+    """Return the lateral speed, its standard deviation and where it comes from."""
     for name in ("lateral_speed", "sideslip"):
         if name in table:
             raw = _filled(table[name])

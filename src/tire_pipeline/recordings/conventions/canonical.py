@@ -23,7 +23,7 @@ _SI_ASSUMED = "no unit given, SI assumed"
 
 @dataclass
 class RawChannel:
-    """One channel as the file has it."""
+    """One channel with the name, unit and values of the file."""
 
     name: str
     unit: str | None
@@ -32,7 +32,7 @@ class RawChannel:
 
 @dataclass
 class RawRecording:
-    """What a reader of one format hands over."""
+    """What a reader of one format returns."""
 
     format: str
     channels: list[RawChannel]

@@ -41,7 +41,7 @@ PLAUSIBLE_VALUES = {
     ),
     "tread_temperature": Plausible(0.0, 250.0, "above 200 degC rubber decomposes"),
 }
-"""By channel. A low of 0 sets no lower limit: a channel that stands still is no fault."""
+"""By channel. A low of 0 sets no lower limit: a channel that is constant is not a fault."""
 
 FORCE_OVER_LOAD = (0.1, 3.0)
 """Largest force over largest load: that of wet ice, and more than racing tires have on a rig (2.7)."""

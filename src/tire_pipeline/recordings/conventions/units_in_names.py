@@ -12,7 +12,7 @@ _SLASH = re.compile(r"^(\w+)\s*/\s*(.+)$")
 
 
 def split_unit(name: str) -> tuple[str, str | None]:
-    """Part a channel's name from the unit that is written into it.
+    """Separate a channel's name from the unit that is written into it.
 
     Parameters
     ----------

@@ -196,7 +196,7 @@ def _field(entry: Mapping[str, object], names: tuple[str, ...]) -> object:
 
 
 def _structs(value: object) -> list[Mapping[str, object]]:
-    """The elements of a struct array; nothing of anything else."""
+    """Return the elements of a struct array; an empty result for any other value."""
     if isinstance(value, np.ndarray) and value.dtype == object:
         value = value.reshape(-1).tolist()
     if isinstance(value, list) and value and all(isinstance(v, Mapping) for v in value):
@@ -205,7 +205,7 @@ def _structs(value: object) -> list[Mapping[str, object]]:
 
 
 def _words(value: object) -> list[str]:
-    """The texts of a cell array or of rows of characters; nothing of anything else."""
+    """Return the texts of a cell array or of rows of characters; an empty result for any other value."""
     if isinstance(value, (list, np.ndarray)):
         flat = np.ravel(np.asarray(value, dtype=object)).tolist()
         if flat and all(isinstance(v, str) or np.size(v) == 0 for v in flat):

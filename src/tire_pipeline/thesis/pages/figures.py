@@ -60,6 +60,7 @@ def class_figure(results: Results, columns: tuple[str, ...]) -> MplFigure:
             label = {"all": "all files", "training": "training set", "training_smote": "with SMOTE"}[column]
             one.bar(places, part[column], width, color=colour_of(number), label=label)
         name_ticks(one.xaxis, part["category"])
+        one.set_axisbelow(True)
         one.set_xlabel("category")
         one.set_title(in_words(split))
     np.asarray(axes)[0].set_ylabel("files")

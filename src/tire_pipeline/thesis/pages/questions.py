@@ -7,7 +7,7 @@ import pandas as pd
 
 from tire_pipeline.reporting import Text
 from tire_pipeline.thesis.pages.page_agents import rising
-from tire_pipeline.thesis.pages.words import listed, number, rank_agreement
+from tire_pipeline.thesis.pages.words import action_in_words, listed, number, rank_agreement
 from tire_pipeline.thesis.result_tables import BETTER, CELL, Results, in_words, over_seeds, over_trainings
 
 QUESTIONS = (
@@ -119,7 +119,7 @@ def _policies(results: Results) -> list[str]:
         own = part[part["representation"] == name].groupby("action")["share"].mean()
         if own.sum() > 0:
             top = own.sort_values(ascending=False).head(4)
-            words = listed(f"{action.replace('_', ' ')} ({share:.0%})" for action, share in top.items())
+            words = listed(f"{action_in_words(action)} ({share:.0%})" for action, share in top.items())
             lines.append(f"Most frequent actions with {in_words(name)}, mean of all agents: {words}.")
     lines.append(
         "If a step up is frequent, the classifier takes larger values as a sign of "

@@ -84,7 +84,7 @@ def _comparable(results: Results) -> list[Part]:
         "demonstration fleet or of the user's folder. So values may differ; the patterns can be compared.",
         f"{results.cells_run} cells of the agents' grid were run with {len(facts['seeds'])} seed"
         f"{'s' if len(facts['seeds']) != 1 else ''} each; classifiers were trained "
-        f"{facts['trainings']} time{'s' if facts['trainings'] != 1 else ''}. "
+        f"{'once' if facts['trainings'] == 1 else str(facts['trainings']) + ' times'}. "
         "All classifiers are judged on the random split and on the split by physical tire. The agents are "
         "always judged on tires that are in no training file.",
     ]

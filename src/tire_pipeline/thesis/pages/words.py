@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 
 import pandas as pd
@@ -28,6 +29,17 @@ def points(ours: float, theirs: float) -> str:
     if abs(gap) < 0.05:
         return "the same as in the thesis"
     return f"{abs(gap):.1f} percentage points {'above' if gap > 0 else 'below'} the thesis"
+
+
+def action_in_words(action: str) -> str:
+    """Return an agent's action with the load that a key attribute belongs to.
+
+    Examples
+    --------
+    >>> action_in_words("peak_slip_angle_4000_up"), action_in_words("PEY2_up")
+    ('peak slip angle at 4000 N up', 'PEY2 up')
+    """
+    return re.sub(r"_(\d+)_", r" at \1 N ", action).replace("_", " ")
 
 
 def listed(names: Iterable[str]) -> str:
