@@ -38,31 +38,40 @@ def build_retraining_report(
     registry: ModelRegistry,
 ) -> str:
     """One page: what came, what drifted, how the candidate did, what was decided."""
-    return render_page(
-        "Retraining",
-        [
-            _decision(files, outcome, registry),
-            Table(
-                comparison,
-                heading="Candidate and released model on the same held-out tires",
-                caption="Accuracy: share of files whose category is predicted correctly. Balanced: its mean "
-                "over the categories, which decides. No held-out tire was in the training of either model.",
-            ),
-            *_drift(drift),
-            Table(
-                _without_paths(files[files["status"] != "read"]),
-                heading="Files that were not read",
-                caption="Pending: it cannot be read, and is tried again when its content changes. Set aside: "
-                "it is no regular file. Taken already: the same file was read under another name. Removed: "
-                "it is gone from the folder.",
-            ),
-            Table(
-                _to_the_minute(history_rows(registry.release)).rename(columns=_TITLE_OF_COLUMN),
-                heading="History",
-                caption="The newest first. A dash: there was no released model to compare with.",
-            ),
-        ],
-        pages=HOME,
+    parts = [
+        _decision(files, outcome, registry),
+        _comparison(comparison),
+        *_drift(drift),
+        _unread(files),
+        _history(registry),
+    ]
+    return render_page("Retraining", parts, pages=HOME)
+
+
+def _comparison(comparison: pd.DataFrame) -> Table:
+    return Table(
+        comparison,
+        heading="Candidate and released model on the same held-out tires",
+        caption="Accuracy: share of files whose category is predicted correctly. Balanced: its mean "
+        "over the categories, which decides. No held-out tire was in the training of either model.",
+    )
+
+
+def _unread(files: pd.DataFrame) -> Table:
+    return Table(
+        _without_paths(files[files["status"] != "read"]),
+        heading="Files that were not read",
+        caption="Pending: it cannot be read, and is tried again when its content changes. Set aside: "
+        "it is no regular file. Taken already: the same file was read under another name. Removed: "
+        "it is gone from the folder.",
+    )
+
+
+def _history(registry: ModelRegistry) -> Table:
+    return Table(
+        _to_the_minute(history_rows(registry.release)).rename(columns=_TITLE_OF_COLUMN),
+        heading="History",
+        caption="The newest first. A dash: there was no released model to compare with.",
     )
 
 

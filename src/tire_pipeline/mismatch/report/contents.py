@@ -151,14 +151,20 @@ class EffectReport:
     undetermined: tuple[str, ...] = ()
 
     def rows(self) -> list[tuple[str, str, str, str]]:
-        """Return of each parameter its name, value and 95% interval, and what to know about it, in words."""
-        return [(n.replace("_", " "), *self._sizes(n), self._doubt(n)) for n in self.parameters]
+        """Say of each parameter its value, its 95% interval, and whether it may be nothing.
+
+        Returns
+        -------
+        list of (str, str, str, str)
+            Name, value, interval, and what is uncertain about it.
+        """
+        return [(n.replace("_", " "), *self._sizes(n), self._certainty(n)) for n in self.parameters]
 
     def _sizes(self, name: str) -> tuple[str, str]:
         value, error, unit = self.parameters[name]
         return amount_with_interval(value, error, self.intervals.get(name, (value, value)), unit)
 
-    def _doubt(self, name: str) -> str:
+    def _certainty(self, name: str) -> str:
         if name in self.undetermined:
             return "not determined by this recording"
         low, high = self.intervals.get(name, (np.nan, np.nan))

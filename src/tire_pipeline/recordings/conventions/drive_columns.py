@@ -45,5 +45,5 @@ def reader_of_drive(columns: Iterable[str]) -> str:
         return ""
     return (
         f"this is {what}: in Python, {call} of tire_pipeline.recordings is a recording of one axle, and "
-        "its .to_csv('axle.csv', index=False) writes it (docs/reference/recordings.md, Driven vehicles)"
+        "its method to_csv, with index=False, writes it (docs/reference/recordings.md, Driven vehicles)"
     )
