@@ -41,8 +41,13 @@ def fitted(products: RecordingProducts, likelihood: Likelihood, variants: Sequen
     changes, gain, near = _step(products, likelihood, changes, smooth)
     changes, more = with_likeliest_moments(products, near, changes, free)
     gain += more
+    best = negative_log_posterior(products, likelihood, changes, smooth)
     while gain >= CHANCE:
-        changes, gain, _ = _step(products, likelihood, changes, smooth)
+        further, _, _ = _step(products, likelihood, changes, smooth)
+        cost = negative_log_posterior(products, likelihood, further, smooth)
+        gain = best - cost  # summed over all sizes: near one size a step may undo what gains near another
+        if gain > 0.0:
+            changes, best = further, cost
     spread = log_spread(products, likelihood, changes, free)
     return replace(products.of_set(changes, free), spread=spread)
 
