@@ -279,9 +279,10 @@ class Likelihood:
             u = np.append(-z * scale, 1.0)
             for o, own in known.own.items():
                 grid, parts = self._grid[o], np.ascontiguousarray(known.parts[o])
-                value, k, j, reduced = summed(own, parts, u, *grid, self._error_priors[o, wide])
+                value, k, j = summed(own, parts, u, *grid, self._error_priors[o, wide])
                 weights[o] = Weights(self.count[o] / ERRORS[j] ** 2, *self._cells[o][k], k)
                 errors[o] = float(ERRORS[j])
+                reduced = weights[o].shrunk(own, parts[k])
                 inner += reduced[:-1, :-1] * spread[:, None] * spread[None, :]
                 aim += reduced[:-1, -1] * spread
                 power += float(reduced[-1, -1])
@@ -296,15 +297,15 @@ class Likelihood:
         return Evidence(value, z * scale, covariance, weights, errors), least_squares
 
     @cached_property
-    def _grid(self) -> Mapping[str, tuple[Array, Array, Array, Array]]:
+    def _grid(self) -> Mapping[str, tuple[Array, Array, Array]]:
         """For each output what :func:`summed` needs and no residual changes."""
         out = {}
         for o, cells in self._cells.items():
-            precision, eigenvalues = self.count[o] / ERRORS**2, np.array([v for v, _ in cells])
-            inner = 1.0 + precision[None, :, None] * eigenvalues[:, None, :]
+            precision = self.count[o] / ERRORS**2
+            inner = 1.0 + precision[None, :, None] * np.array([v for v, _ in cells])[:, None, :]
             size = 0.5 * np.log(inner).sum(axis=2) + self.count[o] * np.log(ERRORS)
             explains = 0.5 * precision[None, :, None] ** 2 / inner
-            out[o] = (eigenvalues, explains, -size - np.log(len(cells)), 0.5 * precision)
+            out[o] = (explains, -size - np.log(len(cells)), 0.5 * precision)
         return out
 
     @cached_property

@@ -11,12 +11,11 @@ def summed(
     own: np.ndarray,
     parts: np.ndarray,
     u: np.ndarray,
-    eigenvalues: np.ndarray,
     explains: np.ndarray,
     before: np.ndarray,
     half_precision: np.ndarray,
     prior: np.ndarray,
-) -> tuple[float, int, int, np.ndarray]:
+) -> tuple[float, int, int]:
     """Sum the likelihood of one output over the sizes of misfit and error, at some coefficients.
 
     Parameters
@@ -27,7 +26,6 @@ def summed(
         For each size of the misfit, their products with the eigenvectors of what is never known.
     u : ndarray, shape (m + 1,)
         Minus the coefficients, and one: what they leave of the residual.
-    eigenvalues : ndarray, shape (cells, q)
     explains : ndarray, shape (cells, errors, q)
         What each squared part takes from the log likelihood's loss.
     before : ndarray, shape (cells, errors)
@@ -43,8 +41,6 @@ def summed(
         Log of the sum.
     cell, error : int
         Numbers of the likeliest sizes.
-    reduced : ndarray, shape (m + 1, m + 1)
-        Products at these sizes, given what is never known.
     """
     cells, errors, q = explains.shape
     m = u.size
@@ -72,12 +68,4 @@ def summed(
     for c in range(cells):
         for e in range(errors):
             total += np.exp(log_likelihood[c, e] - best)
-    precision = 2.0 * half_precision[error]
-    less = np.zeros((m, m))
-    for i in range(q):
-        weight = precision / (1.0 + precision * eigenvalues[cell, i])
-        for j in range(m):
-            scaled = weight * parts[cell, i, j]
-            for k in range(m):
-                less[j, k] += scaled * parts[cell, i, k]
-    return best + np.log(total), cell, error, precision * (own - less)
+    return best + np.log(total), cell, error
