@@ -11,7 +11,8 @@ from tire_pipeline.concealed.proof.simulated import ProveConcealedParameters
 from tire_pipeline.concealed.real import RealAnswer
 from tire_pipeline.concealed.real.parameters import RealParameters
 from tire_pipeline.concealed.real.published import published_text
-from tire_pipeline.concealed.real.score_sets import name_sets, score_real
+from tire_pipeline.concealed.real.score_sets import score_real
+from tire_pipeline.concealed.scoring.findings import name_sets
 from tire_pipeline.reporting.proof.proof_page import proof_page
 
 

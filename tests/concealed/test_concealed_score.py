@@ -7,7 +7,8 @@ import pytest
 
 from tire_pipeline.concealed import Answer, EffectTruth, score
 from tire_pipeline.concealed.effect_names import AMBIGUOUS_SETS
-from tire_pipeline.concealed.scoring.overlap_and_calibration import calibration_error, interval_iou
+from tire_pipeline.concealed.scoring.calibration import calibration_error, calibration_rows
+from tire_pipeline.concealed.scoring.overlap import interval_iou
 from tire_pipeline.concealed.scoring.score import covers, exact_set, false_physics, recovered
 from tire_pipeline.concealed.scoring.words import in_words, outcome
 from tire_pipeline.errors import DomainError
@@ -185,6 +186,29 @@ def test_calibration_error_of_known_cases():
     assert calibration_error([0.75] * 4, [True, True, True, False]) == pytest.approx(0.0)
     assert calibration_error([0.95, 0.05], [False, True]) == pytest.approx(0.95)
     assert np.isnan(calibration_error([], []))
+
+
+def test_calibration_stands_beside_what_chance_alone_would_show():
+    rng = np.random.default_rng(1)
+    sure = [0.9] * 50
+    exact, floor = calibration_rows("error", sure, [True] * 45 + [False] * 5, at_most=0.03, rng=rng)
+    assert exact["value"] == pytest.approx(0.0, abs=1e-12)
+    assert exact["met"]
+    assert 0.02 < floor["value"] < 0.05
+    assert floor["name"] == "error, by chance alone"
+    wrong, same_floor = calibration_rows("error", sure, [False] * 50, at_most=0.03, rng=rng)
+    assert wrong["value"] == pytest.approx(0.9)
+    assert wrong["low"] > same_floor["high"]
+    none, _ = calibration_rows("error", [], [], at_most=0.03, rng=rng)
+    assert none["value"] is None
+    assert none["n"] == 0
+
+
+def test_a_finding_is_calibrated_by_whether_any_of_its_names_is_true():
+    given = report(entry("friction_scale", "force_gain", confidence=1.0))
+    result = score({"a": given}, [answer("a", "single", truth("force_gain", kind="artefact"))])
+    assert value(result, "calibration error")["value"] == pytest.approx(1.0)
+    assert value(result, "calibration error of the findings")["value"] == pytest.approx(0.0)
 
 
 def test_recovered_share_of_the_oracles_gain():

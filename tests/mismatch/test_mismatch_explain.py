@@ -7,7 +7,7 @@ import pytest
 from mismatch_shared import shared
 from weighed import all_but, named, without_visible
 
-from tire_pipeline.concealed.scoring.score import share_row
+from tire_pipeline.concealed.scoring.rows import share_row
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.magic_formula.fitting import fit_magic_formula
 from tire_pipeline.mismatch import explain_mismatch

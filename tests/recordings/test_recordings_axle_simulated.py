@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.stats import chi2
 
-from tire_pipeline.concealed.scoring.score import share_row
+from tire_pipeline.concealed.scoring.rows import share_row
 from tire_pipeline.errors import RecordingError
 from tire_pipeline.recordings import DART_CAR, Vehicle, axle_recording
 

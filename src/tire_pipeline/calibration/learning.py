@@ -20,7 +20,7 @@ from pydantic import Field
 
 from tire_pipeline.calibration.cases import KnownCase, plans
 from tire_pipeline.code_hash import code_hash
-from tire_pipeline.concealed.scoring.overlap_and_calibration import calibration_error
+from tire_pipeline.concealed.scoring.calibration import calibration_error
 from tire_pipeline.errors import TirePipelineError
 from tire_pipeline.mismatch.inference.analysis import analyse
 from tire_pipeline.mismatch.inference.learn_sizes import (

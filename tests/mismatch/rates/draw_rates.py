@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from tire_pipeline.concealed.scoring.score import share_row
+from tire_pipeline.concealed.scoring.rows import share_row
 
 DRAWS = range(8)
 EXPECTED = 0.9

@@ -15,7 +15,7 @@ from unnamed_problem import by_memory, by_speed, jolt, nothing, problem, swingin
 from weighed import all_but, named, named_sets
 from worthless_slip import AXLE, RUINS, free_drive, without_slip
 
-from tire_pipeline.concealed.scoring.score import share_row
+from tire_pipeline.concealed.scoring.rows import share_row
 from tire_pipeline.magic_formula import fit_magic_formula
 from tire_pipeline.mismatch import Explainer, explain_mismatch
 from tire_pipeline.mismatch.discrepancy.gaussian_form import gaussian_form

@@ -13,7 +13,7 @@ import pytest
 from weighed import named_sets
 
 from tire_pipeline.concealed import make_case
-from tire_pipeline.concealed.scoring.score import share_row
+from tire_pipeline.concealed.scoring.rows import share_row
 
 CASES = pd.read_csv(Path(__file__).with_name("spent_cases.csv"))
 

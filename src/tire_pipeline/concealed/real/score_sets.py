@@ -13,9 +13,12 @@ from typing import Any
 import numpy as np
 
 from tire_pipeline.concealed.cases.sealed_answers import EffectTruth
-from tire_pipeline.concealed.effect_names import ARTEFACTS, PHYSICS
+from tire_pipeline.concealed.effect_names import PHYSICS
 from tire_pipeline.concealed.real.cases import RealAnswer
-from tire_pipeline.concealed.scoring.score import Report, mean_row, recovered, share_row
+from tire_pipeline.concealed.scoring.calibration import calibration_rows
+from tire_pipeline.concealed.scoring.findings import NameSet, name_sets
+from tire_pipeline.concealed.scoring.rows import mean_row, share_row
+from tire_pipeline.concealed.scoring.score import Report, recovered
 
 MOST_NAMES = 3
 """A larger set counts as no answer."""
@@ -27,33 +30,6 @@ SAME_ERROR = 1e-6
 """Share by which rounding may move a held-out error."""
 
 HeldOut = Mapping[str, Mapping[str, Mapping[str, float]]]
-NameSet = tuple[tuple[str, ...], float]
-
-
-def name_sets(report: Report) -> list[NameSet]:
-    """Sets of names of a report with their confidence: its ``sets``, or each effect with its alternatives.
-
-    Parameters
-    ----------
-    report : mapping
-        ``report.to_dict()``.
-
-    Returns
-    -------
-    list of (names, confidence)
-        The name put first comes first. *unexplained* is no name.
-    """
-    given = report.get("sets")
-    if given is None:
-        given = [
-            ((e["name"], *e.get("alternatives", ())), e.get("confidence", 1.0))
-            for e in report.get("effects", ())
-        ]
-    else:
-        given = [(s["names"], s["confidence"]) if isinstance(s, Mapping) else s for s in given]
-    known = {*PHYSICS, *ARTEFACTS}
-    sets = [(tuple(str(n) for n in names if n in known), float(p)) for names, p in given]
-    return [(names, p) for names, p in sets if names]
 
 
 def answered(report: Report) -> list[NameSet]:
@@ -119,7 +95,7 @@ def _rows(pairs: list[tuple[Report, RealAnswer]], held_out: HeldOut) -> list[dic
     strong = [(r, a, e) for r, a in known for e in a.effects if e.over_misfit >= STRONG]
     plain = [(r, a, e) for r, a, e in strong if a.kind != "ambiguous"]
     hidden = [(r, e) for r, a in known for e in a.effects if e.name in a.hidden]
-    sets = [(names, a) for r, a in pairs for names, _ in answered(r)]
+    sets = [(names, a, p) for r, a in pairs for names, p in answered(r)]
     ratios = [_ratio(held_out[a.case_id]) for _, a in pairs if a.case_id in held_out]
     shares = [
         share
@@ -143,7 +119,7 @@ def _rows(pairs: list[tuple[Report, RealAnswer]], held_out: HeldOut) -> list[dic
         ),
         share_row("hidden physics named first, any strength", [found_first(r, e) for r, e in hidden]),
         share_row("hidden physics among the names, any strength", [found_among(r, e) for r, e in hidden]),
-        share_row("sets that hold nothing of the truth", [is_false(n, a) for n, a in sets]),
+        share_row("sets that hold nothing of the truth", [is_false(n, a) for n, a, _ in sets]),
         share_row(
             "false names, outside the catalogue",
             [bool(name_sets(r)) for r, a in pairs if a.kind == "unknown"],
@@ -159,6 +135,13 @@ def _rows(pairs: list[tuple[Report, RealAnswer]], held_out: HeldOut) -> list[dic
         ),
         mean_row("held-out error over the model's own, largest", [max(ratios)] if ratios else []),
         mean_row("held-out share of the oracle's", shares),
+        *calibration_rows(
+            "calibration error of the findings",
+            [p for _, _, p in sets],
+            [not is_false(n, a) for n, a, _ in sets],
+            at_most=0.03,
+            rng=np.random.default_rng(0),
+        ),
         share_row("refused", [r.get("verdict") == "refused" for r, _ in pairs]),
     ]
 

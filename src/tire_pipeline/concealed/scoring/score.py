@@ -6,7 +6,7 @@ The reports come as the dictionaries of ``report.to_dict()``; the rules are in
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from itertools import pairwise
 from typing import Any
@@ -15,7 +15,10 @@ import numpy as np
 
 from tire_pipeline.concealed.cases.sealed_answers import Answer, EffectTruth
 from tire_pipeline.concealed.effect_names import ARTEFACTS, PHYSICS
-from tire_pipeline.concealed.scoring.overlap_and_calibration import calibration_error, interval_iou
+from tire_pipeline.concealed.scoring.calibration import calibration_rows
+from tire_pipeline.concealed.scoring.findings import name_sets
+from tire_pipeline.concealed.scoring.overlap import interval_iou
+from tire_pipeline.concealed.scoring.rows import mean_row, share_row
 from tire_pipeline.errors import DomainError
 
 STRENGTH_LIMIT = 0.6
@@ -225,21 +228,23 @@ def _value_scores(
         if a.effects and a.kind != "unknown" and a.case_id in held_out
         if (share := recovered(held_out[a.case_id], a)) is not None
     ]
-    ece = mean_row("calibration error", [], at_most=0.05)
-    if confidence:
-        value = calibration_error(confidence, correct)
-        draws = []
-        for _ in range(500):
-            pick = rng.integers(len(correct), size=len(correct))
-            draws.append(calibration_error(np.take(confidence, pick), np.take(correct, pick)))
-        low, high = np.quantile(draws, [0.025, 0.975])
-        ece |= {"value": value, "low": float(low), "high": float(high), "n": len(correct)}
-        ece["met"] = bool(value <= 0.05)
+    sets = [
+        (p, not {e.name for e in answer.effects}.isdisjoint(names))
+        for report, answer in pairs
+        for names, p in name_sets(report)
+    ]
     return [
         mean_row("window IoU", windows, at_least=0.8, rng=rng),
         mean_row("regime IoU", regimes, at_least=0.8, rng=rng),
         mean_row("held-out share of the oracle's", shares, at_least=0.9, rng=rng),
-        ece,
+        *calibration_rows("calibration error", confidence, correct, at_most=0.05, rng=rng),
+        *calibration_rows(
+            "calibration error of the findings",
+            [p for p, _ in sets],
+            [right for _, right in sets],
+            at_most=0.03,
+            rng=rng,
+        ),
     ]
 
 
@@ -299,64 +304,4 @@ def _miss(report: Report, answer: Answer) -> dict[str, Any] | None:
         "missed": sorted(truth - found),
         "invented": sorted(found - truth),
         "missing_channels": list(answer.missing_channels),
-    }
-
-
-def share_row(
-    name: str,
-    hits: Sequence[bool],
-    *,
-    at_most: float | None = None,
-    at_least: float | None = None,
-) -> dict[str, Any]:
-    """Proportion with Wilson's 95% interval."""
-    from scipy.stats import binomtest
-
-    n = len(hits)
-    k = int(np.sum(hits)) if n else 0
-    low, high = binomtest(k, n).proportion_ci(0.95, method="wilson") if n else (float("nan"),) * 2
-    return _row(name, k / n if n else float("nan"), low, high, n, at_most, at_least)
-
-
-def mean_row(
-    name: str,
-    values: Sequence[float],
-    *,
-    at_most: float | None = None,
-    at_least: float | None = None,
-    rng: np.random.Generator | None = None,
-) -> dict[str, Any]:
-    """Mean with a 95% bootstrap interval over cases."""
-    x = np.asarray(values, dtype=float)
-    if x.size == 0:
-        return _row(name, float("nan"), float("nan"), float("nan"), 0, at_most, at_least)
-    rng = rng or np.random.default_rng(0)
-    means = x[rng.integers(x.size, size=(1000, x.size))].mean(axis=1)
-    low, high = np.quantile(means, [0.025, 0.975])
-    return _row(name, float(x.mean()), low, high, x.size, at_most, at_least)
-
-
-def _row(
-    name: str,
-    value: float,
-    low: float,
-    high: float,
-    n: int,
-    at_most: float | None,
-    at_least: float | None,
-) -> dict[str, Any]:
-    target = None
-    met: bool | None = None
-    if at_most is not None:
-        target, met = f"<= {at_most}", bool(value <= at_most)
-    elif at_least is not None:
-        target, met = f">= {at_least}", bool(value >= at_least)
-    return {
-        "name": name,
-        "value": value if n else None,
-        "low": float(low) if n else None,
-        "high": float(high) if n else None,
-        "n": int(n),
-        "target": target,
-        "met": met if n else None,
     }

@@ -1,11 +1,10 @@
-"""Measures of a score: overlap of intervals, and whether a confidence is worth its number."""
+"""Overlap of intervals: when and where an effect is, as named and as it is."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 
 def interval_iou(a: Sequence[Sequence[float]], b: Sequence[Sequence[float]]) -> float:
@@ -28,24 +27,3 @@ def interval_iou(a: Sequence[Sequence[float]], b: Sequence[Sequence[float]]) -> 
     in_a, in_b = inside(a), inside(b)
     union = float(lengths[in_a | in_b].sum())
     return float(lengths[in_a & in_b].sum()) / union if union > 0 else 0.0
-
-
-def calibration_error(confidence: ArrayLike, correct: ArrayLike, n_bins: int = 10) -> float:
-    """Expected calibration error: mean distance of confidence and hit rate over equal bins.
-
-    Parameters
-    ----------
-    confidence : array_like, shape (n,)
-        0 to 1.
-    correct : array_like of bool, shape (n,)
-    n_bins : int
-    """
-    p, hit = np.asarray(confidence, dtype=float), np.asarray(correct, dtype=float)
-    if p.size == 0:
-        return float("nan")
-    place = np.minimum((np.clip(p, 0.0, 1.0) * n_bins).astype(int), n_bins - 1)
-    total = 0.0
-    for k in np.unique(place):
-        here = place == k
-        total += here.mean() * abs(p[here].mean() - hit[here].mean())
-    return float(total)
