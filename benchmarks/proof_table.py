@@ -41,7 +41,8 @@ INVENTED, FALSE = "false physics, nothing missing", "false physics"
 FIRST, AMONG = "right name first, twice the misfit", "truth among the names, twice the misfit"
 ANY, WRONG = "truth among the names, any strength", "sets that hold nothing of the truth"
 WORSE, REMOVED = "held-out error above the model's own", "held-out share of the oracle's"
-OFF = "calibration error"
+OFF = "calibration error of the findings"
+CHANCE = f"{OFF}, by chance alone"
 NAIVE, FLOOR, ORACLE = "bic_stepwise", "floor", "oracle"
 
 
@@ -160,6 +161,7 @@ def in_short(simulated: pd.DataFrame, real: pd.DataFrame, runs: pd.DataFrame) ->
     """
     share, cases = _together(runs)
     own = simulated[simulated["method"] == OWN].set_index("name")
+    mine = real[real["method"] == OWN].set_index("name")["value"]
 
     def together(name: str) -> str:
         return f"{share[name]:.1%}"
@@ -176,7 +178,9 @@ def in_short(simulated: pd.DataFrame, real: pd.DataFrame, runs: pd.DataFrame) ->
         f"**A correction** makes held-out sweeps worse in {together(WORSE)} of {cases[WORSE]:.0f} "
         f"real cases. It removes {together(REMOVED)} of the squared error that "
         "the true model removes, on average.",
-        f"**Confidence** is off by {own['value'][OFF]:.3f} on average (simulated cases).",
+        f"**Confidence**: how often a finding holds a true name differs from what it says by {mine[OFF]:.3f} "
+        "on average (last real run). Were each confidence exact, chance alone would show "
+        f"{mine[CHANCE]:.3f}.",
         f"**Goals** of the simulated half: {_met(simulated)}. Of the real half: {_met(real)}.",
     ]
     return "\n".join(f"- {line}" for line in lines)
