@@ -14,7 +14,7 @@ from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, Head, HeldOutFit
 from tire_pipeline.mismatch.report.headline.equation_words import of_equation, on_unnamed
-from tire_pipeline.mismatch.report.headline.spots import Ranges, spot_of, stretches_of
+from tire_pipeline.mismatch.report.headline.spots import Ranges, on_placeless, spot_of, stretches_of
 from tire_pipeline.mismatch.report.words import in_words, listed, newtons, place
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
@@ -74,7 +74,7 @@ def head(
         spot=spot_of(effects, fit, located, remainder, ranges, even or {}),
         size=size,
         todo=_next(effects, next_experiment, added),
-        notes=tuple(filter(None, [_more_left(remainder) if effects else ""])),
+        notes=tuple(filter(None, [on_placeless(effects, ranges), _more_left(remainder) if effects else ""])),
         equation=on_unnamed(unnamed, verdict, rivals),
     )
 

@@ -67,6 +67,27 @@ def _of_the_effects(
     return [f for f in located if f.axis in axes] if axes else located
 
 
+def on_placeless(effects: Sequence[EffectReport], ranges: Ranges) -> str:
+    """Say which effects have no place of their own beside others that have one; "" if there are none.
+
+    Parameters
+    ----------
+    effects : sequence of EffectReport
+    ranges : mapping
+        Axis -> (lowest, highest) recorded, SI.
+    """
+    fitted = [effect for effect in effects if effect.where]
+    everywhere = [e for e in fitted if not (_drivers(e, ranges) or _narrow_axes(e, ranges))]
+    if not everywhere or len(everywhere) == len(fitted):
+        return ""
+    titles = " and ".join(effect.title for effect in everywhere)
+    have, their, act = ("have", "their", "they act") if len(everywhere) > 1 else ("has", "its", "it acts")
+    return (
+        f"{titles[:1].upper()}{titles[1:]} {have} no place of {their} own: {act} over at least half of the "
+        "recorded range of every channel."
+    )
+
+
 def _drivers(effect: EffectReport, ranges: Ranges) -> list[str]:
     """Return the channels that decide how much of an effect there is, those of them that vary."""
     return [axis for axis in catalogue()[effect.name].drivers(effect.output) if axis in ranges]
