@@ -16,7 +16,7 @@ class OperatingPoints(NamedTuple):
     Attributes
     ----------
     normal_load : float or array_like
-        Vertical load (N). A load of zero or less gives zero everywhere.
+        Vertical load (N). At a load of zero or less every output is zero.
     slip_angle, slip_ratio, camber : float or array_like
         Slip angle (rad), longitudinal slip (-1 is a locked wheel), camber (rad).
     speed : float or array_like, optional
@@ -74,7 +74,7 @@ def points_of(points: OperatingPoints | None, channels: PointFields) -> Operatin
     TirValueError
         If both are given.
     TypeError
-        If there is no normal load, or a keyword is no channel.
+        If there is no normal load, or a keyword is not a channel.
     """
     if points is None:
         return OperatingPoints(**channels)
@@ -87,12 +87,12 @@ def points_of(points: OperatingPoints | None, channels: PointFields) -> Operatin
 
 
 def refuse_turn_slip(points: OperatingPoints, what: str) -> None:
-    """Raise if there is turn slip at the points: only :meth:`.TireModel.forces` knows it.
+    """Raise if there is turn slip at the points: only :meth:`.TireModel.forces` supports it.
 
     Raises
     ------
     TirValueError
-        It says what cannot be had with turn slip.
+        It names what is not available with turn slip.
     """
     if np.any(np.asarray(points.turn_slip) != 0.0):
         raise TirValueError(

@@ -1,4 +1,4 @@
-"""Which Magic Formula a file is for: its labels, its keys, and where they contradict each other."""
+"""The Magic Formula version of a file, from its labels and keys, and contradictions between these."""
 
 from __future__ import annotations
 
@@ -109,8 +109,8 @@ def detect_version(
     """Return the version and what contradicts it.
 
     ``PROPERTY_FILE_FORMAT = 'PAC2002'`` decides first (``FITTYP`` is no key of that model), then ``FITTYP``,
-    then any other telling ``PROPERTY_FILE_FORMAT``, then a ``TIRE_VERSION`` comment, then the keys that only
-    one version has.
+    then any other conclusive ``PROPERTY_FILE_FORMAT``, then a ``TIRE_VERSION`` comment, then the keys that
+    only one version has.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a recording gives to a fit: points, forces, and the coefficients that are known before."""
+"""Inputs of a fit: the recording's points and forces, and the coefficients known beforehand."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def _locked(slip_ratio: np.ndarray) -> bool:
 
 
 def _not_measured(name: str, force: np.ndarray) -> str:
-    """Return why a column is no measurement; nothing if it may be one."""
+    """Return why a column is not a measurement; empty if it may be one."""
     known = force[np.isfinite(force)]
     if known.size == 0:
         return "holds no number"
