@@ -1,4 +1,4 @@
-"""Several recordings of one tire explained together, and one held out to try the explanation on."""
+"""Several recordings of one tire explained together, with one held out to test the explanation."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def explain_recordings(
     recordings : mapping of str to DataFrame
         Name -> canonical columns in SI, in the order they were recorded in.
     explainer : Explainer, optional
-        What looks for the effects, if not that of :func:`explain_mismatch`.
+        Searches for the effects; by default as :func:`explain_mismatch` does.
     held_out : str, optional
         The name of the recording that is left out of the explanation. The explained model predicts it, and
         ``report.held_out`` has the errors before and after.

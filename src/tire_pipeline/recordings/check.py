@@ -23,7 +23,7 @@ from tire_pipeline.recordings.conventions.plausible import (
 
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
-"""Least rows of a recording in time and of steady points: fewer cannot tell an effect from noise."""
+"""Minimum rows of a recording in time, and of steady points: fewer cannot separate an effect from noise."""
 LEAST_WHOLE = 0.1
 """Part of the rows that must have a number in all channels, and a load that the tire model is for."""
 LONGEST_HOLE = 3

@@ -1,4 +1,4 @@
-"""What the columns of a driven vehicle's log are called, and who reads such a log."""
+"""Column names of a driven vehicle's log, and the functions that read such a log."""
 
 from __future__ import annotations
 

@@ -207,7 +207,7 @@ def _from_constants(
     rows: int,
     notes: list[str],
 ) -> None:
-    """A condition that the file gives once is a channel of one value."""
+    """A condition that the file states once becomes a constant channel."""
     there = {c.name.upper() for c in channels}
     for key in ("INFLPRES", "LONGVEL", "TRAJVELW", "TRAJVELH", "INCLANGL", "SLIPANGL", "LONGSLIP"):
         entry = constants.get(key)

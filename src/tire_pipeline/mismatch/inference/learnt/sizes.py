@@ -1,4 +1,4 @@
-"""What the posterior has learnt: sizes of the background, of form errors and of the error, and odds."""
+"""Learnt numbers of the posterior: sizes of the background, of form errors and of the error, and odds."""
 
 from __future__ import annotations
 
