@@ -107,7 +107,7 @@ def pack_matrix(values: Any, names: Sequence[str], version: str = "5.2") -> np.n
     if values.ndim != 2 or values.shape[1] != len(names):
         raise TirShapeError(
             f"coefficients have shape {values.shape}, but there are {len(names)} names",
-            todo="give one row a tire and one column a name",
+            todo="pass one row per tire and one column per name",
         )
     neutral = _NEUTRAL_OF_VERSION["5.2" if family_of(version) == 5 else "6.1"]
     matrix = np.tile(neutral, (len(values), 1))
@@ -199,7 +199,7 @@ def forces_batch(
     if len(shape) > 2 or (len(shape) == 2 and shape[0] not in (1, tires)):
         raise TirShapeError(
             f"points have shape {shape}; it must be (points,) or ({tires}, points)",
-            todo="give one row a tire",
+            todo="pass one row per tire",
         )
     full = (tires, shape[-1] if shape else 1)
     rows = [np.broadcast_to(x, full) for x in arrays.values()]

@@ -93,7 +93,7 @@ def explain_recordings(
         )
     explained = {name: frame for name, frame in recordings.items() if name != held_out}
     if not explained:
-        raise RecordingError("the only recording is held out", todo="give another one to explain")
+        raise RecordingError("the only recording is held out", todo="pass another one to explain")
     if len(explained) == 1:
         (only,) = explained.values()
         joined, notes = only, []

@@ -220,7 +220,7 @@ def _repeated(bad: np.ndarray) -> list[Issue]:
     if not bad.any():
         return []
     where = f"time, {bad.sum()} rows, first at row {int(bad.argmax())}"
-    todo = "the clock is coarser than the samples: give a finer one, or average the rows"
+    todo = "the clock is coarser than the samples: use a finer one, or average the rows"
     return [Issue("repeated_time_stamps", "error", where, todo, _runs(bad))]
 
 

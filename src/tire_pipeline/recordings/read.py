@@ -100,7 +100,7 @@ def read_recording(
     """
     file = Path(path)
     if reason := _no_recording(file):
-        raise RecordingError(reason, where=str(file), todo="give the path of a recording that may be read")
+        raise RecordingError(reason, where=str(file), todo="name a recording that may be read")
     check_size(file)
     kind = _format(file, format)
     try:
@@ -151,7 +151,7 @@ def _format(file: Path, format: str | None) -> str:
         raise RecordingError(
             f"suffix {file.suffix!r} is not known",
             where=str(file),
-            todo="a tire model is no recording: give a recording"
+            todo="a tire model is not a recording: name a recording"
             if file.suffix.lower() == ".tir"
             else f"save it as CSV or Parquet; if it is one of {', '.join(READERS)} under another suffix, "
             "state that format (format=..., --format)",

@@ -217,7 +217,7 @@ def check_values(coefficients: Mapping[str, float], path: str | None = None) -> 
                 f"{key} = {coefficients[key]!r} must be positive",
                 key=key,
                 path=path,
-                todo="give the tire's own value",
+                todo="enter the tire's own value",
             )
     for key in _NOT_ZERO:
         if coefficients.get(key, 1.0) == 0:
@@ -225,7 +225,7 @@ def check_values(coefficients: Mapping[str, float], path: str | None = None) -> 
                 f"{key} = 0, and the equations divide by it",
                 key=key,
                 path=path,
-                todo="give the tire's own value, or leave the key out where the force is not modelled",
+                todo="enter the tire's own value, or leave the key out where the force is not modelled",
             )
 
 

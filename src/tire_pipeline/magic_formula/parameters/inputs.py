@@ -97,7 +97,7 @@ def as_float_arrays(inputs: Mapping[str, Any]) -> tuple[dict[str, np.ndarray], t
         listed = ", ".join(f"{k} {a.shape}" for k, a in arrays.items() if a.ndim)
         raise TirShapeError(
             f"the operating points do not broadcast against each other: {listed}",
-            todo="give arrays of one shape, or scalars",
+            todo="pass arrays of one shape, or scalars",
         ) from None
 
 

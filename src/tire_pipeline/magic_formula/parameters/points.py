@@ -81,7 +81,7 @@ def points_of(points: OperatingPoints | None, channels: PointFields) -> Operatin
     if channels:
         raise TirValueError(
             f"operating points are given, and {', '.join(channels)} beside them",
-            todo="give one OperatingPoints, or channels by keyword",
+            todo="pass one OperatingPoints, or channels by keyword",
         )
     return points
 
@@ -96,7 +96,7 @@ def refuse_turn_slip(points: OperatingPoints, what: str) -> None:
     """
     if np.any(np.asarray(points.turn_slip) != 0.0):
         raise TirValueError(
-            f"{what} are not there with turn slip",
+            f"{what} are not available with turn slip",
             key="turn_slip",
             todo="use TireModel.forces, or leave it out",
         )

@@ -52,7 +52,7 @@ class Cleaning:
         """Say in words what was done and why."""
         felt = np.clip(self.felt, 0.0, 1.0)
         share = (
-            "the force does not tell which it is" if np.isnan(felt) else f"the force follows {felt:.0%} of it"
+            "the force does not show which it is" if np.isnan(felt) else f"the force follows {felt:.0%} of it"
         )
         done = "sensor noise was removed" if self.smoothed else "used as recorded, fast changes included"
         factor, unit, _ = shown_unit(self.channel, self.removed)

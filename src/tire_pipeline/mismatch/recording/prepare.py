@@ -222,9 +222,7 @@ def _arrays(recording: pd.DataFrame) -> dict[str, Array]:
             todo=f"name the force columns fx, fy (columns are: {', '.join(map(str, recording.columns))})",
         )
     if "normal_load" not in arrays:
-        raise RecordingError(
-            "no normal_load, without which no tire model gives a force", todo="record or compute it"
-        )
+        raise RecordingError("no normal_load, which every tire model needs", todo="record or compute it")
     if "slip_angle" not in arrays and "slip_ratio" not in arrays:
         raise RecordingError("neither slip_angle nor slip_ratio is recorded", todo="record one of them")
     least = LEAST_SAMPLES if "time" in arrays else LEAST_POINTS

@@ -113,7 +113,7 @@ def from_sidecar(content: object) -> UnnamedPhysics:
     """
     try:
         if not isinstance(content, Mapping):
-            raise ValueError("it is no mapping")
+            raise ValueError("it is not a mapping")
         if content.get("format") != FORMAT:
             raise ValueError(f"its format is not {FORMAT!r}")
         equations = {str(o): str(text) for o, text in content["equation"].items()}
@@ -129,7 +129,7 @@ def from_sidecar(content: object) -> UnnamedPhysics:
         ):
             raise ValueError("its ranges are not ranges of known symbols")
         if content["fade"] != {s: _fade(s) for s in ranges}:
-            raise ValueError("it fades otherwise than this version")
+            raise ValueError("it fades differently from this version")
         nominal = NominalValues(**{k: float(v) for k, v in content["nominal"].items()})
         if not all(np.isfinite(v) for v in asdict(nominal).values()) or min(nominal.F0, nominal.V0) <= 0.0:
             raise ValueError("its nominal values are not numbers above zero")

@@ -72,7 +72,7 @@ def evenly_spaced(drive: pd.DataFrame) -> tuple[pd.DataFrame, float, list[str]]:
     notes : list of str
     """
     if "time" not in drive:
-        raise RecordingError("the drive has no time", todo="give a column `time` in s")
+        raise RecordingError("the drive has no time", todo="add a column `time` in s")
     time = drive["time"].to_numpy(dtype=float)
     order = np.flatnonzero(np.isfinite(time))
     if order.size < 20:

@@ -124,7 +124,7 @@ def axle_recording(
     if axle == "front" and "steering" not in drive:
         raise RecordingError(
             "the front axle's slip angle needs the road-wheel angle",
-            todo="give a column `steering` in rad, or take the rear axle",
+            todo="add a column `steering` in rad, or take the rear axle",
         )
     if set(POSE_COLUMNS) <= set(drive.columns):
         motion = from_pose(drive, vehicle, bandwidth)
@@ -165,7 +165,7 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
         steering = even["steering"].to_numpy(dtype=float)
         known = np.isfinite(steering)
         if not known.any():
-            raise RecordingError("`steering` holds no number", todo="give road-wheel angles in rad")
+            raise RecordingError("`steering` holds no number", todo="enter road-wheel angles in rad")
         filled = np.interp(np.arange(steering.size), np.flatnonzero(known), steering[known])
         wheel = motion.smoother.smooth(filled)
         slip = slip - wheel

@@ -84,11 +84,11 @@ class Vehicle:
         for field in fields(self):
             value = getattr(self, field.name)
             if value is not None and not math.isfinite(value):
-                raise RecordingError(f"Vehicle.{field.name} is {value}", todo="give a finite number")
+                raise RecordingError(f"Vehicle.{field.name} is {value}", todo="use a finite number")
         for name in ("mass", "front_mass", "wheelbase", "yaw_inertia"):
             if getattr(self, name) <= 0:
                 raise RecordingError(
-                    f"Vehicle.{name} is {getattr(self, name)}", todo="give a positive number (SI)"
+                    f"Vehicle.{name} is {getattr(self, name)}", todo="use a positive number (SI)"
                 )
         if self.front_mass >= self.mass:
             raise RecordingError(

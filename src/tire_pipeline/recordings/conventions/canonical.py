@@ -226,7 +226,7 @@ def _check_told(names: Mapping[str, str], source: str) -> None:
     for column, told in names.items():
         if told and find_channel(told) is None:
             raise RecordingError(
-                f"column {column!r} is said to be {told!r}, which is no channel that is known",
+                f"column {column!r} is stated to be {told!r}, which is not a known channel",
                 where=source,
                 todo=did_you_mean(
                     told,

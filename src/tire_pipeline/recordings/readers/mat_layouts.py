@@ -140,7 +140,7 @@ def _one_after_the_other(runs: list[MatTable]) -> MatTable:
                     raise RecordingError(
                         f"{first.where} holds {len(runs)} runs, and {name} starts again in "
                         f"{first.where}({number})",
-                        todo="save each in a file of its own and give all of them together",
+                        todo="save each in a file of its own and pass all of them together",
                     )
     joined = {name: np.concatenate([run.vectors[name] for run in runs]) for name in first.vectors}
     return MatTable(f"{first.where}(1:{len(runs)})", joined, first.units, first.texts, first.left_out)

@@ -90,7 +90,7 @@ class _Rows:
             values = [float(w.replace("D", "E").replace("d", "e")) for w in words]
         except ValueError as error:
             raise RecordingError(
-                f"a data row holds what is no number ({error})",
+                f"a data row holds something other than numbers ({error})",
                 where=f"{self._path}:{number}",
                 todo="comment lines begin with `!`",
             ) from error

@@ -93,7 +93,7 @@ def unit_factor(quantity: str, name: str, *, path: str | None = None, line: int 
     if key in table:
         return table[key]
     raise TirValueError(
-        f"{quantity} = {name[:60]!r} is not a unit that is known",
+        f"{quantity} = {name[:60]!r} is not a known unit",
         path=path,
         line=line,
         key=quantity,

@@ -169,7 +169,7 @@ def _from_fittyp(fittyp: str, path: str | None, line: int | None) -> str:
         return FITTYP_VERSIONS[text]
     known = ", ".join(each for each in FITTYP_VERSIONS if "." not in each)
     raise TirVersionError(
-        f"FITTYP = {fittyp[:40]!r} is not a Magic Formula version that is known",
+        f"FITTYP = {fittyp[:40]!r} is not a known Magic Formula version",
         path=path,
         line=line,
         key="FITTYP",

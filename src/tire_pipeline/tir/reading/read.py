@@ -154,7 +154,7 @@ def interpret(file: TirFile) -> Reading:
         raise TirSyntaxError(
             "there is no Magic Formula coefficient in it",
             path=file.path,
-            todo="give a tire property file with sections such as [LATERAL_COEFFICIENTS]",
+            todo="use a tire property file with sections such as [LATERAL_COEFFICIENTS]",
         )
     _drop_what_is_not_modelled(reading)
     _read_version(scan, file, reading)
@@ -333,7 +333,7 @@ def _text_among_coefficients(entry: Entry, scan: Scan, file: TirFile) -> str:
 
 
 def _not_a_number(entry: Entry, file: TirFile) -> TirValueError:
-    todo = "give a number; a comment after it starts with $"
+    todo = "write a number; a comment after it starts with $"
     if "," in entry.value:
         todo = "write the decimal point as a point"
     return TirValueError(

@@ -46,7 +46,7 @@ def columns(
     if int(good.sum()) < FEWEST_POINTS:
         raise RecordingError(
             f"only {int(good.sum())} points have a positive load and finite slips",
-            todo=f"give at least {FEWEST_POINTS}",
+            todo=f"use at least {FEWEST_POINTS}",
         )
     if not {"slip_angle", "slip_ratio"} & set(recording) and set(wanted) - {"mx", "my"}:
         raise RecordingError(

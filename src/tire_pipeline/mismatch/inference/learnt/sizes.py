@@ -115,5 +115,5 @@ def learnt(path: str | Path | None = None) -> LearntSizes:
         raise RecordingError(
             f"there are no learnt sizes ({error})",
             where=str(path or shipped),
-            todo="give a file that kedro run --pipeline calibrate_mismatch has written",
+            todo="use a file that kedro run --pipeline calibrate_mismatch has written",
         ) from error
