@@ -373,7 +373,7 @@ def _calibration(results: Results) -> list[Part]:
     drawn = drawing(results, "reliability")
     parts: list[Part] = [Text(lines, heading="Reliability of the probabilities"), Table(table)]
     if drawn is not None:
-        said = "Trained with SMOTE; all trainings. On the dotted line a probability is the share that is right."
+        said = "Trained with SMOTE, all trainings. On the dotted line, a probability holds."
         parts.append(Figure(drawn, said))
     return parts
 
