@@ -9,6 +9,7 @@ import pytest
 from tire_pipeline.thesis.experiments.agents import curves_of_forces, judged_agent, thinned_learning_curve
 from tire_pipeline.thesis.experiments.files import key_of, pack_frames, unpack_frames
 from tire_pipeline.thesis.pages.class_scores import per_class_table
+from tire_pipeline.thesis.pages.questions import answer_on_learning
 from tire_pipeline.thesis.pages.words import least_within, plus_minus, points, rank_agreement
 from tire_pipeline.thesis.result_tables import over_seeds
 from tire_pipeline.translation.thesis.grid import Cell, train_cell
@@ -111,12 +112,30 @@ def test_learning_curves_are_means_of_windows():
 def test_words():
     assert points(0.95, 0.97) == "2.0 percentage points below the thesis"
     assert points(0.97, 0.97) == "the same as in the thesis"
-    assert plus_minus(1.2345, 0.0567) == "1.23 ± 0.057"
+    assert plus_minus(1.2345, 0.0567) == "1.234 ± 0.057"
+    assert plus_minus(1234.5, 56.7) == "1,234 ± 57"
+    assert plus_minus(0.75, 0.0) == plus_minus(0.75, float("nan")) == "0.75"
     assert plus_minus(float("nan"), 1.0) == "–"
     curve = pd.DataFrame({"trees": [1, 2, 3, 4], "accuracy": [0.5, 0.8, 0.897, 0.9]})
     assert least_within(curve, "trees") == 3
     assert rank_agreement([1, 2, 3], [10, 20, 30]) == pytest.approx(1.0)
     assert np.isnan(rank_agreement([1, 2], [1, 2]))
+
+
+@pytest.mark.parametrize(
+    ("up", "before", "after", "said", "moved"),
+    [
+        (60, 0.2, 0.4, "Yes: training raises the reward in 60 of 60 cells, and", "raise"),
+        (0, 0.16, 0.21, "Only in part: training raises the reward in 0 of 60 cells, but", "raise"),
+        (60, 0.2, 0.2, "Only in part: training raises the reward in 60 of 60 cells, but", "leave"),
+        (0, 0.201, 0.203, "No: training raises the reward in 0 of 60 cells, and", "leave"),
+        (0, 0.3, 0.1, "No: training raises the reward in 0 of 60 cells, and", "lower"),
+    ],
+)
+def test_what_agents_learn_is_said_by_both_figures(up, before, after, said, moved):
+    """A page said "Only in part" beside 0 of 2 cells, and not which part."""
+    told = answer_on_learning(up, 60, before, after)
+    assert told.startswith(f"{said} the agents' translations {moved} the classifier's mean probability")
 
 
 @pytest.mark.parametrize("names", [["North", "South"], ["A", "North"]])

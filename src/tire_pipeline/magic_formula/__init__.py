@@ -1,4 +1,4 @@
-"""The Magic Formula engine: tire models, their forces, and what is done with their coefficients."""
+"""The Magic Formula engine: tire models, their forces, and operations on their coefficients."""
 
 from __future__ import annotations
 

@@ -72,9 +72,9 @@ def pack_matrix(values: Any, names: Sequence[str], version: str = "5.2") -> np.n
     values : array_like of shape (tires, len(names))
         Coefficients by ``.tir`` name, SI units. NaN stands for a coefficient that the tire lacks.
     names : sequence of str
-        What the columns are; names that the equations do not use are ignored.
+        Names of the columns; those that the equations do not use are ignored.
     version : str
-        Says what stands in for coefficients that are missing, as in :class:`TireModel`.
+        Determines the defaults of missing coefficients, as in :class:`TireModel`.
 
     Returns
     -------
@@ -107,7 +107,7 @@ def pack_matrix(values: Any, names: Sequence[str], version: str = "5.2") -> np.n
     if values.ndim != 2 or values.shape[1] != len(names):
         raise TirShapeError(
             f"coefficients have shape {values.shape}, but there are {len(names)} names",
-            todo="give one row a tire and one column a name",
+            todo="pass one row per tire and one column per name",
         )
     neutral = _NEUTRAL_OF_VERSION["5.2" if family_of(version) == 5 else "6.1"]
     matrix = np.tile(neutral, (len(values), 1))
@@ -142,9 +142,9 @@ def forces_batch(
     matrix : ndarray of shape (tires, len(COEFFICIENT_NAMES))
         Packed coefficients (:func:`pack`, :func:`pack_matrix`); all of versions of one family of equations.
     points : OperatingPoints, optional
-        In ISO W axes; or give its fields by keyword. They broadcast together to (points,), or to (tires,
+        In ISO W axes; or pass its fields by keyword. They broadcast together to (points,), or to (tires,
         points) where each tire has its own. Speed and pressure left out: each tire's ``LONGVL`` and nominal
-        pressure. Turn slip is not known here.
+        pressure. Turn slip is not supported.
     **channels : float or array_like
         ``normal_load`` (N), ``slip_angle`` (rad), ``slip_ratio``, ``camber`` (rad), ``speed`` (m/s),
         ``pressure`` (Pa); see :class:`.OperatingPoints`.
@@ -163,7 +163,7 @@ def forces_batch(
     TirShapeError
         If shapes do not fit.
     TirValueError
-        For an output that is not known, or points with turn slip.
+        For an unknown output, or points with turn slip.
 
     See Also
     --------
@@ -199,7 +199,7 @@ def forces_batch(
     if len(shape) > 2 or (len(shape) == 2 and shape[0] not in (1, tires)):
         raise TirShapeError(
             f"points have shape {shape}; it must be (points,) or ({tires}, points)",
-            todo="give one row a tire",
+            todo="pass one row per tire",
         )
     full = (tires, shape[-1] if shape else 1)
     rows = [np.broadcast_to(x, full) for x in arrays.values()]

@@ -1,4 +1,4 @@
-"""How far two tire models are apart."""
+"""Differences between two tire models."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tire_pipeline.magic_formula.model import TireModel
 
 @dataclass(frozen=True)
 class Difference:
-    """How far one force or moment of two models is apart, at pure slip.
+    """Difference of one force or moment between two models, at pure slip.
 
     Attributes
     ----------

@@ -65,7 +65,7 @@ class MissingRadiusWarning(UserWarning):
 
 @dataclass(frozen=True)
 class TireForces:
-    """What the contact patch transmits, and what the model says on the way. None: not asked for.
+    """Forces and moments of the contact patch, and intermediate results. None: not requested.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class TireForces:
         Longitudinal and lateral force (N).
     mx, my, mz : float or ndarray
         Overturning, rolling resistance and aligning moment (N m); NaN where the model has no
-        ``UNLOADED_RADIUS``, and so are the trail and what else is a share of the radius.
+        ``UNLOADED_RADIUS``, and so are the trail and other results in proportion to the radius.
     trail : float or ndarray
         Pneumatic trail (m).
     friction_x, friction_y : float or ndarray
@@ -238,7 +238,7 @@ def _evaluate(
     wanted: Sequence[str],
     largest: float,
 ) -> list[Any]:
-    """Lay the points out as rows, run them, and give the results the shape of the points."""
+    """Arrange the points as rows, evaluate them, and reshape the results."""
     matrix = model.packed[None, :]
     size = math.prod(shape)
     if all(_is_row(x, shape) for x in arrays):

@@ -1,4 +1,4 @@
-"""The few numbers by which engineers know a tire, and the points at which it is looked at."""
+"""Key figures of a tire, and the points at which they are evaluated."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class KeyFigure:
     ----------
     name : str
     value : float
-        NaN where the model does not give it.
+        NaN if the model does not determine it.
     unit : str
     """
 
@@ -39,7 +39,7 @@ class KeyFigure:
 
 
 def key_figures(model: TireParameters, normal_load: float | None = None) -> list[KeyFigure]:
-    """Return the numbers by which engineers know a tire.
+    """Return the key figures of a tire.
 
     At pure slip, without camber, at the nominal pressure.
 

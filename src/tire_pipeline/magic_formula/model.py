@@ -1,4 +1,4 @@
-"""The tire model: a tire's coefficients, and what is asked of them."""
+"""The tire model: a tire's coefficients, with its forces, derivatives and conversions."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class TireModel(TireParameters):
     coefficients : mapping of str to float
         By their ``.tir`` names in capitals, in SI units.
     defaulted : mapping of str to float
-        Coefficients that the source lacks, and the value that stands in.
+        Coefficients that the source lacks, with their default values.
     metadata : mapping of str to object
         What is not a coefficient, by "SECTION.KEY" in SI units.
     source : object, optional
@@ -102,12 +102,12 @@ class TireModel(TireParameters):
         outputs: Sequence[str] | None = None,
         **channels: Unpack[PointFields],
     ) -> TireForces:
-        """Return forces, moments and what belongs to them at operating points.
+        """Return forces, moments and related results at operating points.
 
         Parameters
         ----------
         points : OperatingPoints, optional
-            Where to evaluate; or give its fields by keyword:
+            Where to evaluate; or pass its fields by keyword:
         **channels : float or array_like
             ``normal_load`` (N), ``slip_angle`` (rad), ``slip_ratio``, ``camber`` (rad), ``speed`` (m/s),
             ``pressure`` (Pa), ``turn_slip`` (1/m); see :class:`.OperatingPoints`.
@@ -193,7 +193,7 @@ class TireModel(TireParameters):
         Returns
         -------
         TireModel
-            Coefficients that are relative to the nominal load are others.
+            Coefficients that are relative to the nominal load change.
 
         Raises
         ------
@@ -208,8 +208,8 @@ class TireModel(TireParameters):
         Parameters
         ----------
         version : str
-            5.0, 5.1, 5.2 and PAC2002 turn into one another, 6.1 and 6.2 too, and each of the former into the
-            latter.
+            5.0, 5.1, 5.2 and PAC2002 convert into one another, so do 6.1 and 6.2, and each of the former into
+            the latter.
 
         Returns
         -------
@@ -220,7 +220,7 @@ class TireModel(TireParameters):
         Raises
         ------
         TirVersionError
-            From 6.1 or 6.2 to an older version, or for a version that is not known.
+            From 6.1 or 6.2 to an older version, or for an unknown version.
         TirValueError
             If ``LMX`` is 0.
         """
@@ -242,11 +242,11 @@ class TireModel(TireParameters):
         names : sequence of str
             Coefficients, by ``.tir`` name; zeros for one that an output does not depend on.
         points : OperatingPoints, optional
-            Where to evaluate, in ISO W axes; or give its fields by keyword. Ranges are not checked.
+            Where to evaluate, in ISO W axes; or pass its fields by keyword. Ranges are not checked.
         outputs : sequence of str
             Some of "fx", "fy", "mx", "my", "mz".
         out : mapping of str to ndarray of shape (len(names), number of points), optional
-            Where to put each output's derivatives: it saves the time that new memory takes.
+            Arrays to write each output's derivatives into, which saves allocating new ones.
         **channels : float or array_like
             As for :meth:`forces`, without ``turn_slip``.
 
@@ -280,14 +280,14 @@ def model_of(vector: np.ndarray, version: str, metadata: Mapping[str, object] | 
     Returns
     -------
     TireModel
-        Without a source: what is written of it is a new file.
+        Without a source: writing it makes a new file.
 
     Raises
     ------
     TirValueError
         If a coefficient is not finite, or has a value that the equations divide by.
     TirVersionError
-        If the version is not known.
+        If the version is unknown.
 
     See Also
     --------

@@ -1,4 +1,4 @@
-"""How a mismatch is explained, step by step. Why each step is as it is: docs/explanation/mismatch.md."""
+"""How a mismatch is explained, step by step. docs/explanation/mismatch.md gives the reasons."""
 
 from __future__ import annotations
 
@@ -75,6 +75,6 @@ def _settled(
 
 
 def prove(weighed: Explained) -> MismatchReport:
-    """Put into the model what makes no unseen sweep worse, and report what it leaves on these."""
+    """Put into the model what makes no unseen sweep worse, and report the errors on these."""
     with under_way("proving the explanation on held-out sweeps"):
         return assembled(weighed)

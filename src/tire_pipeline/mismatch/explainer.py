@@ -1,4 +1,4 @@
-"""The public face of the method: what explains a recording, and what of it a user may change."""
+"""The public interface of the method: explains a recording, with options for the user."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ from tire_pipeline.tasks import one_thread
 
 @dataclass(frozen=True)
 class Explainer:
-    """Explains recordings, with what a user may want to change.
+    """Explains recordings, with options that a user may want to change.
 
     Parameters
     ----------
     without : collection of str
-        Effects that are not looked for, as if the catalogue lacked them: what they do then stays unexplained.
-        Faults that are found from exact factors are found all the same.
+        Effects that are not looked for, as if the catalogue lacked them: their share of the difference then
+        stays unexplained. Faults that are found from exact factors are found all the same.
     priors : mapping of str to mapping of str to float
         Effect -> parameter -> standard deviation of its prior, in the parameter's unit, in place of the one
         that the effect's file states.
     level : float
-        Probability from which a name, with its alternatives, is said.
+        Probability from which an effect, with its alternatives, is named.
     learnt : LearntSizes, optional
-        What the posterior has learnt; as it ships with the package if left out.
+        Learnt sizes and odds of the posterior; those that ship with the package if left out.
 
     See Also
     --------
@@ -105,7 +105,7 @@ class Explainer:
         Returns
         -------
         Explained
-            The prepared recording, its sets of effects, and what the posterior says of them.
+            The prepared recording, its sets of effects, and their posterior.
 
         Raises
         ------
@@ -144,8 +144,8 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame, *, without: Collection[
         ``normal_load`` N, ``speed`` m/s, ``pressure`` Pa, ``tread_temperature`` degC, ``fx fy`` N.
         Without ``time`` the rows are steady points.
     without : collection of str
-        Effects that are not looked for, as if the catalogue lacked them: what they do then stays unexplained.
-        For proofs; faults that are found from exact factors are found all the same.
+        Effects that are not looked for, as if the catalogue lacked them: their share of the difference then
+        stays unexplained. For proofs; faults that are found from exact factors are found all the same.
 
     Returns
     -------
@@ -164,7 +164,7 @@ def explain_mismatch(tire: Any, recording: pd.DataFrame, *, without: Collection[
 
     Notes
     -----
-    Method and limits: ``docs/explanation/mismatch.md``. :class:`Explainer` has what can be changed.
+    Method and limits: ``docs/explanation/mismatch.md``. :class:`Explainer` has the options.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Several recordings of one tire explained together, and one held out to try the explanation on."""
+"""Several recordings of one tire explained together, with one held out to test the explanation."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def explain_recordings(
     recordings : mapping of str to DataFrame
         Name -> canonical columns in SI, in the order they were recorded in.
     explainer : Explainer, optional
-        What looks for the effects, if not that of :func:`explain_mismatch`.
+        Searches for the effects; by default as :func:`explain_mismatch` does.
     held_out : str, optional
         The name of the recording that is left out of the explanation. The explained model predicts it, and
         ``report.held_out`` has the errors before and after.
@@ -93,7 +93,7 @@ def explain_recordings(
         )
     explained = {name: frame for name, frame in recordings.items() if name != held_out}
     if not explained:
-        raise RecordingError("the only recording is held out", todo="give another one to explain")
+        raise RecordingError("the only recording is held out", todo="pass another one to explain")
     if len(explained) == 1:
         (only,) = explained.values()
         joined, notes = only, []

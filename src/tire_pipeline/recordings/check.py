@@ -23,7 +23,7 @@ from tire_pipeline.recordings.conventions.plausible import (
 
 LEAST_SAMPLES = 30
 LEAST_POINTS = 12
-"""Least rows of a recording in time and of steady points: fewer cannot tell an effect from noise."""
+"""Minimum rows of a recording in time, and of steady points: fewer cannot separate an effect from noise."""
 LEAST_WHOLE = 0.1
 """Part of the rows that must have a number in all channels, and a load that the tire model is for."""
 LONGEST_HOLE = 3
@@ -220,7 +220,7 @@ def _repeated(bad: np.ndarray) -> list[Issue]:
     if not bad.any():
         return []
     where = f"time, {bad.sum()} rows, first at row {int(bad.argmax())}"
-    todo = "the clock is coarser than the samples: give a finer one, or average the rows"
+    todo = "the clock is coarser than the samples: use a finer one, or average the rows"
     return [Issue("repeated_time_stamps", "error", where, todo, _runs(bad))]
 
 

@@ -63,7 +63,7 @@ def join_recordings(recordings: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
     [0.0, 0.1, 2.1, 2.2]
     """
     if not recordings:
-        raise RecordingError("there is no recording to join", todo="give at least one")
+        raise RecordingError("there is no recording to join", todo="pass at least one")
     recordings = {name: frame.dropna(axis=1, how="all") for name, frame in recordings.items()}
     timed = {name for name, frame in recordings.items() if "time" in frame}
     if timed and len(timed) < len(recordings):
@@ -98,7 +98,7 @@ def _common(recordings: Mapping[str, pd.DataFrame], notes: list[str]) -> list[st
             )
         note = f"{channel} is left out: {', '.join(lacking)} {_have(lacking)} none"
         if moving and channel not in FORCE_CHANNELS:
-            note += f". It varies in {', '.join(moving)}: what depends on it cannot be told there"
+            note += f". It varies in {', '.join(moving)}: what depends on it cannot be determined there"
         notes.append(note)
     missing = [what for what, names in _NEEDED.items() if not set(names) & set(common)]
     if missing:

@@ -52,8 +52,8 @@ def read_recording(
 ) -> pd.DataFrame:
     """Read a recording of any known format into canonical columns, in SI and ISO W axes.
 
-    A recording without `time` is a set of steady points. Where a
-    file gives no unit, SI is assumed, and `attrs["notes"]` says so.
+    A recording without `time` is a set of steady points. Where a file states no unit, SI is assumed, and
+    `attrs["notes"]` says so.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def read_recording(
     format : {"TYDEX", "CSV", "MDF4", "MAT", "Parquet"}, optional
         Left out: by content, else by suffix.
     axes : {"ISO", "SAE"}, optional
-        Axes of the file where its names do not tell (TYDEX names do). "SAE" (J670e: y to the
+        Axes of the file if its names do not state them (TYDEX names do). "SAE" (J670e: y to the
         right, z down) mirrors slip_angle, fy, my and mz. Left out: ISO W is assumed, and `attrs` say so.
     units, names : mapping, optional
         By the file's channel name, with or without the unit in it: its unit (over what the file says), the
@@ -81,7 +81,7 @@ def read_recording(
     Raises
     ------
     RecordingError
-        The file cannot be read, or holds no channel that is known.
+        The file cannot be read, or has no known channel.
 
     See Also
     --------
@@ -100,7 +100,7 @@ def read_recording(
     """
     file = Path(path)
     if reason := _no_recording(file):
-        raise RecordingError(reason, where=str(file), todo="give the path of a recording that may be read")
+        raise RecordingError(reason, where=str(file), todo="name a recording that may be read")
     check_size(file)
     kind = _format(file, format)
     try:
@@ -151,7 +151,7 @@ def _format(file: Path, format: str | None) -> str:
         raise RecordingError(
             f"suffix {file.suffix!r} is not known",
             where=str(file),
-            todo="a tire model is no recording: give a recording"
+            todo="a tire model is not a recording: name a recording"
             if file.suffix.lower() == ".tir"
             else f"save it as CSV or Parquet; if it is one of {', '.join(READERS)} under another suffix, "
             "state that format (format=..., --format)",
@@ -160,7 +160,7 @@ def _format(file: Path, format: str | None) -> str:
 
 
 def _split_units(raw: RawRecording) -> dict[str, str]:
-    """Separate units from names where the file gives none elsewhere; return full name -> bare name."""
+    """Separate units from names where the file states none elsewhere; return full name -> bare name."""
     bare = {}
     for channel in raw.channels:
         base, unit = split_unit(channel.name)

@@ -1,4 +1,4 @@
-"""Corrections that a ``.tir`` file has no place for, kept in a JSON file beside it.
+"""Corrections that a ``.tir`` file cannot hold, kept in a JSON file beside it.
 
 ``tire.tir`` has its corrections in ``tire.tir.sidecar.json``::
 
@@ -32,7 +32,7 @@ _TODO_FOR_SIDECAR = "write it again, or move it away to read the .tir alone"
 
 
 def sidecar_path(path: str | os.PathLike[str]) -> Path:
-    """Return where the corrections of a ``.tir`` file are kept.
+    """Return the path of a ``.tir`` file's sidecar.
 
     Examples
     --------

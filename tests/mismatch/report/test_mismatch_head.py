@@ -227,6 +227,23 @@ def test_a_driver_that_did_not_vary_is_no_place():
     assert "Between 22.5 and 37.6 s, Fy is on average 160 N" in text
 
 
+@pytest.mark.parametrize(
+    ("camber", "gain", "placeless"),
+    [(True, True, []), (True, False, ["A wrong gain"]), (False, True, ["Camber"]), (False, False, [])],
+)
+def test_an_effect_without_a_place_is_said_to_have_none_beside_one_that_has(camber, gain, placeless):
+    """A page placed the camber and was silent about the gain that it named beside it."""
+    ranges = {"camber": (0.0, 0.035), "normal_load": (1000.0, 6000.0)}
+    here = {True: {"camber": (0.03, 0.035)}, False: {"camber": (0.0, 0.035)}}
+    effects = [
+        replace(EFFECT, title="camber", where=here[camber]),
+        replace(EFFECT, title="a wrong gain", where=here[gain]),
+    ]
+    told = head("explained", effects, FIT, [replace(PLACE, mean=-90.0)], NONE, "", ranges)
+    said = [r for r in told.remarks if "no place of its own" in r]
+    assert [r.split(" has ")[0] for r in said] == placeless
+
+
 def test_what_is_off_throughout_is_at_no_place_of_an_effect():
     """A gain does most at large loads, and is everywhere."""
     ranges = {"normal_load": (1000.0, 6000.0)}

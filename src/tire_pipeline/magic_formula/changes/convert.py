@@ -1,4 +1,4 @@
-"""A tire model written for another version of the Magic Formula."""
+"""Convert a tire model to another version of the Magic Formula."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def to_version(model: Tire, version: str) -> Tire:
     ----------
     model : TireParameters
     version : str
-        5.0, 5.1, 5.2 and PAC2002 turn into one another, 6.1 and 6.2 too, and each of the former into the
+        5.0, 5.1, 5.2 and PAC2002 convert into one another, so do 6.1 and 6.2, and each of the former into the
         latter.
 
     Returns
@@ -30,7 +30,7 @@ def to_version(model: Tire, version: str) -> Tire:
     Raises
     ------
     TirVersionError
-        From 6.1 or 6.2 to an older version, or for a version that is not known.
+        From 6.1 or 6.2 to an older version, or for an unknown version.
     TirValueError
         If ``LMX`` is 0.
 
@@ -72,7 +72,7 @@ def conversion_notes(model: TireParameters, version: str) -> list[str]:
     Raises
     ------
     TirVersionError
-        If the version is not known.
+        If the version is unknown.
 
     See Also
     --------

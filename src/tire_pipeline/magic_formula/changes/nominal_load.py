@@ -83,7 +83,7 @@ def changed_coefficients(coefficients: Mapping[str, Any], new: Any, family: int 
     """
     if not np.all(np.isfinite(new) & (np.asarray(new) > 0)):
         raise TirValueError(
-            f"the new nominal load {new!r} must be positive", key="FNOMIN", todo="give newtons"
+            f"the new nominal load {new!r} must be positive", key="FNOMIN", todo="state it in newtons"
         )
     r = new / _get(coefficients, "FNOMIN")
     changed: dict[str, Any] = {"FNOMIN": new + 0.0 * r}

@@ -54,7 +54,7 @@ def run(
     largest_angle : float
         The largest magnitude of slip angle and camber.
     turn_slip : ndarray of shape (tires, points), optional
-        ISO sign; only the NumPy form knows it.
+        ISO sign; only the NumPy form supports it.
 
     Returns
     -------
@@ -65,7 +65,7 @@ def run(
         compiled = compiles(matrix)
     tires, count = points[0].shape
     out = np.empty((tires, len(wanted), count))
-    if compiled.any() and not compiled.all():  # a tire's forces do not depend on what stands beside it
+    if compiled.any() and not compiled.all():  # a tire's forces do not depend on the other tires
         for part in (compiled, ~compiled):
             some = [values[part] for values in points]
             out[part] = run(matrix[part], family, some, signs, wanted, largest_angle)
@@ -81,7 +81,7 @@ def run(
 
 
 def compiles(matrix: np.ndarray) -> np.ndarray:
-    """Return of each tire whether compiled code is there and right for its coefficients."""
+    """Return for each tire whether compiled code exists and is valid for its coefficients."""
     return are_moderate(matrix) & HAVE_NUMBA
 
 

@@ -1,7 +1,7 @@
 """Writes the code of the derivatives from the equations; :mod:`.gradients` keeps it.
 
 The equations are traced once with symbols in place of numbers. Going backwards through what they did (reverse
-differentiation) gives the derivatives with respect to all coefficients for little more than the cost of the
+differentiation) yields the derivatives with respect to all coefficients for little more than the cost of the
 value itself. The result is straight-line code that the interpreter runs on arrays and the compiler on points.
 """
 

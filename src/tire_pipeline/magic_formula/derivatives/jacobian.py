@@ -38,11 +38,11 @@ def jacobian(
     names : sequence of str
         Coefficients, by ``.tir`` name; a column of zeros for one that the output does not depend on.
     points : OperatingPoints
-        In ISO W axes. Ranges are not checked, turn slip is not known here.
+        In ISO W axes. Ranges are not checked, turn slip is not supported.
     outputs : sequence of str
         Some of "fx", "fy", "mx", "my", "mz".
     out : mapping of str to ndarray of shape (len(names), number of points), optional
-        Where to put each output's derivatives: it saves the time that new memory takes.
+        Arrays to write each output's derivatives into, which saves allocating new ones.
 
     Returns
     -------
@@ -87,7 +87,7 @@ def packed_jacobian(
         Slip angle, slip ratio, camber, load, speed, pressure.
     outputs : sequence of str
     given : mapping of str to C-contiguous ndarray of shape (len(names), points), optional
-        Where to put the results.
+        Arrays to write the results into.
 
     Returns
     -------
@@ -120,7 +120,7 @@ def packed_jacobian(
 
 @lru_cache(maxsize=1000)
 def _places(over: tuple[str, ...], names: tuple[str, ...]) -> tuple[np.ndarray, list[int]]:
-    """Return in which row the derivative over each coefficient goes, -1 if in none, and rows of no such."""
+    """Return the row for the derivative over each coefficient, -1 for none, and the rows that stay empty."""
     place = {name: i for i, name in enumerate(names)}
     rows = np.array([place.get(name, -1) for name in over])
     return rows, [i for name, i in place.items() if name not in over]

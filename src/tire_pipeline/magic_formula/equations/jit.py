@@ -1,4 +1,4 @@
-"""Whether compiled code can be used, and the decorator for functions that both worlds share."""
+"""Whether compiled code can be used, and the decorator for functions that interpreter and compiler share."""
 
 from __future__ import annotations
 

@@ -24,7 +24,8 @@ OUTPUTS = (
 """What the equations return, in order."""
 
 SATURATION = 1e12
-"""Inputs beyond this magnitude (rad, N, m/s) are taken as this: it keeps every intermediate finite."""
+"""Inputs beyond this magnitude (rad, N, m/s) are limited to it, so that every intermediate value stays
+finite."""
 
 
 def evaluate(vector, family, alpha, kappa, gamma, fz, speed, pressure, turn_slip=None):

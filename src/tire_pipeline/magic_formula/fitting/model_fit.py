@@ -54,7 +54,7 @@ def fit_magic_formula(
         Columns by canonical name in SI units: ``normal_load``, some of ``slip_angle``, ``slip_ratio``,
         ``camber``, ``speed``, ``pressure``, and some of ``fx``, ``fy``, ``mx``, ``my``, ``mz``. What is
         missing of the former is taken as 0 (speed and pressure as their nominal values); what is missing of
-        the latter is not fitted. Steady state: transients have to be left out before.
+        the latter is not fitted. Steady state: remove transients first.
     version : str
         The version to fit.
     start : TireModel, optional
@@ -94,7 +94,7 @@ def fit_magic_formula(
     -----
     The stages: Fy, Fx and Mz at pure slip, then at combined slip, Mx, My (thesis, Appendix A, and Pacejka's
     appendix on the estimation of parameters). The model reproduces the recording's own signs: data in which a
-    positive slip angle gives a positive Fy give a positive PKY1, and a note.
+    positive slip angle causes a positive Fy lead to a positive PKY1, and a note.
 
     See Also
     --------
@@ -250,7 +250,7 @@ def _as_52(
 
 
 def _camber_shift_moved(model: TireModel) -> TireModel:
-    """Return a 6.x model that came from 5.2 with PHY3 in PKY6, which gives its shift at the nominal load."""
+    """Return a 6.x model from 5.2 with PHY3 moved into PKY6: the same shift at the nominal load."""
     if not {"PHY3", "PKY1", "PKY2"} <= set(model.coefficients):
         return model
     p: Any = Coefficients(*model.packed.tolist())
@@ -315,7 +315,7 @@ class _Report:
 
 
 def _unlike_tires(outcome: Outcome, names: Sequence[str]) -> str:
-    """Say which of some coefficients, which the ranges cannot tell, are farther off than tires differ."""
+    """Name coefficients that the ranges cannot determine and that are farther off than tires differ."""
     drawn = outcome.problem.pull
     rows = zip(outcome.problem.names, drawn.centre.tolist(), drawn.spread.tolist(), strict=True)
     far = [

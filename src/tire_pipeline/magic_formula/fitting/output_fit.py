@@ -1,4 +1,4 @@
-"""All stages of an output together: what the stages, one on top of the other, leave too much of."""
+"""All stages of an output together, where one after the other they leave too large a residual."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ def fit_together(
     seeds: Sequence[TireModel] = (),
     bar: float = np.inf,
 ) -> list[Outcome]:
-    """Fit all points of an output at once where its stages leave clearly more than that would.
+    """Fit all points of an output at once if its stages leave a clearly larger residual.
 
-    A stage at combined slip takes the one at pure slip as it is, and cannot make up for what that leaves.
+    A stage at combined slip takes the one at pure slip as it is, and cannot correct its residual.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def fit_together(
 
 
 def _widened(outcome: Outcome, model: TireModel, points: Mapping[str, np.ndarray]) -> Outcome:
-    """Return a stage that also frees what all points can tell and its own could not, as a pressure."""
+    """Return a stage that also frees what only all points together determine, such as pressure."""
     kept = {name: value for group in outcome.kept.values() for name, value in group.items()}
     closed = open_coefficients(tuple(kept), points, model.value("FNOMIN"))
     more = {n: v for n, v in kept.items() if not any(n in group for group in closed.values())}

@@ -30,12 +30,12 @@ from tire_pipeline.magic_formula.parameters.coefficients import INDEX
 from tire_pipeline.magic_formula.parameters.points import POINT_CHANNELS
 
 _EXACT_SHARE = 1e-4
-"""A misfit below this share of the largest force is no misfit."""
+"""A misfit below this share of the largest force does not count."""
 _POSITIVE_AT_EVERY_LOAD = 2.0
 """Largest PKY4 with which the cornering stiffness, a sine of PKY4 times an arc tangent of the load, is
 positive at every load: rows at a single load do not determine it."""
 _TYPICAL_OVER_LEAST = 1.5
-"""What has to be positive and the recording's ranges cannot tell is no less than its typical value over this:
+"""What must be positive and the recording's ranges cannot determine is at least its typical value over this:
 with PKY2 below 1 the cornering stiffness would fall with load."""
 
 
@@ -73,7 +73,7 @@ class Outcome:
     kept : mapping of str to mapping of str to float
         Reason -> coefficients that keep a value, and the value.
     released : mapping of str to list of str
-        Reason -> coefficients that the recording's ranges cannot tell, but that the rows cannot do without.
+        Reason -> coefficients that the recording's ranges cannot determine, but that the rows need.
     problem, bounds : Problem, pair of ndarray
         What was solved.
     """
@@ -175,9 +175,9 @@ def fit_stage(
 ) -> Outcome:
     """Fit a stage.
 
-    Levels are always free. What changes with load, camber, pressure or the slip's sign is free where the
-    recording's ranges can tell it, and keeps typical values elsewhere; it is let go there only if the rows
-    cannot be met without.
+    Levels are always free. Coefficients of load, camber, pressure or the slip's sign are free if the
+    recording's ranges can determine them. Otherwise they keep typical values, and are freed only if the rows
+    cannot be fitted without them.
 
     Parameters
     ----------
@@ -189,7 +189,7 @@ def fit_stage(
     here, measured : mapping of ndarray, ndarray
         The stage's points.
     ranges : mapping of ndarray
-        Points that say what the recording can tell.
+        Points that show what the recording can determine.
     options : Options
     seeds : sequence of TireModel
         More models to start from.

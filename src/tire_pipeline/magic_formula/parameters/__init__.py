@@ -1,1 +1,1 @@
-"""What a tire is: its coefficients, their order and neutral values, axes, and checked operating points."""
+"""A tire as numbers: its coefficients, their order and neutral values, axes, and checked operating points."""

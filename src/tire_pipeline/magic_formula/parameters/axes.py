@@ -4,7 +4,7 @@
   the left.
 - SAE (J670): x forward, y right, z down. A positive slip angle is a contact point that moves to the right.
 - adapted SAE (Pacejka's book): the SAE axes, but a positive slip angle is a contact point that moves to the
-  left, so that it gives a positive side force.
+  left, so that it causes a positive side force.
 
 Camber is positive in all three when the wheel's top leans to the right. docs/reference/axes.md shows
 each sign.
@@ -47,7 +47,7 @@ def signs_of(axes: str, mirrored: bool = False) -> Signs:
     Raises
     ------
     TirValueError
-        For an axis system that is not known.
+        For an unknown axis system.
     """
     try:
         signs = AXES[axes]
@@ -73,7 +73,7 @@ def is_mirrored(side: str | None, tyreside: object) -> bool:
     Raises
     ------
     TirValueError
-        For a side that is not known.
+        For an unknown side.
     """
     if side is None:
         return False

@@ -1,4 +1,4 @@
-"""The coefficients that each version uses, what stands in for missing ones, and the packed order."""
+"""The coefficients that each version uses, defaults of missing ones, and the packed order."""
 
 from __future__ import annotations
 
@@ -162,7 +162,7 @@ def family_of(version: str) -> int:
     Raises
     ------
     TirVersionError
-        For a version that is not known.
+        For an unknown version.
     """
     try:
         return FAMILIES[version]
@@ -174,11 +174,11 @@ def family_of(version: str) -> int:
 
 
 def missing_defaults(coefficients: Mapping[str, float], version: str) -> dict[str, float]:
-    """Return the coefficients that the version's equations use and that are missing, with what stands in.
+    """Return the missing coefficients that the version's equations use, with their defaults.
 
     A missing scale factor is 1, ``PKY4`` 2 and ``QSY7`` 1 (both give the 5.2 form), ``LONGVL`` 16.7 m/s,
-    ``NOMPRES`` takes ``INFLPRES`` and the other way round, everything else 0. Nothing stands in for
-    ``UNLOADED_RADIUS``: it is NaN, and so is what needs it.
+    ``NOMPRES`` takes ``INFLPRES`` and the other way round, everything else 0. ``UNLOADED_RADIUS`` has no
+    default: it is NaN, and so is what needs it.
     """
     missing = {
         name: _DEFAULTS[name] for name in NAMES_BY_FAMILY[family_of(version)] if name not in coefficients
@@ -217,7 +217,7 @@ def check_values(coefficients: Mapping[str, float], path: str | None = None) -> 
                 f"{key} = {coefficients[key]!r} must be positive",
                 key=key,
                 path=path,
-                todo="give the tire's own value",
+                todo="enter the tire's own value",
             )
     for key in _NOT_ZERO:
         if coefficients.get(key, 1.0) == 0:
@@ -225,7 +225,7 @@ def check_values(coefficients: Mapping[str, float], path: str | None = None) -> 
                 f"{key} = 0, and the equations divide by it",
                 key=key,
                 path=path,
-                todo="give the tire's own value, or leave the key out where the force is not modelled",
+                todo="enter the tire's own value, or leave the key out where the force is not modelled",
             )
 
 
@@ -239,15 +239,15 @@ def is_possible(name: str, value: float) -> bool:
 
 
 def are_moderate(matrix: np.ndarray) -> np.ndarray:
-    """Return of each packed tire whether none of its shape factors is beyond 1000.
+    """Return for each packed tire whether none of its shape factors is beyond 1000.
 
-    Shape factors multiply angles inside sines and cosines; compiled code knows those only up to 1e5.
+    Shape factors multiply angles inside sines and cosines; compiled code is accurate only up to 1e5.
     """
     return np.asarray(np.abs(matrix[:, _SHAPES]).max(axis=1, initial=0.0) <= _LARGEST_SHAPE)
 
 
 def pack_mapping(coefficients: Mapping[str, float], defaulted: Mapping[str, float]) -> np.ndarray:
-    """Return the packed vector (``COEFFICIENT_NAMES`` order) of what is given and what stands in."""
+    """Return the packed vector (``COEFFICIENT_NAMES`` order) of given values and defaults."""
     vector = np.array([_DEFAULTS[name] for name in COEFFICIENT_NAMES])
     for source in (defaulted, coefficients):
         for name, value in source.items():

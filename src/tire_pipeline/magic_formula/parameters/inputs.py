@@ -12,7 +12,7 @@ from tire_pipeline.channels import ANGLE_CHANNELS
 from tire_pipeline.errors import TirShapeError, TirValueError
 
 LOOKS_LIKE_DEGREES = 1.6
-"""Angles beyond this (rad) draw a warning."""
+"""Angles beyond this (rad) cause a warning."""
 
 _VALUES_AT_ONCE = 1 << 20
 _STACK_LEVEL_OF_INPUTS = 5
@@ -29,7 +29,7 @@ class TireRangeWarning(UserWarning):
     Notes
     -----
     The ranges are those of the file: FZMIN and FZMAX, ALPMIN and ALPMAX, and so on. A range that the file
-    does not state warns of nothing.
+    does not state causes no warning.
 
     Examples
     --------
@@ -53,8 +53,8 @@ class DegreesWarning(UserWarning):
 
     Notes
     -----
-    A slip angle or camber beyond 1.6 rad (92 degrees) is one that no tire has. It is told whatever ``limits``
-    are.
+    A slip angle or camber beyond 1.6 rad (92 degrees) is one that no tire has. The warning comes whatever
+    ``limits`` are.
 
     Examples
     --------
@@ -97,7 +97,7 @@ def as_float_arrays(inputs: Mapping[str, Any]) -> tuple[dict[str, np.ndarray], t
         listed = ", ".join(f"{k} {a.shape}" for k, a in arrays.items() if a.ndim)
         raise TirShapeError(
             f"the operating points do not broadcast against each other: {listed}",
-            todo="give arrays of one shape, or scalars",
+            todo="pass arrays of one shape, or scalars",
         ) from None
 
 

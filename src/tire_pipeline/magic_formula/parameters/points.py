@@ -16,7 +16,7 @@ class OperatingPoints(NamedTuple):
     Attributes
     ----------
     normal_load : float or array_like
-        Vertical load (N). A load of zero or less gives zero everywhere.
+        Vertical load (N). At a load of zero or less every output is zero.
     slip_angle, slip_ratio, camber : float or array_like
         Slip angle (rad), longitudinal slip (-1 is a locked wheel), camber (rad).
     speed : float or array_like, optional
@@ -74,29 +74,29 @@ def points_of(points: OperatingPoints | None, channels: PointFields) -> Operatin
     TirValueError
         If both are given.
     TypeError
-        If there is no normal load, or a keyword is no channel.
+        If there is no normal load, or a keyword is not a channel.
     """
     if points is None:
         return OperatingPoints(**channels)
     if channels:
         raise TirValueError(
             f"operating points are given, and {', '.join(channels)} beside them",
-            todo="give one OperatingPoints, or channels by keyword",
+            todo="pass one OperatingPoints, or channels by keyword",
         )
     return points
 
 
 def refuse_turn_slip(points: OperatingPoints, what: str) -> None:
-    """Raise if there is turn slip at the points: only :meth:`.TireModel.forces` knows it.
+    """Raise if there is turn slip at the points: only :meth:`.TireModel.forces` supports it.
 
     Raises
     ------
     TirValueError
-        It says what cannot be had with turn slip.
+        It names what is not available with turn slip.
     """
     if np.any(np.asarray(points.turn_slip) != 0.0):
         raise TirValueError(
-            f"{what} are not there with turn slip",
+            f"{what} are not available with turn slip",
             key="turn_slip",
             todo="use TireModel.forces, or leave it out",
         )

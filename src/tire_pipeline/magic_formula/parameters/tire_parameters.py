@@ -1,4 +1,4 @@
-"""A tire as numbers: the coefficients of one Magic Formula version, and nothing that is done with them."""
+"""The coefficients of a tire for one Magic Formula version, without the equations."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class TireParameters:
         By their ``.tir`` names in capitals, in SI units: p, q, r and s coefficients, scale factors,
         ``FNOMIN``, ``UNLOADED_RADIUS``, ``LONGVL``, ``NOMPRES``, ranges (``ALPMIN``, ``FZMAX``, ...).
     defaulted : mapping of str to float
-        Coefficients that the source lacks, and the value that stands in.
+        Coefficients that the source lacks, with their default values.
     metadata : mapping of str to object
         What is not a coefficient, by "SECTION.KEY" in SI units: "DIMENSION.WIDTH", "MODEL.TYRESIDE", ...
     source : object, optional
@@ -51,7 +51,7 @@ class TireParameters:
         If a coefficient is not a finite number, or has a value that the equations divide by; it names the
         key.
     TirVersionError
-        If the version is not known.
+        If the version is unknown.
     """
 
     version: str
@@ -146,7 +146,7 @@ class TireParameters:
         return slip_angle, slip_ratio, camber, normal_load, speed, pressure
 
     def value(self, name: str) -> float:
-        """Return a coefficient's value, or what stands in for it.
+        """Return a coefficient's value, or its default.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""What explanations agree on, where a recording cannot tell them apart."""
+"""The change that several explanations agree on, where a recording cannot tell them apart."""
 
 from __future__ import annotations
 
@@ -17,9 +17,10 @@ def agreed(
 ) -> dict[str, Array]:
     """Return forces changed by no more than explanations agree on.
 
-    On the recording that was explained the explanations come to nearly the same. At other loads, times and
-    slips they need not: wear goes on and a gain stays. Each sample changes in the direction of the likeliest
-    explanation, by the size that the true change has at least, but for a probability of ``UNSURE``.
+    On the recording that was explained, the explanations predict nearly the same forces. At other loads,
+    times and slips they can differ: wear continues, a gain stays constant. Each sample changes in the
+    direction of the likeliest explanation, by an amount that the true change exceeds except with probability
+    ``UNSURE``.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 """Errors on the rows as they were recorded: what ``tire.forces`` and ``corrected.predict`` leave there.
 
-Sets are weighed on rows that are repaired, averaged to 50 to 100 Hz and cleaned. Its errors are smaller by
-the noise that this takes off, and must not stand beside those of the user's own rows.
+Sets are weighed on rows that are repaired, averaged to 50 to 100 Hz and cleaned. Errors on such rows are
+smaller, because this removes noise, and must not be compared with those on the user's own rows.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def as_recorded(
 
 
 def _left(data: Data, changes: Sequence[Change], outputs: Iterable[str]) -> dict[str, Array]:
-    """What changes leave of the forces that were weighed, N, and of recorded moments, N m."""
+    """Residuals of the weighed forces, N, and of recorded moments, N m, with some changes."""
     left = residual(data, changes)
     moments = [o for o in outputs if o not in left]
     simulated = simulate_moments(data, changes, moments) if moments else {}
@@ -136,7 +136,7 @@ def _inside(condition: str, recording: pd.DataFrame) -> Array | None:
 def with_unnamed(fit: dict[str, OutputFit], found: UnnamedReport) -> dict[str, OutputFit]:
     """Return the errors with an unnamed equation in the model, by what it does on sweeps it has not seen.
 
-    What it predicts of these was no noise: the noise is never more than the error that remains.
+    What it predicts of these was not noise, so the noise is at most the error that remains.
     """
     ratios = {o: after / max(before, 1e-300) for o, (before, after) in _unseen(found).items()}
     smaller = _times(fit, ratios)

@@ -61,7 +61,7 @@ class CorrectedModel:
     limits : dict of str to (low, high)
         Force -> the range in which it is recorded, as recorded.
     question : Question, optional
-        What has to be settled before a file may be written from it.
+        A question to settle before a file may be written from it.
     cleaned : dict of str to float
         Input channel that is cleaned of sensor noise before the effects are added -> RMS of that noise, SI.
     unnamed : UnnamedPhysics, optional
@@ -70,10 +70,10 @@ class CorrectedModel:
         Other explanations that the recording cannot tell from ``changes``, and how likely they are beside
         these: ``predict`` adds what they agree on (:func:`.agreed`).
     part : float
-        Of what the effects change, which is added: what unseen sweeps confirm
+        Share of the effects' change that is added, as far as unseen sweeps confirm it
         (:func:`.proof.never_worse.confirmed_part`).
     rolled : WheelWay, optional
-        Where the wheel stood, if an effect follows it.
+        Angle of the wheel, if an effect follows it.
 
     See Also
     --------
@@ -192,7 +192,7 @@ class CorrectedModel:
         return forces
 
     def _of_unknown_phase(self, data: Data) -> list[str]:
-        """Say which effects are left out because nobody knows the angle of the wheel."""
+        """Say which effects are left out because the angle of the wheel is unknown."""
         if data.wheel.known_way is None:
             return []
         unknown = float(np.mean(np.isnan(data.wheel.known_way)))
@@ -205,7 +205,7 @@ class CorrectedModel:
         ]
 
     def _put_unnamed(self, data: Data, forces: dict[str, Array]) -> list[str]:
-        """Add what has no name to the forces, and say where it fades."""
+        """Add the unnamed equation to the forces, and say where it fades."""
         if self.unnamed is None:
             return []
         for channel in self.unnamed.channels:
@@ -347,7 +347,7 @@ class CorrectedModel:
 def _without_noise(x: Array, start: Array, noise: float) -> Array:
     """Return a channel without its sensor noise; as it is where far more than that would be taken off.
 
-    A sensor's noise is the same in every recording. What fluctuates more moves, which only forces could tell.
+    A sensor's noise is the same in every recording. A channel that fluctuates more really moves.
     """
     smooth = denoise(x, start)
     return smooth if rms(x - smooth) < _SAME_NOISE * noise else x

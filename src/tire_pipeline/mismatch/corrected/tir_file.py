@@ -1,4 +1,4 @@
-"""What a corrected ``.tir`` file and its sidecar hold, and what the file says at its top."""
+"""Contents of a corrected ``.tir`` file and its sidecar, and the comment at the file's top."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def with_coefficients(
     changes : sequence of (name, parameters)
         Effects with their parameters in SI.
     part : float
-        Of what the effects change, which is added.
+        Share of the effects' change that is added.
     reference : Reference
     unnamed : UnnamedPhysics or None
 
@@ -64,13 +64,13 @@ def comments(
     others: Sequence[Sequence[Change]],
     sidecar: Mapping[str, object],
 ) -> list[str]:
-    """Say at the top of a ``.tir`` file: physics, where it stands, and faults of the recording.
+    """Return the comment at the top of a file: physics, where it is stored, and faults of the recording.
 
     Parameters
     ----------
     changes : sequence of (name, parameters)
     part : float
-        Of what the effects change, which is added.
+        Share of the effects' change that is added.
     others : sequence of sequences of (name, parameters)
         Other explanations that are open.
     sidecar : mapping

@@ -1,4 +1,4 @@
-"""Where the wheel stood: known in the recording that was explained, and in no other."""
+"""Angle of the wheel, which is known in the recording that was explained only."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ class WheelWay:
     def at(self, time: Array, speed: Array) -> Array:
         """Return how far the wheel had rolled, m, shape as ``time``; NaN in samples of another recording.
 
-        A sample is of this recording if it has a sample of the same time and speed. Which way a wheel points
-        in another one, nobody knows: what comes back once a turn would be added at a wrong angle there.
+        A sample is of this recording if it has a sample of the same time and speed. In another one the
+        wheel's angle is unknown, and what repeats once a turn would be added at a wrong angle.
         """
         near = np.clip(np.searchsorted(self.time, time), 0, self.time.size - 1)
         own = (self.time[near] == time) & (self.speed[near] == speed)

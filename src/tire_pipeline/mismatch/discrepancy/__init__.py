@@ -1,1 +1,1 @@
-"""What a recording shows beside any effect: noise, changed coefficients, misfit, unnamed forms."""
+"""Differences that come from no effect: noise, changed coefficients, misfit, unnamed forms."""

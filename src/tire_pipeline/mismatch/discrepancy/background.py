@@ -1,7 +1,8 @@
-"""The background: what the effects of the catalogue do a little in every recording, named or not.
+"""The background: small contributions of the catalogue's effects that every recording has.
 
 A flat belt lags a little behind its slip, a small car's forces follow its speed a little, a load cell is a
-little off. None of this is a finding. A name is a size that stands out against what is usual in its family.
+little off. None of this is a finding. An effect is named if its size stands out against what is usual in its
+family.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from tire_pipeline.mismatch.model.data import Data
 Array = np.ndarray
 Columns = Mapping[str, Array]
 UNNAMED = "unnamed"
-"""Family of what has no name: rates, memory, play, what repeats along the road."""
+"""Family of the unnamed forms: rates, memory, play, what repeats along the road."""
 _MOST_DIRECTIONS = 12
 _LEAST_OF_FIRST = 0.02
 _NO_COLUMN = 1e-9
@@ -43,7 +44,7 @@ class Background:
 
     @property
     def unnamed(self) -> dict[str, Array]:
-        """The columns of what has no name."""
+        """The columns of the unnamed forms."""
         which = np.array([family == UNNAMED for family in self.families], bool)
         return {o: x[:, which] for o, x in self.columns.items()}
 

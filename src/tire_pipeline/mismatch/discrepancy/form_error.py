@@ -1,4 +1,4 @@
-"""What the form of an effect may get wrong: columns about its own part of the force."""
+"""Errors in the form of an effect: columns in proportion to its own part of the force."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _WHEEL_ANGLE_DRIFT = 2.0
 
 
 def shape_columns(data: Data, changes: Sequence[Change], index: int) -> dict[str, Array]:
-    """Columns for what the form of an accepted effect may get wrong.
+    """Columns for errors in the form of an accepted effect.
 
     Its own part times own inputs, and what other forms of it would do instead.
     """

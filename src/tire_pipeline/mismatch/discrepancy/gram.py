@@ -1,4 +1,4 @@
-"""Generalised least squares by sweeps: all that is asked is answered from sums of products.
+"""Generalised least squares by sweeps: everything is computed from sums of products.
 
 Per output the whitened residual is ``r = E x + N c + noise`` with effects' columns E, nuisance
 columns N, prior ``c ~ N(0, diag(scale^2))`` and unit white noise. Sums over each sweep are kept, so

@@ -1,4 +1,4 @@
-"""How many samples of a recording are measurements of their own."""
+"""How many samples of a recording are independent."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tire_pipeline.mismatch.model.residual import rms
 Array = np.ndarray
 _SLIP_CHANNELS = ("slip_angle", "slip_ratio")
 _FEWEST_STRETCHES = 15
-"""Fewest stretches whose variance says anything."""
+"""Fewest stretches whose variance is meaningful."""
 _JUMP = 0.1
 """Step of an input, over its range, by which a test plan goes on; the steps of a run are smaller."""
 

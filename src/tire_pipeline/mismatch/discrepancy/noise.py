@@ -70,7 +70,7 @@ class ForceNoise:
 
 
 def estimate_noise(data: Data, residual: dict[str, Array], *, stated: bool = True) -> dict[str, ForceNoise]:
-    """Estimate the size of the noise of each output from what the model leaves, as if it were white.
+    """Estimate the size of the noise of each output from the residual, as if it were white.
 
     Parameters
     ----------
@@ -121,8 +121,8 @@ def refined(data: Data, noise: ForceNoise, calm: Array) -> ForceNoise:
     noise : ForceNoise
         The first estimate.
     calm : ndarray, shape (n,)
-        A residual without what any model explains, N. What stays correlated for long is no noise, and
-        is taken off the size.
+        A residual without what any model explains, N. What stays correlated for long is not noise, and is
+        subtracted.
     """
     if data.time is None:
         return noise

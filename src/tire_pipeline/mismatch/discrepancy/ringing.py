@@ -1,6 +1,6 @@
 """Unnamed forms of a rig that rings: the load cell carries a mass on a spring.
 
-What the cell measures of a force F is (w^2 + 2 z w s) / (s^2 + 2 z w s + w^2) F, with the rig's own frequency
+A cell measures a force F as (w^2 + 2 z w s) / (s^2 + 2 z w s + w^2) F, with the rig's own frequency
 w and its damping z. What it adds is -s^2 / (s^2 + 2 z w s + w^2) F: nothing where the force is slow.
 """
 

@@ -1,4 +1,4 @@
-"""Unnamed forms: what an input does by its rate, its memory or its play.
+"""Unnamed forms: an input acts through its rate, its memory or its play.
 
 An effect of the catalogue may resemble a cause that is not in it. Every input of the tire can act on
 friction and stiffness through how fast it changes and through what it was some seconds ago, and can

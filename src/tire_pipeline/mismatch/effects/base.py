@@ -45,7 +45,7 @@ class Parameter:
     further : bool
         Whether it only refines the effect of the other parameters.
     form : bool
-        Whether it says which form the effect has, not how large it is: a reference, a lag, a moment.
+        Whether it sets the form of the effect, not its size: a reference, a lag, a moment.
     prior : float
         Standard deviation about ``zero`` if the effect is present; with 0 every value between the bounds is
         equally likely.

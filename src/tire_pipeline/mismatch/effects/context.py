@@ -1,7 +1,7 @@
-"""What an effect may ask of the recording that it is looked for in; ``model.data.Data`` answers it.
+"""The interface through which an effect sees a recording; ``model.data.Data`` implements it.
 
-All arrays have shape (n,), one value a sample, SI. An effect imports nothing of the model: whatever has these
-members will do.
+All arrays have shape (n,), one value a sample, SI. Effects do not import the model: any object with these
+members works.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class OfModel(Protocol):
 
     @property
     def load_range(self) -> tuple[float, float]:
-        """Least and largest load that the file holds for, N; infinite where it gives no range."""
+        """Least and largest load that the file holds for, N; infinite where it states no range."""
 
     @property
     def radius(self) -> float:
@@ -109,7 +109,7 @@ class OfWheel(Protocol):
 
     @property
     def way(self) -> Array:
-        """Distance that it rolled, m; NaN where nobody knows."""
+        """Distance that it rolled, m; NaN where it is unknown."""
 
     @property
     def turns_resolved(self) -> bool:

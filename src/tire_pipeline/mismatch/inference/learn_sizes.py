@@ -68,7 +68,7 @@ class Tuning:
     kept: tuple[int, ...] | None = None
 
     def weighed(self, of: Array) -> Array:
-        """Return what is said of the hypotheses that are weighed, from what is said of all, shape (h,)."""
+        """Return the entries of the hypotheses that are weighed, from those of all, shape (h,)."""
         return of if self.kept is None else of[list(self.kept)]
 
     def rights(self) -> Array:
@@ -91,7 +91,7 @@ def pruned(each: Tuning, sizes: LearntSizes) -> Tuning:
 
 @dataclass(frozen=True)
 class Learnt:
-    """What was learnt.
+    """The learnt sizes and their score.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ LOCKED = frozenset({"moment", "radius"})
 
 @dataclass(frozen=True)
 class BySweep:
-    """What each sweep says of the parameters, and what their priors say; in the order of a fit's labels.
+    """Information of each sweep and of the priors about the parameters, in the order of a fit's labels.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ class Fit:
 
     @property
     def undetermined(self) -> Array:
-        """Whether the priors say more of a floating parameter than the recording does, shape (k,)."""
+        """Whether the priors determine a floating parameter more than the recording does, shape (k,)."""
         if self.sweeps is None:
             return np.zeros(len(self.labels), bool)
         return np.asarray(self.errors**2 * self.sweeps.precision > 0.5)
@@ -138,7 +138,7 @@ def linearised(
     weight: Mapping[str, float],
     learnt_prior: float,
 ) -> Fit:
-    """Return a set at its parameters, with columns and with what each sweep says of them."""
+    """Return a set at its parameters, with columns and with each sweep's information about them."""
     data, rest = system.data, residual(system.data, changes)
     labels, columns = columns_of(data, list(changes), list(free))
     off, wide = prior(data, changes, labels)

@@ -1,4 +1,4 @@
-"""Columns of the effects: what the recording would show if a parameter moved a little."""
+"""Columns of the effects: the change of the recording if a parameter changes a little."""
 
 from __future__ import annotations
 

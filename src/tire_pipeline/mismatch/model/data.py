@@ -1,4 +1,4 @@
-"""The recording made ready: what was recorded, what the model says of it, and what builds up along it."""
+"""The prepared recording: its channels, the model's forces, and the states along it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Array = np.ndarray
 
 @dataclass(frozen=True)
 class Choices:
-    """What a user chooses in place of what the effects state.
+    """Choices of the user that replace those of the effects.
 
     Parameters
     ----------

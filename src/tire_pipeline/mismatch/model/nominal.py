@@ -1,4 +1,4 @@
-"""What the model itself says: nominal load, pressure and speed, and whether it answers to camber."""
+"""Nominal values of the model: load, pressure and speed, and whether it responds to camber."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ class NominalConditions:
     def load_excess(self, load: Array) -> Array:
         """Return ``(Fz - Fz0) / Fz0``, which fades outside of the loads that the effects were fitted to.
 
-        A line through the recorded loads says nothing of others: it goes to zero there, over the width of
+        A line through the recorded loads does not hold at others: it goes to zero there, over the width of
         what was recorded, and the model that came in stays.
         """
         excess = (load - self.load) / self.load
@@ -203,7 +203,7 @@ class NominalConditions:
 
     @cached_property
     def knows_camber(self) -> bool:
-        """Whether the model's lateral force answers to camber."""
+        """Whether the model's lateral force responds to camber."""
         return any(self.coefficients.get(key, 0.0) for key in OF_CAMBER["fy"])
 
 

@@ -1,4 +1,4 @@
-"""What the simulation with some changes leaves of the recorded forces."""
+"""The residual: recorded forces minus those of the simulation with some changes."""
 
 from __future__ import annotations
 

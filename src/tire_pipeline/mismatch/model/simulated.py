@@ -1,4 +1,4 @@
-"""The simulation as it is, its slopes, and what it gives where a state of slips and tire is changed."""
+"""The simulation as it is, its slopes, and its forces in a changed state of slips and tire."""
 
 from __future__ import annotations
 

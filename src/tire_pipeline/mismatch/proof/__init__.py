@@ -1,1 +1,1 @@
-"""What holds on unseen sweeps, the size and place of the residual, and what could have been seen."""
+"""Errors on unseen sweeps, size and place of the residual, and which effects could have been seen."""

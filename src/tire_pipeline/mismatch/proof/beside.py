@@ -1,4 +1,4 @@
-"""The set that is named, as everything else in a recording is weighed beside it."""
+"""The named set, beside which everything else in a recording is weighed."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Beside:
     ----------
     named : OfSet
     rest : dict of ndarray, shape (n,)
-        What it leaves of each output, N.
+        The residual of each output, N.
     columns : dict of ndarray, shape (n, m)
         Of its parameters and of what its forms get wrong, N.
     scale : ndarray, shape (m,)

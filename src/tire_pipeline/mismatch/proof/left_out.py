@@ -1,4 +1,4 @@
-"""What a set leaves on sweeps that the fit of its parameters has not seen."""
+"""The residual of a set on sweeps that the fit of its parameters has not seen."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from tire_pipeline.mismatch.model.data import Data
 
 Array = np.ndarray
 _LEAST_FORCE = 0.1
-"""A share of the force is given where the force is above this part of the largest one."""
+"""A share of the force is stated where the force is above this part of the largest one."""
 _EVEN = 0.7
 """What is off throughout, in no stretch: one share of the force, or one force, that is this part of the
 squared difference."""
@@ -39,8 +39,8 @@ class Located:
     p_value : float
         Largest statistic over all axes, stretches and scales under flips of whole sweeps.
     own : float
-        Part of the mean that is not there wherever the first axis of this output is the same: next to nothing
-        for a channel that merely came along.
+        Part of the mean that the first axis of this output does not explain: near zero for a channel that
+        merely varied with it.
     """
 
     output: str

@@ -1,4 +1,4 @@
-"""What is measured of an explanation: errors on sweeps left out, the residual, what could be seen."""
+"""Measures of an explanation: errors on sweeps left out, the residual, what could be seen."""
 
 from __future__ import annotations
 
@@ -64,12 +64,12 @@ class OutputFit:
 
 @dataclass(frozen=True)
 class Visible:
-    """What this recording can say about one parameter of one effect, named or not.
+    """What this recording shows of one parameter of one effect, named or not.
 
     Parameters
     ----------
     name, parameter, unit : str
-        The parameter is empty where nothing can be said, or where an effect shows without a size.
+        The parameter is empty where the recording shows nothing, or where an effect shows without a size.
     seen : float
         Smallest size that would have been named, alone or with alternatives, in 95% of repetitions; NaN where
         no size that is possible would have been.

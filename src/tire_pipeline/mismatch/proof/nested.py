@@ -1,4 +1,4 @@
-"""The choice repeated without each fifth of the sweeps: what it leaves on sweeps that it has not seen.
+"""The choice repeated without each fifth of the sweeps: its residual on sweeps that it has not seen.
 
 Sets are weighed again without a fold, and the set that is named then predicts the fold by parameters that it
 has not fitted. Only which sets are weighed at all, and where each fit is linearised, has seen every sweep.
@@ -26,7 +26,7 @@ REPEATS = 5
 
 @dataclass(frozen=True)
 class Unseen:
-    """What repeated choices leave.
+    """Residuals of repeated choices.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class RepeatedChoice:
     block : ndarray of int, shape (n,)
         Sweep of each sample. Folds interleave sweeps; a recording of one sweep proves nothing.
     level : float
-        Probability from which a name, with its alternatives, is said.
+        Probability from which an effect, with its alternatives, is named.
     """
 
     def __init__(self, sets: Enumerated, block: Array, level: float) -> None:

@@ -1,4 +1,4 @@
-"""The one guard beside the posterior: of a correction, no more is added than unseen sweeps confirm.
+"""The one guard beside the posterior: a correction is added only as far as unseen sweeps confirm it.
 
 It can withhold a correction or a part of it, never choose a name.
 """
@@ -23,7 +23,7 @@ Array = np.ndarray
 
 @dataclass(frozen=True)
 class Guarded:
-    """What may be added to the model.
+    """The correction that may be added to the model.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def guarded(analysis: Analysis, sets: Enumerated, level: float) -> Guarded:
         With the set that is named.
     sets : Enumerated
     level : float
-        Probability from which a name is said.
+        Probability from which an effect is named.
     """
     fit, before = analysis.fit, residual(analysis.data, [])
     if not fit.names:

@@ -27,7 +27,7 @@ Array = np.ndarray
 
 
 class Rivals:
-    """All that an effect has to beat in one recording beside the set that is named.
+    """The hypotheses that an effect has to beat in one recording, beside the set that is named.
 
     Parameters
     ----------

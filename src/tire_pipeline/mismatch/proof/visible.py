@@ -261,7 +261,7 @@ def _moved(products: Projected, size: float) -> Projected:
 
 
 def visible(analysis: Analysis, enumerated: Enumerated, named: OfSet, *, unexplained: bool) -> list[Visible]:
-    """Return what a recording can say of each effect of the catalogue.
+    """Return what a recording shows of each effect of the catalogue.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
 """Which inputs are cleaned of sensor noise: those that the force follows better when they are smooth.
 
 A channel that fluctuates is either noisy (the tire does not feel it) or really moves (the tire does). The
-forces tell: what smoothing takes off a channel goes through the model; if the recorded force contains it, it
-was real.
+forces decide: what smoothing takes off a channel goes through the model; if the recorded force contains it,
+it was real.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Cleaning:
         RMS of what smoothing takes off, in the channel's unit.
     felt : float
         Share of it that the recorded force contains: 1 if the input really moved, 0 for sensor noise. NaN if
-        the force does not tell.
+        the force does not show it.
     evidence : float
         Log evidence for the smooth channel over the recorded one.
     """
@@ -52,7 +52,7 @@ class Cleaning:
         """Say in words what was done and why."""
         felt = np.clip(self.felt, 0.0, 1.0)
         share = (
-            "the force does not tell which it is" if np.isnan(felt) else f"the force follows {felt:.0%} of it"
+            "the force does not show which it is" if np.isnan(felt) else f"the force follows {felt:.0%} of it"
         )
         done = "sensor noise was removed" if self.smoothed else "used as recorded, fast changes included"
         factor, unit, _ = shown_unit(self.channel, self.removed)

@@ -1,4 +1,4 @@
-"""What a caller gives: a tire model, and a table whose known columns are numbers."""
+"""The caller's input: a tire model, and a table whose known columns are numbers."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def numeric(recording: Any) -> pd.DataFrame:
     Raises
     ------
     RecordingError
-        It is no table, a known column is there twice, or holds something else than numbers.
+        It is no table, a known column is there twice, or holds something other than numbers.
     """
     if not isinstance(recording, pd.DataFrame):
         raise RecordingError("the recording is not a DataFrame", todo="read it with read_recording")
@@ -63,7 +63,7 @@ def _numbers(column: pd.Series) -> pd.Series:
 
 
 def check_tire(tire: Any) -> None:
-    """Raise if something else than a tire model was given.
+    """Raise if something other than a tire model was passed.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Whether the file is of the tire that was recorded: several of its basic figures off at once say no."""
+"""Whether the file is of the recorded tire. If several of its basic figures are off at once, it is not."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Figures:
     output : str
     values, errors : ndarray, shape (5,)
         Logarithms of true over file's, in the order of ``FIGURES`` (curvature: of the effective slip in the
-        bend); NaN where the recording does not tell.
+        bend); NaN where the recording does not determine them.
     removed : float
         Share of the squared mismatch that is gone with them, of what the recorded states leave.
     known : ndarray of bool, shape (5,)

@@ -1,4 +1,4 @@
-"""From a DataFrame to clean arrays: what is missing, broken or recorded wrongly is said, not explained."""
+"""From a DataFrame to clean arrays: missing, broken or wrongly recorded data are reported, not explained."""
 
 from __future__ import annotations
 
@@ -60,8 +60,8 @@ class Prepared:
     assumed : list of str
         What was not stated: axes, units, repairs, channels taken as zero.
     questions : list of Question
-        What has to be settled before anything is explained, or before anything corrected is written; the
-        first comes first.
+        Questions to settle before anything is explained, or before anything corrected is written, in this
+        order.
     """
 
     data: Data
@@ -75,7 +75,7 @@ class Prepared:
 
     @property
     def question(self) -> Question | None:
-        """What has to be settled first."""
+        """The question to settle first."""
         return self.questions[0] if self.questions else None
 
     @property
@@ -85,7 +85,7 @@ class Prepared:
 
 
 def _on_time(time: Array | None) -> list[str]:
-    """What is to be said of the time from sample to sample."""
+    """Remarks on the time from sample to sample."""
     if time is None:
         return [
             "time is not recorded: rows that follow each other are taken for a run, others for steady "
@@ -222,9 +222,7 @@ def _arrays(recording: pd.DataFrame) -> dict[str, Array]:
             todo=f"name the force columns fx, fy (columns are: {', '.join(map(str, recording.columns))})",
         )
     if "normal_load" not in arrays:
-        raise RecordingError(
-            "no normal_load, without which no tire model gives a force", todo="record or compute it"
-        )
+        raise RecordingError("no normal_load, which every tire model needs", todo="record or compute it")
     if "slip_angle" not in arrays and "slip_ratio" not in arrays:
         raise RecordingError("neither slip_angle nor slip_ratio is recorded", todo="record one of them")
     least = LEAST_SAMPLES if "time" in arrays else LEAST_POINTS
@@ -302,7 +300,7 @@ def _usable(arrays: Mapping[str, Array], time: Array | None, notes: list[str]) -
 
 
 def _overlap(tire: Any, arrays: Mapping[str, Array]) -> None:
-    """Raise if the recording lies where the model says nothing."""
+    """Raise if the recording lies outside of the model's range."""
     load = arrays["normal_load"]
     c = tire.coefficients
     nominal = c.get("FNOMIN", float(np.median(load)))

@@ -41,7 +41,7 @@ def stand_in(arrays: Mapping[str, Array]) -> tuple[Any, dict[str, Array]]:
     if not forces:
         raise RecordingError(
             "there is neither a tire model nor a column simulated_fy or simulated_fx",
-            todo="give the tire model, or the other simulator's output",
+            todo="pass the tire model, or the other simulator's output",
         )
     inputs = {n: arrays[n] for n in SLIP_AND_LOAD if n in arrays}
     step = max(1, arrays["normal_load"].size // ENOUGH_ROWS)

@@ -1,4 +1,4 @@
-"""Whether a recording carries an answer: does slip drive the force, with the right sign, how much of it?"""
+"""Whether a recording can be explained: slip must drive most of the force, with the right sign."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from tire_pipeline.recordings.check import unit_stated
 Array = np.ndarray
 
 LEAST = 0.5
-"""Less than half: most of the force comes from something else than the slip that was recorded. In the real
+"""Less than half: most of the force comes from something other than the recorded slip. In the real
 recordings at hand it is 0.79 at least (a drive of a few seconds whose friction changed), in simulated ones
 0.94."""
 

@@ -1,1 +1,1 @@
-"""What the user gets: values, words, figures and the page."""
+"""The report for the user: values, words, figures and the page."""

@@ -62,7 +62,7 @@ _TO_DO = {
 
 @dataclass(frozen=True)
 class Explained:
-    """What a report is made of.
+    """The parts of a report.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ class Explained:
     recording : pandas.DataFrame
         As it came.
     level : float
-        Probability from which a name is said.
+        Probability from which an effect is named.
     """
 
     prepared: Prepared
@@ -106,7 +106,7 @@ def assembled(it: Explained) -> MismatchReport:
     fit = as_recorded(proved, inside, model, it.recording, prepared.rows, spoiled)
     unnamed, model, fit = _unnamed(it, verdict, bool(effects), model, fit, equation)
     if unnamed is not None and unnamed.physics is not None and not effects:
-        verdict = "unexplained"  # what was proved is no agreement, though it has no name
+        verdict = "unexplained"  # a proved equation contradicts agreement, although it has no name
     silent = prepared.stopped or verdict == "agrees"
     before = residual(data, [])
     located = [] if silent else locate(data, before, analysis.noise, analysis.block)
@@ -163,7 +163,7 @@ def _with_reasons(it: Explained) -> Explained:
 
 
 def _beaten(it: Explained) -> tuple[Explained, UnnamedReport | None]:
-    """Take back names where an equation alone predicts unseen sweeps surely better, and return it, too."""
+    """Withdraw names where an equation alone predicts unseen sweeps clearly better, and return it, too."""
     if it.prepared.stopped or not it.answer.names:
         return it, None
     with under_way("looking for an equation instead of the names"):
@@ -177,7 +177,7 @@ def _beaten(it: Explained) -> tuple[Explained, UnnamedReport | None]:
 
 
 def _unseen(it: Explained, effects: Sequence[EffectReport]) -> list[str]:
-    """Return what physics expects in this recording and no set of names holds."""
+    """Return effects that physics expects in this recording and that no set of names contains."""
     said = {name for effect in effects for name in (effect.name, *effect.alternatives)}
     return sorted(it.sets.likelihood.unknown.expected - said)
 
@@ -294,10 +294,10 @@ def _unnamed(
     fit: dict[str, OutputFit],
     equation: UnnamedReport | None,
 ) -> tuple[UnnamedReport | None, CorrectedModel, dict[str, OutputFit]]:
-    """Look for an equation of the residual, and put it in where it proves right.
+    """Look for an equation of the residual, and put it in if it holds on unseen sweeps.
 
-    The odds of an unnamed part do not decide whether it is looked for: they say that a misfit could take it
-    up, not that it is one. Sweeps that an equation has not seen tell the two apart.
+    The odds of an unnamed part do not decide whether it is looked for: they say that a misfit could absorb
+    it, not that it is one. Sweeps that an equation has not seen tell the two apart.
     """
     plainly = verdict not in _SOMETHING_LEFT
     if it.prepared.stopped or (named and plainly and not more_than_usual(it.analysis)):

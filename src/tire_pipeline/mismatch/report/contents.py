@@ -1,4 +1,4 @@
-"""What a report of a mismatch says, before it is drawn or written."""
+"""The contents of a mismatch report, before it is drawn or written."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ VERDICTS = (
 
 @dataclass(frozen=True)
 class Head:
-    """What a report says first.
+    """The first sentences of a report.
 
     Parameters
     ----------
     causes : str
         Verdict and what was found; a sentence without its full stop.
     spot : str
-        Where recording and simulation differ; a clause, "" where that says nothing.
+        Where recording and simulation differ; a clause, "" if that is not informative.
     size : str
         How much, before and after; a clause, "" where nothing was corrected.
     todo : str
@@ -47,7 +47,7 @@ class Head:
     notes : tuple of str
         What a reader must know beside it, the most important first; each in sentences.
     equation : str
-        What is known of the unexplained residual, in sentences; "" where nothing is.
+        What is known about the unexplained residual, in sentences; "" if nothing is.
     """
 
     causes: str
@@ -151,7 +151,7 @@ class EffectReport:
     undetermined: tuple[str, ...] = ()
 
     def rows(self) -> list[tuple[str, str, str, str]]:
-        """Say of each parameter its value, its 95% interval, and whether it may be nothing.
+        """Return each parameter's value, its 95% interval, and whether it may have no effect.
 
         Returns
         -------
@@ -269,7 +269,7 @@ class ReportContents:
         """How large each effect would have had to be to be seen; weighed when it is first asked for."""
         with one_thread(), under_way("weighing what could have been seen"):
             found = self.find_visible()
-        self.find_visible = partial(list, found)  # what it was weighed with is needed no more
+        self.find_visible = partial(list, found)  # its inputs are no longer needed
         return found
 
     def __getstate__(self) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Figures of the report: where and when the recording leaves the model, before and after."""
+"""Figures of the report: where and when recording and model differ, before and after."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a report says of each effect that was found."""
+"""The report's entry for each effect that was found."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which of a few standard sweeps would best separate what shares the posterior: expected information gain.
+"""Choose the standard sweep that best separates the open explanations: expected information gain.
 
 Each effect predicts a force for each sweep. The more these predictions differ beside what is usually left of
 a force, the more the sweep tells (Lindley 1956; the bound for mixtures of normal distributions is that of

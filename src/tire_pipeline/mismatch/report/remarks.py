@@ -1,4 +1,4 @@
-"""What a report says beside its head: what is left out of the corrected model or the recording, and why."""
+"""Remarks beside a report's head: what the corrected model or the recording leaves out, and why."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ def on_part(names: Sequence[str], part: float) -> str:
     if not names or round(100.0 * part) >= 100:
         return ""
     return (
-        f"The corrected model adds {100.0 * part:.0f}% of what was found: as much as sweeps that its fit has "
-        "not seen confirm, with 84% certainty."
+        f"The corrected model applies {100.0 * part:.0f}% of the correction that was found: sweeps that its "
+        "fit has not seen confirm at least that much, with 84% certainty."
     )
 
 

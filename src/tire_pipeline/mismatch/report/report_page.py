@@ -106,7 +106,7 @@ def _located(report: ReportContents) -> list[tuple[str, str, float, str, float, 
 
 
 def _way(place: Located) -> str:
-    """In which way the force differs."""
+    """The way in which the force differs."""
     if not place.along_force:
         return "off to one side"
     return "smaller" if place.mean < 0.0 else "larger"
@@ -130,7 +130,7 @@ def _effect(effect: EffectReport) -> dict[str, Any]:
 
 
 def _certainty(effect: EffectReport) -> str:
-    """How sure the name is, and what it removes."""
+    """The certainty of the name, and its share of the error."""
     text = f"Probability {effect.confidence:.0%}"
     if effect.alternatives:
         text += " that it is this or one of its alternatives"
@@ -143,7 +143,7 @@ def _certainty(effect: EffectReport) -> str:
 
 
 def _evidence(evidence: dict[str, float | str]) -> str:
-    """What a reader needs to judge the evidence; the JSON has all of it."""
+    """The evidence that a reader needs; the JSON has all of it."""
     if "log_evidence" not in evidence:
         return in_words(str(evidence.get("found", "")))
     return f"Log evidence {log_evidence(evidence['log_evidence'])} above the best explanation without it"

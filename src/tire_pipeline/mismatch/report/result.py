@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(repr=False)
 class MismatchReport(ReportContents):
-    """What :func:`tire_pipeline.mismatch.explain_mismatch` returns.
+    """The result of :func:`tire_pipeline.mismatch.explain_mismatch`.
 
     Parameters
     ----------
@@ -50,24 +50,25 @@ class MismatchReport(ReportContents):
     held_out : HeldOutFit, optional
         Errors in the recording that was held out.
     assumed : list of str
-        What was taken for granted because the recording does not say it.
+        What was assumed because the recording does not state it.
     find_visible : callable
-        Returns :attr:`visible`, which takes longer than all else: it is called when that is asked for.
+        Returns :attr:`visible`, which takes longest to compute: it is called when that is first used.
     unnamed : UnnamedReport, optional
-        What the part that is left follows, if anything is left.
+        An equation of the residual, or why there is none; None if nothing is left.
     withheld : tuple of str
-        Named effects that are not in ``corrected``, because it is not sure that sweeps gain by them.
+        Named effects that are not in ``corrected``, because it is not certain that they improve unseen
+        sweeps.
     probabilities : list of (tuple of str, float)
         The sets of effects that hold 95% of the posterior, the likeliest first.
 
     See Also
     --------
     explain_mismatch : Makes it.
-    CorrectedModel : The model to go on with.
+    CorrectedModel : The corrected model, for further use.
 
     Notes
     -----
-    How each figure comes about: ``docs/explanation/mismatch.md``.
+    How each figure is computed: ``docs/explanation/mismatch.md``.
 
     Examples
     --------

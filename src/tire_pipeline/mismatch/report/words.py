@@ -12,7 +12,7 @@ from tire_pipeline.mismatch.discrepancy.gaussian_form import GaussianForm
 from tire_pipeline.mismatch.effects import Effect, catalogue
 
 _FINEST = {"slip_angle": 5e-5, "camber": 5e-5, "slip_ratio": 1e-4}
-"""What is smaller is written as 0, SI: no rig holds it."""
+"""Smaller values are written as 0, SI: no rig controls them so closely."""
 
 
 def shown(axis: str, value: float) -> str:
@@ -80,7 +80,7 @@ def short_equation(text: str) -> str:
 
 
 def newtons(value: float) -> str:
-    """Return a force with as many digits as it deserves."""
+    """Return a force with sensible digits."""
     return f"{value:,.0f}" if abs(value) >= 20.0 else f"{value:.2g}"
 
 

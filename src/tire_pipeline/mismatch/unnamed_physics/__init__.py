@@ -1,1 +1,1 @@
-"""Unnamed physics: what drives the unexplained part, a short equation of it, and its proof."""
+"""Unnamed physics: the drivers of the unexplained residual, a short equation for it, and its proof."""

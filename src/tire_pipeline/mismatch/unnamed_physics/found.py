@@ -113,7 +113,7 @@ def from_sidecar(content: object) -> UnnamedPhysics:
     """
     try:
         if not isinstance(content, Mapping):
-            raise ValueError("it is no mapping")
+            raise ValueError("it is not a mapping")
         if content.get("format") != FORMAT:
             raise ValueError(f"its format is not {FORMAT!r}")
         equations = {str(o): str(text) for o, text in content["equation"].items()}
@@ -129,7 +129,7 @@ def from_sidecar(content: object) -> UnnamedPhysics:
         ):
             raise ValueError("its ranges are not ranges of known symbols")
         if content["fade"] != {s: _fade(s) for s in ranges}:
-            raise ValueError("it fades otherwise than this version")
+            raise ValueError("it fades differently from this version")
         nominal = NominalValues(**{k: float(v) for k, v in content["nominal"].items()})
         if not all(np.isfinite(v) for v in asdict(nominal).values()) or min(nominal.F0, nominal.V0) <= 0.0:
             raise ValueError("its nominal values are not numbers above zero")
@@ -158,7 +158,7 @@ class Alternative:
 
 @dataclass(frozen=True)
 class Idea:
-    """Physics that the drivers and the way to act resemble: to be tested, not found."""
+    """Physics that the drivers and the mechanism resemble: to be tested, not found."""
 
     name: str
     why: str
@@ -168,14 +168,14 @@ class Idea:
 
 @dataclass(frozen=True)
 class UnnamedReport:
-    """What was found about the part that has no name.
+    """What was found about the unnamed residual.
 
     Parameters
     ----------
     physics : UnnamedPhysics or None
         None if no equation made unseen sweeps better.
     why_not : str
-        Why there is none.
+        The reason if there is none.
     drivers : dict of str to float
         Driver -> posterior probability that the unexplained part depends on it.
     sets : list of (drivers, probability)
@@ -195,7 +195,7 @@ class UnnamedReport:
         One-sided t test over sweeps, of the force that is least sure.
     ideas : list of Idea
     instead_of : tuple of str
-        Effects whose names it takes back: it leaves less on unseen sweeps than they do.
+        Effects whose names it replaces: it leaves less on unseen sweeps than they do.
     curve : dict of list
         ``x`` (driver or term), ``left`` and ``fitted`` by bins, for the figure.
     """

@@ -1,4 +1,4 @@
-"""Ideas: physics of a wider list whose drivers and way to act resemble what was found. To test, not found."""
+"""Ideas to test: physics from a wider list whose drivers and mechanism resemble what was found."""
 
 from __future__ import annotations
 

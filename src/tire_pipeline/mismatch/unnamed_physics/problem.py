@@ -1,4 +1,4 @@
-"""What an engine hands over: the residual, and the likelihood in which it was weighed."""
+"""The search's input: the residual, and the likelihood in which it was weighed."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _A_SWEEP = 8.0
 
 @dataclass(frozen=True)
 class Unexplained:
-    """The unexplained residual and how it is weighed; all that the search for unnamed physics is given.
+    """The unexplained residual and how it is weighed: the only input of the search for unnamed physics.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def problem_of(analysis: Analysis) -> Unexplained:
     system, known = _beside_effects(analysis)
     order = np.argsort(analysis.block, kind="stable")
     sizes = [system.scale]
-    for share, path in product(MISFITS, PATHS):  # what has no name must not have to pass for misfit
+    for share, path in product(MISFITS, PATHS):  # unnamed physics must not be absorbed as misfit
         scale = nuisance_scale(analysis.sizes, share, path)
         sizes.append({o: np.concatenate([s, known[o]]) for o, s in scale.items()})
     table, nominal = table_of(data, fit.changes)

@@ -1,4 +1,4 @@
-"""Sums of products of terms, by fold: all that choosing and judging an equation asks for.
+"""Sums of products of terms, by fold, from which an equation is chosen and judged.
 
 The whitened residual is ``r = E c + N d + noise`` with the terms' columns E, the nuisance columns N and
 ``d ~ N(0, scale^2)``. The nuisance is integrated out; sums are kept by fold, so that the choice can be

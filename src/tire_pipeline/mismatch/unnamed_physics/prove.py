@@ -30,7 +30,7 @@ _NEAR_MOST = 0.95
 
 @dataclass(frozen=True)
 class Proven:
-    """What equations chosen without a fold do there.
+    """The predictions, in each fold, of equations chosen without it.
 
     Parameters
     ----------

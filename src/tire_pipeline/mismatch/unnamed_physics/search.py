@@ -1,4 +1,4 @@
-"""From what a search leaves to an equation that is proved, with its drivers, alternatives and ideas."""
+"""From a residual to a proved equation, with its drivers, alternatives and ideas."""
 
 from __future__ import annotations
 
@@ -54,12 +54,12 @@ _NOT_PROVED = "no equation makes sweeps better that neither its choice nor its f
 
 
 def unnamed_physics(analysis: Analysis, *, plainly: bool = False) -> UnnamedReport:
-    """Look for an equation of what a search leaves unexplained, and prove it.
+    """Look for an equation of the unexplained residual, and prove it.
 
     Parameters
     ----------
     analysis : Analysis
-        After the analysis. Where nothing is named, its noise and misfit are learnt here: nobody else asks.
+        After the analysis. Where nothing is named, its noise and misfit are learnt here.
     plainly : bool
         Ask for more, because the residual might be the formula's usual misfit: the terms have to beat its
         flexible form in every size that the recording allows, so there is no coarse view, and they have to
@@ -130,12 +130,12 @@ def _better(
 
 
 def _left(problem: Unexplained, added: Mapping[str, Array]) -> dict[str, Array]:
-    """What is left of the residual by forces that are added, N."""
+    """The residual after some forces are added, N."""
     return {o: rest - added.get(o, 0.0) for o, rest in problem.rest.items()}
 
 
 def more_than_usual(analysis: Analysis) -> bool:
-    """Whether more is left than a fitted formula usually leaves, though nothing is significant.
+    """Whether the residual is larger than a fitted formula usually leaves, although nothing is significant.
 
     What repeats or changes slowly may pass for coloured noise, and what follows a channel for the formula's
     misfit. The noise here is that of neighbouring samples alone, and has to be left as much again.
@@ -165,7 +165,7 @@ def find(*views: Unexplained) -> UnnamedReport:
 
 
 def _reported(problem: Unexplained, parts: Sequence[_ChosenEquation]) -> UnnamedReport:
-    """Say what was found, with its equations if they are proved."""
+    """Report what was found, with its equations if they are proved."""
     first = parts[0]
     sets, each = driver_posterior(first.choice.models, first.choice.terms)
     shown = [(tuple(sorted(k)), p) for k, p in list(sets.items())[:_SHOWN]]

@@ -72,7 +72,7 @@ def evenly_spaced(drive: pd.DataFrame) -> tuple[pd.DataFrame, float, list[str]]:
     notes : list of str
     """
     if "time" not in drive:
-        raise RecordingError("the drive has no time", todo="give a column `time` in s")
+        raise RecordingError("the drive has no time", todo="add a column `time` in s")
     time = drive["time"].to_numpy(dtype=float)
     order = np.flatnonzero(np.isfinite(time))
     if order.size < 20:
@@ -169,7 +169,7 @@ def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMo
     drive : DataFrame
         `time` s, `x`, `y` m, `yaw` rad (counted to the left; wrapped or not).
     vehicle : Vehicle
-        Gives the marker's place and the yaw offset.
+        Holds the marker's position and the yaw offset.
     bandwidth : float
         Half-power frequency of the smoothing, Hz.
     """
@@ -211,7 +211,7 @@ def from_pose(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> BodyMo
 
 @dataclass(frozen=True)
 class PoseNoise:
-    """Noise of a recorded pose, and how much more of it a smoothed speed has than white noise would leave.
+    """Noise of a recorded pose, and the factor by which a smoothed speed is noisier than white noise implies.
 
     Attributes
     ----------
@@ -241,7 +241,7 @@ class PoseNoise:
         return cls(position_std, yaw_std, more_ahead, more_left, more_yaw)
 
     def summary(self, good: NDArray[np.bool_], missing: NDArray[np.bool_]) -> dict[str, float]:
-        """What a recording's attributes say of it."""
+        """Return the values for a recording's attributes."""
         return {
             "position_std_m": self.position_std,
             "yaw_std_rad": self.yaw_std,

@@ -46,7 +46,7 @@ def read_dart(path: str | Path) -> pd.DataFrame:
     """Read one DART drive.
 
     The motion capture runs at an even 100 Hz while its stamps are times of arrival: after a
-    delay several frames arrive in a burst. Each row is given back the frame it belongs to; lost
+    delay several frames arrive in a burst. Each row is assigned to the frame it belongs to; lost
     frames and those that jump out of the path become NaN rows. The car's own channels come at
     about 10 Hz and are held: each new value is taken once, joined by straight lines, and moved
     ahead by the delay at which the car's yaw rate fits that of the pose best.

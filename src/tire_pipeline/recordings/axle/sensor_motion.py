@@ -40,7 +40,7 @@ def from_sensors(drive: pd.DataFrame, vehicle: Vehicle, bandwidth: float) -> Bod
     if lacking:
         raise RecordingError(
             f"the drive has neither a pose nor {', '.join(lacking)}",
-            todo="give x, y, yaw or speed, yaw_rate, lateral_acceleration",
+            todo="add x, y, yaw or speed, yaw_rate, lateral_acceleration",
         )
     even = even_drive(drive, MOTION_CHANNELS, bandwidth)
     table, smoother = even.table, even.smoother
@@ -105,7 +105,7 @@ def _lateral_speed(
     if not straight.any():
         raise RecordingError(
             "no stretch of straight running, so the lateral speed cannot be integrated",
-            todo="give the pose, lateral_speed or sideslip, or record straight running too",
+            todo="add the pose, lateral_speed or sideslip, or record straight running too",
         )
     anchors = np.flatnonzero(straight)
     raw = np.concatenate([[0.0], np.cumsum((ay - rate * speed)[1:] * dt)])

@@ -52,7 +52,7 @@ def axle_recording(
 
     in the vehicle's axes (Mitschke and Wallentowitz, "Dynamik der Kraftfahrzeuge", single-track
     model; signs of ISO 8855). The slip angle is that of the axle's middle, ``atan2(v_y, v_x)``
-    less the road-wheel angle: a positive slip angle gives a negative `fy`, as in ISO W.
+    less the road-wheel angle: a positive slip angle causes a negative `fy`, as in ISO W.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def axle_recording(
         (`speed` m/s, `yaw_rate` rad/s, `lateral_acceleration` m/s^2 at the marker, and, where
         there is one, `lateral_speed` m/s or `sideslip` rad). `steering`, the road-wheel angle in
         rad, is needed for the front axle. `wheel_surface_speed` m/s (or `wheel_speed` rad/s with
-        `vehicle.wheel_radius`) gives the slip ratio.
+        `vehicle.wheel_radius`) determines the slip ratio.
     vehicle : Vehicle
         Masses, lengths and inertia, SI, with their uncertainties.
     axle : {"rear", "front"}
@@ -75,7 +75,7 @@ def axle_recording(
         body wobble, and that wobble is no slip of the tire).
     rate : float, optional
         Samples a second in the result, Hz. Left out: twice the bandwidth, as samples nearer to each
-        other share their filter and say the same again. `float("inf")`: those of the drive (see
+        other share their filter and add no information. `float("inf")`: those of the drive (see
         `attrs["independent_samples"]`).
 
     Returns
@@ -124,7 +124,7 @@ def axle_recording(
     if axle == "front" and "steering" not in drive:
         raise RecordingError(
             "the front axle's slip angle needs the road-wheel angle",
-            todo="give a column `steering` in rad, or take the rear axle",
+            todo="add a column `steering` in rad, or take the rear axle",
         )
     if set(POSE_COLUMNS) <= set(drive.columns):
         motion = from_pose(drive, vehicle, bandwidth)
@@ -165,7 +165,7 @@ def _axle_state(motion: BodyMotion, vehicle: Vehicle, axle: Axle, even: pd.DataF
         steering = even["steering"].to_numpy(dtype=float)
         known = np.isfinite(steering)
         if not known.any():
-            raise RecordingError("`steering` holds no number", todo="give road-wheel angles in rad")
+            raise RecordingError("`steering` holds no number", todo="enter road-wheel angles in rad")
         filled = np.interp(np.arange(steering.size), np.flatnonzero(known), steering[known])
         wheel = motion.smoother.smooth(filled)
         slip = slip - wheel

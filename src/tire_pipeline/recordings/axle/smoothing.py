@@ -91,7 +91,7 @@ class Smoother:
 
         The power of ``rate`` (a derivative by the short filter) between 1 and 4 times the bandwidth,
         averaged over 16 periods of the bandwidth, is compared with that of differentiated white noise.
-        It is had at each sample, as it need not stay the same: a wobble once a wheel turn lies far
+        It is computed at each sample, because it can change: a wobble once a wheel turn lies far
         outside of the band at speed and beside it when the vehicle is slow.
 
         Returns

@@ -1,4 +1,4 @@
-"""What has to be known of a vehicle to turn its motion into axle forces."""
+"""The data of a vehicle that turn its motion into axle forces."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ class Vehicle:
     yaw_offset, yaw_offset_std : float, optional
         Added to the recorded yaw to get the vehicle's heading, rad, and its uncertainty.
     front_drive_share : float, optional
-        Share of the total longitudinal force that the front axle carries (0 to 1). Without it
-        no `fx` is given.
+        Share of the total longitudinal force that the front axle carries (0 to 1). Without it there is no
+        `fx`.
     wheel_radius : float, optional
         Effective rolling radius, m, for wheel speeds in rad/s.
 
@@ -84,11 +84,11 @@ class Vehicle:
         for field in fields(self):
             value = getattr(self, field.name)
             if value is not None and not math.isfinite(value):
-                raise RecordingError(f"Vehicle.{field.name} is {value}", todo="give a finite number")
+                raise RecordingError(f"Vehicle.{field.name} is {value}", todo="use a finite number")
         for name in ("mass", "front_mass", "wheelbase", "yaw_inertia"):
             if getattr(self, name) <= 0:
                 raise RecordingError(
-                    f"Vehicle.{name} is {getattr(self, name)}", todo="give a positive number (SI)"
+                    f"Vehicle.{name} is {getattr(self, name)}", todo="use a positive number (SI)"
                 )
         if self.front_mass >= self.mass:
             raise RecordingError(

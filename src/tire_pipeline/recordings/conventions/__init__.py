@@ -1,1 +1,1 @@
-"""Units, channel names and axis systems of files, and the one convention that a recording is given in."""
+"""Units, channel names and axis systems of files, and the one convention that recordings are converted to."""

@@ -39,18 +39,18 @@ def to_iso_w(
     frame : DataFrame
         Canonical columns, SI.
     origin : dict
-        By column, the name in the file: its last letter (`FYH`, `MZC`) gives the system.
+        By column, the name in the file: its last letter (`FYH`, `MZC`) states the system.
     constants : dict
         The file's constants; `LOADRAD`, else half of `OVALLDIA`, for the wheel centre's height.
     axes : {"ISO", "SAE"}, optional
-        System of what the names do not tell. Left out: ISO is assumed.
+        System of channels whose names do not state one. Left out: ISO is assumed.
 
     Returns
     -------
     said : str
-        In which axes the channels are taken to be, and who says so.
+        The axes that the channels are taken to be in, and where this is stated.
     against : str
-        What in the file speaks against axes that were assumed; "" if nothing does.
+        Evidence in the file against axes that were assumed; "" if there is none.
 
     Raises
     ------

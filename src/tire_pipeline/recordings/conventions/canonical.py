@@ -157,7 +157,7 @@ def _no_overflow(name: str, values: NDArray[np.float64], notes: list[str]) -> ND
 
 
 def _check_units(raw: RawRecording, units: Mapping[str, str], source: str) -> None:
-    """A unit that is stated is one that is known, of a channel that is there."""
+    """Check that stated units are known, and are of channels that exist."""
     there = [c.name for c in raw.channels]
     strange = [name for name in units if name not in there]
     if strange:
@@ -222,11 +222,11 @@ def _assign(
 
 
 def _check_told(names: Mapping[str, str], source: str) -> None:
-    """What a column is said to be is a channel that is known."""
+    """Check that a column is stated to be a known channel."""
     for column, told in names.items():
         if told and find_channel(told) is None:
             raise RecordingError(
-                f"column {column!r} is said to be {told!r}, which is no channel that is known",
+                f"column {column!r} is stated to be {told!r}, which is not a known channel",
                 where=source,
                 todo=did_you_mean(
                     told,

@@ -1,4 +1,4 @@
-"""What the columns of a driven vehicle's log are called, and who reads such a log."""
+"""Column names of a driven vehicle's log, and the functions that read such a log."""
 
 from __future__ import annotations
 
@@ -44,6 +44,6 @@ def reader_of_drive(columns: Iterable[str]) -> str:
     else:
         return ""
     return (
-        f"this is {what}: in Python, {call} of tire_pipeline.recordings is a recording of one axle, and "
-        "its method to_csv, with index=False, writes it (docs/reference/recordings.md, Driven vehicles)"
+        f"this is {what}: in Python, {call}.to_csv('axle.csv', index=False) writes a recording of one axle "
+        "(functions of tire_pipeline.recordings; docs/reference/recordings.md, Driven vehicles)"
     )

@@ -1,4 +1,4 @@
-"""What no tire, wheel or rig does: the values of a channel that show that it is in another unit."""
+"""Values that no tire, wheel or rig has, which show that a channel is in another unit."""
 
 from __future__ import annotations
 

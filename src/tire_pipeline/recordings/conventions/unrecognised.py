@@ -1,4 +1,4 @@
-"""What a column may be whose name is not known, by its unit."""
+"""Suggest by its unit what an unrecognised column may be."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _OWN_KIND = [
     for c in CANONICAL
     if c.dimension != "ratio" and [other.dimension for other in CANONICAL].count(c.dimension) == 1
 ]
-"""Channels that their unit tells: time, speed, pressure, temperature. A ratio has none."""
+"""Channels that can be recognised by their unit: time, speed, pressure, temperature. A ratio has none."""
 
 
 def may_be(columns: Mapping[str, str | None], known: Iterable[str]) -> str:

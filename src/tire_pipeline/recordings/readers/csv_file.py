@@ -228,7 +228,7 @@ def _are_units(row: list[str]) -> bool:
 
 
 def _numbers(column: pd.Series, name: str, decimal: str, notes: list[str]) -> NDArray[np.float64] | None:
-    """A column's numbers; what is none becomes NaN with a note, a column of text goes."""
+    """A column's numbers; other cells become NaN with a note, a column of text is dropped."""
     if pd.api.types.is_numeric_dtype(column) or pd.api.types.is_bool_dtype(column):
         return column.to_numpy(dtype=float)
     text = column.astype("string").str.strip()

@@ -57,7 +57,7 @@ def read_mat(path: Path) -> RawRecording:
         raise RecordingError(
             f"{', '.join([table.where, *table.others])} each hold a recording",
             where=str(path),
-            todo="save each in a file of its own, and give all that are of one tire together",
+            todo="save each in a file of its own, and pass all of one tire together",
         )
     length = max(set(lengths), key=lambda n: (lengths.count(n), n))
     notes = [f"taken from the struct {table.where}"] if table.where else []

@@ -1,4 +1,4 @@
-"""Where the channels stand in a MATLAB file: what its variables and structs hold, by name."""
+"""Find the channels in a MATLAB file: in its variables and structs, by name."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def _table(group: Mapping[str, object], where: str) -> MatTable:
 
 
 def _add(table: MatTable, name: object, entry: Mapping[str, object]) -> bool:
-    """Add the channel that a struct of data, name and unit is; tell whether it is one."""
+    """Add the channel that a struct of data, name and unit is; return whether it is one."""
     vector = numbers(_field(entry, _DATA_FIELDS))
     if vector is None or vector.size < 2:
         return False
@@ -140,7 +140,7 @@ def _one_after_the_other(runs: list[MatTable]) -> MatTable:
                     raise RecordingError(
                         f"{first.where} holds {len(runs)} runs, and {name} starts again in "
                         f"{first.where}({number})",
-                        todo="save each in a file of its own and give all of them together",
+                        todo="save each in a file of its own and pass all of them together",
                     )
     joined = {name: np.concatenate([run.vectors[name] for run in runs]) for name in first.vectors}
     return MatTable(f"{first.where}(1:{len(runs)})", joined, first.units, first.texts, first.left_out)

@@ -63,7 +63,7 @@ def check_blocks(path: Path) -> None:
     with path.open("rb") as file:
         head = file.read(16)
         if head[:3] != b"MDF":
-            raise RecordingError("no MDF file", where=str(path))
+            raise RecordingError("not an MDF file", where=str(path))
         version = head[8:16].strip(b" \x00")
         if not version.startswith(b"4"):
             raise RecordingError(
@@ -106,7 +106,7 @@ def _walk(file: BinaryIO, size: int) -> dict[int, _MdfBlock]:
         blocks[at] = _MdfBlock(kind[2:].decode("latin-1"), length, links, body)
         waiting.extend(link for link in links if link)
     if blocks[_FIRST_BLOCK].kind != "HD":
-        raise RecordingError("the first block is no header")
+        raise RecordingError("the first block is not a header")
     return blocks
 
 
@@ -169,7 +169,7 @@ def _data_bytes(block: _MdfBlock, blocks: dict[int, _MdfBlock]) -> int:
         for part in _chain(next(a for a, b in blocks.items() if b is block), blocks):
             flags, count = part.unpack("<B3xI")
             if count != len(part.links) - 1 or flags & ~1:
-                raise RecordingError("a data list holds another number of blocks than it says")
+                raise RecordingError("a data list does not hold as many blocks as it states")
             total += sum(_data_bytes(blocks[link], blocks) for link in part.links[1:] if link)
         return total
     return block.length - _BLOCK_HEADER.size

@@ -90,7 +90,7 @@ class _Rows:
             values = [float(w.replace("D", "E").replace("d", "e")) for w in words]
         except ValueError as error:
             raise RecordingError(
-                f"a data row holds what is no number ({error})",
+                f"a data row holds something other than numbers ({error})",
                 where=f"{self._path}:{number}",
                 todo="comment lines begin with `!`",
             ) from error
@@ -207,7 +207,7 @@ def _from_constants(
     rows: int,
     notes: list[str],
 ) -> None:
-    """A condition that the file gives once is a channel of one value."""
+    """A condition that the file states once becomes a constant channel."""
     there = {c.name.upper() for c in channels}
     for key in ("INFLPRES", "LONGVEL", "TRAJVELW", "TRAJVELH", "INCLANGL", "SLIPANGL", "LONGSLIP"):
         entry = constants.get(key)

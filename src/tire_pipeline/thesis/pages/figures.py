@@ -1,4 +1,4 @@
-"""The thesis' figures from our results, by file name: ``figure_5_1`` ... ; both splits in each."""
+"""The thesis' figures from our results, by file name: ``figure_5_1`` ... ; both splits where they differ."""
 
 from __future__ import annotations
 
@@ -48,16 +48,29 @@ def drawing(results: Results, name: str) -> Drawing | None:
     return found
 
 
-def class_figure(results: Results, columns: tuple[str, ...]) -> MplFigure:
-    """Files of each category (Figures 4.1, 4.2), side by side for the two splits."""
+def dataset_figure(results: Results) -> MplFigure:
+    """All files of each category, before they are split (Figure 4.1)."""
     counts = results["class_counts"]
+    part = counts[counts["split"] == SPLITS[0]]
+    figure, axes = new_figure(width=6.0, height=3.0)
+    one: Any = axes
+    one.bar(np.arange(len(part)), part["all"], 0.8, color=colour_of(0))
+    name_ticks(one.xaxis, part["category"])
+    one.set_axisbelow(True)
+    one.set_xlabel("category")
+    one.set_ylabel("files")
+    return figure
+
+
+def training_figure(results: Results) -> MplFigure:
+    """Training files of each category (Figure 4.2), side by side for the two splits."""
+    counts, columns = results["class_counts"], {"training": "training set", "training_smote": "with SMOTE"}
     figure, axes = new_figure(1, 2, width=9.0, height=3.2, sharey=True)
     for one, split in zip(np.asarray(axes), SPLITS, strict=True):
         part = counts[counts["split"] == split]
         width = 0.8 / len(columns)
-        for number, column in enumerate(columns):
+        for number, (column, label) in enumerate(columns.items()):
             places = np.arange(len(part)) + (number - (len(columns) - 1) / 2) * width
-            label = {"all": "all files", "training": "training set", "training_smote": "with SMOTE"}[column]
             one.bar(places, part[column], width, color=colour_of(number), label=label)
         name_ticks(one.xaxis, part["category"])
         one.set_axisbelow(True)
@@ -155,8 +168,8 @@ def _bins(representation: str) -> Callable[[Results], MplFigure]:
 
 
 CLASSIFIER_FIGURES: dict[str, Callable[[Results], MplFigure | None]] = {
-    "figure_4_1": lambda results: class_figure(results, ("all",)),
-    "figure_4_2": lambda results: class_figure(results, ("training", "training_smote")),
+    "figure_4_1": dataset_figure,
+    "figure_4_2": training_figure,
     "figure_5_1": lambda results: score_figure(results["forest_trees"], "trees", "trees, no limit on depth"),
     "figure_5_2": lambda results: score_figure(results["forest_depth"], "depth", "maximum depth of a tree"),
     "figure_5_3": confusion_figure,

@@ -85,7 +85,11 @@ def _classes(results: Results) -> list[Part]:
             "4.2",
             [
                 "Ours: with SMOTE every category has "
-                + ("the same number of training files, on both splits." if balanced else "another number.")
+                + (
+                    "the same number of training files, on both splits."
+                    if balanced
+                    else "a different number."
+                )
             ],
         ),
     ]
@@ -242,8 +246,8 @@ def _comparison(results: Results) -> list[Part]:
             [
                 "Thesis: random forest, 30 trees of depth 10, with SMOTE.",
                 *(
-                    f"Ours, {in_words(split)}: {in_words(chosen[split][0])}, SMOTE "
-                    f"{'yes' if chosen[split][1] else 'no'}, is the most accurate "
+                    f"Ours, {in_words(split)}: {in_words(chosen[split][0])} "
+                    f"{'with' if chosen[split][1] else 'without'} SMOTE is the most accurate "
                     f"({means.loc[chosen[split], 'accuracy']:.3f})."
                     for split in SPLITS
                 ),
@@ -348,13 +352,17 @@ def _calibration(results: Results) -> list[Part]:
     table = errors.assign(
         classifier=errors["classifier"].map(in_words),
         split=errors["split"].map(in_words),
-        error=[plus_minus(a, b, 3) for a, b in zip(errors["ece"], errors["ece_std"], strict=True)],
+        error=[
+            plus_minus(a, b) if trainings > 1 else f"{a:.3f}"
+            for a, b, trainings in zip(errors["ece"], errors["ece_std"], errors["trainings"], strict=True)
+        ],
     )[["classifier", "split", "smote", "error", "trainings"]]
     table = table.rename(columns={"error": "expected calibration error", "smote": "SMOTE"})
     best = errors.loc[errors.groupby("split")["ece"].idxmin()].set_index("split")
     forest = errors[(errors["classifier"] == "random_forest") & errors["smote"]].set_index("split")
     lines = [
-        "Not in the thesis. The agent's reward is a probability, so it matters whether it means what it says."
+        "Not in the thesis. The agent's reward is a probability, so it matters whether classifiers are right "
+        "as often as their probabilities say."
     ]
     lines += [
         f"{in_words(split).capitalize()}: the agent's forest is off by {forest.loc[split, 'ece']:.3f} on "
@@ -365,9 +373,7 @@ def _calibration(results: Results) -> list[Part]:
     drawn = drawing(results, "reliability")
     parts: list[Part] = [Text(lines, heading="Reliability of the probabilities"), Table(table)]
     if drawn is not None:
-        said = (
-            "Trained with SMOTE; all trainings together. On the dotted line a probability means what it says."
-        )
+        said = "Trained with SMOTE, all trainings. On the dotted line, a probability holds."
         parts.append(Figure(drawn, said))
     return parts
 

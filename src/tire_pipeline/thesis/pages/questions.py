@@ -44,21 +44,46 @@ def _classify(results: Results) -> list[str]:
 def _learn(results: Results) -> list[str]:
     ends, tires = rising(results), results["agent_tires"]
     up = int((ends["late"] > ends["early"]).sum())
-    before, after = tires["before"].mean(), tires["after"].mean()
-    verdict = (
-        "Yes" if up > 0.9 * len(ends) and after > before else "Only in part" if up or after > before else "No"
-    )
     by_reward = tires.groupby("reward")[["before", "after", "reached"]].mean()
-    lines = [
-        f"{verdict}: the reward rises during training in {up} of {len(ends)} cells. Over all evaluation "
-        f"tires the classifier's probability of the target goes from {before:.2f} to {after:.2f}.",
-    ]
+    lines = [answer_on_learning(up, len(ends), tires["before"].mean(), tires["after"].mean())]
     lines += [
         f"{in_words(reward)}: from {row['before']:.2f} to {row['after']:.2f}; the target becomes the most "
         f"probable category for {row['reached']:.0%} of the tires."
         for reward, row in by_reward.iterrows()
     ]
     return lines
+
+
+def answer_on_learning(rising_cells: int, cells: int, before: float, after: float) -> str:
+    """Answer whether agents learn to convince the classifier.
+
+    Parameters
+    ----------
+    rising_cells, cells : int
+        Cells in which the reward rises during training, and all cells.
+    before, after : float
+        Mean probability of the target over the evaluation tires, before and after translation.
+
+    Returns
+    -------
+    str
+        Yes, if the reward rises in nearly all cells and the probability rises, too; no, if neither does.
+
+    Examples
+    --------
+    >>> answer_on_learning(0, 2, 0.16, 0.21)  # doctest: +NORMALIZE_WHITESPACE
+    "Only in part: training raises the reward in 0 of 2 cells, but the agents' translations raise the
+    classifier's mean probability of the target from 0.16 to 0.21 over all evaluation tires."
+    """
+    learns, moves = rising_cells > 0.9 * cells, round(after, 2) > round(before, 2)
+    verdict = "Yes" if learns and moves else "Only in part" if rising_cells or moves else "No"
+    change = f"from {before:.2f} to {after:.2f}" if round(after, 2) != round(before, 2) else f"at {after:.2f}"
+    verb = "raise" if moves else "leave" if change.startswith("at") else "lower"
+    return (
+        f"{verdict}: training raises the reward in {rising_cells} of {cells} cells, "
+        f"{'and' if learns == moves else 'but'} the agents' translations {verb} the classifier's mean "
+        f"probability of the target {change} over all evaluation tires."
+    )
 
 
 def _translate(results: Results) -> list[str]:

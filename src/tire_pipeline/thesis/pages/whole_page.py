@@ -8,10 +8,11 @@ from tire_pipeline.reporting import HOME, Part, Table, Text, render_page
 from tire_pipeline.thesis.pages.page_agents import agent_parts
 from tire_pipeline.thesis.pages.page_classifiers import classifier_parts
 from tire_pipeline.thesis.pages.questions import answers
-from tire_pipeline.thesis.pages.words import number
+from tire_pipeline.thesis.pages.words import listed, number
 from tire_pipeline.thesis.result_tables import BETTER, Results, over_seeds, over_trainings
 
 THESIS_FILES = 2061
+_ABOUT_SET = {"four": ", four tires as in the thesis", "hidden": ", tires on which no method was chosen"}
 PAGES = (*HOME, ("report.html", "How well the translation works"))
 
 
@@ -86,9 +87,18 @@ def _comparable(results: Results) -> list[Part]:
         f"{'s' if len(facts['seeds']) != 1 else ''} each; classifiers were trained "
         f"{'once' if facts['trainings'] == 1 else str(facts['trainings']) + ' times'}. "
         "All classifiers are judged on the random split and on the split by physical tire. The agents are "
-        "always judged on tires that are in no training file.",
+        f"always judged on tires that are in no training file: {_sets(results)}.",
     ]
     return [Text(words, heading="What can be compared"), Table(table)]
+
+
+def _sets(results: Results) -> str:
+    """Say how many translations each set of evaluation tires has."""
+    files = results["agents"].groupby("set", sort=False)["files"].max()
+    return listed(
+        f"the set {name} ({count:,} translations{_ABOUT_SET.get(str(name), '')})"
+        for name, count in files.items()
+    )
 
 
 def _footer(results: Results) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Sequence
 
@@ -9,11 +10,17 @@ import pandas as pd
 
 
 def plus_minus(value: float, spread: float, digits: int = 3) -> str:
-    """A value with its spread, none where it is of one training; a dash where there is no value."""
-    if pd.isna(value):
-        return "–"
-    text = number(value, digits)
-    return text if pd.isna(spread) or spread == 0.0 else f"{text} ± {number(spread, 2)}"
+    """Return a value with its spread to the same decimals, which are those of two digits of the spread.
+
+    Examples
+    --------
+    >>> plus_minus(0.17, 0.0047), plus_minus(2.912, 2.4), plus_minus(0.17, float("nan"))
+    ('0.1700 ± 0.0047', '2.9 ± 2.4', '0.17')
+    """
+    if pd.isna(value) or pd.isna(spread) or spread == 0.0:
+        return number(value, digits)  # of one training, or the same in all
+    decimals = max(0, 1 - math.floor(math.log10(abs(spread))))
+    return f"{value:,.{decimals}f} ± {spread:,.{decimals}f}"
 
 
 def number(value: float, digits: int = 3) -> str:

@@ -1,1 +1,1 @@
-"""What the ``.tir`` format says: sections and keys, units, numbers, versions."""
+"""The ``.tir`` format: sections and keys, units, numbers, versions."""

@@ -1,4 +1,4 @@
-"""What the sections and keys of a ``.tir`` file are called, and what dimension a key has."""
+"""Names of the sections and keys of a ``.tir`` file, and the dimension of each key."""
 
 from __future__ import annotations
 
@@ -144,7 +144,7 @@ def names_coefficient(section: str, key: str) -> bool:
 
 
 def section_name(raw: str) -> str:
-    """Return a section's standard name: capitals, underscores, aliases resolved, nothing that does not print.
+    """Return a section's standard name: capitals, underscores, aliases resolved, no unprintable characters.
 
     Examples
     --------

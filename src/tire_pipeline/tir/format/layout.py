@@ -1,4 +1,4 @@
-"""The standard sections of a ``.tir`` file, the order of their keys, and a few words on each key."""
+"""The standard sections of a ``.tir`` file, the order of their keys, and a short description of each key."""
 
 from __future__ import annotations
 
@@ -322,7 +322,7 @@ def _parse() -> dict[str, dict[str, str]]:
 
 
 LAYOUT = _parse()
-"""Section -> key -> description, in the order in which they are written."""
+"""Section -> key -> description, in writing order."""
 
 _SECTION_OF_KEY = {key: section for section, keys in LAYOUT.items() for key in keys if section != "INERTIA"}
 _BY_PATTERN = (

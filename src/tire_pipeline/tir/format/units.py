@@ -1,4 +1,4 @@
-"""The names that the ``[UNITS]`` section may use, and what they are in SI.
+"""The names that the ``[UNITS]`` section may use, and their values in SI.
 
 Names are those of Adams Tire ("Units Supported in Tire Property Files"; case is ignored) and the ones that
 other tools write. The coefficients of the Magic Formula (p, q, r, s) are never scaled: they are ratios, and
@@ -81,19 +81,19 @@ QUANTITIES = ("LENGTH", "FORCE", "ANGLE", "MASS", "TIME")
 
 
 def unit_factor(quantity: str, name: str, *, path: str | None = None, line: int | None = None) -> float:
-    """Return how many SI units one unit of that name is.
+    """Return the factor from a unit to SI.
 
     Raises
     ------
     TirValueError
-        The name is not known. Taking SI instead would be a silent error by powers of ten.
+        The name is unknown. Assuming SI instead would be a silent error by powers of ten.
     """
     table = FACTORS[quantity]
     key = " ".join(name.split()).upper().replace(" ", "_").rstrip(".")
     if key in table:
         return table[key]
     raise TirValueError(
-        f"{quantity} = {name[:60]!r} is not a unit that is known",
+        f"{quantity} = {name[:60]!r} is not a known unit",
         path=path,
         line=line,
         key=quantity,

@@ -31,7 +31,7 @@ def parse_number(text: str) -> float | None:
 
 
 COMPUTED_DIGITS = 9
-"""Significant digits of coefficients that were computed: far more than any measurement tells."""
+"""Significant digits of coefficients that were computed: far more than any measurement resolves."""
 
 
 def format_number(value: float, digits: int | None = None) -> str:

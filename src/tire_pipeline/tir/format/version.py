@@ -1,4 +1,4 @@
-"""Which Magic Formula a file is for: its labels, its keys, and where they contradict each other."""
+"""The Magic Formula version of a file, from its labels and keys, and contradictions between these."""
 
 from __future__ import annotations
 
@@ -109,8 +109,8 @@ def detect_version(
     """Return the version and what contradicts it.
 
     ``PROPERTY_FILE_FORMAT = 'PAC2002'`` decides first (``FITTYP`` is no key of that model), then ``FITTYP``,
-    then any other telling ``PROPERTY_FILE_FORMAT``, then a ``TIRE_VERSION`` comment, then the keys that only
-    one version has.
+    then any other conclusive ``PROPERTY_FILE_FORMAT``, then a ``TIRE_VERSION`` comment, then the keys that
+    only one version has.
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ def _from_fittyp(fittyp: str, path: str | None, line: int | None) -> str:
         return FITTYP_VERSIONS[text]
     known = ", ".join(each for each in FITTYP_VERSIONS if "." not in each)
     raise TirVersionError(
-        f"FITTYP = {fittyp[:40]!r} is not a Magic Formula version that is known",
+        f"FITTYP = {fittyp[:40]!r} is not a known Magic Formula version",
         path=path,
         line=line,
         key="FITTYP",

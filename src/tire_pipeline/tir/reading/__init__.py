@@ -1,1 +1,1 @@
-"""What a ``.tir`` file means: a model in SI, its date, and what is odd about it."""
+"""From the text of a ``.tir`` file to a model in SI, its date, and warnings."""

@@ -1,7 +1,7 @@
 """The day of the measurement, from the lines at the top of a ``.tir`` file.
 
 The format has no key for it; laboratories write it into the header's comments, each in its own way. A day
-that could be read in two ways is no day.
+that could be read in two ways does not count.
 """
 
 from __future__ import annotations
@@ -117,7 +117,7 @@ def _dates(line: str) -> set[dt.date | None]:
 
 
 def _year_last(one: re.Match[str]) -> set[dt.date | None]:
-    """Days that ``a.b.year`` may be."""
+    """Possible days for ``a.b.year``."""
     year = one[4] if len(one[4]) == 4 else f"20{one[4]}"
     days = {_day(year, one[3], one[1])}
     if one[2] != ".":

@@ -1,4 +1,4 @@
-"""What a ``.tir`` file means: coefficients and metadata in SI, the version, and what is odd about it."""
+"""From the text of a ``.tir`` file to coefficients and metadata in SI, the version, and warnings."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def read_tir(
     source : path or bytes
         The file, or its content.
     path : str, optional
-        What to call it in messages and in the model when ``source`` is bytes.
+        Name used in messages and in the model if ``source`` is bytes.
     unloaded_radius : float, optional
         ``UNLOADED_RADIUS`` (m) where the file states none. Without it such a file's moments are NaN.
 
@@ -72,7 +72,7 @@ def read_tir(
     TireModel
         ``defaulted`` lists what the version's equations need and the file lacks.
         ``metadata["warnings"]`` is a tuple of sentences about contradictions and oddities;
-        ``metadata["date"]`` is the day of the measurement, ``YYYY-MM-DD``, if the header tells it
+        ``metadata["date"]`` is the day of the measurement, ``YYYY-MM-DD``, if the header states it
         (:mod:`.header_date`); ``metadata["sidecar"]`` holds the corrections of ``<file>.sidecar.json`` if
         there is one beside the file. ``source`` is the :class:`TirFile`.
 
@@ -86,7 +86,7 @@ def read_tir(
         A coefficient is not a number, is not finite, or has a value that the equations divide by (``FNOMIN =
         0``, ``PCY1 = 0``); a unit is not known. With file, line and key. ``unloaded_radius`` is not positive.
     TirVersionError
-        The version is not one that is known.
+        The version is unknown.
 
     See Also
     --------
@@ -128,7 +128,7 @@ def read_tir(
 
 
 def _state_radius(reading: Reading, radius: float | None) -> None:
-    """Take the caller's radius where the file has none, and say so; say what is lost where nobody has one."""
+    """Use the caller's radius if the file has none, with a warning; warn if there is none at all."""
     own = reading.coefficients.get("UNLOADED_RADIUS")
     if own is None and radius is None:
         reading.warnings.append(
@@ -154,7 +154,7 @@ def interpret(file: TirFile) -> Reading:
         raise TirSyntaxError(
             "there is no Magic Formula coefficient in it",
             path=file.path,
-            todo="give a tire property file with sections such as [LATERAL_COEFFICIENTS]",
+            todo="use a tire property file with sections such as [LATERAL_COEFFICIENTS]",
         )
     _drop_what_is_not_modelled(reading)
     _read_version(scan, file, reading)
@@ -317,7 +317,7 @@ def _note_lines(scan: Scan, reading: Reading) -> None:
 
 
 def _text_among_coefficients(entry: Entry, scan: Scan, file: TirFile) -> str:
-    """Say what a text that no equation reads does in a section of numbers."""
+    """Warn about text that no equation reads in a section of numbers."""
     said = (
         f"{entry.key} = {entry.value[:40]!r} (line {entry.line}) is a text in [{entry.section}]: kept as "
         "metadata, no equation reads it"
@@ -333,7 +333,7 @@ def _text_among_coefficients(entry: Entry, scan: Scan, file: TirFile) -> str:
 
 
 def _not_a_number(entry: Entry, file: TirFile) -> TirValueError:
-    todo = "give a number; a comment after it starts with $"
+    todo = "write a number; a comment after it starts with $"
     if "," in entry.value:
         todo = "write the decimal point as a point"
     return TirValueError(

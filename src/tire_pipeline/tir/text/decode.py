@@ -51,7 +51,7 @@ def _load_file(file: Path, path: str) -> bytes:
         with open_regular(file) as stream:
             return stream.read(MOST_FILE_BYTES + 1)
     except NotRegularError as error:
-        raise TirError("is not a regular file", path=path, todo="give a .tir file") from error
+        raise TirError("is not a regular file", path=path, todo="name a .tir file") from error
 
 
 def _too_large(path: str | None) -> TirSyntaxError:

@@ -80,13 +80,13 @@ class DocumentTable(NamedTuple):
 
 @dataclass(slots=True)
 class Scan:
-    """What the lines of a file are."""
+    """The lines of a file, by kind."""
 
     entries: list[Entry] = field(default_factory=list)
     sections: list[TirSection] = field(default_factory=list)
     tables: list[DocumentTable] = field(default_factory=list)
     unread: list[int] = field(default_factory=list)
-    """First lines that are nothing known (at most 20)."""
+    """First lines that are not recognised (at most 20)."""
     unread_count: int = 0
 
 
@@ -183,7 +183,7 @@ class TirFile:
         key : str
             In any case.
         default : str, optional
-            What is returned where there is none.
+            Returned if there is none.
 
         Returns
         -------
@@ -270,7 +270,7 @@ def parse_tir(source: str | os.PathLike[str] | bytes, *, path: str | None = None
     source : str, path or bytes
         The file, or its content.
     path : str, optional
-        What to call it in messages when ``source`` is bytes.
+        Name used in messages if ``source`` is bytes.
 
     Returns
     -------
@@ -366,7 +366,7 @@ def _ends_after(text: str, match: re.Match[str]) -> bool:
 
 
 def _unquoted(value: str) -> str:
-    """Return what stands between the first quote and the next of its kind, if there is one."""
+    """Return the text between the first quote and the next of its kind, if there is one."""
     return value[1:].split(value[0], 1)[0].strip()
 
 

@@ -1,4 +1,4 @@
-"""Texts from elsewhere (comments, names) as they may stand in a ``.tir`` file."""
+"""Make text from elsewhere (comments, names) safe to write into a ``.tir`` file."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _REPLACED = str.maketrans({"[": "(", "]": ")", "{": "(", "}": ")", "$": "_"})
 
 
 def comment_lines(texts: Iterable[str]) -> list[str]:
-    """Return comment texts as lines that no reader can take for anything else.
+    """Return comment texts as lines that no reader can mistake for anything else.
 
     Line breaks make several lines; other control and format characters become spaces; brackets become
     parentheses and ``$`` an underscore; lines are wrapped at 150 characters (readers with a fixed buffer cut

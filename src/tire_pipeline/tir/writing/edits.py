@@ -45,9 +45,9 @@ def edited_source(
     comments : iterable of str
         Added as comment lines at the top.
     complete : bool
-        Add what stands in for missing coefficients.
+        Add the defaults of missing coefficients.
     digits : int, optional
-        Significant digits of changed values; what agrees with the source to so many is not changed.
+        Significant digits of changed values; values that agree with the source to as many digits stay.
     """
     work = _Work(source, digits)
     work.coefficients(model)

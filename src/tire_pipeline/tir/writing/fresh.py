@@ -1,4 +1,4 @@
-"""The text of a new ``.tir`` file, for a model that comes from no file."""
+"""The text of a new ``.tir`` file, for a model that was not read from a file."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def fresh_text(
     model : TireModel
     comments : iterable of str
     complete : bool
-        Write also what stands in for missing coefficients, marked as such.
+        Also write the defaults of missing coefficients, marked as such.
     digits : int, optional
         Significant digits of the coefficients; by default all.
     """
@@ -77,7 +77,7 @@ def metadata_entries(metadata: Mapping[str, object]) -> dict[tuple[str, str], st
 
 
 def writable_defaults(model: TireModel) -> dict[str, float]:
-    """Return what stands in for missing coefficients, without the zeros that no file may hold (a radius,
+    """Return the defaults of missing coefficients, without the zeros that no file may hold (a radius,
     PCX1)."""
     return {name: value for name, value in model.defaulted.items() if is_possible(name, value)}
 

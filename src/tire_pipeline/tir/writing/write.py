@@ -29,9 +29,9 @@ def write_tir(
     """Write a model as a tire property file, all or nothing.
 
     A model that was read from a file keeps that file's order, comments, tables, line ends, units and
-    encoding; a value that was not changed keeps its printed digits, and one that was is written with as many
-    digits as give exactly that value again. A model without a file gets a new one in SI units, with the
-    standard sections.
+    encoding; a value that was not changed keeps its printed digits, and a changed one is written with enough
+    digits to reproduce it exactly. A model without a file gets a new one in SI units, with the standard
+    sections.
 
     Parameters
     ----------
@@ -44,13 +44,13 @@ def write_tir(
     version : str, optional
         Write it as another version (:func:`tire_pipeline.magic_formula.changes.convert.to_version`).
     overwrite : bool
-        Replace a file that is there, be it the model's own source.
+        Replace an existing file, even the model's own source.
     complete : bool, optional
-        Whether to write what stands in for coefficients that the model lacks (``defaulted``), each with a
+        Whether to write the defaults of coefficients that the model lacks (``defaulted``), each with a
         comment that says so. By default only where there is no source file: other tools expect all keys.
     digits : int, optional
         Significant digits of coefficients that were changed, such as 9 for computed ones.
-        By default as many as give exactly the model's value again.
+        By default as many as reproduce the model's value exactly.
 
     Returns
     -------
@@ -60,7 +60,7 @@ def write_tir(
     Raises
     ------
     TirError
-        A file of that name, or its sidecar, is there and ``overwrite`` is False.
+        A file of that name, or its sidecar, exists and ``overwrite`` is False.
     TirVersionError
         The model cannot be written as that version.
     OSError

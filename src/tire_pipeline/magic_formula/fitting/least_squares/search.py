@@ -1,4 +1,4 @@
-"""A stage's fit: the least misfit from several starts, and of the fits about as good the most typical one."""
+"""A stage's fit: of several starts, the most typical result among those with about the least misfit."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ _SEARCH_ROUNDS = ((240, 60, 1e-5), (1500, 60, 1e-6), (10**9, 30, 1e-7))
 _GO_ON = 3
 """Minima that go on to more points."""
 _EQUAL = 0.003
-"""Share of the misfit within which two searches have found the same."""
+"""Relative difference in misfit up to which two searches have found the same minimum."""
 _OFTEN = 4
-"""Times that the least has to come out for no more starts to be tried."""
+"""How often the least misfit must be found before no more starts are tried."""
 _PULLS = (
     *((hold, 1.0) for hold in (1000.0, 100.0, 10.0, 3.0)),
     *((share, share) for share in (1.0, 0.3, 0.1, 0.03, 0.01)),
 )
-"""Strengths of the pull, of what the ranges cannot tell and of the rest, from the strongest."""
+"""Strengths of the pull on what the ranges cannot determine and on the rest, strongest first."""
 _LEAST_PULL = 1e-6
 """Strength of the pull that keeps a search well posed, over the largest force."""
 
 
 @dataclass(frozen=True)
 class StageFit:
-    """Values, standard errors, the names that typical values tell more of than the data, those at a bound."""
+    """Values, standard errors, names that typical values determine more than the data, names at a bound."""
 
     values: np.ndarray
     errors: np.ndarray
@@ -49,10 +49,10 @@ def least(
     bounds: Bounds,
     starts: Sequence[np.ndarray],
 ) -> np.ndarray:
-    """Return the values that leave the least RMS.
+    """Return the values with the least RMS residual.
 
-    Starts run on few points until the least has come out often enough, the best minima go on to more points,
-    and the best of these to all.
+    Searches use few points until they have found the least misfit often enough. The best minima are refined
+    on more points, and the best of these on all points.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def most_typical(
     most : float
         RMS.
     held : ndarray of bool
-        Coefficients that the recording's ranges cannot tell; they leave their typical values last.
+        Coefficients that the recording's ranges cannot determine; they leave their typical values last.
 
     Returns
     -------
@@ -148,7 +148,7 @@ def most_typical(
 
 
 def are_few(problem: Problem) -> bool:
-    """Return whether the points are too few for the least misfit to say anything."""
+    """Return whether the points are too few for the least misfit to mean anything."""
     return problem.measured.size < typical.FEW_POINTS * len(problem.names)
 
 
@@ -163,7 +163,7 @@ def noise(problem: Problem, values: np.ndarray, loss: str) -> float:
 
 
 def rows_of_one(residuals: np.ndarray) -> float:
-    """Return how many rows tell as much as one would if they were independent.
+    """Return how many rows carry as much information as one independent row.
 
     The sum of the autocorrelation, as far as pairs of lags stay positive (Geyer's initial sequence).
     """
@@ -180,7 +180,7 @@ def rows_of_one(residuals: np.ndarray) -> float:
 
 
 def judged(problem: Problem, bounds: Bounds, values: np.ndarray, loss: str) -> StageFit:
-    """Return the fit with standard errors, and what typical values tell more of than the data.
+    """Return the fit with standard errors, and what typical values determine more than the data.
 
     The errors take typical values as one more measurement, and count rows as many as are independent.
     """
@@ -222,4 +222,4 @@ def part_of(whole: StageFit, names: Sequence[str], some: Sequence[str]) -> Stage
 
 
 _UNDETERMINED_SHARE = float(np.sqrt(0.5))
-"""Standard error over the spread among tires, from which the spread tells more than the data."""
+"""Standard error over the spread among tires, above which the spread determines more than the data."""

@@ -25,7 +25,7 @@ _WITHIN = 0.999
 
 @dataclass(frozen=True)
 class Problem:
-    """One output over some coefficients at some points, and what draws them to what tires are like."""
+    """One output over some coefficients at some points, and the pull towards typical tires."""
 
     vector: np.ndarray
     family: int
@@ -191,7 +191,7 @@ def quick(
 
 
 def _finite(x: np.ndarray, instead: float) -> np.ndarray:
-    """Return the array, with what is no number or infinite replaced in place."""
+    """Replace NaN and infinite values of an array in place, and return it."""
     if not np.isfinite(x).all():
         np.nan_to_num(x, copy=False, nan=instead, posinf=instead, neginf=-instead)
     return x

@@ -1,1 +1,1 @@
-"""What a fit returns: the model, how well it matches, whether it may pass for a tire, figures."""
+"""What a fit returns: the model, how well it matches, whether it is plausible as a tire, figures."""

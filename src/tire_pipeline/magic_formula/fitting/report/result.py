@@ -31,13 +31,13 @@ class FitResult:
     undetermined : list of str
         What the data cannot determine, as "no camber sweeps: PDY3, PKY3 kept at 0".
     notes : list of str
-        What else to know: bounds that were reached, values that were assumed, signs.
+        Further remarks: bounds that were reached, values that were assumed, signs.
     relative_rms : mapping of str to float
         RMS of all residuals of an output over its largest magnitude.
     measured : DataFrame, optional
         The points that were fitted, by canonical name in SI units.
     poor : mapping of str to str
-        Outputs that may not pass for a tire's, with what is wrong and the likely reason; empty for a success.
+        Implausible outputs, with what is wrong and the likely reason; empty if the fit succeeded.
     not_fitted : sequence of str
         Outputs that were measured, but at no points that a stage could fit; ``undetermined`` says why.
 

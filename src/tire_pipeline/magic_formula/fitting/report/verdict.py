@@ -1,4 +1,4 @@
-"""Whether a fit may pass for a tire, and if not, what the likely reason is."""
+"""Whether a fit is plausible as a tire, and the likely reason if it is not."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tire_pipeline.magic_formula.model import TireModel
 from tire_pipeline.magic_formula.parameters.inputs import LOOKS_LIKE_DEGREES
 
 MOST_LEFT = 0.1
-"""RMS of the residuals, over the largest force, beyond which a fit is no success."""
+"""RMS of the residuals, over the largest force, beyond which a fit counts as failed."""
 _PERCENT = 5.0
 """Slip ratios beyond this look like percent."""
 _BACKWARDS = -1.2
@@ -32,13 +32,13 @@ class PoorFitWarning(UserWarning):
 
     See Also
     --------
-    tire_pipeline.magic_formula.fit_magic_formula : Gives this warning.
+    tire_pipeline.magic_formula.fit_magic_formula : Issues this warning.
     tire_pipeline.magic_formula.FitResult : ``poor`` holds the same sentences by output.
 
     Notes
     -----
-    What is left is the RMS of the residuals over the largest magnitude of the output. The warning names the
-    likely reason: units, axes, or what a steady Magic Formula does not know.
+    The residual is stated as RMS over the largest magnitude of the output. The warning names the
+    likely reason: units, axes, or effects that a steady Magic Formula does not model.
 
     Examples
     --------
@@ -65,7 +65,7 @@ def poor_outputs(
     start: TireModel | None,
     at_bound: Collection[str] = (),
 ) -> dict[str, str]:
-    """Return, for each output that may not pass for a tire's, what is wrong and the likely reason.
+    """Return, for each implausible output, what is wrong and the likely reason.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def poor_outputs(
 
 
 def _level_units(output: str, at_bound: Collection[str]) -> str:
-    """Return which units to look at where friction or slip stiffness is none that a tire has."""
+    """Return which units to check if no tire has such a friction or slip stiffness."""
     letter = output[1].upper()
     if output in TANGENTIAL_FORCES and f"PD{letter}1" in at_bound:
         return (

@@ -1,4 +1,4 @@
-"""What a recording can tell, and so which coefficients it leaves open."""
+"""The coefficients that a recording can determine, and those it leaves open."""
 
 from __future__ import annotations
 
@@ -104,6 +104,6 @@ def _one_sided(slip: np.ndarray) -> bool:
 
 
 def noise_alone(names: tuple[str, ...], points: Mapping[str, np.ndarray], nominal_load: float) -> set[str]:
-    """Return the coefficients whose input varies by no more than its noise: nothing is to be had from it."""
+    """Return the coefficients whose input varies by no more than its noise: it determines nothing."""
     barely = open_coefficients(names, points, nominal_load, BARELY)
     return {name for reason in (NO_CAMBER, *RANGES) for name in barely.get(reason, ())}

@@ -1,4 +1,4 @@
-"""What a recording gives to a fit: points, forces, and the coefficients that are known before."""
+"""Inputs of a fit: the recording's points and forces, and the coefficients known beforehand."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def columns(
     if int(good.sum()) < FEWEST_POINTS:
         raise RecordingError(
             f"only {int(good.sum())} points have a positive load and finite slips",
-            todo=f"give at least {FEWEST_POINTS}",
+            todo=f"use at least {FEWEST_POINTS}",
         )
     if not {"slip_angle", "slip_ratio"} & set(recording) and set(wanted) - {"mx", "my"}:
         raise RecordingError(
@@ -85,7 +85,7 @@ def _locked(slip_ratio: np.ndarray) -> bool:
 
 
 def _not_measured(name: str, force: np.ndarray) -> str:
-    """Return why a column is no measurement; nothing if it may be one."""
+    """Return why a column is not a measurement; empty if it may be one."""
     known = force[np.isfinite(force)]
     if known.size == 0:
         return "holds no number"

@@ -16,7 +16,7 @@ _NO_SLIP = 1e-6
 
 
 def typical_values(names: list[str], model: TireModel, from_start: bool) -> dict[str, float]:
-    """Return what open coefficients are drawn to: the start model, or what tires are like."""
+    """Return the values that open coefficients are pulled towards: the start model's, or typical ones."""
     values = {name: _bound_of(name)[2] for name in names}
     if from_start:
         values.update({n: model.coefficients[n] for n in names if n in model.coefficients})
@@ -45,7 +45,7 @@ def bounds_of(names: list[str], first: Mapping[str, float]) -> tuple[np.ndarray,
 def first_values(
     stage: Stage, typical: Mapping[str, float], here: Mapping[str, np.ndarray], measured: np.ndarray
 ) -> dict[str, float]:
-    """Return where to start without a model: typical values, and what the data show at a glance."""
+    """Return the start without a model: typical values, and rough estimates from the data."""
     first = dict(typical)
     load = here["normal_load"]
     slip = here[SLIP_OF_FORCE.get(stage.output, "slip_angle")]

@@ -1,4 +1,4 @@
-"""What tires are like: where a fit stays in the directions that its rows leave open."""
+"""Typical tires: a fit stays near them in the directions that its rows leave open."""
 
 from __future__ import annotations
 
@@ -143,7 +143,7 @@ _OTHER_SPREADS = 0.05
 
 @dataclass(frozen=True)
 class Pull:
-    """Rows that draw coefficients to what tires are like.
+    """Rows that pull coefficients towards typical tires.
 
     Parameters
     ----------
@@ -173,7 +173,7 @@ class Pull:
 
 
 def pull(names: Sequence[str], typical: Mapping[str, float], bounds: tuple[np.ndarray, np.ndarray]) -> Pull:
-    """Return what draws a stage's coefficients, with no strength yet.
+    """Return the pull on a stage's coefficients, with no strength yet.
 
     Parameters
     ----------

@@ -1,1 +1,1 @@
-"""What may be wrong although nothing is left out: coefficients, the formula's misfit, fast changes."""
+"""Errors that remain when no effect is missing: coefficients, the formula's misfit, fast changes."""

@@ -1,4 +1,4 @@
-"""The coefficients may be off a little: directions of the force's Jacobian, and shifts that a fit makes."""
+"""Small errors of the coefficients: directions of the force's Jacobian, and shifts that a fit makes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What may be wrong without anything being left out: the coefficients a little, the formula's shape a little.
+"""Errors that remain when no effect is missing: of the coefficients, and of the formula's shape.
 
 A Magic Formula fitted to a real tire leaves a structured misfit of 0.4 to 1% of the largest force.
 It is a function of the model's own inputs, and what the fit left is at right angles to everything

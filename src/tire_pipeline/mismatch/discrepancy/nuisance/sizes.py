@@ -1,4 +1,4 @@
-"""How large the model's own errors are: its coefficients, the formula's misfit, the answer to fast load."""
+"""Sizes of the model's own errors: coefficients, the formula's misfit, the response to fast load."""
 
 from __future__ import annotations
 

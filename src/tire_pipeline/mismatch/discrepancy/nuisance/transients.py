@@ -1,4 +1,4 @@
-"""What a steady formula cannot know: friction that follows the last seconds, and load that changes fast."""
+"""What a steady formula does not model: friction that follows the last seconds, and fast changes of load."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which exact repair of a channel (a unit, a sign) the forces ask for."""
+"""Which exact repair of a channel (a unit, a sign) makes the forces agree."""
 
 from __future__ import annotations
 

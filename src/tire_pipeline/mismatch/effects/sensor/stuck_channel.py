@@ -1,4 +1,4 @@
-"""A channel that stands still while it should not."""
+"""A channel that stays constant although it should not."""
 
 from __future__ import annotations
 

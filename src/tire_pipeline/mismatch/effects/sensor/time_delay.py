@@ -1,4 +1,4 @@
-"""The forces come late against the slips: buses, buffers, clocks."""
+"""The forces are late relative to the slips: buses, buffers, clocks."""
 
 from __future__ import annotations
 

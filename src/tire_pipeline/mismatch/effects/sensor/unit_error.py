@@ -1,4 +1,4 @@
-"""A channel in another unit than it says."""
+"""A channel in another unit than stated."""
 
 from __future__ import annotations
 
@@ -113,7 +113,7 @@ def inflates_no_tire(pressure: Array) -> bool:
 def _pressure(channels: Mapping[str, Array]) -> list[Finding]:
     """A pressure that no tire has, and that one ratio alone brings near the nominal one.
 
-    Where several do (75 may be kPa or psi), nobody can tell which.
+    Where several do (75 may be kPa or psi), the unit stays open.
     """
     if "pressure" not in channels or not inflates_no_tire(channels["pressure"]):
         return []

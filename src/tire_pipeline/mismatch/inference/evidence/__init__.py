@@ -1,1 +1,1 @@
-"""What a recording says about a set of effects: priors, products of columns, likelihood, log evidence."""
+"""The evidence of a set of effects: priors, products of columns, likelihood, log evidence."""

@@ -1,12 +1,12 @@
 """The likelihood of a recording: everything linear is integrated out, the size of the error is unknown.
 
 ``y = J x + E e + Z c + error``, in units of the largest force of each output: ``x`` the parameters of a set
-of effects (unit prior after scaling by their priors' spread), ``e`` the errors of their forms, ``c`` what is
-never known: coefficients, the formula's misfit, and a background of usual effects. The *error* is what this
-model still gets wrong. It is white and its size is unknown. Neighbouring samples of a real recording have
-similar errors, so it counts for fewer independent samples than were recorded. The correlation of the residual
-says how many are independent, and a learnt share of these counts. This is the one power to which the
-likelihood is raised.
+of effects (unit prior after scaling by their priors' spread), ``e`` the errors of their forms, ``c`` the
+nuisance: coefficients, the formula's misfit, and a background of usual effects. The *error* is what this
+model still misses. It is white and its size is unknown. Neighbouring samples of a real recording have similar
+errors, so it counts for fewer independent samples than were recorded. The correlation of the residual says
+how many are independent, and a learnt share of these counts. This is the one power to which the likelihood is
+raised.
 """
 
 from __future__ import annotations
@@ -92,7 +92,7 @@ class Projected:
 
 @dataclass(frozen=True)
 class Unknown:
-    """What is never known in one recording: products of its columns, and what they are.
+    """The nuisance in one recording: products of its columns, and their kinds.
 
     Parameters
     ----------

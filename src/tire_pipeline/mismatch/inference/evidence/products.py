@@ -98,7 +98,7 @@ class OfSet:
 
 @dataclass(frozen=True)
 class OfCase:
-    """What is never known in a recording, and every set that was fitted, the empty one first."""
+    """The nuisance of a recording, and every set that was fitted, the empty one first."""
 
     unknown: Unknown
     sets: tuple[OfSet, ...]
@@ -140,7 +140,7 @@ class RecordingProducts:
         self.gram = self.gram_of(np.ones(self.data.size, bool))
 
     def gram_of(self, kept: Array) -> dict[str, Array]:
-        """Return the mean products of what is never known over some samples (bool, shape (n,))."""
+        """Return the mean products of the nuisance over some samples (bool, shape (n,))."""
         parts = {o: z[kept[self.rows]] for o, z in self._beside.items()}
         return {o: z.T @ z / len(z) for o, z in parts.items()}
 
@@ -149,7 +149,7 @@ class RecordingProducts:
         return orders_of(self.data)
 
     def unknown(self, independent: Mapping[str, float]) -> Unknown:
-        """Return what is never known, with the number of samples of each output that are independent."""
+        """Return the nuisance, with the number of samples of each output that are independent."""
         in_time, rest = self.data.time is not None, residual(self.data, [])
         white = {o: white_noise(r) / self.largest[o] if in_time else 0.0 for o, r in rest.items()}
         names = {v.name for v in self.analysis.variants}

@@ -1,1 +1,1 @@
-"""What the posterior has learnt, and where from."""
+"""The learnt sizes and odds of the posterior, and their provenance."""

@@ -1,4 +1,4 @@
-"""What the posterior has learnt: sizes of the background, of form errors and of the error, and odds."""
+"""Learnt numbers of the posterior: sizes of the background, of form errors and of the error, and odds."""
 
 from __future__ import annotations
 
@@ -115,5 +115,5 @@ def learnt(path: str | Path | None = None) -> LearntSizes:
         raise RecordingError(
             f"there are no learnt sizes ({error})",
             where=str(path or shipped),
-            todo="give a file that kedro run --pipeline calibrate_mismatch has written",
+            todo="use a file that kedro run --pipeline calibrate_mismatch has written",
         ) from error

@@ -1,1 +1,1 @@
-"""The sets of effects: screened, fitted, enumerated, and what their posterior says."""
+"""The sets of effects: screened, fitted, enumerated, and their posterior."""

@@ -1,4 +1,4 @@
-"""What a posterior says: names, alternatives, confidence, agreement, and whether something is unnamed."""
+"""The answer of a posterior: names, alternatives, confidence, agreement, and whether something is unnamed."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ from tire_pipeline.mismatch.model.forces import Change
 Array = np.ndarray
 Names = tuple[str, ...]
 OPEN = CHANCE
-"""What is less likely than this part of the first is no alternative."""
+"""An effect less likely than this part of the first is not an alternative."""
 LEVEL = 0.5
-"""A name, with its alternatives, is given where it is likelier than not."""
+"""An effect, with its alternatives, is named if it is likelier than not."""
 MOST_ALTERNATIVES = 2
-"""More names would be no answer."""
+"""With more names there is no answer."""
 
 
 @dataclass(frozen=True)
 class SetAnswer:
-    """What the posterior over sets says of one recording.
+    """The answer of the posterior over sets for one recording.
 
     Parameters
     ----------
@@ -92,14 +92,14 @@ class SetAnswer:
 def answered(
     case: OfCase, sizes: LearntSizes, level: float = LEVEL, likelihood: Likelihood | None = None
 ) -> SetAnswer:
-    """Return what the sets of a case say together.
+    """Return the answer of all sets of a case.
 
     Parameters
     ----------
     case : OfCase
     sizes : LearntSizes
     level : float
-        Probability from which a name, with its alternatives, is given.
+        Probability from which an effect, with its alternatives, is named.
     likelihood : Likelihood, optional
         Of this case and these sizes, where it is at hand.
     """
@@ -124,7 +124,7 @@ def answered(
 
 
 def nothing(case: OfCase) -> SetAnswer:
-    """Return the answer that says nothing, where nothing may be explained."""
+    """Return an empty answer, where nothing may be explained."""
     return SetAnswer((), case.sets[0], 1.0, 0.0, {(): 1.0}, {}, {}, case)
 
 

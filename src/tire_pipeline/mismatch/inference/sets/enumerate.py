@@ -37,7 +37,7 @@ class Enumerated:
 
     @property
     def case(self) -> OfCase:
-        """What is kept of a recording to learn from."""
+        """The part of a recording that learning needs."""
         return OfCase(self.likelihood.unknown, self.sets)
 
     def with_mass(self, probabilities: Mapping[Names, float], named: Collection[str]) -> Enumerated:
@@ -56,7 +56,7 @@ class Enumerated:
 
 
 def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Names] = ()) -> Enumerated:
-    """Return what a recording says about every set that is worth a fit.
+    """Return every set that is worth a fit, with its evidence in a recording.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def enumerate_sets(analysis: Analysis, sizes: LearntSizes, beside: Iterable[Name
 
 @dataclass(frozen=True)
 class ScreenedRecording:
-    """A recording with what the screen says of it, before any set is fitted."""
+    """A recording with the screen's result, before any set is fitted."""
 
     products: RecordingProducts
     guess: Likelihood
@@ -90,7 +90,7 @@ class ScreenedRecording:
 
 
 def screened_recording(analysis: Analysis, sizes: LearntSizes) -> ScreenedRecording:
-    """Return what the screen says of all effects of a recording."""
+    """Return the screen's result for all effects of a recording."""
     forms = screened_forms(analysis.data, analysis.variants)
     background = make_background(
         analysis.data, ((f.variant.name, f.columns) for f in forms), analysis.largest

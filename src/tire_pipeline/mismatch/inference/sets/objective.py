@@ -1,4 +1,4 @@
-"""What a fit makes small: the negative log posterior of the parameters of a set."""
+"""The objective of a fit: the negative log posterior of the parameters of a set."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ class ScreenedForm:
 
 @dataclass(frozen=True)
 class Screened:
-    """What the screen says.
+    """The result of the screen.
 
     Parameters
     ----------

@@ -1,1 +1,1 @@
-"""What a report says first: the verdict and its names, where and how much, what to do next."""
+"""The first sentences of a report: verdict and names, where and how much, what to do next."""

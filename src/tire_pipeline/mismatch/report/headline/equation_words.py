@@ -1,4 +1,4 @@
-"""What an equation of unnamed physics explains, in words."""
+"""Sentences on an equation of unnamed physics."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
 
 def on_unnamed(found: UnnamedReport | None, verdict: str, rivals: Sequence[Sequence[str]] = ()) -> str:
-    """Return what is known about the unexplained residual, in a sentence or two; empty if nothing is.
+    """Return one or two sentences on the unexplained residual; empty if nothing is known.
 
     Parameters
     ----------

@@ -14,12 +14,12 @@ from tire_pipeline.mismatch.proof.measured import OutputFit, Remainder
 from tire_pipeline.mismatch.recording.open_questions import Question
 from tire_pipeline.mismatch.report.contents import EffectReport, Head, HeldOutFit
 from tire_pipeline.mismatch.report.headline.equation_words import of_equation, on_unnamed
-from tire_pipeline.mismatch.report.headline.spots import Ranges, spot_of, stretches_of
+from tire_pipeline.mismatch.report.headline.spots import Ranges, on_placeless, spot_of, stretches_of
 from tire_pipeline.mismatch.report.words import in_words, listed, newtons, place
 from tire_pipeline.mismatch.unnamed_physics.found import UnnamedReport
 
 _RIVALS_LISTED = 3
-"""So many explanations are named where each would do."""
+"""The number of explanations that are named if each would do."""
 
 _TRY_IT = "Next, test the corrected model on another recording before you use it."
 _RECORD_MORE = "Next, record more sweeps where it shows: then it can be proved, and corrected."
@@ -74,7 +74,7 @@ def head(
         spot=spot_of(effects, fit, located, remainder, ranges, even or {}),
         size=size,
         todo=_next(effects, next_experiment, added),
-        notes=tuple(filter(None, [_more_left(remainder) if effects else ""])),
+        notes=tuple(filter(None, [on_placeless(effects, ranges), _more_left(remainder) if effects else ""])),
         equation=on_unnamed(unnamed, verdict, rivals),
     )
 
@@ -188,7 +188,7 @@ def _undecided(fit: Mapping[str, OutputFit], left: Remainder) -> str:
 
 
 def _more_left(left: Remainder) -> str:
-    """Say that more is left beside names than fitted models usually leave."""
+    """Say that the residual beside the names is larger than fitted models usually leave."""
     if left.significant or not left.unusual:
         return ""
     return f"The remaining residual {_than_usual(left)}: more may be missing."

@@ -25,9 +25,9 @@ Ranges = Mapping[str, tuple[float, float]]
 
 
 def stretches_of(effect: EffectReport, ranges: Ranges) -> str:
-    """Return ``between 25 and 65 s``; nothing where that is most of the time, many stretches, or came along.
+    """Return ``between 25 and 65 s``; empty if that is most of the time, or many stretches.
 
-    What a channel drives is there while the channel has certain values: its time says how the rig was run.
+    An effect that a channel drives has no stretches of its own: they show how the rig was run.
     """
     if _drivers(effect, ranges):
         return ""
@@ -59,12 +59,34 @@ def spot_of(
 def _of_the_effects(
     effects: Sequence[EffectReport], located: Sequence[Located], ranges: Ranges
 ) -> Sequence[Located]:
-    """Return the places on axes of which a named effect takes a part only; another axis merely came along.
+    """Return the places on axes of which a named effect covers a part only.
 
-    A tread warms up in each sweep: what a camber does is also found at some tread temperature.
+    Other axes merely varied with them: a tread warms up in each sweep, so an effect of camber is also found
+    at some tread temperature.
     """
     axes = {axis for effect in effects for axis in _drivers(effect, ranges) or _narrow_axes(effect, ranges)}
     return [f for f in located if f.axis in axes] if axes else located
+
+
+def on_placeless(effects: Sequence[EffectReport], ranges: Ranges) -> str:
+    """Say which effects have no place of their own beside others that have one; "" if there are none.
+
+    Parameters
+    ----------
+    effects : sequence of EffectReport
+    ranges : mapping
+        Axis -> (lowest, highest) recorded, SI.
+    """
+    fitted = [effect for effect in effects if effect.where]
+    everywhere = [e for e in fitted if not (_drivers(e, ranges) or _narrow_axes(e, ranges))]
+    if not everywhere or len(everywhere) == len(fitted):
+        return ""
+    titles = " and ".join(effect.title for effect in everywhere)
+    have, their, act = ("have", "their", "they act") if len(everywhere) > 1 else ("has", "its", "it acts")
+    return (
+        f"{titles[:1].upper()}{titles[1:]} {have} no place of {their} own: {act} over at least half of the "
+        "recorded range of every channel."
+    )
 
 
 def _drivers(effect: EffectReport, ranges: Ranges) -> list[str]:
@@ -73,9 +95,9 @@ def _drivers(effect: EffectReport, ranges: Ranges) -> list[str]:
 
 
 def _narrow_axes(effect: EffectReport, ranges: Ranges) -> list[str]:
-    """Return the axes of which an effect takes a part only: what drives it, if that varies.
+    """Return the axes of which an effect covers a part only: what drives it, if that varies.
 
-    Else the time, if the effect is seen in a part of it, and the channel of which it takes the least.
+    Else the time, if the effect is seen in a part of it, and the channel of which it covers the least.
     """
     drivers = _drivers(effect, ranges)
     parts = {
@@ -154,7 +176,7 @@ def _where(located: Sequence[Located], ranges: Ranges, even: Mapping[str, Throug
 
 
 def _as_well(place: Located, top: Located) -> bool:
-    """Whether a stretch of another axis says more of the same difference than that it came along."""
+    """Whether a stretch of another axis adds information about the same difference."""
     return place.mean * top.mean > 0.0 and min(place.own, 1.0) * abs(place.mean) > 0.4 * abs(top.mean)
 
 
