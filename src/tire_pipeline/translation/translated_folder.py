@@ -42,7 +42,7 @@ Parts = Mapping[str, Callable[[], bytes]]
 _LOG = logging.getLogger(__name__)
 TRANSLATED_TOGETHER = 500
 """So many files are translated together, two seconds' work."""
-REPORT_TYPES = {
+TRANSLATION_TYPES = {
     "file": "str",
     "supplier_known": "str",
     "source": "str",
@@ -59,7 +59,8 @@ REPORT_TYPES = {
     "changes": "str",
 }
 """Columns of the report of all files, and their types: :class:`.result.TranslationResult`."""
-_IN_ORDER = "order by unreadable, file"
+_IN_ORDER = "from rows order by unreadable, file"
+_REPORT_QUERY = f"select {', '.join(TRANSLATION_TYPES)} {_IN_ORDER}"
 
 
 def translate_each(
@@ -181,23 +182,25 @@ def join_translated(
         If not one file could be read.
     """
     files, last = dict[str, Callable[[], bytes] | None](), _LastTexts()
-    rows, read = RowsOnDisk([*REPORT_TYPES, "unreadable"]), list[Callable[[], bytes]]()
+    rows, read = RowsOnDisk([*TRANSLATION_TYPES, "unreadable"]), list[Callable[[], bytes]]()
     for load in track(parts.values(), "joining what was translated", total=len(parts)):
         part = load()
-        rows.add((*map(row.get, REPORT_TYPES), True) for row in unreadable_in(part))
+        rows.add((*map(row.get, TRANSLATION_TYPES), True) for row in unreadable_in(part))
         if has_tables(part):
             read.append(load)
-            rows.add((*row, False) for row in plain_rows(table_in(part, "report")[[*REPORT_TYPES]]))
+            rows.add((*row, False) for row in plain_rows(table_in(part, "report")[[*TRANSLATION_TYPES]]))
             files |= {file: partial(last.text, load, file) for file in translated_in(part)}
     _tell_unreadable(rows, any_read=bool(read))
     if parameters.restricted:
-        names = rows.do(f"select file from rows {_IN_ORDER}")
-        files = AddedFiles(dict.fromkeys(name for (name,) in names) | files)
+        names = (name for (name,) in rows.do(f"select file {_IN_ORDER}"))
+        files = AddedFiles(dict.fromkeys(names) | files)
     protocols = judging(translator_from_state(translator)).protocol_changes()
     sources, coefficients, bands = (
         [_table_of(load, name) for load in read] for name in ("sources", "coefficients", "bands")
     )
-    report = FramesOfRows(rows, f"select {', '.join(REPORT_TYPES)} from rows {_IN_ORDER}", REPORT_TYPES)
+    report = FramesOfRows(
+        rows, f"select {', '.join(TRANSLATION_TYPES)} from rows {_IN_ORDER}", TRANSLATION_TYPES
+    )
     return files, report, sources, coefficients, bands, protocols
 
 

@@ -25,7 +25,7 @@ ROW_COLUMNS = (
     "bias",
     "protocol",
 )
-_BESIDE = ("source", "expected_rms_ratio", "taught")
+_COUNTED_TOO = ("source", "expected_rms_ratio", "taught")
 """What is counted, too: as it stands in the report."""
 SHOWN_VERDICTS = ("translated", "already unbiased", "left alone", "refused", "unknown supplier")
 
@@ -44,7 +44,7 @@ def listed(
     tire : callable
         The physical tire of a file.
     """
-    rows = RowsOnDisk([*ROW_COLUMNS, *_BESIDE])
+    rows = RowsOnDisk([*ROW_COLUMNS, *_COUNTED_TOO])
     for frame in report:
         rows.add(_rows_of(frame, made, tire))
     return rows
