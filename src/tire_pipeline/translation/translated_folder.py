@@ -198,9 +198,7 @@ def join_translated(
     sources, coefficients, bands = (
         [_table_of(load, name) for load in read] for name in ("sources", "coefficients", "bands")
     )
-    report = FramesOfRows(
-        rows, f"select {', '.join(TRANSLATION_TYPES)} from rows {_IN_ORDER}", TRANSLATION_TYPES
-    )
+    report = FramesOfRows(rows, _REPORT_QUERY, TRANSLATION_TYPES)
     return files, report, sources, coefficients, bands, protocols
 
 
